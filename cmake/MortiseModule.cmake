@@ -1,0 +1,40 @@
+# mortise_module(NAME USES module... LINKS library... SOURCES file... [TESTS file...] [PARALLEL_TESTS file...])
+#
+# One module of lib/: a static library whose public headers lie in include/NAME. It sees the headers of the modules it USES
+# and of those which these use, and no others: an arrow that is not declared here does not compile.
+# TESTS make one GoogleTest program, test_NAME, run on one rank; PARALLEL_TESTS make mpi_test_NAME, run on 1, 2 and 3.
+add_library(mortise_options INTERFACE)
+target_compile_options(mortise_options INTERFACE -Wall -Wextra)
+if(MORTISE_SANITIZE)
+  target_compile_options(mortise_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(mortise_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+function(mortise_module name)
+  cmake_parse_arguments(arg "" "" "USES;LINKS;SOURCES;TESTS;PARALLEL_TESTS" ${ARGN})
+  list(TRANSFORM arg_SOURCES PREPEND src/)
+  add_library(${name} STATIC ${arg_SOURCES})
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME mortise_${name})
+  target_include_directories(${name} PUBLIC include)
+  target_link_libraries(${name} PUBLIC ${arg_USES} ${arg_LINKS} PRIVATE mortise_options)
+  if(MORTISE_TESTS AND arg_TESTS)
+    mortise_test_program(test_${name} ${name} ${arg_TESTS})
+    add_test(NAME ${name} COMMAND test_${name})
+  endif()
+  if(MORTISE_TESTS AND arg_PARALLEL_TESTS)
+    mortise_test_program(mpi_test_${name} ${name} ${arg_PARALLEL_TESTS})
+    foreach(ranks 1 2 3)
+      add_test(NAME ${name}.ranks${ranks}
+               COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe -n ${ranks} $<TARGET_FILE:mpi_test_${name}>)
+      set_tests_properties(${name}.ranks${ranks} PROPERTIES PROCESSORS ${ranks})
+    endforeach()
+  endif()
+endfunction()
+
+# A GoogleTest program with a main that starts and ends MPI; on several ranks a test fails if it failed on any.
+function(mortise_test_program target module)
+  list(TRANSFORM ARGN PREPEND test/ OUTPUT_VARIABLE sources)
+  add_executable(${target} ${sources} ${CMAKE_SOURCE_DIR}/cmake/test_main.cpp)
+  target_link_libraries(${target} PRIVATE ${module} base GTest::gtest mortise_options)
+  target_compile_definitions(${target} PRIVATE MORTISE_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+endfunction()

@@ -1,0 +1,35 @@
+// Errors carry the exit status of the program, so that a script can tell a wrong deck from a model without equilibrium.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "base/communicator.hpp"
+
+namespace mortise {
+
+/// What `mortise` returns to the shell.
+enum class ExitStatus {
+  solved = 0,          ///< solved to the tolerance
+  bad_input = 1,       ///< the command line, the deck or the mesh is wrong
+  not_converged = 2,   ///< the limits were reached first; results are written and marked so
+  no_equilibrium = 3,  ///< a body slides or lifts off, or the model is a mechanism
+  machine = 4          ///< out of memory, file not writable
+};
+
+/// An error with a message that tells the user what to mend.
+class Error : public std::runtime_error {
+ public:
+  Error(ExitStatus status, const std::string& message) : std::runtime_error(message), status_(status) {}
+  ExitStatus status() const { return status_; }
+
+ private:
+  ExitStatus status_;
+};
+
+/// Runs `work` on this rank and throws the same Error on every rank if it threw on any, that of the lowest such rank.
+/// `work` itself must not communicate. Collective.
+void collectively(const Communicator& comm, const std::function<void()>& work);
+
+}  // namespace mortise

@@ -1,0 +1,75 @@
+// Linear constraints on nodal displacements in mesh numbering, before anyone knows of subdomains:
+//
+//     sum_k  c_k u(node_k, component_k)  =  g        supports, bonded contacts, gauges
+//     sum_k  c_k u(node_k, component_k) <=  g        normal rows of contacts; their multipliers are pressures times areas, >= 0
+//     |tangential multipliers of a point| <= slip bound of the point      tangential rows
+//
+// Each rank holds rows of its own; a row stands on exactly one rank and may speak of nodes that live on others.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace mortise::constraint {
+
+struct Entry {
+  Global node;
+  int component;
+  double coefficient;
+};
+
+/// Rows in compressed storage.
+struct Rows {
+  std::vector<std::size_t> offset{0};
+  std::vector<Entry> entries;
+  std::vector<double> bound;  ///< g of each row
+
+  std::size_t size() const { return bound.size(); }
+  std::span<const Entry> operator[](std::size_t i) const
+  {
+    return std::span(entries).subspan(offset[i], offset[i + 1] - offset[i]);
+  }
+  /// Closes a row whose entries were appended to `entries`.
+  void close(double g)
+  {
+    offset.push_back(entries.size());
+    bound.push_back(g);
+  }
+};
+
+/// A component of a node is held at `value` (same unit as the mesh's coordinates).
+struct Held {
+  Global node;
+  int component;
+  double value;
+  int support;  ///< index into the deck's supports, for messages and reactions
+};
+
+/// A point of a contact surface that carries multipliers: a node of the secondary side, or one side of a kink at that node.
+struct ContactPoint {
+  int contact;                     ///< index into the deck's contacts
+  Global node;                     ///< of the secondary surface
+  double area;                     ///< integral of its shape function over the overlap, which turns a multiplier into a traction
+  Point normal;                    ///< unit, out of the secondary body
+  std::vector<Point> tangents;     ///< 0, 1 (2D, or one direction is held) or 2 unit vectors, orthogonal to the normal
+  std::size_t row;                 ///< its normal row in Contacts::rows; its tangential rows follow
+};
+
+/// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the point in length units, with the
+/// coefficient of the secondary node n (normal row) or t (tangential): (u_s - sum_j m_j u_j) . n <= gap. Its multiplier is a force.
+struct Contacts {
+  Rows rows;
+  std::vector<ContactPoint> points;
+  std::vector<bool> bonded;  ///< for each point: all its rows are equalities
+};
+
+struct Constraints {
+  std::vector<Held> held;   ///< each pair (node, component) once over all ranks
+  Contacts contacts;
+  Rows equalities;          ///< anything else: gauges of free rigid motions
+};
+
+}  // namespace mortise::constraint

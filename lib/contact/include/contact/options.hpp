@@ -1,0 +1,21 @@
+// The deck's section `contacts`.
+#pragma once
+
+#include <string>
+
+namespace mortise::contact {
+
+enum class Law { frictionless, tresca, coulomb, bonded };
+
+struct Options {
+  std::string name;                  ///< default: "secondary/primary"
+  std::string secondary;             ///< boundary that carries the multipliers
+  std::string primary;
+  Law law = Law::frictionless;
+  double friction = 0;               ///< tresca: slip bound as a traction; coulomb: coefficient
+  std::string discretization = "mortar";
+  double interference = 0;           ///< added overlap; negative opens a gap
+  double search_distance = 0;        ///< surfaces farther apart than this never meet; 0: chosen from the sizes of the faces
+};
+
+}  // namespace mortise::contact

@@ -1,0 +1,38 @@
+// The deck's sections `materials`, `bodies` and `loads`.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace mortise::fem {
+
+/// Linear isotropic elasticity. Stresses in the unit of Young's modulus.
+struct Material {
+  double young_modulus = 0;      ///< > 0, required
+  double poisson_ratio = 0;      ///< in (-1, 0.5), required
+  double density = 0;            ///< mass a volume; needed by accelerations only
+  double thermal_expansion = 0;  ///< strain a degree
+};
+
+enum class Kinematics { solid, plane_strain, plane_stress };
+
+enum class Formulation { standard };
+
+/// What a physical body is made of.
+struct BodyOptions {
+  std::string material;
+  Formulation formulation = Formulation::standard;
+};
+
+/// One load; exactly one of the four quantities is given, `boundary` for the first three and `body` for the last.
+struct LoadOptions {
+  std::string boundary;
+  std::string body;
+  std::optional<double> pressure;                       ///< force an area, positive into the body
+  std::optional<std::array<double, 3>> traction;        ///< force an area
+  std::optional<std::array<double, 3>> force;           ///< resultant, spread evenly over the boundary (2D: force a thickness)
+  std::optional<std::array<double, 3>> acceleration;    ///< body force is density times this
+};
+
+}  // namespace mortise::fem

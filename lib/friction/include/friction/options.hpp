@@ -1,0 +1,11 @@
+// The deck's section `friction_loop`: the fixed point of Coulomb friction over Tresca problems.
+#pragma once
+
+namespace mortise::friction {
+
+struct Options {
+  double tolerance = 1e-4;  ///< on the relative change of the slip bounds
+  int max_steps = 50;
+};
+
+}  // namespace mortise::friction

@@ -1,0 +1,56 @@
+// The mesh of an assembly, or of any piece of it: a plain value. A whole assembly read from a file, one body, and one subdomain
+// are all a Mesh; what they share by name (bodies, boundaries) stands once in a Catalogue that every rank holds.
+//
+// Two bodies never share a node, whatever the file says: where they touch, each has a node of its own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/cell.hpp"
+
+namespace mortise::mesh {
+
+/// A connected set of cells. A physical group of several connected parts makes several bodies, named group.1, group.2, ...
+struct Body {
+  std::string name;   ///< unique; equal to `group` if the group is connected
+  std::string group;  ///< the physical volume (2D: surface) of the file or the block, the name that the deck uses
+};
+
+/// The names of an assembly, the same on every rank.
+struct Catalogue {
+  int dimension = 3;
+  std::vector<Body> bodies;
+  std::vector<std::string> boundaries;  ///< named surfaces (2D: curves)
+  Global node_count = 0;                ///< over all ranks, nodes shared by subdomains counted once
+  Global cell_count = 0;
+};
+
+/// Faces on named boundaries. A face that lies on two boundaries stands here twice.
+struct Facets {
+  Cells cells;                  ///< line2, or tri3 and quad4, oriented so that the normal points out of the body
+  std::vector<Local> parent;    ///< the cell of the Mesh that it is a face of
+  std::vector<int> boundary;    ///< index into Catalogue::boundaries
+};
+
+struct Mesh {
+  std::vector<Global> node_id;  ///< global number of each local node, unique over all bodies; ascending
+  std::vector<Point> points;    ///< coordinates of each local node
+  Cells cells;
+  std::vector<Global> cell_id;  ///< global number of each cell
+  std::vector<int> cell_body;   ///< index into Catalogue::bodies
+  Facets facets;
+
+  std::size_t node_count() const { return points.size(); }
+};
+
+/// Faces cut out of a mesh, to stand alone: what contact works on. Distributed: each face on exactly one rank.
+struct Surface {
+  std::vector<Global> node_id;  ///< ascending
+  std::vector<Point> points;
+  Cells faces;
+  std::vector<Global> face_id;  ///< unique over all ranks and independent of their number
+  std::vector<int> body;        ///< of each face
+};
+
+}  // namespace mortise::mesh

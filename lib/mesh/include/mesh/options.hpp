@@ -1,0 +1,25 @@
+// The deck's section `mesh`.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+
+namespace mortise::mesh {
+
+/// A box of equal cells. 2D: two entries an array; the third entry of `cells` is then 0.
+struct BlockOptions {
+  std::array<double, 3> origin{0, 0, 0};
+  std::array<double, 3> size{1, 1, 1};
+  std::array<int, 3> cells{1, 1, 1};
+  std::string element = "hex8";  ///< hex8, tet4, prism6; 2D: quad4, tri3
+};
+
+struct Options {
+  std::string file;                             ///< absolute path by the time it gets here; empty: `blocks` are used
+  std::map<std::string, double> constants;      ///< gmsh's -setnumber, for files that gmsh meshes
+  double scale = 1.0;                           ///< coordinates of the file or of the blocks are multiplied by this
+  std::map<std::string, BlockOptions> blocks;   ///< by body name
+};
+
+}  // namespace mortise::mesh

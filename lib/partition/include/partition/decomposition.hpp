@@ -1,0 +1,29 @@
+// An assembly cut into subdomains: each is a face-connected set of cells of one body and lives on one rank.
+#pragma once
+
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "mesh/mesh.hpp"
+
+namespace mortise::partition {
+
+struct Subdomain {
+  Global id = 0;    ///< over all ranks and bodies
+  int body = 0;     ///< index into Catalogue::bodies
+  mesh::Mesh mesh;  ///< its own cells, nodes and boundary facets; nodes on its border are copied in the neighbours
+};
+
+struct Decomposition {
+  mesh::Catalogue catalogue;
+  std::vector<Subdomain> subdomains;  ///< of this rank, ascending ids
+  std::vector<Global> first;          ///< rank r owns the subdomains first[r] .. first[r+1]-1; length ranks + 1
+
+  Global subdomain_count() const { return first.back(); }
+  int rank_of(Global subdomain) const;
+};
+
+/// The faces of one named boundary that lie on this rank's subdomains, optionally of one body only (body >= 0).
+mesh::Surface boundary_surface(const Decomposition& decomposition, int boundary, int body = -1);
+
+}  // namespace mortise::partition

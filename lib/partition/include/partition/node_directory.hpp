@@ -1,0 +1,60 @@
+// Where a node lives: the subdomains that hold a copy of it, over all ranks. Only nodes on the surface of a subdomain (on a cell
+// face that no second cell of the same subdomain shares) have entries; no other node can be shared, loaded by a neighbour or touched.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "partition/decomposition.hpp"
+
+namespace mortise::partition {
+
+/// One copy of a node.
+struct Copy {
+  Global subdomain;
+  Local node;     ///< in that subdomain's mesh
+  double weight;  ///< whatever the owner attached to the copy, such as the diagonal of its stiffness
+};
+
+/// A distributed table from global node to copies. The entries of a node stand on rank node_id % ranks.
+class NodeDirectory {
+ public:
+  /// weight[s][n]: attached to local node n of this rank's s-th subdomain (all nodes; only those on the surface are kept).
+  /// Collective.
+  NodeDirectory(const Decomposition& decomposition, const std::vector<std::vector<double>>& weight, const Communicator& comm);
+
+  /// The copies of each of `nodes`, ascending by subdomain; empty for a node that has no entry. The result for nodes[i] is
+  /// copies[offset[i]] .. copies[offset[i+1]]. Collective.
+  struct Found {
+    std::vector<std::size_t> offset;
+    std::vector<Copy> copies;
+    std::span<const Copy> operator[](std::size_t i) const
+    {
+      return std::span(copies).subspan(offset[i], offset[i + 1] - offset[i]);
+    }
+  };
+  Found find(std::span<const Global> nodes, const Communicator& comm) const;
+
+ private:
+  std::vector<Global> nodes_;  ///< ascending
+  Found entries_;
+};
+
+/// The local nodes on the surface of a subdomain, ascending.
+std::vector<Local> surface_nodes(const mesh::Mesh& mesh);
+
+/// The nodes of this rank's subdomains that have two copies or more, and where these are.
+struct Interface {
+  std::vector<std::vector<Local>> nodes;     ///< for each local subdomain, ascending
+  std::vector<NodeDirectory::Found> copies;  ///< for each local subdomain, for each of its `nodes`
+};
+/// Collective.
+Interface find_interface(const Decomposition& decomposition, const NodeDirectory& directory, const Communicator& comm);
+
+/// Adds up the rows of the copies of a node: afterwards every copy of a node has in its row the sum over all copies. The sum is
+/// taken in the order of subdomains, so it is bitwise the same on every copy and for every number of ranks.
+/// values[s]: nodes of subdomain s x components (the same number of components everywhere). Collective.
+void sum_over_copies(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
+                     const Communicator& comm);
+
+}  // namespace mortise::partition

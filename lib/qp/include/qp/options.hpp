@@ -1,0 +1,14 @@
+// The deck's section `solver`, as far as it concerns the quadratic programme.
+#pragma once
+
+#include <string>
+
+namespace mortise::qp {
+
+struct Options {
+  std::string algorithm = "smalse";
+  double tolerance = 1e-4;         ///< relative: reduced projected gradient and equality residual over ||P d||
+  int max_multiplications = 10000; ///< with F, in the whole run
+};
+
+}  // namespace mortise::qp
