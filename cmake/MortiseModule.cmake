@@ -34,7 +34,7 @@ endfunction()
 # A GoogleTest program with a main that starts and ends MPI; on several ranks a test fails if it failed on any.
 function(mortise_test_program target module)
   list(TRANSFORM ARGN PREPEND test/ OUTPUT_VARIABLE sources)
-  add_executable(${target} ${sources} ${CMAKE_SOURCE_DIR}/cmake/test_main.cpp)
+  add_executable(${target} ${sources} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/test_main.cpp)
   target_link_libraries(${target} PRIVATE ${module} base GTest::gtest mortise_options)
   target_compile_definitions(${target} PRIVATE MORTISE_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 endfunction()

@@ -1,6 +1,6 @@
 // Linear constraints on nodal displacements in mesh numbering, before anyone knows of subdomains:
 //
-//     sum_k  c_k u(node_k, component_k)  =  g        supports, bonded contacts, gauges
+//     sum_k  c_k u(node_k, component_k)  =  g        supports, bonded contacts
 //     sum_k  c_k u(node_k, component_k) <=  g        normal rows of contacts; their multipliers are pressures times areas, >= 0
 //     |tangential multipliers of a point| <= slip bound of the point      tangential rows
 //
@@ -69,7 +69,6 @@ struct Contacts {
 struct Constraints {
   std::vector<Held> held;   ///< each pair (node, component) once over all ranks
   Contacts contacts;
-  Rows equalities;          ///< anything else: gauges of free rigid motions
 };
 
 }  // namespace mortise::constraint

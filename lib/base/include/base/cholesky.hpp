@@ -1,0 +1,43 @@
+// Sparse Cholesky factorization by CHOLMOD, supernodal, with its workspaces kept between solves.
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <memory>
+
+#include "base/types.hpp"
+
+namespace mortise {
+
+/// A sparse matrix in compressed columns; a symmetric one is given by its lower triangle.
+using SparseMatrix = Eigen::SparseMatrix<Scalar, Eigen::ColMajor, int>;
+
+/// P A P' = L L' of a symmetric positive definite matrix. Heavy: moves, does not copy. Its workspace changes with every
+/// solve, so one object serves one thread.
+class Cholesky {
+ public:
+  /// Orders and analyses the pattern of the lower triangle `lower`; no values are read.
+  explicit Cholesky(const SparseMatrix& lower);
+  Cholesky(Cholesky&&) noexcept;
+  Cholesky& operator=(Cholesky&&) noexcept;
+  ~Cholesky();
+
+  /// Factorizes a matrix of the analysed pattern. Returns false if it is not positive definite: then nothing may be solved
+  /// until a factorization succeeds. Throws Error(machine) when memory runs out.
+  [[nodiscard]] bool factorize(const SparseMatrix& lower);
+
+  /// x = A^-1 b for `columns` right-hand sides, column-major with leading dimension `stride` >= size(). b may be x.
+  void solve(const double* b, double* x, int columns, int stride) const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+  int size() const;
+  /// Bytes that the numbers of the factor take, foreseen by the analysis.
+  std::size_t factor_bytes() const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace mortise

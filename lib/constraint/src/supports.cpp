@@ -1,0 +1,55 @@
+#include "constraint/supports.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "base/error.hpp"
+
+namespace mortise::constraint {
+
+namespace {
+
+void check_agreement(const Held& a, const Held& b, std::span<const SupportOptions> supports)
+{
+  if (std::abs(a.value - b.value) <= 1e-12 * std::max(std::abs(a.value), std::abs(b.value))) return;
+  throw Error(ExitStatus::bad_input,
+              fmt::format("supports[{}] (boundary \"{}\") and supports[{}] (boundary \"{}\") meet in a node and prescribe different "
+                          "displacements {} there: {} and {}; make them agree or drop the component from one of them",
+                          a.support, supports[a.support].boundary, b.support, supports[b.support].boundary,
+                          "xyz"[a.component], a.value, b.value));
+}
+
+}  // namespace
+
+std::vector<Held> hold(std::span<const SupportOptions> supports, std::span<const std::vector<Global>> nodes, int dimension,
+                       const Communicator& comm)
+{
+  std::vector<std::vector<Held>> send(static_cast<std::size_t>(comm.size()));
+  for (std::size_t i = 0; i < supports.size(); ++i)
+    for (const Global node : nodes[i])
+      for (int c = 0; c < dimension; ++c)
+        if (const auto value = supports[i].displacement[c])
+          send[static_cast<std::size_t>(node % comm.size())].push_back({node, c, *value, static_cast<int>(i)});
+
+  std::vector<Held> held;
+  for (const auto& part : comm.exchange(send)) held.insert(held.end(), part.begin(), part.end());
+  std::sort(held.begin(), held.end(), [](const Held& a, const Held& b) {
+    return std::tie(a.node, a.component, a.support) < std::tie(b.node, b.component, b.support);
+  });
+  collectively(comm, [&] {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      if (kept > 0 && held[kept - 1].node == held[i].node && held[kept - 1].component == held[i].component)
+        check_agreement(held[kept - 1], held[i], supports);
+      else
+        held[kept++] = held[i];
+    }
+    held.resize(kept);
+  });
+  return held;
+}
+
+}  // namespace mortise::constraint

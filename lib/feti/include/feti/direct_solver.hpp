@@ -1,0 +1,31 @@
+// Direct solvers for one subdomain, all behind Amesos2's interface.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/cholesky.hpp"
+
+namespace mortise::feti {
+
+/// A factorization of one symmetric positive definite matrix. Heavy: moves, does not copy. One thread at a time.
+class DirectSolver {
+ public:
+  /// Factorizes the matrix with lower triangle `lower` by the solver called `name`, one of direct_solvers(). Throws
+  /// Error(bad_input) for another name, and Error(machine) if the matrix cannot be factorized or memory runs out.
+  DirectSolver(const std::string& name, const SparseMatrix& lower);
+  DirectSolver(DirectSolver&&) noexcept;
+  DirectSolver& operator=(DirectSolver&&) noexcept;
+  ~DirectSolver();
+
+  /// x = A^-1 b for `columns` right-hand sides, column-major and dense.
+  void solve(const double* b, double* x, int columns) const;
+  /// Bytes of the factor; 0 if the solver does not tell.
+  std::size_t factor_bytes() const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace mortise::feti

@@ -1,0 +1,31 @@
+// F = B K^+ B', the dual operator: one product solves once on every subdomain.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/timer.hpp"
+#include "base/tpetra.hpp"
+#include "feti/jump_operator.hpp"
+#include "feti/subdomain_operator.hpp"
+
+namespace mortise::feti {
+
+/// Refers to its parts; they outlive it.
+class DualOperator : public Operator {
+ public:
+  DualOperator(const JumpOperator& jump, const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains, Timers& timers)
+      : jump_(jump), subdomains_(subdomains), timers_(timers)
+  {}
+  Teuchos::RCP<const Map> getDomainMap() const override { return jump_.rows(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return jump_.rows(); }
+  /// y = alpha F x + beta y, column by column. Collective.
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
+
+ private:
+  const JumpOperator& jump_;
+  const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains_;
+  Timers& timers_;
+};
+
+}  // namespace mortise::feti

@@ -1,0 +1,83 @@
+// The whole dual problem of an assembly: subdomain operators, B, F, G, e, d and the feasible set, and the way back to displacements.
+//
+//     minimise  1/2 lambda'F lambda - lambda'd   subject to  G lambda = e,  lambda in Omega,
+//     F = B K^+ B',  d = B K^+ f - c,  G = R'B',  e = R'f,     u = K^+ (f - B' lambda) - R nu,
+//
+// where nu are the multipliers of G lambda = e [Dostal et al., DD20, section 3].
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/context.hpp"
+#include "feti/dual_operator.hpp"
+#include "feti/free_motions.hpp"
+#include "qp/problem.hpp"
+
+namespace mortise::feti {
+
+/// What is floating: the subdomains of this rank, in the order of Decomposition::subdomains, and what acts on them.
+struct Floating {
+  std::vector<std::unique_ptr<SubdomainOperator>> subdomains;
+  std::vector<Eigen::VectorXd> load;                   ///< f
+  std::vector<std::vector<double>> nodal_stiffness;    ///< as given to the NodeDirectory
+};
+
+/// Where the multipliers of a contact point stand in the dual vector of this rank.
+struct PointRows {
+  Local normal = -1;
+  int tangents = 0;  ///< at normal + 1 ...
+  Local disc = -1;   ///< index into FeasibleSet::discs(), -1 without friction
+};
+
+/// Heavy: neither copies nor moves, for its parts refer to each other.
+class DualProblem {
+ public:
+  /// Looks for free rigid motions and gauges those that nothing loads. Throws Error(no_equilibrium), naming the body and its motion, if
+  /// a load works on a motion that nothing resists. `decomposition`, `constraints` and `floating` outlive it. Collective.
+  DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
+              const partition::Interface& interface, const constraint::Constraints& constraints, const Floating& floating,
+              const Context& context);
+  DualProblem(const DualProblem&) = delete;
+  DualProblem& operator=(const DualProblem&) = delete;
+
+  const JumpOperator& jump() const { return *jump_; }
+  const Operator& hessian() const { return *hessian_; }
+  const Vector& linear() const { return *linear_; }
+  const qp::EqualityConstraint& equality() const { return *equality_; }
+  qp::FeasibleSet& set() { return set_; }
+  const qp::FeasibleSet& set() const { return set_; }
+  const std::vector<PointRows>& points() const { return points_; }  ///< one for each contact point of this rank
+  const constraint::Constraints& constraints() const { return constraints_; }
+  const Communicator& communicator() const { return comm_; }
+  Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
+  int kernel_dimension() const { return equality_->size(); }
+
+  /// u of every subdomain. Collective.
+  std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;
+  /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers run away. Collective.
+  std::string runaway(const Eigen::VectorXd& nu) const;
+  /// ||K u + B'lambda - f|| / (||f|| + ||B'lambda||) over all subdomains. Collective.
+  double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const;
+  /// 1/2 u'K u. Collective.
+  double strain_energy(const std::vector<Eigen::VectorXd>& u) const;
+
+ private:
+  void settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface, const Context& context);
+  void make_set();
+
+  const partition::Decomposition& decomposition_;
+  const constraint::Constraints& constraints_;
+  const Floating& floating_;
+  const Communicator& comm_;
+  std::unique_ptr<JumpOperator> jump_;
+  std::unique_ptr<DualOperator> hessian_;
+  std::unique_ptr<Vector> linear_;
+  std::unique_ptr<qp::EqualityConstraint> equality_;
+  qp::FeasibleSet set_;
+  std::vector<PointRows> points_;
+};
+
+}  // namespace mortise::feti

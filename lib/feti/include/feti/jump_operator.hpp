@@ -1,0 +1,79 @@
+// B: the jump operator from the displacements of all subdomains to the dual space, and the scaling of its rows.
+//
+// Gluing rows of a node with copies of stiffness w_1 .. w_m: row k = 1 .. m-1 (and component) has the coefficients a w_q at copies
+// q < k and -a (w_1 + .. + w_k) at the copy after them, which makes the rows orthonormal in the inner product of D^-1, D = diag(w).
+// Supports and contacts act on the average of the copies with weights w_q / sum w, and are therefore D^-1-orthogonal to the gluing
+// rows. Each such row is multiplied by a factor `scale` that makes it a unit vector in D^-1 as well (one factor for all rows
+// of a contact point, so that discs stay discs). This keeps the dual operator well conditioned when the stiffness jumps by 1e6.
+#pragma once
+
+#include <vector>
+
+#include "base/tpetra.hpp"
+#include "constraint/constraints.hpp"
+#include "partition/decomposition.hpp"
+#include "partition/node_directory.hpp"
+
+namespace mortise::feti {
+
+/// An additional equality row given in terms of subdomains: coefficients over all unknowns of this rank's subdomains (empty vectors
+/// where it has none). The row stands on the rank of the lowest subdomain that has it.
+struct SubdomainRow {
+  std::vector<Eigen::VectorXd> coefficients;
+};
+
+/// Heavy: moves, does not copy.
+class JumpOperator {
+ public:
+  /// `held` and `contacts`: this rank's rows. Owned rows are numbered on each rank: gluing, held, contacts, extra. Collective.
+  JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
+               const partition::Interface& interface, std::span<const constraint::Held> held,
+               const constraint::Contacts& contacts, std::span<const SubdomainRow> extra, const Communicator& comm);
+
+  /// The dual space: each row on one rank.
+  Teuchos::RCP<const Map> rows() const { return rows_; }
+  /// First owned local index of each kind; kinds are contiguous.
+  struct Ranges {
+    Local gluing = 0, held = 0, contacts = 0, extra = 0, end = 0;
+  };
+  const Ranges& ranges() const { return ranges_; }
+  /// Row = scale * row of the mesh; a multiplier of the row times `scale` is a force. One entry for each owned row; 1 for gluing.
+  const Eigen::VectorXd& scale() const { return scale_; }
+  /// c, scaled, of the owned rows: B u = c, B u <= c.
+  const Eigen::VectorXd& bound() const { return bound_; }
+
+  /// f_s = B_s' lambda for each subdomain of this rank. Collective.
+  std::vector<Eigen::VectorXd> apply_transpose(const Vector& lambda) const;
+  /// B u. Collective.
+  Vector apply(const std::vector<Eigen::VectorXd>& u) const;
+
+  /// B over one subdomain in compressed rows: the rows, as local indices of the overlapping map, that it takes part in.
+  struct Block {
+    int size = 0;  ///< unknowns of the subdomain
+    std::vector<Local> row;
+    std::vector<std::size_t> offset{0};
+    std::vector<Local> unknown;
+    std::vector<double> coefficient;
+  };
+  const std::vector<Block>& blocks() const { return blocks_; }
+  const Import& import() const { return *import_; }  ///< from rows() to the rows that this rank's subdomains take part in
+
+  /// `values`[k]: for entries (row of the overlapping map, index, value), added up where the row is owned, as a sparse matrix
+  /// `height` x owned rows. Collective.
+  struct Contribution {
+    Local row;
+    int index;
+    double value;
+  };
+  SparseMatrix gather_columns(const std::vector<Contribution>& contributions, int height, const Communicator& comm) const;
+
+ private:
+  Teuchos::RCP<const Map> rows_;
+  Teuchos::RCP<const Map> overlap_;
+  Teuchos::RCP<const Import> import_;
+  Ranges ranges_;
+  Eigen::VectorXd scale_, bound_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace mortise::feti

@@ -1,0 +1,56 @@
+// What the dual problem needs of a floating subdomain, whatever discretizes it: finite elements here, boundary elements may follow.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/cholesky.hpp"
+#include "base/types.hpp"
+#include "feti/direct_solver.hpp"
+
+namespace mortise::feti {
+
+/// The symmetric positive semidefinite operator K of one subdomain with `size()` unknowns.
+class SubdomainOperator {
+ public:
+  virtual ~SubdomainOperator() = default;
+  virtual int size() const = 0;
+  /// R, size() x dim Ker K, orthonormal columns.
+  virtual const Eigen::MatrixXd& kernel() const = 0;
+  /// x = K^+ b with a generalised inverse: K x = b for every b in Im K. Column-major, dense.
+  virtual void apply_inverse(const double* b, double* x, int columns) const = 0;
+  /// K u.
+  virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
+  virtual std::size_t factor_bytes() const = 0;
+};
+
+/// Finite elements. K^+ = (K + r N)^-1 with N = E R_I (R_I'R_I)^-1 R_I'E', where R_I is the kernel at a few fixing nodes and r the mean of
+/// diag K: multiplied by R' it shows that R_I'u_I = 0 when f is in Im K, so that K u = f exactly for every r > 0.
+class ElasticSubdomain : public SubdomainOperator {
+ public:
+  /// `lower`: lower triangle of K, unknown dimension * node + component. `kernel`: orthonormal rigid motions. Throws as DirectSolver.
+  ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
+                   const std::string& factorization);
+
+  int size() const override { return static_cast<int>(stiffness_.cols()); }
+  const Eigen::MatrixXd& kernel() const override { return kernel_; }
+  void apply_inverse(const double* b, double* x, int columns) const override { solver_->solve(b, x, columns); }
+  Eigen::VectorXd apply(const Eigen::VectorXd& u) const override { return stiffness_.selfadjointView<Eigen::Lower>() * u; }
+  std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
+
+ private:
+  SparseMatrix stiffness_;
+  Eigen::MatrixXd kernel_;
+  std::unique_ptr<DirectSolver> solver_;
+};
+
+/// A few nodes, spread over the subdomain, whose rows of the kernel have full column rank with a good condition.
+std::vector<Local> fixing_nodes(std::span<const Point> points, const Eigen::MatrixXd& kernel, int dimension);
+
+/// trace(K_nn) / dimension of each node: the stiffness by which the copies of a node share what acts on it.
+std::vector<double> nodal_stiffness(const SparseMatrix& lower, int dimension);
+
+}  // namespace mortise::feti

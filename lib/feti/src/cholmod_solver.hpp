@@ -1,0 +1,51 @@
+// CHOLMOD as a concrete solver of Amesos2, which Debian's Amesos2 lacks: a thin face over mortise::Cholesky.
+//
+// The matrix is symmetric positive definite, on one rank, and only entries on and above its diagonal are read: a row of the CRS matrix
+// is a column of CHOLMOD's lower triangle.
+#pragma once
+
+#include <Amesos2_SolverCore_decl.hpp>
+
+#include <memory>
+
+#include "base/cholesky.hpp"
+
+namespace mortise::feti {
+
+template <class Matrix, class Vector>
+class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> {
+  friend class Amesos2::SolverCore<CholmodSolver, Matrix, Vector>;
+
+ public:
+  static const char* name;
+
+  explicit CholmodSolver(Teuchos::RCP<const Matrix> a)
+      : Amesos2::SolverCore<CholmodSolver, Matrix, Vector>(a, Teuchos::null, Teuchos::null)
+  {}
+
+  /// The factor itself, for products that want no MultiVector in between; null before the symbolic factorization.
+  const Cholesky* factor() const { return factor_.get(); }
+
+ private:
+  int preOrdering_impl() { return 0; }
+  int symbolicFactorization_impl();
+  int numericFactorization_impl();
+  int solve_impl(Teuchos::Ptr<Amesos2::MultiVecAdapter<Vector>> x, Teuchos::Ptr<const Amesos2::MultiVecAdapter<Vector>> b) const;
+  bool matrixShapeOK_impl() const
+  {
+    return this->matrixA_->getGlobalNumRows() == this->matrixA_->getGlobalNumCols() && this->matrixA_->getComm()->getSize() == 1;
+  }
+  void setParameters_impl(const Teuchos::RCP<Teuchos::ParameterList>&) {}
+  Teuchos::RCP<const Teuchos::ParameterList> getValidParameters_impl() const
+  {
+    return Teuchos::rcp(new Teuchos::ParameterList("CholmodSolver"));
+  }
+  bool loadA_impl(Amesos2::EPhase) { return true; }
+
+  // The arrays of the CRS matrix, read as the compressed columns of its transpose.
+  Eigen::Map<const SparseMatrix> lower() const;
+
+  std::unique_ptr<Cholesky> factor_;
+};
+
+}  // namespace mortise::feti

@@ -1,0 +1,152 @@
+#include "feti/dual_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace mortise::feti {
+
+namespace {
+
+// A load that works less than this on a free motion, relative to the forces on the body, counts as rounding.
+constexpr double no_work = 1e-6;
+
+std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bodies, const std::vector<BodyFrame>& frames)
+{
+  const auto& first = motion.motions.front();
+  std::string text = fmt::format("body \"{}\" {}", bodies[static_cast<std::size_t>(first.body)].name,
+                                 describe(first, frames[static_cast<std::size_t>(first.body)].radius));
+  if (motion.motions.size() > 1) text += fmt::format(", and {} other bodies with it", motion.motions.size() - 1);
+  return text;
+}
+
+}  // namespace
+
+DualProblem::DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
+                         const partition::Interface& interface, const constraint::Constraints& constraints, const Floating& floating,
+                         const Context& context)
+    : decomposition_(decomposition), constraints_(constraints), floating_(floating), comm_(context.comm)
+{
+  jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints.held, constraints.contacts,
+                                         std::span<const SubdomainRow>(), comm_);
+  settle_free_motions(directory, interface, context);
+  hessian_ = std::make_unique<DualOperator>(*jump_, floating.subdomains, context.timers);
+  make_set();
+
+  std::vector<Eigen::VectorXd> u;
+  for (std::size_t s = 0; s < floating.subdomains.size(); ++s) {
+    u.push_back(floating.load[s]);
+    floating.subdomains[s]->apply_inverse(u[s].data(), u[s].data(), 1);
+  }
+  linear_ = std::make_unique<Vector>(jump_->apply(u), Teuchos::Copy);
+  view(*linear_) -= jump_->bound();
+}
+
+void DualProblem::settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
+                                      const Context& context)
+{
+  SparseMatrix g = coarse_rows(decomposition_, *jump_, floating_.subdomains, comm_);
+  const auto motions = find_free_motions(decomposition_, *jump_, floating_.subdomains, g, floating_.load, comm_);
+  const auto frames = body_frames(decomposition_, comm_);
+  const auto& bodies = decomposition_.catalogue.bodies;
+  std::vector<SubdomainRow> gauges;
+  std::string loaded;
+  int silent = 0;
+  for (const auto& motion : motions) {
+    const bool free = motion.felt < 1e-6;
+    if (motion.work > std::max(no_work, 3 * motion.felt)) {
+      // What facets alone resist is left to the solver; what nothing resists has no equilibrium.
+      if (free) loaded += fmt::format("\n  {}, driven by its loads", describe(motion, bodies, frames));
+      continue;
+    }
+    gauges.push_back(gauge(motion, decomposition_, floating_.nodal_stiffness, comm_));
+    if (gauges.size() <= 10)
+      context.log.line("  free rigid motion, set to zero: {}{}", describe(motion, bodies, frames),
+                       free ? "" : fmt::format(" (but for facets, which feel {:.1e} of it)", motion.felt));
+    else
+      ++silent;
+  }
+  if (silent > 0) context.log.line("  ... and {} more free rigid motions", silent);
+  if (!loaded.empty())
+    throw Error(ExitStatus::no_equilibrium,
+                "no equilibrium: no support or contact resists these motions:" + loaded +
+                    "\nhold the body by a support, let a contact (perhaps with friction) reach it, or remove the load");
+  if (!gauges.empty()) {
+    jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.held, constraints_.contacts, gauges, comm_);
+    g = coarse_rows(decomposition_, *jump_, floating_.subdomains, comm_);
+  }
+  equality_ = std::make_unique<qp::EqualityConstraint>(
+      std::move(g), kernel_coordinates(decomposition_, floating_.subdomains, floating_.load, comm_), comm_);
+}
+
+void DualProblem::make_set()
+{
+  const auto& contacts = constraints_.contacts;
+  std::vector<qp::Bound> bounds;
+  std::vector<qp::Disc> discs;
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    PointRows rows;
+    rows.normal = jump_->ranges().contacts + static_cast<Local>(contacts.points[i].row);
+    rows.tangents = static_cast<int>(contacts.points[i].tangents.size());
+    if (!contacts.bonded[i]) {
+      bounds.push_back({rows.normal, 0});
+      if (rows.tangents > 0) {
+        rows.disc = static_cast<Local>(discs.size());
+        discs.push_back({{rows.normal + 1, rows.tangents == 2 ? rows.normal + 2 : -1}});
+      }
+    }
+    points_.push_back(rows);
+  }
+  set_ = qp::FeasibleSet(std::move(bounds), std::move(discs));
+}
+
+std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const
+{
+  const KernelNumbering numbering{decomposition_.catalogue.dimension == 3 ? 6 : 3};
+  auto u = jump_->apply_transpose(lambda);
+  for (std::size_t s = 0; s < u.size(); ++s) {
+    u[s] = floating_.load[s] - u[s];
+    floating_.subdomains[s]->apply_inverse(u[s].data(), u[s].data(), 1);
+    u[s] -= floating_.subdomains[s]->kernel() * nu.segment(numbering.first(decomposition_.subdomains[s].id), numbering.dimension);
+  }
+  return u;
+}
+
+std::string DualProblem::runaway(const Eigen::VectorXd& nu) const
+{
+  const auto frames = body_frames(decomposition_, comm_);
+  RigidMotion fastest;
+  double speed = -1;
+  for (std::size_t b = 0; b < frames.size(); ++b) {
+    const auto motion = rigid_part(decomposition_, floating_.subdomains, frames[b], static_cast<int>(b), -nu, comm_);
+    const double v = motion.translation.norm() + motion.rotation.norm() * frames[b].radius;
+    if (v <= speed) continue;
+    fastest = motion;
+    speed = v;
+  }
+  const auto body = static_cast<std::size_t>(fastest.body);
+  return fmt::format("body \"{}\" {}", decomposition_.catalogue.bodies[body].name, describe(fastest, frames[body].radius));
+}
+
+double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const
+{
+  const auto forces = jump_->apply_transpose(lambda);
+  double residual = 0, size = 0;
+  for (std::size_t s = 0; s < u.size(); ++s) {
+    residual += (floating_.subdomains[s]->apply(u[s]) + forces[s] - floating_.load[s]).squaredNorm();
+    size += floating_.load[s].squaredNorm() + forces[s].squaredNorm();
+  }
+  size = comm_.sum(size);
+  return size > 0 ? std::sqrt(comm_.sum(residual) / size) : 0;
+}
+
+double DualProblem::strain_energy(const std::vector<Eigen::VectorXd>& u) const
+{
+  double energy = 0;
+  for (std::size_t s = 0; s < u.size(); ++s) energy += 0.5 * u[s].dot(floating_.subdomains[s]->apply(u[s]));
+  return comm_.sum(energy);
+}
+
+}  // namespace mortise::feti

@@ -1,0 +1,252 @@
+#include "feti/free_motions.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace mortise::feti {
+
+namespace {
+
+// A motion is nearly free if the rows feel at most this of it in the root mean square, and three times it anywhere. The normals of a
+// faceted cylinder are wrong by about half the difference of neighbouring facet angles.
+constexpr double nearly = 0.02;
+constexpr double exactly = 1e-7;
+
+// v of the rigid motions of one body, scaled so that |v| is about 1 at its radius: 3 translations and 3 rotations, or 2 and 1.
+RigidMotion unit_motion(int body, const BodyFrame& frame, int index, int dimension)
+{
+  RigidMotion motion{body, frame.centre};
+  if (index < dimension)
+    motion.translation[index] = 1;
+  else
+    motion.rotation[dimension == 2 ? 2 : index - dimension] = 1 / frame.radius;
+  return motion;
+}
+
+Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& points, int dimension)
+{
+  Eigen::VectorXd v(static_cast<Eigen::Index>(points.size()) * dimension);
+  for (std::size_t n = 0; n < points.size(); ++n)
+    v.segment(static_cast<Eigen::Index>(n) * dimension, dimension) = motion.at(points[n]).head(dimension);
+  return v;
+}
+
+RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eigen::VectorXd>& amplitudes, int dimension)
+{
+  RigidMotion motion{body, frame.centre};
+  for (int k = 0; k < amplitudes.size(); ++k) {
+    const auto unit = unit_motion(body, frame, k, dimension);
+    motion.translation += amplitudes[k] * unit.translation;
+    motion.rotation += amplitudes[k] * unit.rotation;
+  }
+  return motion;
+}
+
+// Everything body-wise: A maps the amplitudes of the bodies' motions to kernel coordinates of the subdomains.
+struct Bodies {
+  int dimension;
+  int modes;                        // 6, or 3 in two dimensions
+  std::vector<BodyFrame> frames;
+  SparseMatrix aggregate;           // A: kernels x (bodies * modes)
+  Eigen::VectorXd force;            // sum of |nodal forces| of each body
+  Eigen::VectorXd generalised;      // work of the loads on each unit motion
+};
+
+Bodies aggregate(const partition::Decomposition& decomposition, const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
+                 const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
+{
+  Bodies bodies;
+  bodies.dimension = decomposition.catalogue.dimension;
+  bodies.modes = bodies.dimension == 3 ? 6 : 3;
+  bodies.frames = body_frames(decomposition, comm);
+  const auto body_count = static_cast<Eigen::Index>(bodies.frames.size());
+  const KernelNumbering numbering{bodies.modes};
+  struct Entry {
+    int row, column;
+    double value;
+  };
+  std::vector<Entry> entries;
+  bodies.force = Eigen::VectorXd::Zero(body_count);
+  bodies.generalised = Eigen::VectorXd::Zero(body_count * bodies.modes);
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    for (int k = 0; k < bodies.modes; ++k) {
+      const auto v = sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, bodies.dimension), subdomain.mesh.points, bodies.dimension);
+      const Eigen::VectorXd coordinates = subdomains[s]->kernel().transpose() * v;
+      for (int i = 0; i < coordinates.size(); ++i)
+        entries.push_back({numbering.first(subdomain.id) + i, subdomain.body * bodies.modes + k, coordinates[i]});
+      bodies.generalised[subdomain.body * bodies.modes + k] += load[s].dot(v);
+    }
+    for (Eigen::Index n = 0; n < load[s].size() / bodies.dimension; ++n)
+      bodies.force[subdomain.body] += load[s].segment(n * bodies.dimension, bodies.dimension).norm();
+  }
+  comm.sum_in_place({bodies.force.data(), static_cast<std::size_t>(bodies.force.size())});
+  comm.sum_in_place({bodies.generalised.data(), static_cast<std::size_t>(bodies.generalised.size())});
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (const auto& entry : comm.all_gather(entries)) triplets.emplace_back(entry.row, entry.column, entry.value);
+  bodies.aggregate.resize(numbering.first(decomposition.subdomain_count()), body_count * bodies.modes);
+  bodies.aggregate.setFromTriplets(triplets.begin(), triplets.end());
+  return bodies;
+}
+
+// Near-null vectors of the rows of one body, unit in the amplitudes; `rows` is (rows of this rank) x modes.
+std::vector<Eigen::VectorXd> unfelt(const Eigen::MatrixXd& rows, double tolerance, const Communicator& comm)
+{
+  const auto modes = rows.cols();
+  Eigen::MatrixXd gram = rows.transpose() * rows;
+  comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
+  double count = 0;
+  for (Eigen::Index r = 0; r < rows.rows(); ++r) count += rows.row(r).squaredNorm() > 0;
+  count = std::max(comm.sum(count), 1.0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  std::vector<Eigen::VectorXd> result;
+  for (Eigen::Index k = 0; k < modes; ++k) {
+    if (eigen.eigenvalues()[k] > tolerance * tolerance * count) break;
+    result.emplace_back(eigen.eigenvectors().col(k));
+  }
+  return result;
+}
+
+double largest(const Eigen::VectorXd& values, const Communicator& comm)
+{
+  return comm.max(values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0);
+}
+
+}  // namespace
+
+std::string describe(const RigidMotion& motion, double size)
+{
+  const auto print = [](const Point& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0], p[1], p[2]); };
+  const auto clean = [](Point p) { return Point((p.array().abs() < 1e-6 * p.cwiseAbs().maxCoeff()).select(0.0, p)); };
+  const double turning = motion.rotation.norm() * size;
+  if (turning < 1e-2 * motion.translation.norm() || turning == 0) return "moves along " + print(clean(motion.translation.normalized()));
+  const Point axis = motion.centre + motion.rotation.cross(motion.translation) / motion.rotation.squaredNorm();
+  return "rotates about the axis through " + print(clean(axis)) + " along " + print(clean(motion.rotation.normalized()));
+}
+
+std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition, const Communicator& comm)
+{
+  const auto count = decomposition.catalogue.bodies.size();
+  std::vector<double> sums(count * 5, 0.0);  // nodes, x, y, z, |x|^2 about the body's mean in a second pass
+  for (const auto& subdomain : decomposition.subdomains)
+    for (const auto& p : subdomain.mesh.points) {
+      double* sum = &sums[static_cast<std::size_t>(subdomain.body) * 5];
+      sum[0] += 1;
+      for (int c = 0; c < 3; ++c) sum[1 + c] += p[c];
+    }
+  comm.sum_in_place(sums);
+  std::vector<BodyFrame> frames(count);
+  std::vector<double> squares(count, 0.0);
+  for (std::size_t b = 0; b < count; ++b)
+    frames[b].centre = Point(sums[b * 5 + 1], sums[b * 5 + 2], sums[b * 5 + 3]) / std::max(sums[b * 5], 1.0);
+  for (const auto& subdomain : decomposition.subdomains)
+    for (const auto& p : subdomain.mesh.points)
+      squares[static_cast<std::size_t>(subdomain.body)] += (p - frames[static_cast<std::size_t>(subdomain.body)].centre).squaredNorm();
+  comm.sum_in_place(squares);
+  for (std::size_t b = 0; b < count; ++b) frames[b].radius = std::sqrt(squares[b] / std::max(sums[b * 5], 1.0));
+  return frames;
+}
+
+RigidMotion rigid_part(const partition::Decomposition& decomposition, const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
+                       const BodyFrame& frame, int body, const Eigen::VectorXd& coordinates, const Communicator& comm)
+{
+  const int dimension = decomposition.catalogue.dimension;
+  const KernelNumbering numbering{dimension == 3 ? 6 : 3};
+  const int modes = numbering.dimension;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(modes, modes + 1);
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    if (subdomain.body != body) continue;
+    Eigen::MatrixXd a(modes, modes);
+    for (int k = 0; k < modes; ++k)
+      a.col(k) = subdomains[s]->kernel().transpose() * sample(unit_motion(body, frame, k, dimension), subdomain.mesh.points, dimension);
+    normal.leftCols(modes) += a.transpose() * a;
+    normal.rightCols(1) += a.transpose() * coordinates.segment(numbering.first(subdomain.id), modes);
+  }
+  comm.sum_in_place({normal.data(), static_cast<std::size_t>(normal.size())});
+  const Eigen::VectorXd amplitudes = normal.leftCols(modes).ldlt().solve(normal.rightCols(1));
+  return combine(body, frame, amplitudes, dimension);
+}
+
+std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
+                                          const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains, const SparseMatrix& g,
+                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
+{
+  const Bodies bodies = aggregate(decomposition, subdomains, load, comm);
+  const int modes = bodies.modes;
+  // Rows x amplitudes, in length units again: the support and contact rows that this rank owns.
+  const Local first = jump.ranges().held, count = jump.ranges().extra - first;
+  const SparseMatrix felt = SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
+  const Eigen::VectorXd unscale = jump.scale().segment(first, count).cwiseInverse();
+  const auto body_count = static_cast<int>(bodies.frames.size());
+
+  std::vector<FreeMotion> found;
+  std::vector<Eigen::VectorXd> amplitudes;  // of each found motion, over all bodies
+  for (int b = 0; b < body_count; ++b) {
+    const Eigen::MatrixXd rows = unscale.asDiagonal() * Eigen::MatrixXd(felt.middleCols(b * modes, modes));
+    for (const auto& v : unfelt(rows, nearly, comm)) {
+      FreeMotion motion;
+      motion.felt = largest(rows * v, comm);
+      if (motion.felt > 3 * nearly) continue;
+      motion.motions.push_back(combine(b, bodies.frames[b], v, bodies.dimension));
+      motion.work = bodies.force[b] > 0 ? std::abs(bodies.generalised.segment(b * modes, modes).dot(v)) / bodies.force[b] : 0;
+      amplitudes.emplace_back(Eigen::VectorXd::Zero(body_count * modes));
+      amplitudes.back().segment(b * modes, modes) = v;
+      found.push_back(std::move(motion));
+    }
+  }
+
+  // Several bodies together: the null space of all rows once the motions found so far are stopped.
+  constexpr int dense_limit = 3000;
+  if (body_count < 2 || body_count * modes > dense_limit) return found;
+  SparseMatrix scaled = unscale.asDiagonal() * felt;
+  Eigen::MatrixXd gram = Eigen::MatrixXd(scaled.transpose() * scaled);
+  comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
+  const double weight = std::max(gram.diagonal().maxCoeff(), 1.0);
+  for (const auto& v : amplitudes) gram += weight * v * v.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  for (Eigen::Index k = 0; k < gram.cols() && eigen.eigenvalues()[k] < exactly * exactly * weight * 100; ++k) {
+    const Eigen::VectorXd v = eigen.eigenvectors().col(k);
+    FreeMotion motion;
+    motion.felt = largest(scaled * v, comm);
+    double force = 0;
+    for (int b = 0; b < body_count; ++b) {
+      if (v.segment(b * modes, modes).norm() < 1e-6) continue;
+      motion.motions.push_back(combine(b, bodies.frames[b], v.segment(b * modes, modes), bodies.dimension));
+      force += bodies.force[b];
+    }
+    motion.work = force > 0 ? std::abs(bodies.generalised.dot(v)) / force : 0;
+    found.push_back(std::move(motion));
+  }
+  return found;
+}
+
+SubdomainRow gauge(const FreeMotion& motion, const partition::Decomposition& decomposition,
+                   const std::vector<std::vector<double>>& nodal_stiffness, const Communicator& comm)
+{
+  const int dimension = decomposition.catalogue.dimension;
+  SubdomainRow row;
+  double square = 0;  // in D^-1
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    row.coefficients.emplace_back();
+    for (const auto& part : motion.motions) {
+      if (part.body != subdomain.body) continue;
+      Eigen::VectorXd v = sample(part, subdomain.mesh.points, dimension);
+      for (Eigen::Index i = 0; i < v.size(); ++i) {
+        const double stiffness = nodal_stiffness[s][static_cast<std::size_t>(i / dimension)];
+        square += stiffness * v[i] * v[i];
+        v[i] *= stiffness;
+      }
+      row.coefficients.back() = std::move(v);
+    }
+  }
+  const double norm = std::sqrt(comm.sum(square));
+  for (auto& coefficients : row.coefficients) coefficients /= norm;
+  return row;
+}
+
+}  // namespace mortise::feti

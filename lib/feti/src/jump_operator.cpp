@@ -1,0 +1,270 @@
+#include "feti/jump_operator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace mortise::feti {
+
+namespace {
+
+// One coefficient of B, on its way to the rank of its subdomain.
+struct Piece {
+  Global subdomain;
+  Global row;
+  Local unknown;
+  double coefficient;
+};
+
+// Collects the pieces of rows, to be sent to the ranks of their subdomains.
+class Assembly {
+ public:
+  Assembly(const partition::Decomposition& decomposition, const Communicator& comm)
+      : decomposition_(decomposition), comm_(comm), send_(static_cast<std::size_t>(comm.size()))
+  {}
+
+  void add(const Piece& piece)
+  {
+    send_[static_cast<std::size_t>(decomposition_.rank_of(piece.subdomain))].push_back(piece);
+  }
+  void add_local(const Piece& piece) { send_[static_cast<std::size_t>(comm_.rank())].push_back(piece); }
+
+  // Pieces of this rank's subdomains, ordered by subdomain, row and unknown. Collective.
+  std::vector<Piece> receive()
+  {
+    std::vector<Piece> all;
+    for (auto& part : comm_.exchange(send_)) {
+      all.insert(all.end(), part.begin(), part.end());
+      part.clear();
+    }
+    send_.clear();
+    std::sort(all.begin(), all.end(), [](const Piece& a, const Piece& b) {
+      return std::tie(a.subdomain, a.row, a.unknown) < std::tie(b.subdomain, b.row, b.unknown);
+    });
+    return all;
+  }
+
+ private:
+  const partition::Decomposition& decomposition_;
+  const Communicator& comm_;
+  std::vector<std::vector<Piece>> send_;
+};
+
+// The coefficients of gluing row k = 1 .. copies-1 at copies 0 .. k.
+std::vector<double> gluing_coefficients(std::span<const partition::Copy> copies, std::size_t k)
+{
+  double sum = 0;
+  for (std::size_t q = 0; q < k; ++q) sum += copies[q].weight;
+  const double next = copies[k].weight;
+  const double a = std::sqrt(next / (sum * (sum + next)));
+  std::vector<double> row;
+  for (std::size_t q = 0; q < k; ++q) row.push_back(a * copies[q].weight);
+  row.push_back(-a * sum);
+  return row;
+}
+
+struct Numbering {
+  Global start = 0;  // number of the first row of this rank
+  Global total = 0;  // over all ranks
+};
+
+Numbering number(std::size_t count, const Communicator& comm)
+{
+  const auto mine = static_cast<long long>(count);
+  return {comm.offset(mine), comm.sum(mine)};
+}
+
+// Gluing rows of the nodes whose lowest copy is on this rank; returns how many rows this rank owns and the total.
+std::pair<std::size_t, Global> glue(const partition::Decomposition& decomposition, const partition::Interface& interface, int dimension,
+                                    const Communicator& comm, Assembly& assembly)
+{
+  std::size_t owned = 0;
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
+    for (std::size_t i = 0; i < interface.nodes[s].size(); ++i) {
+      const auto copies = interface.copies[s][i];
+      if (copies[0].subdomain == decomposition.subdomains[s].id) owned += (copies.size() - 1) * static_cast<std::size_t>(dimension);
+    }
+  const Numbering numbering = number(owned, comm);
+  Global row = numbering.start;
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
+    for (std::size_t i = 0; i < interface.nodes[s].size(); ++i) {
+      const auto copies = interface.copies[s][i];
+      if (copies[0].subdomain != decomposition.subdomains[s].id) continue;
+      for (std::size_t k = 1; k < copies.size(); ++k) {
+        const auto coefficients = gluing_coefficients(copies, k);
+        for (int c = 0; c < dimension; ++c, ++row)
+          for (std::size_t q = 0; q <= k; ++q)
+            assembly.add({copies[q].subdomain, row, copies[q].node * dimension + c, coefficients[q]});
+      }
+    }
+  return {owned, numbering.total};
+}
+
+double total_weight(std::span<const partition::Copy> copies)
+{
+  return std::accumulate(copies.begin(), copies.end(), 0.0, [](double sum, const partition::Copy& copy) { return sum + copy.weight; });
+}
+
+}  // namespace
+
+JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
+                           const partition::Interface& interface, std::span<const constraint::Held> held,
+                           const constraint::Contacts& contacts, std::span<const SubdomainRow> extra, const Communicator& comm)
+{
+  const int dimension = decomposition.catalogue.dimension;
+  Assembly assembly(decomposition, comm);
+  const auto [glued, glued_total] = glue(decomposition, interface, dimension, comm, assembly);
+  const Numbering held_numbers = number(held.size(), comm);
+  const Numbering contact_numbers = number(contacts.rows.size(), comm);
+  const Global held_base = glued_total, contact_base = held_base + held_numbers.total, extra_base = contact_base + contact_numbers.total;
+
+  // Owned rows: their numbers, scales and bounds.
+  std::vector<Global> owned;
+  std::vector<double> scale(glued, 1.0), bound(glued, 0.0);
+  const Global glue_start = comm.offset(static_cast<long long>(glued));
+  for (std::size_t i = 0; i < glued; ++i) owned.push_back(glue_start + static_cast<Global>(i));
+  ranges_.held = static_cast<Local>(owned.size());
+
+  std::vector<Global> nodes;
+  for (const auto& h : held) nodes.push_back(h.node);
+  const auto held_copies = directory.find(nodes, comm);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const Global row = held_base + held_numbers.start + static_cast<Global>(i);
+    const double factor = std::sqrt(total_weight(held_copies[i]));
+    for (const auto& copy : held_copies[i])
+      assembly.add({copy.subdomain, row, copy.node * dimension + held[i].component, copy.weight / factor});
+    owned.push_back(row);
+    scale.push_back(factor);
+    bound.push_back(factor * held[i].value);
+  }
+  ranges_.contacts = static_cast<Local>(owned.size());
+
+  nodes.clear();
+  for (const auto& entry : contacts.rows.entries) nodes.push_back(entry.node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto contact_copies = directory.find(nodes, comm);
+  const auto copies_of = [&](Global node) {
+    return contact_copies[static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin())];
+  };
+  for (const auto& point : contacts.points) {
+    double square = 0;  // of the normal row in D^-1, the copies' averages taken together
+    for (const auto& entry : contacts.rows[point.row]) square += entry.coefficient * entry.coefficient / total_weight(copies_of(entry.node));
+    const double factor = 1 / std::sqrt(square);
+    for (std::size_t r = point.row; r <= point.row + point.tangents.size(); ++r) {
+      const Global row = contact_base + contact_numbers.start + static_cast<Global>(r);
+      for (const auto& entry : contacts.rows[r]) {
+        const auto copies = copies_of(entry.node);
+        const double share = factor * entry.coefficient / total_weight(copies);
+        for (const auto& copy : copies)
+          assembly.add({copy.subdomain, row, copy.node * dimension + entry.component, share * copy.weight});
+      }
+      owned.push_back(row);
+      scale.push_back(factor);
+      bound.push_back(factor * contacts.rows.bound[r]);
+    }
+  }
+  ranges_.extra = static_cast<Local>(owned.size());
+
+  for (std::size_t e = 0; e < extra.size(); ++e) {
+    const Global row = extra_base + static_cast<Global>(e);
+    Global lowest = decomposition.subdomain_count();
+    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+      const auto& coefficients = extra[e].coefficients[s];
+      if (coefficients.size() == 0) continue;
+      lowest = std::min(lowest, decomposition.subdomains[s].id);
+      for (Local i = 0; i < coefficients.size(); ++i) assembly.add_local({decomposition.subdomains[s].id, row, i, coefficients[i]});
+    }
+    if (decomposition.rank_of(comm.min(lowest)) == comm.rank()) {
+      owned.push_back(row);
+      scale.push_back(1);
+      bound.push_back(0);
+    }
+  }
+  ranges_.end = static_cast<Local>(owned.size());
+  scale_ = Eigen::Map<const Eigen::VectorXd>(scale.data(), static_cast<Eigen::Index>(scale.size()));
+  bound_ = Eigen::Map<const Eigen::VectorXd>(bound.data(), static_cast<Eigen::Index>(bound.size()));
+
+  // The rows that this rank's subdomains take part in, and their blocks.
+  const auto pieces = assembly.receive();
+  std::vector<Global> touched;
+  for (const auto& piece : pieces) touched.push_back(piece.row);
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  const auto teuchos_comm = teuchos(comm);
+  rows_ = Teuchos::rcp(new Map(invalid, Teuchos::ArrayView<const Global>(owned.data(), static_cast<Teuchos::Ordinal>(owned.size())), 0, teuchos_comm));
+  overlap_ = Teuchos::rcp(new Map(invalid, Teuchos::ArrayView<const Global>(touched.data(), static_cast<Teuchos::Ordinal>(touched.size())), 0, teuchos_comm));
+  import_ = Teuchos::rcp(new Import(rows_, overlap_));
+
+  auto piece = pieces.begin();
+  for (const auto& subdomain : decomposition.subdomains) {
+    Block block;
+    block.size = static_cast<int>(subdomain.mesh.node_count()) * dimension;
+    for (; piece != pieces.end() && piece->subdomain == subdomain.id; ++piece) {
+      const Local row = overlap_->getLocalElement(piece->row);
+      if (block.row.empty() || block.row.back() != row) {
+        block.row.push_back(row);
+        block.offset.push_back(block.unknown.size());
+      }
+      block.unknown.push_back(piece->unknown);
+      block.coefficient.push_back(piece->coefficient);
+      block.offset.back() = block.unknown.size();
+    }
+    blocks_.push_back(std::move(block));
+  }
+}
+
+std::vector<Eigen::VectorXd> JumpOperator::apply_transpose(const Vector& lambda) const
+{
+  Vector overlapping(overlap_);
+  overlapping.doImport(lambda, *import_, Tpetra::INSERT);
+  const auto values = view(std::as_const(overlapping));
+  std::vector<Eigen::VectorXd> forces;
+  for (const auto& block : blocks_) {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(block.size);
+    for (std::size_t r = 0; r < block.row.size(); ++r)
+      for (std::size_t i = block.offset[r]; i < block.offset[r + 1]; ++i)
+        force[block.unknown[i]] += block.coefficient[i] * values[block.row[r]];
+    forces.push_back(std::move(force));
+  }
+  return forces;
+}
+
+Vector JumpOperator::apply(const std::vector<Eigen::VectorXd>& u) const
+{
+  Vector overlapping(overlap_);
+  {
+    auto values = view(overlapping);
+    for (std::size_t s = 0; s < blocks_.size(); ++s)
+      for (std::size_t r = 0; r < blocks_[s].row.size(); ++r)
+        for (std::size_t i = blocks_[s].offset[r]; i < blocks_[s].offset[r + 1]; ++i)
+          values[blocks_[s].row[r]] += blocks_[s].coefficient[i] * u[s][blocks_[s].unknown[i]];
+  }
+  Vector jumps(rows_);
+  jumps.doExport(overlapping, *import_, Tpetra::ADD);
+  return jumps;
+}
+
+SparseMatrix JumpOperator::gather_columns(const std::vector<Contribution>& contributions, int height, const Communicator& comm) const
+{
+  struct Sent {
+    Global row;
+    int index;
+    double value;
+  };
+  const auto touched = overlap_->getNodeElementList();
+  std::vector<int> rank(static_cast<std::size_t>(touched.size()));
+  rows_->getRemoteIndexList(touched, Teuchos::ArrayView<int>(rank.data(), touched.size()));
+  std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
+  for (const auto& c : contributions) send[static_cast<std::size_t>(rank[static_cast<std::size_t>(c.row)])].push_back({touched[c.row], c.index, c.value});
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (const auto& part : comm.exchange(send))
+    for (const auto& entry : part) triplets.emplace_back(entry.index, rows_->getLocalElement(entry.row), entry.value);
+  SparseMatrix result(height, static_cast<Eigen::Index>(rows_->getNodeNumElements()));
+  result.setFromTriplets(triplets.begin(), triplets.end());
+  return result;
+}
+
+}  // namespace mortise::feti

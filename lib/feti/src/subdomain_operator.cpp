@@ -1,0 +1,108 @@
+#include "feti/subdomain_operator.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <numeric>
+
+namespace mortise::feti {
+
+namespace {
+
+// Halves the nodes `levels` times across their longest extent and takes of each part the node nearest its centroid.
+void spread(std::span<Local> nodes, std::span<const Point> points, int levels, std::vector<Local>& chosen)
+{
+  if (nodes.empty()) return;
+  if (levels > 0) {
+    Point low = points[nodes[0]], high = low;
+    for (const Local n : nodes) {
+      low = low.cwiseMin(points[n]);
+      high = high.cwiseMax(points[n]);
+    }
+    Eigen::Index axis = 0;
+    (high - low).maxCoeff(&axis);
+    const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
+    std::nth_element(nodes.begin(), middle, nodes.end(), [&](Local a, Local b) {
+      return std::pair(points[a][axis], a) < std::pair(points[b][axis], b);
+    });
+    spread(nodes.first(nodes.size() / 2), points, levels - 1, chosen);
+    spread(nodes.subspan(nodes.size() / 2), points, levels - 1, chosen);
+    return;
+  }
+  Point centre = Point::Zero();
+  for (const Local n : nodes) centre += points[n];
+  centre /= static_cast<double>(nodes.size());
+  chosen.push_back(*std::min_element(nodes.begin(), nodes.end(), [&](Local a, Local b) {
+    return std::pair((points[a] - centre).squaredNorm(), a) < std::pair((points[b] - centre).squaredNorm(), b);
+  }));
+}
+
+Eigen::MatrixXd rows_of(const Eigen::MatrixXd& kernel, std::span<const Local> nodes, int dimension)
+{
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(nodes.size()) * dimension, kernel.cols());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    rows.middleRows(static_cast<Eigen::Index>(i) * dimension, dimension) = kernel.middleRows(nodes[i] * dimension, dimension);
+  return rows;
+}
+
+// Smallest eigenvalue of R_I'R_I against its mean if the nodes were perfectly spread: 1 at best.
+double quality(const Eigen::MatrixXd& kernel, std::span<const Local> nodes, int dimension)
+{
+  const Eigen::MatrixXd rows = rows_of(kernel, nodes, dimension);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(rows.transpose() * rows, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[0] * static_cast<double>(kernel.rows()) / static_cast<double>(rows.rows());
+}
+
+}  // namespace
+
+std::vector<Local> fixing_nodes(std::span<const Point> points, const Eigen::MatrixXd& kernel, int dimension)
+{
+  std::vector<Local> all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Local> best;
+  double best_quality = 0;
+  // More nodes make the factor fuller, so the few are tried first; a slender or flat subdomain takes more.
+  for (int levels = dimension - 1; levels <= 5; ++levels) {
+    std::vector<Local> nodes;
+    spread(all, points, levels, nodes);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    const double found = quality(kernel, nodes, dimension);
+    if (found > best_quality) {
+      best = nodes;
+      best_quality = found;
+    }
+    if (best_quality > 0.05) break;
+  }
+  if (best_quality < 1e-6) best = all;  // so few nodes, or so flat, that only all of them will do
+  return best;
+}
+
+std::vector<double> nodal_stiffness(const SparseMatrix& lower, int dimension)
+{
+  const Eigen::VectorXd diagonal = lower.diagonal();
+  std::vector<double> result(static_cast<std::size_t>(diagonal.size() / dimension));
+  for (std::size_t n = 0; n < result.size(); ++n)
+    result[n] = diagonal.segment(static_cast<Eigen::Index>(n) * dimension, dimension).mean();
+  return result;
+}
+
+ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
+                                   const std::string& factorization)
+    : stiffness_(std::move(lower)), kernel_(std::move(kernel))
+{
+  const auto nodes = fixing_nodes(points, kernel_, dimension);
+  const Eigen::MatrixXd rows = rows_of(kernel_, nodes, dimension);
+  const double r = stiffness_.diagonal().mean();
+  const Eigen::MatrixXd fixing = r * rows * (rows.transpose() * rows).ldlt().solve(rows.transpose());
+  std::vector<Eigen::Triplet<double>> triplets;
+  const auto unknown = [&](Eigen::Index i) { return nodes[static_cast<std::size_t>(i / dimension)] * dimension + static_cast<int>(i % dimension); };
+  for (Eigen::Index i = 0; i < fixing.rows(); ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) triplets.emplace_back(unknown(i), unknown(j), fixing(i, j));
+  SparseMatrix regularised(stiffness_.rows(), stiffness_.cols());
+  regularised.setFromTriplets(triplets.begin(), triplets.end());
+  regularised = SparseMatrix(regularised + stiffness_);
+  solver_ = std::make_unique<DirectSolver>(factorization, regularised);
+}
+
+}  // namespace mortise::feti

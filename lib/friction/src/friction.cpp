@@ -1,0 +1,107 @@
+#include "friction/friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace mortise::friction {
+
+namespace {
+
+constexpr double loose = 1e-2;  // tolerance of the first Tresca problem, and the loosest of all
+
+// ||a - b|| / ||a|| over all ranks; points that stick without limit in either do not count.
+double relative_change(const std::vector<double>& next, const std::vector<double>& now, const Communicator& comm)
+{
+  double difference = 0, size = 0;
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    size += std::isinf(next[i]) ? 0 : next[i] * next[i];
+    if (!std::isinf(next[i]) && !std::isinf(now[i])) difference += (next[i] - now[i]) * (next[i] - now[i]);
+  }
+  difference = comm.sum(difference);
+  size = comm.sum(size);
+  return size > 0 ? std::sqrt(difference / size) : 0;
+}
+
+bool any_coulomb(const std::vector<Law>& laws)
+{
+  return std::any_of(laws.begin(), laws.end(), [](const Law& law) { return law.kind == Law::Kind::coulomb; });
+}
+
+[[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu)
+{
+  throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.runaway(nu) +
+                                              "; contacts can only push and friction is limited, so nothing holds it against "
+                                              "the loads. Support it, or look at the direction of the loads and at the friction");
+}
+
+}  // namespace
+
+std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda)
+{
+  const auto& points = problem.constraints().contacts.points;
+  std::vector<double> radii(problem.set().discs().size(), 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& rows = problem.points()[i];
+    if (rows.disc < 0) continue;
+    const Law& law = laws[static_cast<std::size_t>(points[i].contact)];
+    double& radius = radii[static_cast<std::size_t>(rows.disc)];
+    if (law.kind == Law::Kind::tresca) radius = law.value * points[i].area / problem.jump().scale()[rows.normal];
+    if (law.kind == Law::Kind::coulomb)
+      radius = lambda ? law.value * std::max(view(*lambda)[rows.normal], 0.0) : std::numeric_limits<double>::infinity();
+  }
+  return radii;
+}
+
+Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Options& options, const qp::Options& solver,
+             const Observer& observer)
+{
+  const bool coulomb = any_coulomb(laws);
+  qp::Hessian hessian(problem.hessian(), solver.max_multiplications);
+  const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
+  std::vector<double> bounds = slip_bounds(problem, laws, nullptr), previous_bounds;
+  std::optional<qp::Solution> solution;
+  double change = 1, previous_change = 1, damping = 1;
+  int step = 0, infeasible = 0;
+  bool settled = false;
+  while (true) {
+    ++step;
+    problem.set().set_radii(bounds);
+    const double tolerance = coulomb ? std::max(solver.tolerance, std::min(loose, 0.1 * change)) : solver.tolerance;
+    auto next = qp::smalse(programme, solution, tolerance, [&](const qp::Progress& progress) {
+      if (observer) observer(step, change, progress);
+    });
+    if (!next.feasible) {
+      // Bounds from inexact normal forces may fall short by as much: go half way back before giving up.
+      if (step == 1 || ++infeasible > 5) no_equilibrium(problem, next.nu);
+      for (std::size_t i = 0; i < bounds.size(); ++i)
+        bounds[i] = std::isinf(previous_bounds[i]) ? 2 * bounds[i] : 0.5 * (bounds[i] + previous_bounds[i]);
+      continue;
+    }
+    solution = std::move(next);
+    if (!coulomb) {
+      settled = true;
+      change = 0;
+      break;
+    }
+    auto wanted = slip_bounds(problem, laws, &solution->x);
+    previous_change = change;
+    change = step == 1 ? 1.0 : relative_change(wanted, bounds, problem.communicator());
+    settled = step > 1 && change <= options.tolerance && tolerance <= solver.tolerance;
+    if (settled || step >= options.max_steps || hessian.exhausted()) break;
+    // A fixed point that hardly contracts is most often one that swings: meet it half way.
+    if (step > 2 && change > 0.7 * previous_change) damping = std::max(0.5 * damping, 0.25);
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (!std::isinf(bounds[i])) wanted[i] = bounds[i] + damping * (wanted[i] - bounds[i]);
+    previous_bounds = std::exchange(bounds, std::move(wanted));
+  }
+  Result result{std::move(*solution)};
+  result.steps = step;
+  result.change = change;
+  result.converged = settled && result.solution.converged;
+  result.multiplications = hessian.count();
+  return result;
+}
+
+}  // namespace mortise::friction

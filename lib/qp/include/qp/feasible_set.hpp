@@ -1,0 +1,72 @@
+// The feasible set Omega of the quadratic programme: a product of half-lines x_i >= l_i, of intervals |x_i| <= r, of discs
+// ||(x_i, x_j)|| <= r, and of the whole line for every other unknown. Each factor lives on one rank, so nothing here communicates.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace mortise::qp {
+
+/// x_index >= lower.
+struct Bound {
+  Local index;
+  double lower = 0;
+};
+
+/// ||x - centre|| <= radius over one (an interval) or two unknowns. An infinite radius constrains nothing; radius 0 pins the
+/// unknowns at the centre.
+struct Disc {
+  std::array<Local, 2> index{-1, -1};  ///< the second is -1 for an interval
+  double radius = std::numeric_limits<double>::infinity();
+  std::array<double, 2> centre{0, 0};
+
+  int size() const { return index[1] < 0 ? 1 : 2; }
+};
+
+class FeasibleSet {
+ public:
+  FeasibleSet() = default;
+  FeasibleSet(std::vector<Bound> bounds, std::vector<Disc> discs) : bounds_(std::move(bounds)), discs_(std::move(discs)) {}
+
+  std::span<const Bound> bounds() const { return bounds_; }
+  std::span<const Disc> discs() const { return discs_; }
+  bool empty() const { return bounds_.empty() && discs_.empty(); }
+
+  /// New radii, one for each disc.
+  void set_radii(std::span<const double> radii);
+
+  /// Omega - shift: the set of all x - shift.
+  FeasibleSet shifted(const Eigen::Ref<const Eigen::VectorXd>& shift) const;
+
+  /// x becomes the point of Omega that is nearest to it.
+  void project(Eigen::Ref<Eigen::VectorXd> x) const;
+
+  /// Splits the gradient at x in Omega [Dostal et al., DD20; MPGP]. `free` is g where no constraint is active; `chopped` is, on
+  /// the active bounds and discs, what of g still leads into Omega: min(g_i, 0), and g - min(n.g, 0) n with the outward normal n.
+  void split(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& g,
+             Eigen::Ref<Eigen::VectorXd> free, Eigen::Ref<Eigen::VectorXd> chopped) const;
+
+  /// The largest a such that x - a p stays in Omega, for x in Omega; infinite if the ray never leaves it.
+  double feasible_step(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& p) const;
+
+  /// How many factors are active at x: bounds, and discs of positive radius.
+  struct Active {
+    long long bounds = 0, discs = 0;
+  };
+  Active active(const Eigen::Ref<const Eigen::VectorXd>& x) const;
+
+ private:
+  std::vector<Bound> bounds_;
+  std::vector<Disc> discs_;
+};
+
+/// x minus the centre of the disc, over its unknowns; the second entry of an interval is 0.
+Eigen::Vector2d from_centre(const Disc& disc, const Eigen::Ref<const Eigen::VectorXd>& x);
+
+}  // namespace mortise::qp

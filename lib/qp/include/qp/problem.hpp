@@ -1,0 +1,55 @@
+// A quadratic programme is three things: a Hessian with a linear term, equality constraints, and a set that can be projected on.
+//
+//     minimise  1/2 x'A x - b'x   subject to  G x = e  and  x in Omega
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "base/tpetra.hpp"
+#include "qp/equality.hpp"
+#include "qp/feasible_set.hpp"
+
+namespace mortise::qp {
+
+/// Products with the Hessian, counted: the figure by which solvers are compared.
+class Hessian {
+ public:
+  explicit Hessian(const Operator& a, int limit) : a_(&a), limit_(limit) {}
+  /// y = A x. Collective.
+  void apply(const Vector& x, Vector& y)
+  {
+    ++count_;
+    a_->apply(x, y);
+  }
+  int count() const { return count_; }
+  bool exhausted() const { return count_ >= limit_; }
+  Teuchos::RCP<const Map> map() const { return a_->getDomainMap(); }
+
+ private:
+  const Operator* a_;
+  int limit_;
+  int count_ = 0;
+};
+
+/// Refers to its parts; they outlive it.
+struct Problem {
+  Hessian& hessian;
+  const Vector& linear;
+  const EqualityConstraint& equality;
+  const FeasibleSet& set;
+};
+
+/// Where a solver stands, for the history and the progress line.
+struct Progress {
+  std::string what;  ///< norm | start | smalse | ...
+  int outer = 0;
+  int multiplications = 0;
+  double projected_gradient = 0;  ///< relative
+  double equality = 0;            ///< relative
+  double precision = 0;           ///< M of SMALSE-M
+  FeasibleSet::Active active;     ///< on this rank
+};
+using Observer = std::function<void(const Progress&)>;
+
+}  // namespace mortise::qp

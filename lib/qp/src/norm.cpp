@@ -1,0 +1,55 @@
+#include "qp/norm.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace mortise::qp {
+
+namespace {
+
+// A number in (-1, 1) that depends on the global index alone, so that every number of ranks starts alike.
+double noise(Global index)
+{
+  auto z = static_cast<unsigned long long>(index) + 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1;
+}
+
+}  // namespace
+
+double projected_norm(Hessian& a, const EqualityConstraint& equality, int max_steps)
+{
+  const auto map = a.map();
+  Vector v(map), previous(map), w(map);
+  {
+    auto values = view(v);
+    for (Local i = 0; i < values.size(); ++i) values[i] = noise(map->getGlobalElement(i));
+  }
+  equality.project(v);
+  const double start = v.norm2();
+  if (start == 0) return 0;
+  v.scale(1 / start);
+
+  Eigen::VectorXd diagonal(max_steps), next(max_steps);
+  double estimate = 0;
+  for (int k = 0; k < max_steps && !a.exhausted(); ++k) {
+    a.apply(v, w);
+    equality.project(w);
+    diagonal[k] = v.dot(w);
+    w.update(-diagonal[k], v, k > 0 ? -next[k - 1] : 0.0, previous, 1);
+    next[k] = w.norm2();
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+    ritz.computeFromTridiagonal(diagonal.head(k + 1), next.head(k));
+    const double largest = ritz.eigenvalues()[k];
+    const double bound = next[k] * std::abs(ritz.eigenvectors()(k, k));
+    estimate = largest + bound;
+    if (bound <= 0.05 * largest) break;
+    previous.assign(v);
+    v.update(1 / next[k], w, 0);
+  }
+  return estimate;
+}
+
+}  // namespace mortise::qp

@@ -1,0 +1,137 @@
+#include "qp/smalse.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "qp/mpgp.hpp"
+#include "qp/norm.hpp"
+#include "qp/projection.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+constexpr double shrink_precision = 0.5;  // beta: M falls by this when the Lagrangian did not rise enough
+constexpr double start_accuracy = 0.1;    // eta, relative to ||P b||
+constexpr int max_outer_iterations = 1000;
+
+// The problem divided by nrm = ||P A P|| and moved to x = x0 + z with a feasible x0:
+//     L(z, mu) = 1/2 z'(P A P / nrm + rho Q) z + z'P g0 / nrm + mu'S G z,   rho = 1,
+// where G' S' mu is kept as G' nu, so that the factor S of (G G')^-1 = S'S is never needed.
+class AugmentedLagrangian {
+ public:
+  AugmentedLagrangian(const Problem& problem, double norm) : problem_(problem), norm_(norm), work_(problem.hessian.map()) {}
+
+  // y = (P A P / nrm + Q) z
+  void apply(const Vector& z, Vector& y)
+  {
+    work_.assign(z);
+    problem_.equality.project(work_);
+    problem_.hessian.apply(work_, y);
+    problem_.equality.project(y);
+    y.update(1, z, -1, work_, 1 / norm_);
+  }
+
+ private:
+  const Problem& problem_;
+  double norm_;
+  Vector work_;
+};
+
+double relative_size(const Problem& problem)
+{
+  Vector pb(problem.linear, Teuchos::Copy);
+  problem.equality.project(pb);
+  return pb.norm2();
+}
+
+}  // namespace
+
+Solution smalse(const Problem& problem, const std::optional<Solution>& start, double tolerance, const Observer& observer)
+{
+  auto& [hessian, linear, equality, set] = problem;
+  const auto map = hessian.map();
+
+  Projection feasible = project(start ? start->x : Vector(map), equality, set);
+  Solution result(feasible.point, Vector(map), feasible.nu);
+  if (!feasible.found) {
+    result.feasible = false;
+    return result;
+  }
+  result.hessian_norm = start ? start->hessian_norm : projected_norm(hessian, equality);
+  result.precision = start ? start->precision : 1;
+  Eigen::VectorXd nu = start && start->augmented.size() == equality.size() ? start->augmented
+                                                                           : Eigen::VectorXd::Zero(equality.size());
+  double norm = result.hessian_norm;
+  if (norm == 0) norm = 1;
+  double size = relative_size(problem) / norm;
+  if (size == 0) size = 1;
+
+  const Vector origin(feasible.point, Teuchos::Copy);
+  const FeasibleSet moved = set.shifted(view(origin));
+  Vector constant(map);  // P (A x0 - b) / nrm
+  hessian.apply(origin, constant);
+  constant.update(-1, linear, 1);
+  equality.project(constant);
+  constant.scale(1 / norm);
+
+  AugmentedLagrangian lagrangian(problem, norm);
+  const Product product = [&](const Vector& z, Vector& y) { lagrangian.apply(z, y); };
+  Point point{Vector(map), Vector(constant, Teuchos::Copy)};
+  equality.add_transpose(1, nu, point.gradient);
+
+  double largest = 1;  // ||P A P / nrm + Q||, raised by mpgp when it shows to be more
+  double previous = -std::numeric_limits<double>::infinity();
+  double residual = 0, measure = 0;
+  Eigen::VectorXd defect;
+  const auto report = [&](const char* what) {
+    if (observer)
+      observer({what, result.outer_iterations, hessian.count(), measure / size, residual / size, result.precision,
+                moved.active(view(std::as_const(point.x)))});
+  };
+  while (true) {
+    const auto done = [&](double reduced, const Point& at) {
+      measure = reduced;
+      if (equality.size() > 0) {
+        const Eigen::VectorXd gz = equality.apply(at.x);
+        defect = equality.solve(gz);
+        residual = std::sqrt(std::max(gz.dot(defect), 0.0));
+      }
+      report("inner");
+      if (measure <= tolerance * size && residual <= tolerance * size) return true;
+      return measure <= std::min(result.precision * residual, start_accuracy * size) || hessian.exhausted();
+    };
+    mpgp(product, moved, point, largest, {}, done);
+    ++result.outer_iterations;
+    report("outer");
+    result.converged = measure <= tolerance * size && residual <= tolerance * size;
+    if (result.converged || hessian.exhausted() || result.outer_iterations >= max_outer_iterations) break;
+
+    // L = 1/2 z'(g + c) with g = H z + c, c = P(A x0 - b)/nrm + G' nu.
+    Vector c(constant, Teuchos::Copy);
+    equality.add_transpose(1, nu, c);
+    c.update(1, point.gradient, 1);
+    const double value = 0.5 * point.x.dot(c);
+    if (value < previous + 0.5 * residual * residual) result.precision *= shrink_precision;
+    previous = value;
+    if (equality.size() == 0) continue;
+    nu += defect;
+    equality.add_transpose(1, defect, point.gradient);
+  }
+  if (defect.size() > 0) nu += defect;
+  result.hessian_norm = norm * largest;
+  result.augmented = nu / largest;  // in the scaling of the next solve
+  result.projected_gradient = measure / size;
+  result.equality = residual / size;
+
+  // Back to x = x0 + z, with what is left of G z removed exactly, and to nu of the unscaled problem.
+  result.x.update(1, point.x, 1);
+  result.x.assign(project(result.x, equality, set).point);
+  hessian.apply(result.x, result.gradient);
+  result.gradient.update(-1, linear, 1);
+  Vector coarse(result.gradient, Teuchos::Copy);
+  result.nu = equality.size() > 0 ? Eigen::VectorXd(norm * nu - equality.project(coarse)) : Eigen::VectorXd();
+  return result;
+}
+
+}  // namespace mortise::qp

@@ -1,0 +1,106 @@
+// A string over an obstacle, without equalities (MPRGP alone) and with its mean height prescribed; and a random programme with
+// discs. Every solution is judged by its KKT residuals.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "dense_operator.hpp"
+#include "qp/smalse.hpp"
+
+namespace mortise::qp {
+namespace {
+
+const Communicator& world()
+{
+  static const Communicator comm;
+  return comm;
+}
+
+Eigen::MatrixXd second_difference(int n)
+{
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    a(i, i) = 2;
+    if (i > 0) a(i, i - 1) = a(i - 1, i) = -1;
+  }
+  return a;
+}
+
+// ||x - P_Omega(x - (g + G'nu))||: zero exactly at a solution.
+double kkt(const Solution& solution, const Problem& problem)
+{
+  Vector moved(solution.x, Teuchos::Copy);
+  Vector gradient(solution.gradient, Teuchos::Copy);
+  if (problem.equality.size() > 0) problem.equality.add_transpose(1, solution.nu, gradient);
+  moved.update(-1, gradient, 1);
+  problem.set.project(view(moved));
+  moved.update(-1, solution.x, 1);
+  return moved.norm2();
+}
+
+TEST(Obstacle, StringIsSolvedToItsKktConditions)
+{
+  constexpr int n = 60;
+  const auto map = even_map(n, world());
+  const DenseOperator a(second_difference(n), map, world());
+  const Vector b = local_part(Eigen::VectorXd::Constant(n, -0.002), map);
+  std::vector<Bound> bounds;
+  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) bounds.push_back({i, -0.4});
+  const FeasibleSet set(bounds, {});
+  const EqualityConstraint none(SparseMatrix(0, static_cast<Eigen::Index>(bounds.size())), {}, world());
+  Hessian hessian(a, 2000);
+  const Problem problem{hessian, b, none, set};
+  const Solution solution = smalse(problem, {}, 1e-9, {});
+  EXPECT_TRUE(solution.converged);
+  EXPECT_LT(kkt(solution, problem), 1e-9);
+  const Eigen::VectorXd x = gathered(solution.x, world());
+  EXPECT_NEAR(x.minCoeff(), -0.4, 1e-12);
+  // Where it hangs free between the wall at 0 and the obstacle it is a parabola of the load's curvature.
+  EXPECT_NEAR(x[2] - 2 * x[1] + x[0], 0.002, 1e-8);
+  EXPECT_GT((x.array() == -0.4).count(), 10);
+}
+
+TEST(Obstacle, EqualityAndDiscs)
+{
+  constexpr int n = 48;
+  std::mt19937 generator(7);
+  std::normal_distribution<double> normal;
+  const auto random = [&](Eigen::Index rows, Eigen::Index columns) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) { return normal(generator); }));
+  };
+  const Eigen::MatrixXd root = random(n, n);
+  const Eigen::MatrixXd dense = root * root.transpose() / n + 0.05 * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd g = random(5, n);
+  const Eigen::VectorXd inside = 0.1 * random(n, 1).cwiseAbs();  // a feasible point: e is made from it
+  const Eigen::VectorXd linear = random(n, 1);
+
+  // In blocks of three: a bound and a disc; blocks never straddle two ranks.
+  const Local blocks = n / 3 / world().size() + (world().rank() < n / 3 % world().size() ? 1 : 0);
+  const auto map = Teuchos::rcp(new Map(n, static_cast<std::size_t>(3 * blocks), 0, teuchos(world())));
+  std::vector<Bound> bounds;
+  std::vector<Disc> discs;
+  for (Local i = 0; i < 3 * blocks; i += 3) {
+    bounds.push_back({i, 0});
+    discs.push_back({{i + 1, i + 2}, 0.6, {0, 0}});
+  }
+  const FeasibleSet set(bounds, discs);
+  const DenseOperator a(dense, map, world());
+  const EqualityConstraint equality(local_columns(g, *map), g * inside, world());
+  Hessian hessian(a, 20000);
+  const Vector b = local_part(linear, map);
+  const Problem problem{hessian, b, equality, set};
+  const Solution solution = smalse(problem, {}, 1e-10, {});
+  ASSERT_TRUE(solution.feasible);
+  EXPECT_TRUE(solution.converged);
+  EXPECT_LT(equality.norm(equality.apply(solution.x) - equality.right_side()), 1e-10);
+  EXPECT_LT(kkt(solution, problem), 1e-7);
+
+  // A warm start from the solution must end at once and at the same point.
+  const int before = hessian.count();
+  const Solution again = smalse(problem, solution, 1e-6, {});
+  EXPECT_LT(hessian.count() - before, 8);
+  EXPECT_LT((gathered(again.x, world()) - gathered(solution.x, world())).norm(), 1e-5);
+}
+
+}  // namespace
+}  // namespace mortise::qp

@@ -1,0 +1,66 @@
+#include "qp/projection.hpp"
+
+#include <gtest/gtest.h>
+
+#include "dense_operator.hpp"
+
+namespace mortise::qp {
+namespace {
+
+const Communicator& world()
+{
+  static const Communicator comm;
+  return comm;
+}
+
+// sum x = total over n unknowns, x >= 0: the projection is max(y - nu, 0) with one nu that fits.
+TEST(Projection, SimplexHasItsKnownForm)
+{
+  constexpr int n = 30;
+  const auto map = even_map(n, world());
+  Eigen::VectorXd y(n);
+  for (int i = 0; i < n; ++i) y[i] = std::sin(3.0 * i);
+  std::vector<Bound> bounds;
+  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) bounds.push_back({i, 0});
+  const FeasibleSet set(bounds, {});
+  const EqualityConstraint equality(local_columns(Eigen::MatrixXd::Ones(1, n), *map), Eigen::VectorXd::Constant(1, 2.5), world());
+  const Projection result = project(local_part(y, map), equality, set);
+  ASSERT_TRUE(result.found);
+  const Eigen::VectorXd x = gathered(result.point, world());
+  EXPECT_NEAR(x.sum(), 2.5, 1e-11);
+  EXPECT_LT((x - (y.array() - result.nu[0]).max(0).matrix()).norm(), 1e-12);
+}
+
+TEST(Projection, TellsThatNothingIsFeasible)
+{
+  constexpr int n = 6;
+  const auto map = even_map(n, world());
+  std::vector<Bound> bounds;
+  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) bounds.push_back({i, 0});
+  const FeasibleSet set(bounds, {});
+  // Pushing bodies pull: a sum of forces that are all >= 0 cannot be -1.
+  const EqualityConstraint equality(local_columns(Eigen::MatrixXd::Ones(1, n), *map), Eigen::VectorXd::Constant(1, -1), world());
+  const Projection result = project(Vector(map), equality, set);
+  EXPECT_FALSE(result.found);
+  EXPECT_GT(result.nu[0], 1);
+}
+
+TEST(Projection, DiscsLimitWhatFrictionCanCarry)
+{
+  constexpr int n = 6;
+  const Local blocks = n / 2 / world().size() + (world().rank() < n / 2 % world().size() ? 1 : 0);
+  const auto map = Teuchos::rcp(new Map(n, static_cast<std::size_t>(2 * blocks), 0, teuchos(world())));
+  std::vector<Disc> discs;
+  for (Local i = 0; i < 2 * blocks; i += 2) discs.push_back({{i, i + 1}, 1.0, {0, 0}});
+  const FeasibleSet set({}, discs);
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(2, n);  // resultant in both directions
+  for (int i = 0; i < n; ++i) g(i % 2, i) = 1;
+  const auto columns = local_columns(g, *map);
+  const EqualityConstraint held(columns, Eigen::Vector2d(2.0, 2.0), world());    // 2.83 of 3
+  const EqualityConstraint slips(columns, Eigen::Vector2d(2.2, 2.2), world());   // 3.11 of 3
+  EXPECT_TRUE(project(Vector(map), held, set).found);
+  EXPECT_FALSE(project(Vector(map), slips, set).found);
+}
+
+}  // namespace
+}  // namespace mortise::qp
