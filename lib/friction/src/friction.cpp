@@ -63,7 +63,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
   std::vector<double> bounds = slip_bounds(problem, laws, nullptr), previous_bounds;
   std::optional<qp::Solution> solution;
   double change = 1, previous_change = 1, damping = 1;
-  int step = 0, infeasible = 0;
+  int step = 0, infeasible = 0, outer = 0;
   bool settled = false;
   while (true) {
     ++step;
@@ -80,6 +80,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
       continue;
     }
     solution = std::move(next);
+    outer += solution->outer_iterations;
     if (!coulomb) {
       settled = true;
       change = 0;
@@ -101,6 +102,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
   result.change = change;
   result.converged = settled && result.solution.converged;
   result.multiplications = hessian.count();
+  result.outer_iterations = outer;
   return result;
 }
 

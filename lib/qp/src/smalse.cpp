@@ -59,6 +59,7 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
     return result;
   }
   result.hessian_norm = start ? start->hessian_norm : projected_norm(hessian, equality);
+  if (observer && !start) observer({"norm", 0, hessian.count()});
   result.precision = start ? start->precision : 1;
   Eigen::VectorXd nu = start && start->augmented.size() == equality.size() ? start->augmented
                                                                            : Eigen::VectorXd::Zero(equality.size());

@@ -55,7 +55,8 @@ struct ContactPoint {
   double area;                     ///< integral of its shape function over the overlap, which turns a multiplier into a traction
   Point normal;                    ///< unit, out of the secondary body
   std::vector<Point> tangents;     ///< 0, 1 (2D, or one direction is held) or 2 unit vectors, orthogonal to the normal
-  std::size_t row;                 ///< its normal row in Contacts::rows; its tangential rows follow
+  std::size_t row;                 ///< its normal row in Contacts::rows; its tangential rows follow, then the next point's normal row
+  double weight = 1;               ///< sum of the row's coefficients on the secondary side, above 1 where it stands in for dropped nodes
 };
 
 /// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the point in length units, with the

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "deck/description.hpp"
+
 namespace mortise::constraint {
 
 /// Prescribed displacement of a boundary; a component without a value is free.
@@ -12,5 +14,8 @@ struct SupportOptions {
   std::string boundary;
   std::array<std::optional<double>, 3> displacement;
 };
+
+/// The keywords.
+void describe(deck::Description<SupportOptions>& d);
 
 }  // namespace mortise::constraint

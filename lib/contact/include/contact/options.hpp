@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "deck/description.hpp"
+
 namespace mortise::contact {
 
 enum class Law { frictionless, tresca, coulomb, bonded };
@@ -17,5 +19,8 @@ struct Options {
   double interference = 0;           ///< added overlap; negative opens a gap
   double search_distance = 0;        ///< surfaces farther apart than this never meet; 0: chosen from the sizes of the faces
 };
+
+/// The keywords.
+void describe(deck::Description<Options>& d);
 
 }  // namespace mortise::contact

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "deck/description.hpp"
+
 namespace mortise::fem {
 
 /// Linear isotropic elasticity. Stresses in the unit of Young's modulus.
@@ -34,5 +36,10 @@ struct LoadOptions {
   std::optional<std::array<double, 3>> force;           ///< resultant, spread evenly over the boundary (2D: force a thickness)
   std::optional<std::array<double, 3>> acceleration;    ///< body force is density times this
 };
+
+/// The keywords.
+void describe(deck::Description<Material>& d);
+void describe(deck::Description<BodyOptions>& d);
+void describe(deck::Description<LoadOptions>& d);
 
 }  // namespace mortise::fem

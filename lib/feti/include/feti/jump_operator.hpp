@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "base/cholesky.hpp"
 #include "base/tpetra.hpp"
 #include "constraint/constraints.hpp"
 #include "partition/decomposition.hpp"

@@ -3,10 +3,15 @@
 
 #include <string>
 
+#include "deck/description.hpp"
+
 namespace mortise::feti {
 
 struct Options {
   std::string factorization = "cholmod";  ///< cholmod | klu2
 };
+
+/// The keywords.
+void describe(deck::Description<Options>& d);
 
 }  // namespace mortise::feti

@@ -33,6 +33,7 @@ struct Result {
   double change = 0;      ///< relative, of the slip bounds in the last step
   bool converged = false;
   int multiplications = 0;
+  int outer_iterations = 0;  ///< of all Tresca problems
 };
 
 /// One line of progress: the Tresca step, the change of the bounds before it, and where the solver stands.

@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "deck/description.hpp"
+
 namespace mortise::mesh {
 
 /// A box of equal cells. 2D: two entries an array; the third entry of `cells` is then 0.
@@ -21,5 +23,9 @@ struct Options {
   double scale = 1.0;                           ///< coordinates of the file or of the blocks are multiplied by this
   std::map<std::string, BlockOptions> blocks;   ///< by body name
 };
+
+/// The keywords.
+void describe(deck::Description<BlockOptions>& d);
+void describe(deck::Description<Options>& d);
 
 }  // namespace mortise::mesh

@@ -23,7 +23,7 @@ struct Decomposition {
   int rank_of(Global subdomain) const;
 };
 
-/// The faces of one named boundary that lie on this rank's subdomains, optionally of one body only (body >= 0).
-mesh::Surface boundary_surface(const Decomposition& decomposition, int boundary, int body = -1);
+/// The faces of one named boundary that lie on this rank's subdomains, of those bodies for which `on_body` is true.
+mesh::Surface boundary_surface(const Decomposition& decomposition, int boundary, const std::vector<bool>& on_body);
 
 }  // namespace mortise::partition

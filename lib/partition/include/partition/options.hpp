@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "deck/description.hpp"
+
 namespace mortise::partition {
 
 struct Options {
@@ -13,5 +15,8 @@ struct Options {
   int subdomains = 0;                                 ///< total instead of the aim above; 0: not given
   std::map<std::string, std::array<int, 3>> counts;   ///< grid: subdomains an axis of each block
 };
+
+/// The keywords.
+void describe(deck::Description<Options>& d);
 
 }  // namespace mortise::partition

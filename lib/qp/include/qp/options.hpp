@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "deck/description.hpp"
+
 namespace mortise::qp {
 
 struct Options {
@@ -10,5 +12,8 @@ struct Options {
   double tolerance = 1e-4;         ///< relative: reduced projected gradient and equality residual over ||P d||
   int max_multiplications = 10000; ///< with F, in the whole run
 };
+
+/// The keywords.
+void describe(deck::Description<Options>& d);
 
 }  // namespace mortise::qp

@@ -42,13 +42,13 @@ struct Problem {
 
 /// Where a solver stands, for the history and the progress line.
 struct Progress {
-  std::string what;  ///< norm | start | smalse | ...
+  std::string what;  ///< norm, inner or outer: what has just been done
   int outer = 0;
   int multiplications = 0;
   double projected_gradient = 0;  ///< relative
   double equality = 0;            ///< relative
   double precision = 0;           ///< M of SMALSE-M
-  FeasibleSet::Active active;     ///< on this rank
+  FeasibleSet::Active active{};   ///< on this rank
 };
 using Observer = std::function<void(const Progress&)>;
 

@@ -1,0 +1,260 @@
+#include "deck.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "deck/description.hpp"
+
+namespace mortise {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, fem::Kinematics>& dimensions()
+{
+  static const std::map<std::string, fem::Kinematics> table{
+      {"3", fem::Kinematics::solid}, {"plane_strain", fem::Kinematics::plane_strain}, {"plane_stress", fem::Kinematics::plane_stress}};
+  return table;
+}
+
+void read_dimension(Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits)
+{
+  std::string name;
+  const auto before = document.error_count();
+  deck::Codec<std::string>::read(name, node, path, document, limits);
+  if (document.error_count() == before) deck.kinematics = dimensions().at(name);
+}
+
+YAML::Node write_dimension(const Deck& deck)
+{
+  for (const auto& [name, kinematics] : dimensions())
+    if (kinematics == deck.kinematics) return YAML::Node(name);
+  return {};
+}
+
+nlohmann::ordered_json dimension_schema(const deck::Limits& limits)
+{
+  nlohmann::ordered_json names = limits.names;
+  names.push_back(3);
+  return {{"enum", names}};
+}
+
+void read_contacts(Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits)
+{
+  if (node.IsScalar() && node.Scalar() == "auto")
+    document.error(path, "`auto` is not available in this version of Mortise; list the pairs of boundaries");
+  else
+    deck::Codec<std::vector<contact::Options>>::read(deck.contacts, node, path, document, limits);
+}
+
+std::vector<std::string> names_of(const auto& map)
+{
+  std::vector<std::string> names;
+  for (const auto& [name, value] : map) names.push_back(name);
+  return names;
+}
+
+// Mesh, bodies and materials.
+void check_bodies(const Deck& deck, deck::Document& document)
+{
+  for (const auto& [name, body] : deck.bodies)
+    if (!deck.materials.contains(body.material))
+      document.error("bodies." + name + ".material", fmt::format("there is no material \"{}\"{}", body.material, deck::suggestion(body.material, names_of(deck.materials))));
+  for (const auto& [name, block] : deck.mesh.blocks) {
+    const bool plane = block.element == "quad4" || block.element == "tri3";
+    if (plane != (deck.dimension() == 2))
+      document.error("mesh.blocks." + name + ".element", fmt::format("\"{}\" does not fit a model of dimension {}; expected {}", block.element, deck.dimension() == 2 ? "2" : "3",
+                                                                     deck.dimension() == 2 ? "quad4 or tri3" : "hex8, tet4 or prism6"));
+  }
+}
+
+void check_decomposition(const Deck& deck, deck::Document& document)
+{
+  if (deck.decomposition.method != "grid") {
+    if (!deck.decomposition.counts.empty()) document.error("decomposition.counts", "counts are for `method: grid`");
+    return;
+  }
+  if (!deck.mesh.file.empty()) {
+    document.error("decomposition.method", "\"grid\" is for blocks only; use metis for a mesh from a file");
+    return;
+  }
+  for (const auto& [name, block] : deck.mesh.blocks) {
+    const auto counts = deck.decomposition.counts.find(name);
+    if (counts == deck.decomposition.counts.end()) {
+      document.error("decomposition.counts", fmt::format("the block \"{}\" needs an entry", name));
+      continue;
+    }
+    for (int axis = 0; axis < deck.dimension(); ++axis) {
+      const auto c = static_cast<std::size_t>(axis);
+      if (counts->second[c] < 1 || counts->second[c] > block.cells[c])
+        document.error("decomposition.counts." + name, fmt::format("expected 1 to {} subdomains along {}, found {}", block.cells[c], "xyz"[axis], counts->second[c]));
+    }
+  }
+  for (const auto& [name, counts] : deck.decomposition.counts)
+    if (!deck.mesh.blocks.contains(name)) document.error("decomposition.counts." + name, "there is no such block" + deck::suggestion(name, names_of(deck.mesh.blocks)));
+}
+
+void check_vectors(const Deck& deck, deck::Document& document)
+{
+  if (deck.dimension() == 3) return;
+  const auto flat = [&](const std::optional<std::array<double, 3>>& v, const std::string& path) {
+    if (v && (*v)[2] != 0) document.error(path, "a plane model has no z component");
+  };
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    const auto path = fmt::format("loads[{}].", i);
+    flat(deck.loads[i].traction, path + "traction");
+    flat(deck.loads[i].force, path + "force");
+    flat(deck.loads[i].acceleration, path + "acceleration");
+  }
+  for (std::size_t i = 0; i < deck.supports.size(); ++i)
+    if (deck.supports[i].displacement[2]) document.error(fmt::format("supports[{}].displacement.z", i), "a plane model has no z component");
+}
+
+void check_contact_names(const Deck& deck, deck::Document& document)
+{
+  for (std::size_t i = 0; i < deck.contacts.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (deck.contacts[i].name == deck.contacts[j].name) document.error(fmt::format("contacts[{}]", i), fmt::format("two contacts are called \"{}\"; give one of them another `name`", deck.contacts[i].name));
+}
+
+// Why a boundary cannot be found, or "".
+std::string missing(const std::string& name, const mesh::Catalogue& catalogue)
+{
+  const auto [boundary, body] = parse_boundary(name);
+  const auto& known = catalogue.boundaries;
+  if (std::find(known.begin(), known.end(), boundary) == known.end()) return fmt::format("the mesh has no boundary \"{}\"{}", boundary, deck::suggestion(boundary, known));
+  if (body.empty()) return "";
+  std::vector<std::string> bodies;
+  for (const auto& b : catalogue.bodies)
+    for (const auto& n : {b.name, b.group})
+      if (std::find(bodies.begin(), bodies.end(), n) == bodies.end()) bodies.push_back(n);
+  if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) return fmt::format("the mesh has no body \"{}\"{}", body, deck::suggestion(body, bodies));
+  return "";
+}
+
+}  // namespace
+
+void describe(deck::Description<SolverOptions>& d)
+{
+  d.help("How the problem is solved.");
+  // The keys of both modules, as keys of the whole.
+  const auto adopt = [&d](const auto& part, auto member) {
+    for (const auto& key : part.keys()) {
+      const auto* source = key.get();
+      auto& own = d.custom(
+          source->name, source->help,
+          [source, member](SolverOptions& value, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits) {
+            source->read(value.*member, node, path, document, limits);
+          },
+          [source, member](const SolverOptions& value) { return source->write(value.*member); }, source->schema);
+      own.limits = source->limits;
+    }
+    for (const auto& name : part.unavailable()) d.unavailable(name);
+  };
+  adopt(deck::description<qp::Options>(), &SolverOptions::programme);
+  adopt(deck::description<feti::Options>(), &SolverOptions::subdomains);
+}
+
+void describe(deck::Description<Deck>& d)
+{
+  d.help("A Mortise deck: one contact problem of linear elasticity. Any consistent set of units.");
+  d.key("title", &Deck::title, "One line that says what is solved.");
+  d.custom("dimension", "3, plane_strain or plane_stress (meshes in x, y).", read_dimension, write_dimension, dimension_schema)
+      .one_of({"3", "plane_strain", "plane_stress"})
+      .not_yet({"axisymmetric"});
+  d.key("mesh", &Deck::mesh, "The mesh.").required();
+  d.key("materials", &Deck::materials, "Materials by name.").required();
+  d.key("bodies", &Deck::bodies, "One entry for each physical volume (plane models: surface) of the mesh, by its name.").required();
+  d.key("supports", &Deck::supports, "Prescribed displacements.");
+  d.key("loads", &Deck::loads, "Loads.");
+  d.custom(
+      "contacts", "Pairs of boundaries that may touch; a pair that is not named passes through each other.", read_contacts,
+      [](const Deck& deck) { return deck::Codec<std::vector<contact::Options>>::write(deck.contacts); },
+      [](const deck::Limits& limits) { return deck::Codec<std::vector<contact::Options>>::schema(limits); });
+  d.key("decomposition", &Deck::decomposition, "How bodies are cut into subdomains.");
+  d.key("solver", &Deck::solver, "How the problem is solved.");
+  d.key("friction_loop", &Deck::friction_loop, "The fixed point of Coulomb friction.");
+  d.key("output", &Deck::output, "What is written where.");
+  d.unavailable("steps");
+}
+
+Deck read_deck(deck::Document& document, const std::string& output)
+{
+  Deck deck;
+  deck::read(deck, document);
+  for (auto& contact : deck.contacts)
+    if (contact.name.empty()) contact.name = contact.secondary + "/" + contact.primary;
+  check_bodies(deck, document);
+  check_decomposition(deck, document);
+  check_vectors(deck, document);
+  check_contact_names(deck, document);
+
+  const auto file = fs::absolute(document.file());
+  if (!deck.mesh.file.empty()) deck.mesh.file = (file.parent_path() / deck.mesh.file).lexically_normal().string();
+  if (!output.empty())
+    deck.output.directory = fs::absolute(output).lexically_normal().string();
+  else if (deck.output.directory.empty())
+    deck.output.directory = (file.parent_path() / (file.stem().string() + ".out")).string();
+  else
+    deck.output.directory = (file.parent_path() / deck.output.directory).lexically_normal().string();
+  return deck;
+}
+
+BoundaryName parse_boundary(const std::string& name)
+{
+  const auto colon = name.find(':');
+  if (colon == std::string::npos) return {name, {}};
+  return {name.substr(colon + 1), name.substr(0, colon)};
+}
+
+void check_names(const Deck& deck, deck::Document& document, const mesh::Catalogue& catalogue)
+{
+  std::vector<std::string> groups;
+  for (const auto& body : catalogue.bodies)
+    if (std::find(groups.begin(), groups.end(), body.group) == groups.end()) groups.push_back(body.group);
+  for (const auto& [name, body] : deck.bodies)
+    if (std::find(groups.begin(), groups.end(), name) == groups.end()) document.error("bodies." + name, fmt::format("the mesh has no body \"{}\"{}", name, deck::suggestion(name, groups)));
+  for (const auto& group : groups)
+    if (!deck.bodies.contains(group)) document.error("bodies", fmt::format("the body \"{}\" of the mesh has no entry; give it a material", group));
+
+  const auto check = [&](const std::string& name, const std::string& path) {
+    if (const auto why = missing(name, catalogue); !why.empty()) document.error(path, why);
+  };
+  for (std::size_t i = 0; i < deck.supports.size(); ++i) check(deck.supports[i].boundary, fmt::format("supports[{}].boundary", i));
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    const auto& load = deck.loads[i];
+    if (!load.boundary.empty()) check(load.boundary, fmt::format("loads[{}].boundary", i));
+    if (load.body.empty()) continue;
+    const auto at = fmt::format("loads[{}].body", i);
+    const bool known = std::any_of(catalogue.bodies.begin(), catalogue.bodies.end(), [&](const mesh::Body& b) { return b.name == load.body || b.group == load.body; });
+    if (!known) document.error(at, fmt::format("the mesh has no body \"{}\"{}", load.body, deck::suggestion(load.body, groups)));
+    for (const auto& body : catalogue.bodies) {
+      if (body.name != load.body && body.group != load.body) continue;
+      const auto entry = deck.bodies.find(body.group);
+      if (entry == deck.bodies.end()) continue;
+      const auto material = deck.materials.find(entry->second.material);
+      if (material != deck.materials.end() && !(material->second.density > 0)) {
+        document.error(at, fmt::format("an acceleration needs a density > 0 of the material \"{}\"", material->first));
+        break;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
+    check(deck.contacts[i].secondary, fmt::format("contacts[{}].secondary", i));
+    check(deck.contacts[i].primary, fmt::format("contacts[{}].primary", i));
+  }
+}
+
+std::string write_deck(const Deck& deck)
+{
+  YAML::Emitter out;
+  out << deck::Codec<Deck>::write(deck);
+  return std::string(out.c_str()) + "\n";
+}
+
+std::string deck_schema() { return deck::schema<Deck>().dump(2) + "\n"; }
+
+}  // namespace mortise

@@ -1,0 +1,65 @@
+// The deck as a whole: the sections of all modules, and the checks that cross them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "constraint/options.hpp"
+#include "contact/options.hpp"
+#include "deck/document.hpp"
+#include "fem/options.hpp"
+#include "feti/options.hpp"
+#include "friction/options.hpp"
+#include "io/options.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/options.hpp"
+#include "partition/options.hpp"
+#include "qp/options.hpp"
+
+namespace mortise {
+
+/// The section `solver` has keys of two modules.
+struct SolverOptions {
+  qp::Options programme;
+  feti::Options subdomains;
+};
+
+struct Deck {
+  std::string title;
+  fem::Kinematics kinematics = fem::Kinematics::solid;
+  mesh::Options mesh;
+  std::map<std::string, fem::Material> materials;
+  std::map<std::string, fem::BodyOptions> bodies;
+  std::vector<constraint::SupportOptions> supports;
+  std::vector<fem::LoadOptions> loads;
+  std::vector<contact::Options> contacts;
+  partition::Options decomposition;
+  SolverOptions solver;
+  friction::Options friction_loop;
+  io::Options output;
+
+  int dimension() const { return kinematics == fem::Kinematics::solid ? 3 : 2; }
+};
+
+/// Reads the deck from `document`: all sections and the checks between them. Paths in the result are absolute. `output` replaces the
+/// deck's output directory if it is not empty. Errors go to the document.
+Deck read_deck(deck::Document& document, const std::string& output);
+
+/// A boundary by its name in the deck: `boundary`, or `body:boundary` for the part of it that lies on one body or group.
+struct BoundaryName {
+  std::string boundary;
+  std::string body;  ///< empty: all bodies
+};
+BoundaryName parse_boundary(const std::string& name);
+
+/// Checks all names against the mesh: each body group has an entry, each entry a body, each boundary exists. Errors go to the document.
+void check_names(const Deck& deck, deck::Document& document, const mesh::Catalogue& catalogue);
+
+/// The deck with every default filled in, as YAML that reads back to the same deck.
+std::string write_deck(const Deck& deck);
+
+/// JSON schema of a deck.
+std::string deck_schema();
+
+}  // namespace mortise

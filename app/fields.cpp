@@ -1,0 +1,165 @@
+// The fields of a run as files: solution.pvd, contact.pvd, results.h5.
+#include <algorithm>
+
+#include "io/results.hpp"
+#include "io/vtk.hpp"
+#include "report.hpp"
+
+namespace mortise {
+
+namespace {
+
+bool wanted(const Deck& deck, const std::string& field)
+{
+  const auto& fields = deck.output.fields;
+  return std::find(fields.begin(), fields.end(), field) != fields.end();
+}
+
+// The subdomains of this rank as one mesh, in which the copies of a node are one.
+io::Piece volume_piece(const Deck& deck, const partition::Decomposition& decomposition, const Results& results)
+{
+  io::Piece piece;
+  std::vector<Global> ids;
+  for (const auto& subdomain : decomposition.subdomains) ids.insert(ids.end(), subdomain.mesh.node_id.begin(), subdomain.mesh.node_id.end());
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  const auto count = ids.size();
+  const auto dimension = static_cast<std::size_t>(decomposition.catalogue.dimension);
+  piece.points.resize(count);
+  io::Field displacement{"displacement", 3, std::vector<double>(3 * count, 0.0)}, von_mises{"von_mises", 1, std::vector<double>(count)},
+      stress{"stress", 6, std::vector<double>(6 * count)};
+  io::Field cell_von_mises{"von_mises", 1, {}}, body{"body", 1, {}, true}, owner{"subdomain", 1, {}, true};
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    const auto& mesh = subdomain.mesh;
+    std::vector<Local> place;
+    for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+      const auto at = static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), mesh.node_id[n]) - ids.begin());
+      place.push_back(static_cast<Local>(at));
+      piece.points[at] = mesh.points[n];
+      const auto row = static_cast<Eigen::Index>(n);
+      for (std::size_t c = 0; c < dimension; ++c) displacement.values[3 * at + c] = results.displacement[s][static_cast<Eigen::Index>(n * dimension + c)];
+      von_mises.values[at] = results.nodal_von_mises[s][row];
+      for (std::size_t c = 0; c < 6; ++c) stress.values[6 * at + c] = results.nodal_stress[s](row, static_cast<Eigen::Index>(c));
+    }
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      std::vector<Local> nodes;
+      for (const Local n : mesh.cells[c]) nodes.push_back(place[static_cast<std::size_t>(n)]);
+      piece.cells.add(mesh.cells.type[c], nodes);
+      cell_von_mises.values.push_back(results.cell_von_mises[s][static_cast<Eigen::Index>(c)]);
+      body.values.push_back(subdomain.body);
+      owner.values.push_back(static_cast<double>(subdomain.id));
+    }
+  }
+  if (wanted(deck, "displacement")) piece.point_fields.push_back(std::move(displacement));
+  if (wanted(deck, "von_mises")) {
+    piece.point_fields.push_back(std::move(von_mises));
+    piece.cell_fields.push_back(std::move(cell_von_mises));
+  }
+  if (wanted(deck, "stress")) piece.point_fields.push_back(std::move(stress));
+  piece.cell_fields.push_back(std::move(body));
+  piece.cell_fields.push_back(std::move(owner));
+  return piece;
+}
+
+void append(std::vector<double>& to, const Point& p) { to.insert(to.end(), {p[0], p[1], p[2]}); }
+
+// The secondary sides of all contacts.
+io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vector<contact::SurfaceState>& states)
+{
+  io::Piece piece;
+  io::Field pressure{"contact_pressure", 1, {}}, traction{"contact_traction", 3, {}}, gap{"gap", 1, {}}, slip{"slip", 3, {}},
+      status{"contact_status", 1, {}, true}, index{"contact", 1, {}, true};
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const auto& surface = pairs[c].secondary;
+    const auto base = static_cast<Local>(piece.points.size());
+    piece.points.insert(piece.points.end(), surface.points.begin(), surface.points.end());
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+      std::vector<Local> nodes(surface.faces[f].begin(), surface.faces[f].end());
+      for (auto& n : nodes) n += base;
+      piece.cells.add(surface.faces.type[f], nodes);
+      index.values.push_back(static_cast<double>(c));
+    }
+    for (std::size_t n = 0; n < surface.points.size(); ++n) {
+      pressure.values.push_back(states[c].pressure[n]);
+      append(traction.values, states[c].traction[n]);
+      gap.values.push_back(states[c].gap[n]);
+      append(slip.values, states[c].slip[n]);
+      status.values.push_back(states[c].status[n]);
+    }
+  }
+  piece.point_fields = {pressure, traction, gap, slip, status};
+  piece.cell_fields = {index};
+  return piece;
+}
+
+// Nodal tables: each node from its lowest copy.
+std::vector<io::Table> node_tables(const partition::Decomposition& decomposition, const partition::Interface& interface, const Results& results)
+{
+  const Global total = decomposition.catalogue.node_count;
+  const int dimension = decomposition.catalogue.dimension;
+  std::vector<io::Table> tables{{"nodes/points", "coordinates", 3, total, {}, {}},
+                                {"nodes/displacement", "displacement", 3, total, {}, {}},
+                                {"nodes/von_mises", "von Mises stress, recovered inside the body", 1, total, {}, {}},
+                                {"nodes/stress", "XX YY ZZ XY YZ XZ, recovered inside the body", 6, total, {}, {}}};
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    std::size_t shared = 0;
+    for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n) {
+      if (shared < interface.nodes[s].size() && interface.nodes[s][shared] == static_cast<Local>(n)) {
+        if (interface.copies[s][shared++][0].subdomain != subdomain.id) continue;
+      }
+      for (auto& table : tables) table.row.push_back(subdomain.mesh.node_id[n]);
+      append(tables[0].values, subdomain.mesh.points[n]);
+      Point u = Point::Zero();
+      u.head(dimension) = results.displacement[s].segment(static_cast<Eigen::Index>(n) * dimension, dimension);
+      append(tables[1].values, u);
+      tables[2].values.push_back(results.nodal_von_mises[s][static_cast<Eigen::Index>(n)]);
+      for (Eigen::Index c = 0; c < 6; ++c) tables[3].values.push_back(results.nodal_stress[s](static_cast<Eigen::Index>(n), c));
+    }
+  }
+  return tables;
+}
+
+io::Table contact_table(const Results& results, const Communicator& comm)
+{
+  const auto mine = static_cast<long long>(results.points.size());
+  io::Table table{"contact/points", "contact, node, area, normal force, force on the secondary side (3), gap, slip (3), status 0 open 1 stick 2 slip", 12, comm.sum(mine), {}, {}};
+  Global row = comm.offset(mine);
+  for (const auto& p : results.points) {
+    table.row.push_back(row++);
+    table.values.insert(table.values.end(), {static_cast<double>(p.contact), static_cast<double>(p.node), p.area, p.force});
+    append(table.values, p.force_on_secondary);
+    table.values.push_back(p.gap);
+    append(table.values, p.slip);
+    table.values.push_back(static_cast<double>(static_cast<int>(p.status)));
+  }
+  return table;
+}
+
+io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambda)
+{
+  io::Table table{"dual/multipliers", "multipliers of the scaled rows: gluing, supports, contacts, gauges", 1, problem.dual_unknowns(), {}, {}};
+  const auto values = view(lambda);
+  const auto rows = problem.jump().rows()->getNodeElementList();
+  table.row.assign(rows.begin(), rows.end());
+  table.values.assign(values.data(), values.data() + values.size());
+  return table;
+}
+
+}  // namespace
+
+void write_fields(const Deck& deck, const partition::Decomposition& decomposition, const std::vector<contact::Pair>& pairs,
+                  const partition::Interface& interface, const feti::DualProblem& problem, const friction::Result& solved, const Results& results,
+                  const Communicator& comm)
+{
+  const auto& directory = deck.output.directory;
+  auto tables = node_tables(decomposition, interface, results);
+  tables.push_back(multiplier_table(problem, solved.solution.x));
+  if (!pairs.empty()) tables.push_back(contact_table(results, comm));
+  io::write_results(directory + "/results.h5", tables, comm);
+  if (!pairs.empty()) io::write_vtk(directory, "contact", contact_piece(pairs, contact::surface_states(results.points, pairs, comm)), comm);
+  io::write_vtk(directory, "solution", volume_piece(deck, decomposition, results), comm);
+}
+
+}  // namespace mortise

@@ -1,0 +1,84 @@
+// mortise DECK: multibody contact of linear elasticity by Total FETI.
+//
+//     deck -> mesh -> bodies -> subdomains -> constraint rows -> dual problem -> QP (inside a friction loop)
+//          -> multipliers -> displacements -> fields -> files
+//
+// Sample runs:  mortise inputs/hertz_sphere/hertz_sphere.yaml
+//               mpirun -n 2 mortise inputs/cantilever_3d/cantilever_3d.yaml --set solver.tolerance=1e-6
+#include <Tpetra_Core.hpp>
+
+#include <dlfcn.h>
+
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <sstream>
+
+#include "command_line.hpp"
+#include "run.hpp"
+
+namespace {
+
+using namespace mortise;
+
+// The text of the deck, read by one rank.
+std::string read_text(const std::string& file, const Communicator& comm)
+{
+  std::string text;
+  collectively(comm, [&] {
+    if (!comm.root()) return;
+    std::ifstream stream(file);
+    std::ostringstream content;
+    if (!stream || !(content << stream.rdbuf())) throw Error(ExitStatus::bad_input, file + ": cannot be read");
+    text = content.str();
+  });
+  comm.broadcast(text);
+  return text;
+}
+
+// CHOLMOD starts threads of its own unless OpenMP, where some library has brought it, is told not to.
+void forbid_threads()
+{
+  if (auto* limit = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"))) limit(0);
+}
+
+ExitStatus solve(const CommandLine& command_line, const Communicator& comm)
+{
+  Timers timers;
+  Log log(comm, stdout);
+  const Context context{comm, log, timers};
+  deck::Document document(read_text(command_line.deck, comm), command_line.deck, command_line.settings);
+  const Deck deck = read_deck(document, command_line.output);
+  document.check();
+  return run(deck, document, command_line, context);
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  const Tpetra::ScopeGuard tpetra(&argc, &argv);
+  forbid_threads();
+  const Communicator comm;
+  const Parsed parsed = parse_command_line(argc, argv);
+  if (!parsed.command_line) {
+    if (comm.root()) (parsed.status == 0 ? std::cout : std::cerr) << parsed.text;
+    return parsed.status;
+  }
+  if (parsed.command_line->schema) {
+    if (comm.root()) std::cout << deck_schema();
+    return 0;
+  }
+  try {
+    return static_cast<int>(solve(*parsed.command_line, comm));
+  } catch (const Error& error) {  // thrown on all ranks alike
+    std::cout << std::flush;
+    if (comm.root()) std::cerr << error.what() << std::endl;
+    return static_cast<int>(error.status());
+  } catch (const std::bad_alloc&) {  // perhaps on this rank alone: the others would wait for ever
+    std::cerr << "mortise: out of memory on rank " << comm.rank() << std::endl;
+  } catch (const std::exception& error) {
+    std::cerr << "mortise: rank " << comm.rank() << ": " << error.what() << std::endl;
+  }
+  MPI_Abort(comm.mpi(), static_cast<int>(ExitStatus::machine));
+}

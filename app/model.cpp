@@ -1,0 +1,106 @@
+#include "model.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "fem/loads.hpp"
+#include "fem/stiffness.hpp"
+
+namespace mortise {
+
+namespace {
+
+Point point(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
+
+}  // namespace
+
+std::vector<bool> Model::bodies_called(const std::string& name) const
+{
+  std::vector<bool> result;
+  for (const auto& body : decomposition_.catalogue.bodies) result.push_back(name.empty() || body.name == name || body.group == name);
+  return result;
+}
+
+Model::Selection Model::select(const std::string& name) const
+{
+  const auto [boundary, body] = parse_boundary(name);
+  const auto& known = decomposition_.catalogue.boundaries;
+  return {static_cast<int>(std::find(known.begin(), known.end(), boundary) - known.begin()), bodies_called(body)};
+}
+
+const fem::Material& Model::material(const partition::Subdomain& subdomain) const
+{
+  const auto& group = decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group;
+  return deck_.materials.at(deck_.bodies.at(group).material);
+}
+
+std::vector<SparseMatrix> Model::stiffness() const
+{
+  std::vector<SparseMatrix> result;
+  for (const auto& subdomain : decomposition_.subdomains) result.push_back(fem::stiffness(subdomain.mesh, material(subdomain), deck_.kinematics));
+  return result;
+}
+
+std::vector<Eigen::VectorXd> Model::loads(const Communicator& comm) const
+{
+  const int dimension = deck_.dimension();
+  std::vector<Eigen::VectorXd> f;
+  for (const auto& subdomain : decomposition_.subdomains) f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
+  for (const auto& load : deck_.loads) {
+    if (load.acceleration) {
+      const auto on_body = bodies_called(load.body);
+      for (std::size_t s = 0; s < f.size(); ++s)
+        if (const auto& subdomain = decomposition_.subdomains[s]; on_body[static_cast<std::size_t>(subdomain.body)])
+          fem::add_acceleration(subdomain.mesh, dimension, material(subdomain).density, point(*load.acceleration), f[s]);
+      continue;
+    }
+    const auto [boundary, on_body] = select(load.boundary);
+    double area = 0;
+    for (const auto& subdomain : decomposition_.subdomains)
+      if (on_body[static_cast<std::size_t>(subdomain.body)]) area += fem::area(subdomain.mesh, boundary, dimension);
+    area = comm.sum(area);
+    if (area == 0) throw Error(ExitStatus::bad_input, "the loaded boundary \"" + load.boundary + "\" has no area");
+    for (std::size_t s = 0; s < f.size(); ++s) {
+      const auto& subdomain = decomposition_.subdomains[s];
+      if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+      if (load.pressure) fem::add_pressure(subdomain.mesh, boundary, dimension, *load.pressure, f[s]);
+      if (load.traction) fem::add_traction(subdomain.mesh, boundary, dimension, point(*load.traction), f[s]);
+      if (load.force) fem::add_traction(subdomain.mesh, boundary, dimension, point(*load.force) / area, f[s]);
+    }
+  }
+  return f;
+}
+
+std::vector<std::vector<Global>> Model::support_nodes() const
+{
+  std::vector<std::vector<Global>> nodes;
+  for (const auto& support : deck_.supports) {
+    const auto [boundary, on_body] = select(support.boundary);
+    nodes.push_back(partition::boundary_surface(decomposition_, boundary, on_body).node_id);
+  }
+  return nodes;
+}
+
+std::vector<contact::Pair> Model::contact_pairs() const
+{
+  std::vector<contact::Pair> pairs;
+  const auto surface = [&](const std::string& name) {
+    const auto [boundary, on_body] = select(name);
+    return partition::boundary_surface(decomposition_, boundary, on_body);
+  };
+  for (const auto& contact : deck_.contacts) pairs.push_back({contact, surface(contact.secondary), surface(contact.primary)});
+  return pairs;
+}
+
+std::vector<friction::Law> Model::friction_laws() const
+{
+  using Kind = friction::Law::Kind;
+  std::vector<friction::Law> laws;
+  for (const auto& contact : deck_.contacts) {
+    const Kind kind = contact.law == contact::Law::tresca ? Kind::tresca : contact.law == contact::Law::coulomb ? Kind::coulomb : Kind::frictionless;
+    laws.push_back({kind, contact.friction});
+  }
+  return laws;
+}
+
+}  // namespace mortise

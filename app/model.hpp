@@ -1,0 +1,40 @@
+// From the deck to the pieces of the dual problem: boundaries by name, stiffness, loads, supports, contact pairs.
+#pragma once
+
+#include "base/context.hpp"
+#include "contact/mortar.hpp"
+#include "deck.hpp"
+#include "feti/dual_problem.hpp"
+#include "friction/friction.hpp"
+#include "partition/decomposition.hpp"
+
+namespace mortise {
+
+/// The deck's names resolved on this rank's subdomains. Refers to the deck and the decomposition.
+class Model {
+ public:
+  Model(const Deck& deck, const partition::Decomposition& decomposition) : deck_(deck), decomposition_(decomposition) {}
+
+  const fem::Material& material(const partition::Subdomain& subdomain) const;
+  /// Stiffness of every subdomain: its lower triangle.
+  std::vector<SparseMatrix> stiffness() const;
+  /// Consistent loads of every subdomain. Collective.
+  std::vector<Eigen::VectorXd> loads(const Communicator& comm) const;
+  /// Nodes of this rank on the boundary of each support.
+  std::vector<std::vector<Global>> support_nodes() const;
+  std::vector<contact::Pair> contact_pairs() const;
+  std::vector<friction::Law> friction_laws() const;
+
+ private:
+  struct Selection {
+    int boundary;
+    std::vector<bool> on_body;
+  };
+  Selection select(const std::string& name) const;
+  std::vector<bool> bodies_called(const std::string& name) const;
+
+  const Deck& deck_;
+  const partition::Decomposition& decomposition_;
+};
+
+}  // namespace mortise

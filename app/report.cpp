@@ -1,0 +1,184 @@
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "fem/stress.hpp"
+
+namespace mortise {
+
+namespace {
+
+// Largest value over all ranks and where it is.
+struct Peak {
+  double value = 0;
+  Point at = Point::Zero();
+};
+
+Peak over_ranks(const Peak& mine, const Communicator& comm)
+{
+  const double largest = comm.max(mine.value);
+  // The lowest rank that has it tells where.
+  const long long winner = comm.min(mine.value == largest ? static_cast<long long>(comm.rank()) : static_cast<long long>(comm.size()));
+  std::vector<double> at(3, 0.0);
+  if (winner == comm.rank()) at = {mine.at[0], mine.at[1], mine.at[2]};
+  comm.sum_in_place(at);
+  return {largest, Point(at[0], at[1], at[2])};
+}
+
+void recover_stress(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const partition::Interface& interface,
+                    const Communicator& comm, Results& results)
+{
+  std::vector<Eigen::MatrixXd> sums;
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    auto field = fem::stresses(subdomain.mesh, model.material(subdomain), deck.kinematics, results.displacement[s]);
+    sums.push_back(std::move(field.nodal_sums));
+    results.cell_von_mises.push_back(std::move(field.cell_von_mises));
+  }
+  partition::sum_over_copies(decomposition, interface, sums, comm);
+  Peak peak;
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    const auto& points = decomposition.subdomains[s].mesh.points;
+    Eigen::MatrixXd stress(sums[s].rows(), 6);
+    Eigen::VectorXd von_mises(sums[s].rows());
+    for (Eigen::Index n = 0; n < stress.rows(); ++n) {
+      stress.row(n) = sums[s].row(n).head(6) / sums[s](n, 6);
+      von_mises[n] = fem::von_mises(stress.row(n).transpose());
+      if (von_mises[n] > peak.value) peak = {von_mises[n], points[static_cast<std::size_t>(n)]};
+    }
+    results.nodal_stress.push_back(std::move(stress));
+    results.nodal_von_mises.push_back(std::move(von_mises));
+  }
+  peak = over_ranks(peak, comm);
+  results.summary.max_von_mises = peak.value;
+  results.max_von_mises_at = peak.at;
+}
+
+// The state of this rank's contact points from the multipliers and the jumps.
+void contact_states(const Deck& deck, const feti::DualProblem& problem, const friction::Result& solved, Results& results)
+{
+  const auto& comm = problem.communicator();
+  const Vector jumps = problem.jump().apply(results.displacement);
+  const auto jump = view(jumps);
+  const auto lambda = view(solved.solution.x);
+  const auto& scale = problem.jump().scale();
+  const auto& contacts = problem.constraints().contacts;
+  double penetration = 0, slackness = 0;
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    const auto& rows = problem.points()[i];
+    std::vector<double> multipliers, row_jumps;
+    for (Local r = rows.normal; r <= rows.normal + rows.tangents; ++r) {
+      multipliers.push_back(lambda[r] * scale[r]);
+      row_jumps.push_back(jump[r] / scale[r]);
+    }
+    const double limit = rows.disc < 0 ? 0.0 : problem.set().discs()[static_cast<std::size_t>(rows.disc)].radius * scale[rows.normal];
+    results.points.push_back(contact::state_of(contacts.points[i], contacts.bonded[i], multipliers, row_jumps, contacts.rows.bound[contacts.points[i].row], limit));
+    if (contacts.bonded[i]) continue;
+    penetration = std::max(penetration, -results.points.back().gap);
+    slackness += std::abs(results.points.back().gap * multipliers[0]);
+  }
+  results.resultants = contact::resultants(results.points, deck.contacts.size(), comm);
+  const double length = results.summary.max_displacement;
+  results.summary.residuals.penetration = length > 0 ? comm.max(penetration) / length : comm.max(penetration);
+  const double energy = results.summary.strain_energy;
+  slackness = comm.sum(slackness);
+  results.summary.residuals.complementarity = energy > 0 ? slackness / (2 * energy) : slackness;
+}
+
+// Forces of the supports on the bodies, by boundary.
+void reactions(const Deck& deck, const feti::DualProblem& problem, const friction::Result& solved, Results& results)
+{
+  std::vector<double> sums(deck.supports.size() * 3, 0.0);
+  const auto lambda = view(solved.solution.x);
+  const auto& held = problem.constraints().held;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const auto row = problem.jump().ranges().held + static_cast<Local>(i);
+    sums[static_cast<std::size_t>(held[i].support) * 3 + static_cast<std::size_t>(held[i].component)] -= lambda[row] * problem.jump().scale()[row];
+  }
+  problem.communicator().sum_in_place(sums);
+  for (std::size_t s = 0; s < deck.supports.size(); ++s) {
+    const std::array<double, 3> force{sums[3 * s], sums[3 * s + 1], sums[3 * s + 2]};
+    results.reaction += Point(force[0], force[1], force[2]);
+    results.summary.reactions.push_back({deck.supports[s].boundary, force});
+  }
+}
+
+// What needs the displacements alone: their largest, the loads' sum, the largest penetration.
+void sum_up(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const feti::Floating& floating, const friction::Result& solved,
+            Results& results)
+{
+  const auto& comm = problem.communicator();
+  const int dimension = decomposition.catalogue.dimension;
+  double largest = 0;
+  std::vector<double> applied(3, 0.0);
+  long long unknowns = 0;
+  for (std::size_t s = 0; s < results.displacement.size(); ++s) {
+    const auto& u = results.displacement[s];
+    unknowns += u.size();
+    for (Eigen::Index i = 0; i < u.size(); i += dimension) largest = std::max(largest, u.segment(i, dimension).norm());
+    for (Eigen::Index i = 0; i < u.size(); ++i) applied[static_cast<std::size_t>(i % dimension)] += floating.load[s][i];
+  }
+  comm.sum_in_place(applied);
+  results.applied = Point(applied[0], applied[1], applied[2]);
+  auto& summary = results.summary;
+  summary.primal_unknowns = comm.sum(unknowns);
+  summary.dual_unknowns = problem.dual_unknowns();
+  summary.subdomains = decomposition.subdomain_count();
+  summary.kernel_dimension = problem.kernel_dimension();
+  summary.bodies = static_cast<Global>(decomposition.catalogue.bodies.size());
+  summary.max_displacement = comm.max(largest);
+  summary.strain_energy = problem.strain_energy(results.displacement);
+  summary.converged = solved.converged;
+  summary.exit_status = solved.converged ? 0 : 2;
+  summary.ranks = comm.size();
+  summary.friction_steps = solved.steps;
+  summary.outer_iterations = solved.outer_iterations;
+  summary.hessian_multiplications = solved.multiplications;
+  summary.residuals.projected_gradient = solved.solution.projected_gradient;
+  summary.residuals.equality = solved.solution.equality;
+  summary.residuals.equilibrium = problem.imbalance(results.displacement, solved.solution.x);
+}
+
+}  // namespace
+
+Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const partition::Interface& interface,
+                 const feti::DualProblem& problem, const feti::Floating& floating, const friction::Result& solved, const Context& context)
+{
+  Results results;
+  results.displacement = problem.displacement(solved.solution.x, solved.solution.nu);
+  results.summary.version = MORTISE_VERSION;
+  results.summary.title = deck.title;
+  sum_up(decomposition, problem, floating, solved, results);
+  recover_stress(deck, decomposition, model, interface, context.comm, results);
+  contact_states(deck, problem, solved, results);
+  reactions(deck, problem, solved, results);
+  for (std::size_t c = 0; c < deck.contacts.size(); ++c) {
+    const auto& r = results.resultants[c];
+    results.summary.contacts.push_back({deck.contacts[c].name, {r.force[0], r.force[1], r.force[2]}, r.max_pressure, r.area, r.open, r.stick, r.slip});
+  }
+  return results;
+}
+
+void print(const Results& results, const Context& context)
+{
+  auto& log = context.log;
+  const auto& s = results.summary;
+  const auto vector = [](const Point& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p[0], p[1], p[2]); };
+  log.line("");
+  log.line("{}", s.converged ? "Solved." : "NOT CONVERGED within the limits: the results are written, but do not trust them.");
+  const double size = std::max({results.applied.norm(), results.reaction.norm(), 1e-300});
+  log.line("  balance of forces   applied {}, supports {}, difference {:.1e} of it", vector(results.applied), vector(results.reaction),
+           (results.applied + results.reaction).norm() / size);
+  log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
+  log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);
+  for (const auto& c : s.contacts)
+    log.line("  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g}, area {:.4g}; {} open, {} stick, {} slip", c.name, c.force[0],
+             c.force[1], c.force[2], c.max_pressure, c.area, c.open, c.stick, c.slip);
+  log.line("  residuals           gradient {:.1e}, equality {:.1e}, equilibrium {:.1e}, penetration {:.1e}, complementarity {:.1e}", s.residuals.projected_gradient,
+           s.residuals.equality, s.residuals.equilibrium, s.residuals.penetration, s.residuals.complementarity);
+  log.line("  work                {} products with F, {} outer iterations, {} friction steps", s.hessian_multiplications, s.outer_iterations, s.friction_steps);
+}
+
+}  // namespace mortise

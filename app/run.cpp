@@ -1,0 +1,175 @@
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "constraint/supports.hpp"
+#include "contact/mortar.hpp"
+#include "fem/stiffness.hpp"
+#include "feti/dual_problem.hpp"
+#include "friction/friction.hpp"
+#include "io/files.hpp"
+#include "model.hpp"
+#include "partition/decompose.hpp"
+#include "report.hpp"
+
+namespace mortise {
+
+namespace {
+
+void print_header(const Deck& deck, const partition::Decomposition& decomposition, const Context& context)
+{
+  const auto& catalogue = decomposition.catalogue;
+  context.log.line("Mortise {}: {}", MORTISE_VERSION, deck.title.empty() ? "(no title)" : deck.title);
+  context.log.line("  {} bodies, {} nodes, {} cells, {} unknowns; {} subdomains on {} ranks; {} contacts", catalogue.bodies.size(), catalogue.node_count,
+                   catalogue.cell_count, catalogue.node_count * catalogue.dimension, decomposition.subdomain_count(), context.comm.size(), deck.contacts.size());
+}
+
+// --check: what would be solved.
+void print_check(const partition::Decomposition& decomposition, const std::vector<constraint::Held>& held, const constraint::Contacts& contacts,
+                 const Deck& deck, const Context& context)
+{
+  const auto& comm = context.comm;
+  long long unknowns = 0;
+  double factor_bytes = 0;
+  const int dimension = deck.dimension();
+  for (const auto& subdomain : decomposition.subdomains) {
+    const auto n = static_cast<double>(subdomain.mesh.node_count() * static_cast<std::size_t>(dimension));
+    unknowns += static_cast<long long>(n);
+    factor_bytes += dimension == 3 ? 8 * 5.0 * std::pow(n, 4.0 / 3) : 8 * 8.0 * n * std::log2(n + 1);  // nested dissection's growth, measured factor
+  }
+  const auto total = comm.sum(unknowns);
+  context.log.line("  {} unknowns in the subdomains, {} held components, {} contact points with {} rows", total, comm.sum(static_cast<long long>(held.size())),
+                   comm.sum(static_cast<long long>(contacts.points.size())), comm.sum(static_cast<long long>(contacts.rows.size())));
+  std::vector<double> points(deck.contacts.size(), 0.0);
+  for (const auto& point : contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
+  comm.sum_in_place(points);
+  for (std::size_t c = 0; c < points.size(); ++c)
+    context.log.line("  contact {}: {} points{}", deck.contacts[c].name, points[c], points[c] == 0 ? " - the surfaces do not face each other within the search distance" : "");
+  context.log.line("  memory expected: about {:.1f} GB", (comm.sum(factor_bytes) + 1500.0 * static_cast<double>(total)) / 1e9);
+}
+
+// Factorizes every subdomain.
+feti::Floating float_subdomains(const Deck& deck, const partition::Decomposition& decomposition, std::vector<SparseMatrix> stiffness, std::vector<Eigen::VectorXd> load,
+                                std::vector<std::vector<double>> nodal_stiffness, const Communicator& comm)
+{
+  feti::Floating floating{{}, std::move(load), std::move(nodal_stiffness)};
+  collectively(comm, [&] {
+    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+      const auto& points = decomposition.subdomains[s].mesh.points;
+      floating.subdomains.push_back(std::make_unique<feti::ElasticSubdomain>(std::move(stiffness[s]), fem::rigid_motions(points, deck.dimension()), points, deck.dimension(),
+                                                                             deck.solver.subdomains.factorization));
+    }
+  });
+  return floating;
+}
+
+// The rows of history.csv and the moving line.
+class History {
+ public:
+  History(const Deck& deck, const Context& context) : deck_(deck), context_(context) {}
+
+  void note(int step, double change, const qp::Progress& p)
+  {
+    if (p.what == "inner") {
+      context_.log.progress("  {}outer {}, {} products, gradient {:.1e}, equality {:.1e} (tolerance {:.1e})", step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer,
+                            p.multiplications, p.projected_gradient, p.equality, deck_.solver.programme.tolerance);
+      return;
+    }
+    const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
+    text_ += fmt::format("{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{}\n", p.what, step, p.outer, p.multiplications, p.projected_gradient, p.equality, change, p.precision, bounds, discs);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  const Deck& deck_;
+  const Context& context_;
+  std::string text_ = "stage,friction_step,outer_iteration,hessian_multiplications,projected_gradient,equality,slip_bound_change,precision,open,slipping\n";
+};
+
+}  // namespace
+
+ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& command_line, const Context& context)
+{
+  auto& [comm, log, timers] = context;
+  const double start = MPI_Wtime();
+  const auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
+  check_names(deck, document, decomposition.catalogue);
+  document.check();
+  print_header(deck, decomposition, context);
+  const auto stage = [&](const char* what, const char* name) { log.line("  {:<22} {:8.2f} s", what, comm.max(timers.seconds(name))); };
+  stage("mesh", "mesh");
+  stage("partition", "partition");
+  if (!command_line.check) io::prepare_directory(deck.output.directory, comm);
+
+  const Model model(deck, decomposition);
+  constraint::Constraints constraints;
+  std::vector<contact::Pair> pairs;
+  {
+    const auto scope = timers.scope("contact");
+    constraints.held = constraint::hold(deck.supports, model.support_nodes(), deck.dimension(), comm);
+    pairs = model.contact_pairs();
+    constraints.contacts = contact::discretize(pairs, constraints.held, deck.dimension(), comm);
+  }
+  stage("supports and contact", "contact");
+  if (command_line.check) {
+    print_check(decomposition, constraints.held, constraints.contacts, deck, context);
+    return ExitStatus::solved;
+  }
+
+  std::vector<SparseMatrix> stiffness;
+  std::vector<Eigen::VectorXd> load;
+  {
+    const auto scope = timers.scope("assembly");
+    collectively(comm, [&] { stiffness = model.stiffness(); });
+    load = model.loads(comm);
+  }
+  stage("assembly", "assembly");
+  std::vector<std::vector<double>> nodal_stiffness;
+  for (const auto& k : stiffness) nodal_stiffness.push_back(feti::nodal_stiffness(k, deck.dimension()));
+  const partition::NodeDirectory directory(decomposition, nodal_stiffness, comm);
+  const auto interface = partition::find_interface(decomposition, directory, comm);
+  feti::Floating floating;
+  {
+    const auto scope = timers.scope("factorization");
+    floating = float_subdomains(deck, decomposition, std::move(stiffness), std::move(load), std::move(nodal_stiffness), comm);
+  }
+  stage("factorization", "factorization");
+
+  History history(deck, context);
+  std::unique_ptr<feti::DualProblem> problem;
+  std::unique_ptr<friction::Result> solved;
+  {
+    const auto scope = timers.scope("solve");
+    problem = std::make_unique<feti::DualProblem>(decomposition, directory, interface, constraints, floating, context);
+    log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(), problem->kernel_dimension());
+    solved = std::make_unique<friction::Result>(friction::solve(*problem, model.friction_laws(), deck.friction_loop, deck.solver.programme,
+                                                                [&](int step, double change, const qp::Progress& p) { history.note(step, change, p); }));
+  }
+  log.end_progress();
+  stage("solve", "solve");
+
+  Results results = evaluate(deck, decomposition, model, interface, *problem, floating, *solved, context);
+  {
+    const auto scope = timers.scope("output");
+    write_fields(deck, decomposition, pairs, interface, *problem, *solved, results, comm);
+    collectively(comm, [&] {
+      if (!comm.root()) return;
+      io::write_text(deck.output.directory + "/history.csv", history.text());
+      io::write_text(deck.output.directory + "/deck.yaml", write_deck(deck));
+    });
+  }
+  stage("output", "output");
+  for (const auto& spread : timers.spread(comm)) results.summary.time[spread.stage] = spread.max;
+  results.summary.time["total"] = comm.max(MPI_Wtime() - start);
+  results.summary.peak_memory_bytes = comm.sum(static_cast<double>(peak_memory()));
+  collectively(comm, [&] {
+    if (comm.root()) io::write_text(deck.output.directory + "/summary.json", io::to_json(results.summary));
+  });
+  print(results, context);
+  log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", results.summary.time["total"], results.summary.peak_memory_bytes / 1e9, deck.output.directory);
+  return solved->converged ? ExitStatus::solved : ExitStatus::not_converged;
+}
+
+}  // namespace mortise

@@ -1,0 +1,239 @@
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "contact/mortar.hpp"
+#include "face_integrals.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+// A place covered by less than this part of its surroundings gets no multiplier.
+constexpr double least_cover = 0.05;
+
+using HeldNodes = std::map<Global, std::array<bool, 3>>;
+
+HeldNodes gather_held(std::span<const constraint::Held> held, const std::vector<Global>& nodes, const Communicator& comm)
+{
+  struct Pin {
+    Global node;
+    int component;
+  };
+  std::vector<Pin> pins;
+  for (const auto& h : held)
+    if (std::binary_search(nodes.begin(), nodes.end(), h.node)) pins.push_back({h.node, h.component});
+  HeldNodes result;
+  for (const auto& pin : comm.all_gather(pins)) result[pin.node][static_cast<std::size_t>(pin.component)] = true;
+  return result;
+}
+
+// The frame of a place: the tangents that supports leave free; nothing if the normal itself is held.
+struct Directions {
+  bool free_normal = true;
+  std::vector<Point> tangents;
+};
+
+Directions directions(const Point& normal, const std::array<bool, 3>& held, int dimension)
+{
+  Directions result;
+  Point free_part = normal;
+  std::vector<int> free;
+  for (int c = 0; c < dimension; ++c) {
+    if (held[static_cast<std::size_t>(c)])
+      free_part[c] = 0;
+    else
+      free.push_back(c);
+  }
+  if (free_part.norm() < 1e-6) {
+    result.free_normal = false;
+    return result;
+  }
+  if (dimension == 2) {
+    if (free.size() == 2) result.tangents.emplace_back(-normal[1], normal[0], 0);
+  } else if (free.size() == 3) {
+    Eigen::Index axis = 0;  // the axis that is most nearly tangential, the first of equals
+    for (int c = 1; c < 3; ++c)
+      if (std::abs(normal[c]) < std::abs(normal[axis]) - 1e-8) axis = c;
+    const Point first = (Point::Unit(axis) - normal[axis] * normal).normalized();
+    result.tangents = {first, normal.cross(first)};
+  } else if (free.size() == 2) {  // the free direction in the tangent plane
+    Point t = Point::Zero();
+    t[free[0]] = -free_part[free[1]];
+    t[free[1]] = free_part[free[0]];
+    result.tangents.push_back(t.normalized());
+  }
+  return result;
+}
+
+// One contact on its way from faces to rows.
+class Builder {
+ public:
+  Builder(const Pair& pair, int index, std::span<const constraint::Held> held, int dimension, const Communicator& comm)
+      : pair_(pair), index_(index), dimension_(dimension), comm_(comm), secondary_(gather(pair.secondary, comm)),
+        primary_(gather(pair.primary, comm)), places_(find_places(secondary_)), held_(gather_held(held, secondary_.node_id, comm))
+  {}
+
+  // Adds the rows of the places that this rank owns. Collective.
+  void add_rows(constraint::Contacts& contacts)
+  {
+    integrate_faces();
+    choose_places();
+    const auto terms = exchange_terms();
+    auto term = terms.begin();
+    for (std::size_t p = first_place(comm_.rank()); p < first_place(comm_.rank() + 1); ++p) {
+      const auto begin = term;
+      while (term != terms.end() && term->place == static_cast<Local>(p)) ++term;
+      if (kept_[p] && d_[static_cast<Eigen::Index>(p)] > 0) add_point(p, {begin, term}, contacts);
+    }
+  }
+
+ private:
+  std::size_t first_face(int rank) const { return secondary_.faces.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm_.size()); }
+  std::size_t first_place(int rank) const { return places_.all.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm_.size()); }
+  std::span<const Local> corner_places(std::size_t face) const
+  {
+    return std::span(places_.of_corner).subspan(static_cast<std::size_t>(secondary_.faces.offset[face]), secondary_.faces[face].size());
+  }
+
+  void integrate_faces()
+  {
+    const double reach = pair_.options.search_distance;
+    std::vector<Box> boxes;
+    for (std::size_t f = 0; f < primary_.faces.size(); ++f) {
+      const auto face = primary_.geometry(f);
+      Box box;
+      for (const auto& p : face.nodes) box.extend(p);
+      const Point margin = Point::Constant(reach > 0 ? 0.0 : face.size());
+      boxes.emplace_back(box.min() - margin, box.max() + margin);
+    }
+    const Tree tree(std::move(boxes));
+    for (std::size_t f = first_face(comm_.rank()); f < first_face(comm_.rank() + 1); ++f)
+      integrals_.push_back(integrate(secondary_, f, primary_, tree, reach));
+  }
+
+  // Which places carry a multiplier: covered enough, and not held along their normal.
+  void choose_places()
+  {
+    const auto count = static_cast<Eigen::Index>(places_.all.size());
+    Eigen::MatrixXd cover = Eigen::MatrixXd::Zero(count, 2);
+    for (std::size_t i = 0; i < integrals_.size(); ++i) {
+      const auto places = corner_places(first_face(comm_.rank()) + i);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        cover(places[k], 0) += integrals_[i].covered[static_cast<Eigen::Index>(k)];
+        cover(places[k], 1) += integrals_[i].whole[static_cast<Eigen::Index>(k)];
+      }
+    }
+    comm_.sum_in_place({cover.data(), static_cast<std::size_t>(cover.size())});
+    for (Eigen::Index p = 0; p < count; ++p) {
+      const auto& place = places_.all[static_cast<std::size_t>(p)];
+      directions_.push_back(directions(place.normal, held_at(place), dimension_));
+      kept_.push_back(directions_.back().free_normal && cover(p, 0) > least_cover * cover(p, 1));
+    }
+  }
+
+  std::array<bool, 3> held_at(const Place& place) const
+  {
+    const auto found = held_.find(secondary_.node_id[static_cast<std::size_t>(place.node)]);
+    return found == held_.end() ? std::array<bool, 3>{false, false, false} : found->second;
+  }
+
+  // Terms of this rank's places, ordered by place, side, node and face. Also sums D.
+  std::vector<Term> exchange_terms()
+  {
+    struct Sent {
+      Term term;
+      Global face;
+    };
+    std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm_.size()));
+    d_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places_.all.size()));
+    for (std::size_t i = 0; i < integrals_.size(); ++i) {
+      const std::size_t face = first_face(comm_.rank()) + i;
+      const auto places = corner_places(face);
+      std::vector<bool> kept;
+      for (const Local p : places) kept.push_back(kept_[static_cast<std::size_t>(p)]);
+      const auto rows = dual_rows(integrals_[i], kept, secondary_.faces[face], places);
+      for (std::size_t k = 0; k < places.size(); ++k) d_[places[k]] += rows.d[static_cast<Eigen::Index>(k)];
+      for (const auto& term : rows.terms) {
+        int rank = 0;
+        while (static_cast<std::size_t>(term.place) >= first_place(rank + 1)) ++rank;
+        send[static_cast<std::size_t>(rank)].push_back({term, static_cast<Global>(face)});
+      }
+    }
+    integrals_.clear();
+    comm_.sum_in_place({d_.data(), static_cast<std::size_t>(d_.size())});
+    std::vector<Sent> all;
+    for (const auto& part : comm_.exchange(send)) all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end(), [](const Sent& a, const Sent& b) {
+      return std::tie(a.term.place, a.term.on_primary, a.term.node, a.face) < std::tie(b.term.place, b.term.on_primary, b.term.node, b.face);
+    });
+    std::vector<Term> terms;
+    for (const auto& sent : all) {
+      if (!terms.empty() && terms.back().place == sent.term.place && terms.back().on_primary == sent.term.on_primary && terms.back().node == sent.term.node)
+        terms.back().value += sent.term.value;
+      else
+        terms.push_back(sent.term);
+    }
+    return terms;
+  }
+
+  void add_point(std::size_t p, std::span<const Term> terms, constraint::Contacts& contacts) const
+  {
+    const Place& place = places_.all[p];
+    const double d = d_[static_cast<Eigen::Index>(p)];
+    const bool bonded = pair_.options.law == Law::bonded;
+    constraint::ContactPoint point{index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, place.normal, {}, contacts.rows.size()};
+    if (pair_.options.law != Law::frictionless) point.tangents = directions_[p].tangents;
+
+    std::vector<Point> frame{place.normal};
+    frame.insert(frame.end(), point.tangents.begin(), point.tangents.end());
+    Point separation = Point::Zero();  // of the two sides in the mesh, weighted as the row is
+    double weight = 0;
+    for (const auto& term : terms) {
+      const Side& side = term.on_primary ? primary_ : secondary_;
+      separation -= term.value / d * side.points[static_cast<std::size_t>(term.node)];
+      if (!term.on_primary) weight += term.value / d;
+    }
+    point.weight = weight;
+    for (std::size_t axis = 0; axis < frame.size(); ++axis) {
+      for (const auto& term : terms) {
+        const Side& side = term.on_primary ? primary_ : secondary_;
+        if (std::abs(term.value) <= 1e-12 * d) continue;
+        for (int c = 0; c < dimension_; ++c)
+          if (std::abs(frame[axis][c]) > 1e-14)
+            contacts.rows.entries.push_back({side.node_id[static_cast<std::size_t>(term.node)], c, term.value / d * frame[axis][c]});
+      }
+      const bool gap = axis == 0 && !bonded;
+      contacts.rows.close(gap ? frame[0].dot(separation) - pair_.options.interference : 0.0);
+    }
+    contacts.points.push_back(std::move(point));
+    contacts.bonded.push_back(bonded);
+  }
+
+  const Pair& pair_;
+  int index_;
+  int dimension_;
+  const Communicator& comm_;
+  Side secondary_, primary_;
+  Places places_;
+  HeldNodes held_;
+  std::vector<FaceIntegrals> integrals_;  // of this rank's faces
+  std::vector<Directions> directions_;    // of each place
+  std::vector<bool> kept_;
+  Eigen::VectorXd d_;
+};
+
+}  // namespace
+
+constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, int dimension,
+                                const Communicator& comm)
+{
+  constraint::Contacts contacts;
+  for (std::size_t c = 0; c < pairs.size(); ++c) Builder(pairs[c], static_cast<int>(c), held, dimension, comm).add_rows(contacts);
+  return contacts;
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,39 @@
+// The integrals of one secondary face over its covered part, and its share of the rows.
+#pragma once
+
+#include <vector>
+
+#include "side.hpp"
+#include "tree.hpp"
+
+namespace mortise::contact {
+
+/// Of a face with n nodes.
+struct FaceIntegrals {
+  Eigen::MatrixXd mass;                             ///< integral phi_i phi_j, n x n
+  Eigen::VectorXd covered;                          ///< integral phi_i
+  Eigen::VectorXd whole;                            ///< the same over the whole face
+  std::vector<std::pair<Local, Eigen::VectorXd>> opposite;  ///< for each primary node met, integral phi_i phi^m, ascending nodes
+};
+
+/// Everything on the primary side that face `face` looks at within `reach` (0: chosen from the faces' sizes).
+FaceIntegrals integrate(const Side& secondary, std::size_t face, const Side& primary, const Tree& tree, double reach);
+
+/// One coefficient of the rows before they are divided by D: place, secondary or primary node, value.
+struct Term {
+  Local place;
+  Local node;
+  bool on_primary;
+  double value;
+};
+
+/// The dual basis psi of the face for the corners that are `kept`, applied to the integrals: terms of D and -M, and D_i of each kept corner
+/// (0 for the others). For a dropped corner d the others take over: psi = diag(D) N^-1 phi~ with phi~_k = phi_k + sum_d phi_d / (number kept),
+/// N_kj = integral phi~_k phi_j, which keeps biorthogonality among those kept and sum psi = 1.
+struct FaceRows {
+  Eigen::VectorXd d;
+  std::vector<Term> terms;
+};
+FaceRows dual_rows(const FaceIntegrals& integrals, const std::vector<bool>& kept, std::span<const Local> nodes, std::span<const Local> places);
+
+}  // namespace mortise::contact

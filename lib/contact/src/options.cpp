@@ -1,0 +1,84 @@
+#include "contact/options.hpp"
+
+#include <fmt/format.h>
+
+namespace mortise::contact {
+
+namespace {
+
+// friction: {coulomb: 0.3} | {tresca: 25} | {bonded: true}
+void read_friction(Options& contact, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits&)
+{
+  if (!node.IsMap() || node.size() != 1) {
+    document.error(path, "expected one of {coulomb: 0.3}, {tresca: 25.0} and {bonded: true}, found " + deck::found(node));
+    return;
+  }
+  const auto name = node.begin()->first.Scalar();
+  const auto value = node.begin()->second;
+  const auto at = path + "." + name;
+  document.locate(at, node.begin()->first);
+  deck::Limits not_negative;
+  not_negative.lower = 0;
+  if (name == "coulomb" || name == "tresca") {
+    contact.law = name == "coulomb" ? Law::coulomb : Law::tresca;
+    deck::Codec<double>::read(contact.friction, value, at, document, not_negative);
+  } else if (name == "bonded") {
+    bool bonded = false;
+    deck::Codec<bool>::read(bonded, value, at, document, {});
+    contact.law = bonded ? Law::bonded : Law::frictionless;
+  } else {
+    document.error(at, "unknown friction law" + deck::suggestion(name, {"coulomb", "tresca", "bonded"}));
+  }
+}
+
+YAML::Node write_friction(const Options& contact)
+{
+  YAML::Node node(YAML::NodeType::Map);
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  switch (contact.law) {
+    case Law::frictionless: return {};
+    case Law::tresca: node["tresca"] = deck::Codec<double>::write(contact.friction); break;
+    case Law::coulomb: node["coulomb"] = deck::Codec<double>::write(contact.friction); break;
+    case Law::bonded: node["bonded"] = true; break;
+  }
+  return node;
+}
+
+nlohmann::ordered_json friction_schema(const deck::Limits&)
+{
+  const nlohmann::ordered_json number{{"type", "number"}, {"minimum", 0}};
+  return {{"type", "object"},
+          {"properties", {{"coulomb", number}, {"tresca", number}, {"bonded", {{"type", "boolean"}}}}},
+          {"additionalProperties", false},
+          {"minProperties", 1},
+          {"maxProperties", 1}};
+}
+
+}  // namespace
+
+void describe(deck::Description<Options>& d)
+{
+  d.help("A pair of boundaries that may touch.");
+  d.key("name", &Options::name, "For results; secondary/primary if not given.");
+  d.key("secondary", &Options::secondary, "Boundary that carries the multipliers: the finer or softer side.").required();
+  d.custom(
+       "primary", "The boundary opposite.",
+       [](Options& contact, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits) {
+         if (node.IsMap())
+           document.error(path, "rigid obstacles are not available in this version of Mortise; expected the name of a boundary");
+         else
+           deck::Codec<std::string>::read(contact.primary, node, path, document, limits);
+       },
+       [](const Options& contact) { return YAML::Node(contact.primary); }, [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); })
+      .required();
+  d.custom("friction", "{coulomb: coefficient}, {tresca: slip bound as a traction} or {bonded: true}; absent: frictionless.", read_friction, write_friction,
+           friction_schema);
+  d.key("discretization", &Options::discretization, "mortar: dual multipliers, integrated segment by segment.").one_of({"mortar"}).not_yet({"node_to_segment"});
+  d.key("interference", &Options::interference, "Added overlap (press fit); negative opens a gap.");
+  d.key("search_distance", &Options::search_distance, "Surfaces farther apart than this never meet; 0 chooses the size of the faces.").at_least(0);
+  d.check([](const Options& contact, const std::string& path, deck::Document& document) {
+    if (contact.secondary == contact.primary) document.error(path, fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available", contact.primary));
+  });
+}
+
+}  // namespace mortise::contact

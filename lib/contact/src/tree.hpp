@@ -1,0 +1,32 @@
+// A bounding-volume tree: axis-aligned boxes, split at the median of their centres across the longest side.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <span>
+#include <vector>
+
+namespace mortise::contact {
+
+using Box = Eigen::AlignedBox3d;
+
+class Tree {
+ public:
+  explicit Tree(std::vector<Box> boxes);
+  /// Indices of all boxes that meet `box`, ascending.
+  std::vector<int> meeting(const Box& box) const;
+
+ private:
+  struct Branch {
+    Box box;
+    int begin, end;         // into order_
+    int left = -1, right = -1;
+  };
+  int build(int begin, int end);
+
+  std::vector<Box> boxes_;
+  std::vector<int> order_;
+  std::vector<Branch> branches_;
+};
+
+}  // namespace mortise::contact

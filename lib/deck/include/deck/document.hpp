@@ -1,0 +1,53 @@
+// A deck as text: YAML with line numbers, settings from the command line laid over it, and the errors found in it.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mortise::deck {
+
+/// Errors are collected, so that one run reports all that is wrong. A path looks like `contacts[0].friction.coulomb`.
+class Document {
+ public:
+  /// Parses `text` and lays `settings`, each "path=value" with a YAML value, over it. Throws Error(bad_input) where the text is no YAML,
+  /// is not a mapping, or a setting cannot be placed.
+  Document(const std::string& text, std::string file, const std::vector<std::string>& settings);
+
+  const YAML::Node& root() const { return root_; }
+  const std::string& file() const { return file_; }
+
+  /// Remembers where `path` stands.
+  void locate(const std::string& path, const YAML::Node& node);
+  /// Adds "file:line: path: message"; the line of the nearest enclosing path that is known.
+  void error(const std::string& path, const std::string& message);
+  /// Throws Error(bad_input) with all errors, in the order of lines, if there are any.
+  void check() const;
+  std::size_t error_count() const { return errors_.size(); }
+
+ private:
+  struct Complaint {
+    int line;
+    std::string text;
+  };
+  void set(const std::string& setting);
+
+  std::string file_;
+  YAML::Node root_;
+  std::map<std::string, int> lines_;       // path -> line, from 1; 0 for what --set created
+  std::map<std::string, std::string> set_; // path -> the setting that gave it its value
+  std::vector<Complaint> errors_;
+};
+
+/// The candidate that is nearest to `name` by edit distance, or "" if none is near.
+std::string nearest(const std::string& name, const std::vector<std::string>& candidates);
+
+/// `, did you mean "x"?` if something is near, and the list of candidates if it is short.
+std::string suggestion(const std::string& name, const std::vector<std::string>& candidates);
+
+/// How a node is shown in a message: its text in quotes, "a list" or "a mapping".
+std::string found(const YAML::Node& node);
+
+}  // namespace mortise::deck

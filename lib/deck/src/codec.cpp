@@ -1,0 +1,122 @@
+#include "deck/codec.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace mortise::deck {
+
+namespace {
+
+std::string expectation(const Limits& limits, const char* kind)
+{
+  std::string text = kind;
+  if (std::isfinite(limits.lower)) text += fmt::format(" {} {:g}", limits.strictly_above ? ">" : ">=", limits.lower);
+  if (std::isfinite(limits.upper)) text += fmt::format("{} {} {:g}", std::isfinite(limits.lower) ? " and" : "", limits.strictly_below ? "<" : "<=", limits.upper);
+  return text;
+}
+
+bool inside(double value, const Limits& limits)
+{
+  return (limits.strictly_above ? value > limits.lower : value >= limits.lower) && (limits.strictly_below ? value < limits.upper : value <= limits.upper);
+}
+
+nlohmann::ordered_json with_limits(nlohmann::ordered_json schema, const Limits& limits)
+{
+  if (std::isfinite(limits.lower)) schema[limits.strictly_above ? "exclusiveMinimum" : "minimum"] = limits.lower;
+  if (std::isfinite(limits.upper)) schema[limits.strictly_below ? "exclusiveMaximum" : "maximum"] = limits.upper;
+  return schema;
+}
+
+// yaml-cpp reads "1e-4" but also ".inf"; a whole scalar must be a finite number.
+bool number(const YAML::Node& node, double& value)
+{
+  return node.IsScalar() && YAML::convert<double>::decode(node, value) && std::isfinite(value);
+}
+
+}  // namespace
+
+void Codec<double>::read(double& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+{
+  double read = 0;
+  if (number(node, read) && inside(read, limits))
+    value = read;
+  else
+    document.error(path, fmt::format("expected {}, found {}", expectation(limits, "a number"), found(node)));
+}
+
+YAML::Node Codec<double>::write(double value) { return YAML::Node(fmt::format("{}", value)); }
+
+nlohmann::ordered_json Codec<double>::schema(const Limits& limits) { return with_limits({{"type", "number"}}, limits); }
+
+void Codec<int>::read(int& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+{
+  double read = 0;
+  if (number(node, read) && read == std::floor(read) && std::abs(read) <= std::numeric_limits<int>::max() && inside(read, limits))
+    value = static_cast<int>(read);
+  else
+    document.error(path, fmt::format("expected {}, found {}", expectation(limits, "a whole number"), found(node)));
+}
+
+nlohmann::ordered_json Codec<int>::schema(const Limits& limits) { return with_limits({{"type", "integer"}}, limits); }
+
+void Codec<bool>::read(bool& value, const YAML::Node& node, const std::string& path, Document& document, const Limits&)
+{
+  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) document.error(path, "expected true or false, found " + found(node));
+}
+
+void Codec<std::string>::read(std::string& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+{
+  if (!node.IsScalar()) {
+    document.error(path, "expected a word, found " + found(node));
+    return;
+  }
+  value = node.Scalar();
+  if (limits.names.empty() || std::find(limits.names.begin(), limits.names.end(), value) != limits.names.end()) return;
+  if (std::find(limits.future.begin(), limits.future.end(), value) != limits.future.end())
+    document.error(path, fmt::format("\"{}\" is not available in this version of Mortise (there {} {})", value, limits.names.size() == 1 ? "is" : "are", fmt::join(limits.names, ", ")));
+  else
+    document.error(path, fmt::format("unknown value \"{}\"{}", value, suggestion(value, limits.names)));
+}
+
+nlohmann::ordered_json Codec<std::string>::schema(const Limits& limits)
+{
+  nlohmann::ordered_json result{{"type", "string"}};
+  if (!limits.names.empty()) result["enum"] = limits.names;
+  return result;
+}
+
+void Codec<std::array<std::optional<double>, 3>>::read(Value& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+{
+  if (!node.IsMap() || node.size() == 0) {
+    document.error(path, "expected components such as {x: 0, y: 0}, found " + found(node));
+    return;
+  }
+  for (const auto& entry : node) {
+    const auto name = entry.first.Scalar();
+    const auto at = path + "." + name;
+    document.locate(at, entry.first);
+    const auto axis = std::string("xyz").find(name);
+    if (name.size() != 1 || axis == std::string::npos)
+      document.error(at, "unknown component, expected x, y or z");
+    else
+      Codec<double>::read(value[axis].emplace(), entry.second, at, document, limits);
+  }
+}
+
+YAML::Node Codec<std::array<std::optional<double>, 3>>::write(const Value& value)
+{
+  YAML::Node node(YAML::NodeType::Map);
+  for (std::size_t c = 0; c < 3; ++c)
+    if (value[c]) node[std::string(1, "xyz"[c])] = Codec<double>::write(*value[c]);
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  return node;
+}
+
+nlohmann::ordered_json Codec<std::array<std::optional<double>, 3>>::schema(const Limits& limits)
+{
+  const auto number = Codec<double>::schema(limits);
+  return {{"type", "object"}, {"properties", {{"x", number}, {"y", number}, {"z", number}}}, {"additionalProperties", false}, {"minProperties", 1}};
+}
+
+}  // namespace mortise::deck

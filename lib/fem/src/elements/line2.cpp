@@ -1,0 +1,7 @@
+#include "elements.hpp"
+
+namespace mortise::fem {
+
+Element line2() { return tabulate(1, 2, gauss2(1), multilinear(1, {{-1, 0, 0}, {1, 0, 0}})); }
+
+}  // namespace mortise::fem

@@ -1,0 +1,25 @@
+// results.h5: the numbers of a run, for comparison and restart, in an order that does not depend on the number of ranks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "base/types.hpp"
+
+namespace mortise::io {
+
+/// A table whose rows have global numbers 0 .. total-1, each on one rank; `columns` values a row.
+struct Table {
+  std::string name;         ///< e.g. "nodes/displacement"
+  std::string description;  ///< stored as the attribute "description"
+  int columns = 1;
+  Global total = 0;         ///< the same on every rank
+  std::vector<Global> row;  ///< numbers of this rank's rows
+  std::vector<double> values;
+};
+
+/// Writes all tables collectively: row i of the data set is the row with number i. Throws Error(machine) on all ranks. Collective.
+void write_results(const std::string& path, const std::vector<Table>& tables, const Communicator& comm);
+
+}  // namespace mortise::io

@@ -1,0 +1,42 @@
+// summary.json: what a run found and what it cost. Its fields are a promise to other programs.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace mortise::io {
+
+struct Summary {
+  std::string version, title;
+  bool converged = false;
+  int exit_status = 0, ranks = 1;
+  Global primal_unknowns = 0, dual_unknowns = 0, subdomains = 0, kernel_dimension = 0, bodies = 0;
+  int friction_steps = 0, outer_iterations = 0, hessian_multiplications = 0;
+  struct {
+    double projected_gradient = 0, equality = 0, equilibrium = 0, penetration = 0, complementarity = 0;
+  } residuals;
+  double strain_energy = 0, max_von_mises = 0, max_displacement = 0;
+  struct Reaction {
+    std::string boundary;
+    std::array<double, 3> force;
+  };
+  std::vector<Reaction> reactions;
+  struct Contact {
+    std::string name;
+    std::array<double, 3> force;
+    double max_pressure, area;
+    long long open, stick, slip;
+  };
+  std::vector<Contact> contacts;
+  std::map<std::string, double> time;  ///< seconds a stage, the largest over the ranks
+  double peak_memory_bytes = 0;        ///< summed over the ranks
+};
+
+/// The text of summary.json; numbers that are not finite become null.
+std::string to_json(const Summary& summary);
+
+}  // namespace mortise::io

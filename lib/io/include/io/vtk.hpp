@@ -1,0 +1,30 @@
+// Fields on meshes for ParaView, one piece a rank.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "mesh/cell.hpp"
+
+namespace mortise::io {
+
+/// Values by point or cell, `components` of each in a row; integers are stored as such.
+struct Field {
+  std::string name;
+  int components = 1;
+  std::vector<double> values;
+  bool integer = false;
+};
+
+struct Piece {
+  std::vector<Point> points;
+  mesh::Cells cells;
+  std::vector<Field> point_fields, cell_fields;  ///< the same names on every rank
+};
+
+/// Writes `name`_0.vtu, `name`_1.vtu ... (compressed), `name`.pvtu on several ranks, and last `name`.pvd, which opens them. Throws
+/// Error(machine) on all ranks if one fails. Collective.
+void write_vtk(const std::string& directory, const std::string& name, const Piece& piece, const Communicator& comm);
+
+}  // namespace mortise::io

@@ -1,0 +1,61 @@
+#include "io/summary.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace mortise::io {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+Json vector(const std::array<double, 3>& x) { return Json::array({number(x[0]), number(x[1]), number(x[2])}); }
+
+}  // namespace
+
+std::string to_json(const Summary& s)
+{
+  Json json{{"version", s.version},
+            {"title", s.title},
+            {"converged", s.converged},
+            {"exit_status", s.exit_status},
+            {"ranks", s.ranks},
+            {"primal_unknowns", s.primal_unknowns},
+            {"dual_unknowns", s.dual_unknowns},
+            {"subdomains", s.subdomains},
+            {"kernel_dimension", s.kernel_dimension},
+            {"bodies", s.bodies},
+            {"friction_steps", s.friction_steps},
+            {"outer_iterations", s.outer_iterations},
+            {"hessian_multiplications", s.hessian_multiplications}};
+  json["residuals"] = {{"projected_gradient", number(s.residuals.projected_gradient)},
+                       {"equality", number(s.residuals.equality)},
+                       {"equilibrium", number(s.residuals.equilibrium)},
+                       {"penetration", number(s.residuals.penetration)},
+                       {"complementarity", number(s.residuals.complementarity)}};
+  json["error_estimate"] = {{"discretization", nullptr}, {"algebraic", nullptr}};  // not estimated by this version
+  json["strain_energy"] = number(s.strain_energy);
+  json["max_von_mises"] = number(s.max_von_mises);
+  json["max_displacement"] = number(s.max_displacement);
+  json["reactions"] = Json::array();
+  for (const auto& r : s.reactions) json["reactions"].push_back({{"boundary", r.boundary}, {"force", vector(r.force)}});
+  json["contacts"] = Json::array();
+  for (const auto& c : s.contacts)
+    json["contacts"].push_back({{"name", c.name},
+                                {"force", vector(c.force)},
+                                {"max_pressure", number(c.max_pressure)},
+                                {"area", number(c.area)},
+                                {"open", c.open},
+                                {"stick", c.stick},
+                                {"slip", c.slip}});
+  json["time"] = Json::object();
+  for (const char* stage : {"total", "mesh", "partition", "assembly", "contact", "factorization", "solve", "multiplication", "output"}) {
+    const auto found = s.time.find(stage);
+    json["time"][stage] = found == s.time.end() ? Json(0.0) : number(found->second);
+  }
+  json["peak_memory_bytes"] = number(s.peak_memory_bytes);
+  return json.dump(1) + "\n";
+}
+
+}  // namespace mortise::io

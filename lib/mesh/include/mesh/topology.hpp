@@ -1,0 +1,42 @@
+// Who is whose neighbour: the faces of cells, matched by their nodes.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace mortise::mesh {
+
+/// A face of a cell, identified by its sorted nodes (unused places -1).
+struct CellFace {
+  std::array<Local, 4> nodes{-1, -1, -1, -1};
+  Local cell = 0;
+  int face = 0;
+};
+
+/// The sorted nodes of a face of up to four.
+std::array<Local, 4> face_key(std::span<const Local> nodes);
+
+/// All faces of all cells, ordered by nodes and then by cell, so that faces shared by two cells stand side by side.
+std::vector<CellFace> sorted_faces(const Cells& cells);
+
+/// For each cell the cells that share a face with it, ascending, in compressed rows.
+struct Neighbours {
+  std::vector<Local> offset{0};
+  std::vector<Local> cells;
+  std::span<const Local> operator[](std::size_t i) const
+  {
+    return {cells.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
+  }
+};
+Neighbours face_neighbours(const Cells& cells);
+
+/// Connected parts of the graph, where cells are connected only if `label` agrees: the part of each cell, numbered in the order of
+/// their smallest cells.
+std::vector<int> connected_parts(const Neighbours& neighbours, const std::vector<int>& label);
+
+/// The mesh of some cells of `mesh`, ascending indices: its nodes are those of the cells, its facets those whose parents are among them.
+Mesh submesh(const Mesh& mesh, std::span<const Local> cells);
+
+}  // namespace mortise::mesh

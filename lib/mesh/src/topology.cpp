@@ -1,0 +1,117 @@
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace mortise::mesh {
+
+std::array<Local, 4> face_key(std::span<const Local> nodes)
+{
+  std::array<Local, 4> key{-1, -1, -1, -1};
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::size_t at = i;
+    for (; at > 0 && key[at - 1] > nodes[i]; --at) key[at] = key[at - 1];
+    key[at] = nodes[i];
+  }
+  return key;
+}
+
+std::vector<CellFace> sorted_faces(const Cells& cells)
+{
+  std::size_t count = 0;
+  for (const auto type : cells.type) count += faces(type).size();
+  std::vector<CellFace> result;
+  result.reserve(count);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const auto nodes = cells[c];
+    const auto& table = faces(cells.type[c]);
+    for (std::size_t f = 0; f < table.size(); ++f) {
+      std::vector<Local> on;
+      for (const int i : table[f].nodes) on.push_back(nodes[static_cast<std::size_t>(i)]);
+      result.push_back({face_key(on), static_cast<Local>(c), static_cast<int>(f)});
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const CellFace& a, const CellFace& b) {
+    return std::tie(a.nodes, a.cell) < std::tie(b.nodes, b.cell);
+  });
+  return result;
+}
+
+Neighbours face_neighbours(const Cells& cells)
+{
+  const auto all = sorted_faces(cells);
+  std::vector<std::pair<Local, Local>> pairs;
+  for (std::size_t i = 0; i + 1 < all.size(); ++i)
+    if (all[i].nodes == all[i + 1].nodes) {
+      pairs.emplace_back(all[i].cell, all[i + 1].cell);
+      pairs.emplace_back(all[i + 1].cell, all[i].cell);
+    }
+  std::sort(pairs.begin(), pairs.end());
+  Neighbours result;
+  std::size_t next = 0;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (; next < pairs.size() && pairs[next].first == static_cast<Local>(c); ++next) result.cells.push_back(pairs[next].second);
+    result.offset.push_back(static_cast<Local>(result.cells.size()));
+  }
+  return result;
+}
+
+std::vector<int> connected_parts(const Neighbours& neighbours, const std::vector<int>& label)
+{
+  std::vector<int> part(label.size(), -1);
+  std::vector<Local> stack;
+  int count = 0;
+  for (std::size_t seed = 0; seed < label.size(); ++seed) {
+    if (part[seed] >= 0) continue;
+    part[seed] = count;
+    stack.push_back(static_cast<Local>(seed));
+    while (!stack.empty()) {
+      const auto cell = static_cast<std::size_t>(stack.back());
+      stack.pop_back();
+      for (const Local other : neighbours[cell]) {
+        const auto o = static_cast<std::size_t>(other);
+        if (part[o] >= 0 || label[o] != label[cell]) continue;
+        part[o] = count;
+        stack.push_back(other);
+      }
+    }
+    ++count;
+  }
+  return part;
+}
+
+Mesh submesh(const Mesh& mesh, std::span<const Local> cells)
+{
+  std::vector<Local> nodes;
+  for (const Local c : cells) nodes.insert(nodes.end(), mesh.cells[static_cast<std::size_t>(c)].begin(), mesh.cells[static_cast<std::size_t>(c)].end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto local = [&](Local n) { return static_cast<Local>(std::lower_bound(nodes.begin(), nodes.end(), n) - nodes.begin()); };
+
+  Mesh result;
+  for (const Local n : nodes) {
+    result.node_id.push_back(mesh.node_id[static_cast<std::size_t>(n)]);
+    result.points.push_back(mesh.points[static_cast<std::size_t>(n)]);
+  }
+  const auto add = [&](Cells& to, CellType type, std::span<const Local> from) {
+    std::vector<Local> renumbered;
+    for (const Local n : from) renumbered.push_back(local(n));
+    to.add(type, renumbered);
+  };
+  for (const Local c : cells) {
+    const auto i = static_cast<std::size_t>(c);
+    add(result.cells, mesh.cells.type[i], mesh.cells[i]);
+    result.cell_id.push_back(mesh.cell_id[i]);
+    result.cell_body.push_back(mesh.cell_body[i]);
+  }
+  for (std::size_t f = 0; f < mesh.facets.cells.size(); ++f) {
+    const auto parent = std::lower_bound(cells.begin(), cells.end(), mesh.facets.parent[f]);
+    if (parent == cells.end() || *parent != mesh.facets.parent[f]) continue;
+    add(result.facets.cells, mesh.facets.cells.type[f], mesh.facets.cells[f]);
+    result.facets.parent.push_back(static_cast<Local>(parent - cells.begin()));
+    result.facets.boundary.push_back(mesh.facets.boundary[f]);
+  }
+  return result;
+}
+
+}  // namespace mortise::mesh

@@ -1,0 +1,247 @@
+#include "partition/decompose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "mesh/blocks.hpp"
+#include "mesh/read.hpp"
+#include "mesh/topology.hpp"
+#include "transfer.hpp"
+
+namespace mortise::partition {
+
+namespace {
+
+// Contiguous ranges of subdomains with about the same sum of weights for each rank.
+std::vector<Global> deal(const std::vector<long long>& weight, int ranks)
+{
+  const auto total = static_cast<double>(std::accumulate(weight.begin(), weight.end(), 0LL));
+  std::vector<Global> first{0};
+  double sum = 0;
+  Global next = 0;
+  const auto count = static_cast<Global>(weight.size());
+  for (int r = 1; r < ranks; ++r) {
+    const double aim = total * r / ranks;
+    while (next < count && sum + 0.5 * static_cast<double>(weight[static_cast<std::size_t>(next)]) < aim) sum += static_cast<double>(weight[static_cast<std::size_t>(next++)]);
+    first.push_back(next);
+  }
+  first.push_back(count);
+  return first;
+}
+
+// How many subdomains each body gets.
+std::vector<int> subdomain_counts(const std::vector<long long>& nodes, int dimension, const Options& options)
+{
+  const double unknowns = dimension * static_cast<double>(std::accumulate(nodes.begin(), nodes.end(), 0LL));
+  const double aim = options.subdomains > 0 ? unknowns / options.subdomains : options.unknowns_per_subdomain;
+  std::vector<int> counts;
+  for (const long long n : nodes) counts.push_back(std::max(1, static_cast<int>(std::lround(dimension * static_cast<double>(n) / aim))));
+  return counts;
+}
+
+struct Share {
+  std::vector<Subdomain> subdomains;
+  std::vector<Global> first;
+};
+
+// Rank 0 cuts the whole mesh and sends each rank its part; the others pass an empty mesh.
+Share distribute(const mesh::Mesh& mesh, std::size_t bodies, int dimension, const Options& options, const Communicator& comm)
+{
+  std::vector<std::vector<Local>> cells;  // of each subdomain
+  std::vector<int> body_of;
+  std::vector<long long> weight;
+  collectively(comm, [&] {
+    if (!comm.root()) return;
+    std::vector<std::vector<Local>> of_body(bodies);
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) of_body[static_cast<std::size_t>(mesh.cell_body[c])].push_back(static_cast<Local>(c));
+    std::vector<mesh::Mesh> pieces;
+    std::vector<long long> nodes;
+    for (const auto& list : of_body) {
+      pieces.push_back(mesh::submesh(mesh, list));
+      nodes.push_back(static_cast<long long>(pieces.back().node_count()));
+    }
+    const auto counts = subdomain_counts(nodes, dimension, options);
+    for (std::size_t b = 0; b < bodies; ++b) {
+      const auto part = cut(pieces[b].cells, counts[b]);
+      const auto base = cells.size();
+      cells.resize(base + static_cast<std::size_t>(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end())));
+      for (std::size_t c = 0; c < part.size(); ++c) cells[base + static_cast<std::size_t>(part[c])].push_back(of_body[b][c]);
+      body_of.resize(cells.size(), static_cast<int>(b));
+      pieces[b] = {};
+    }
+    for (const auto& list : cells) weight.push_back(static_cast<long long>(list.size()));
+  });
+  comm.broadcast(weight);
+  Share share;
+  share.first = deal(weight, comm.size());
+  for (int rank = 0; rank < comm.size(); ++rank) {  // one rank after the other, so that rank 0 holds one copy at a time
+    std::vector<std::vector<char>> send(static_cast<std::size_t>(comm.size()));
+    if (comm.root())
+      for (Global s = share.first[static_cast<std::size_t>(rank)]; s < share.first[static_cast<std::size_t>(rank) + 1]; ++s)
+        pack({s, body_of[static_cast<std::size_t>(s)], mesh::submesh(mesh, cells[static_cast<std::size_t>(s)])}, send[static_cast<std::size_t>(rank)]);
+    const auto received = comm.exchange(send);
+    if (rank == comm.rank()) share.subdomains = unpack(received[0]);
+  }
+  return share;
+}
+
+// Grid indices where the i-th of `parts` pieces of `cells` cells begins.
+int grid_start(int cells, int parts, int i) { return static_cast<int>(static_cast<long long>(cells) * i / parts); }
+
+Share generate_grid(const mesh::Options& mesh, const Options& options, int dimension, const mesh::Catalogue& catalogue, const Communicator& comm)
+{
+  struct Box {
+    int body;
+    std::array<int, 3> first, last;
+  };
+  std::vector<Box> boxes;
+  std::vector<long long> weight;
+  for (int b = 0; b < static_cast<int>(catalogue.bodies.size()); ++b) {
+    const auto grid = mesh::grid_of(mesh, dimension, b);
+    auto parts = options.counts.at(catalogue.bodies[static_cast<std::size_t>(b)].name);
+    if (dimension == 2) parts[2] = 1;
+    for (int k = 0; k < parts[2]; ++k)
+      for (int j = 0; j < parts[1]; ++j)
+        for (int i = 0; i < parts[0]; ++i) {
+          const std::array<int, 3> at{i, j, k};
+          Box box{b, {}, {}};
+          long long cells = 1;
+          for (std::size_t c = 0; c < 3; ++c) {
+            box.first[c] = grid_start(grid[c], parts[c], at[c]);
+            box.last[c] = grid_start(grid[c], parts[c], at[c] + 1);
+            cells *= box.last[c] - box.first[c];
+          }
+          boxes.push_back(box);
+          weight.push_back(cells);
+        }
+  }
+  Share share;
+  share.first = deal(weight, comm.size());
+  const auto rank = static_cast<std::size_t>(comm.rank());
+  for (Global s = share.first[rank]; s < share.first[rank + 1]; ++s) {
+    const auto& box = boxes[static_cast<std::size_t>(s)];
+    share.subdomains.push_back({s, box.body, mesh::generate(mesh, dimension, box.body, box.first, box.last)});
+  }
+  return share;
+}
+
+// All blocks as one mesh.
+mesh::Mesh generate_whole(const mesh::Options& options, int dimension, const mesh::Catalogue& catalogue)
+{
+  mesh::Mesh whole;
+  const auto append = [](mesh::Cells& to, const mesh::Cells& from, Local base) {
+    for (std::size_t c = 0; c < from.size(); ++c) {
+      std::vector<Local> nodes(from[c].begin(), from[c].end());
+      for (auto& n : nodes) n += base;
+      to.add(from.type[c], nodes);
+    }
+  };
+  for (int b = 0; b < static_cast<int>(catalogue.bodies.size()); ++b) {
+    const auto piece = mesh::generate(options, dimension, b, {0, 0, 0}, mesh::grid_of(options, dimension, b));
+    const auto node_base = static_cast<Local>(whole.points.size()), cell_base = static_cast<Local>(whole.cells.size());
+    whole.node_id.insert(whole.node_id.end(), piece.node_id.begin(), piece.node_id.end());
+    whole.points.insert(whole.points.end(), piece.points.begin(), piece.points.end());
+    append(whole.cells, piece.cells, node_base);
+    whole.cell_id.insert(whole.cell_id.end(), piece.cell_id.begin(), piece.cell_id.end());
+    whole.cell_body.insert(whole.cell_body.end(), piece.cell_body.begin(), piece.cell_body.end());
+    append(whole.facets.cells, piece.facets.cells, node_base);
+    for (const Local parent : piece.facets.parent) whole.facets.parent.push_back(parent + cell_base);
+    whole.facets.boundary.insert(whole.facets.boundary.end(), piece.facets.boundary.begin(), piece.facets.boundary.end());
+  }
+  return whole;
+}
+
+void broadcast(mesh::Catalogue& catalogue, const Communicator& comm)
+{
+  const auto share = [&](std::string& text) { comm.broadcast(text); };
+  std::vector<long long> head{catalogue.dimension, static_cast<long long>(catalogue.bodies.size()), static_cast<long long>(catalogue.boundaries.size()),
+                              catalogue.node_count, catalogue.cell_count};
+  comm.broadcast(head);
+  catalogue.dimension = static_cast<int>(head[0]);
+  catalogue.bodies.resize(static_cast<std::size_t>(head[1]));
+  catalogue.boundaries.resize(static_cast<std::size_t>(head[2]));
+  catalogue.node_count = head[3];
+  catalogue.cell_count = head[4];
+  for (auto& body : catalogue.bodies) {
+    share(body.name);
+    share(body.group);
+  }
+  for (auto& boundary : catalogue.boundaries) share(boundary);
+}
+
+}  // namespace
+
+int Decomposition::rank_of(Global subdomain) const
+{
+  return static_cast<int>(std::upper_bound(first.begin(), first.end(), subdomain) - first.begin()) - 1;
+}
+
+Decomposition decompose(const mesh::Options& mesh, const Options& options, int dimension, const Context& context)
+{
+  const auto& comm = context.comm;
+  mesh::Assembly assembly;
+  const bool grid = options.method == "grid";
+  {
+    const auto scope = context.timers.scope("mesh");
+    collectively(comm, [&] {
+      if (mesh.file.empty()) {
+        assembly.catalogue = mesh::block_catalogue(mesh, dimension);
+        if (!grid && comm.root()) assembly.mesh = generate_whole(mesh, dimension, assembly.catalogue);
+      } else if (comm.root()) {
+        assembly = mesh::read(mesh, dimension);
+      }
+    });
+    broadcast(assembly.catalogue, comm);
+    for (const auto& warning : assembly.warnings) context.log.warning("{}: {}", mesh.file, warning);
+  }
+  const auto scope = context.timers.scope("partition");
+  auto share = grid ? generate_grid(mesh, options, dimension, assembly.catalogue, comm)
+                    : distribute(assembly.mesh, assembly.catalogue.bodies.size(), dimension, options, comm);
+  return {std::move(assembly.catalogue), std::move(share.subdomains), std::move(share.first)};
+}
+
+mesh::Surface boundary_surface(const Decomposition& decomposition, int boundary, const std::vector<bool>& on_body)
+{
+  mesh::Surface surface;
+  // Copies of a node in several subdomains are one node of the surface.
+  for (const auto& subdomain : decomposition.subdomains) {
+    if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+    const auto& facets = subdomain.mesh.facets;
+    for (std::size_t f = 0; f < facets.cells.size(); ++f)
+      if (facets.boundary[f] == boundary)
+        for (const Local n : facets.cells[f]) surface.node_id.push_back(subdomain.mesh.node_id[static_cast<std::size_t>(n)]);
+  }
+  std::sort(surface.node_id.begin(), surface.node_id.end());
+  surface.node_id.erase(std::unique(surface.node_id.begin(), surface.node_id.end()), surface.node_id.end());
+  surface.points.resize(surface.node_id.size());
+  for (const auto& subdomain : decomposition.subdomains) {
+    if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+    const auto& mesh = subdomain.mesh;
+    for (std::size_t f = 0; f < mesh.facets.cells.size(); ++f) {
+      if (mesh.facets.boundary[f] != boundary) continue;
+      std::vector<Local> face;
+      for (const Local n : mesh.facets.cells[f]) {
+        const auto node = static_cast<std::size_t>(n);
+        const auto at = std::lower_bound(surface.node_id.begin(), surface.node_id.end(), mesh.node_id[node]) - surface.node_id.begin();
+        face.push_back(static_cast<Local>(at));
+        surface.points[static_cast<std::size_t>(at)] = mesh.points[node];
+      }
+      surface.faces.add(mesh.facets.cells.type[f], face);
+      // A cell has at most six faces: its number and the face's place among them tell faces apart on every number of ranks.
+      const auto parent = static_cast<std::size_t>(mesh.facets.parent[f]);
+      const auto cell = mesh.cells[parent];
+      Local place = 0;
+      const auto& table = mesh::faces(mesh.cells.type[parent]);
+      for (std::size_t k = 0; k < table.size(); ++k)
+        if (cell[static_cast<std::size_t>(table[k].nodes[0])] == mesh.facets.cells[f][0] && cell[static_cast<std::size_t>(table[k].nodes[1])] == mesh.facets.cells[f][1])
+          place = static_cast<Local>(k);
+      surface.face_id.push_back(6 * mesh.cell_id[parent] + place);
+      surface.body.push_back(subdomain.body);
+    }
+  }
+  return surface;
+}
+
+}  // namespace mortise::partition

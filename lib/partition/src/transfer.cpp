@@ -1,0 +1,72 @@
+#include "transfer.hpp"
+
+#include <cstring>
+#include <type_traits>
+
+namespace mortise::partition {
+
+namespace {
+
+template <class T>
+void put(const std::vector<T>& values, std::vector<char>& bytes)
+{
+  const auto count = static_cast<unsigned long long>(values.size());
+  const auto at = bytes.size();
+  bytes.resize(at + sizeof count + count * sizeof(T));
+  std::memcpy(bytes.data() + at, &count, sizeof count);
+  if (count > 0) std::memcpy(bytes.data() + at + sizeof count, static_cast<const void*>(values.data()), count * sizeof(T));
+}
+
+template <class T>
+void get(std::vector<T>& values, const std::vector<char>& bytes, std::size_t& at)
+{
+  unsigned long long count = 0;
+  std::memcpy(&count, bytes.data() + at, sizeof count);
+  at += sizeof count;
+  values.resize(count);
+  if (count > 0) std::memcpy(static_cast<void*>(values.data()), bytes.data() + at, count * sizeof(T));
+  at += count * sizeof(T);
+}
+
+// Visits every vector of a subdomain in one fixed order.
+template <class S, class Visit>
+void for_each_part(S& subdomain, const Visit& visit)
+{
+  auto& mesh = subdomain.mesh;
+  visit(mesh.node_id);
+  visit(mesh.points);
+  for (auto* cells : {&mesh.cells, &mesh.facets.cells}) {
+    visit(cells->type);
+    visit(cells->offset);
+    visit(cells->nodes);
+  }
+  visit(mesh.cell_id);
+  visit(mesh.cell_body);
+  visit(mesh.facets.parent);
+  visit(mesh.facets.boundary);
+}
+
+}  // namespace
+
+void pack(const Subdomain& subdomain, std::vector<char>& bytes)
+{
+  put(std::vector<Global>{subdomain.id, subdomain.body}, bytes);
+  for_each_part(subdomain, [&](const auto& part) { put(part, bytes); });
+}
+
+std::vector<Subdomain> unpack(const std::vector<char>& bytes)
+{
+  std::vector<Subdomain> result;
+  for (std::size_t at = 0; at < bytes.size();) {
+    Subdomain subdomain;
+    std::vector<Global> head;
+    get(head, bytes, at);
+    subdomain.id = head[0];
+    subdomain.body = static_cast<int>(head[1]);
+    for_each_part(subdomain, [&](auto& part) { get(part, bytes, at); });
+    result.push_back(std::move(subdomain));
+  }
+  return result;
+}
+
+}  // namespace mortise::partition
