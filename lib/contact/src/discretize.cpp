@@ -74,7 +74,7 @@ class Builder {
  public:
   Builder(const Pair& pair, int index, std::span<const constraint::Held> held, int dimension, const Communicator& comm)
       : pair_(pair), index_(index), dimension_(dimension), comm_(comm), secondary_(gather(pair.secondary, comm)),
-        primary_(gather(pair.primary, comm)), places_(find_places(secondary_)), held_(gather_held(held, secondary_.node_id, comm))
+        primary_(gather(pair.primary, comm)), places_(find_places(secondary_)), primary_places_(find_places(primary_)), held_(gather_held(held, secondary_.node_id, comm))
   {}
 
   // Adds the rows of the places that this rank owns. Collective.
@@ -112,7 +112,7 @@ class Builder {
     }
     const Tree tree(std::move(boxes));
     for (std::size_t f = first_face(comm_.rank()); f < first_face(comm_.rank() + 1); ++f)
-      integrals_.push_back(integrate(secondary_, f, primary_, tree, reach));
+      integrals_.push_back(integrate(secondary_, places_, f, primary_, primary_places_, tree, reach));
   }
 
   // Which places carry a multiplier: covered enough, and not held along their normal.
@@ -150,13 +150,17 @@ class Builder {
     };
     std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm_.size()));
     d_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places_.all.size()));
+    rise_ = d_;
     for (std::size_t i = 0; i < integrals_.size(); ++i) {
       const std::size_t face = first_face(comm_.rank()) + i;
       const auto places = corner_places(face);
       std::vector<bool> kept;
       for (const Local p : places) kept.push_back(kept_[static_cast<std::size_t>(p)]);
       const auto rows = dual_rows(integrals_[i], kept, secondary_.faces[face], places);
-      for (std::size_t k = 0; k < places.size(); ++k) d_[places[k]] += rows.d[static_cast<Eigen::Index>(k)];
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        d_[places[k]] += rows.d[static_cast<Eigen::Index>(k)];
+        rise_[places[k]] += rows.rise[static_cast<Eigen::Index>(k)];
+      }
       for (const auto& term : rows.terms) {
         int rank = 0;
         while (static_cast<std::size_t>(term.place) >= first_place(rank + 1)) ++rank;
@@ -165,6 +169,7 @@ class Builder {
     }
     integrals_.clear();
     comm_.sum_in_place({d_.data(), static_cast<std::size_t>(d_.size())});
+    comm_.sum_in_place({rise_.data(), static_cast<std::size_t>(rise_.size())});
     std::vector<Sent> all;
     for (const auto& part : comm_.exchange(send)) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end(), [](const Sent& a, const Sent& b) {
@@ -207,7 +212,7 @@ class Builder {
             contacts.rows.entries.push_back({side.node_id[static_cast<std::size_t>(term.node)], c, term.value / d * frame[axis][c]});
       }
       const bool gap = axis == 0 && !bonded;
-      contacts.rows.close(gap ? frame[0].dot(separation) - pair_.options.interference : 0.0);
+      contacts.rows.close(gap ? frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d - pair_.options.interference : 0.0);
     }
     contacts.points.push_back(std::move(point));
     contacts.bonded.push_back(bonded);
@@ -218,12 +223,12 @@ class Builder {
   int dimension_;
   const Communicator& comm_;
   Side secondary_, primary_;
-  Places places_;
+  Places places_, primary_places_;
   HeldNodes held_;
   std::vector<FaceIntegrals> integrals_;  // of this rank's faces
   std::vector<Directions> directions_;    // of each place
   std::vector<bool> kept_;
-  Eigen::VectorXd d_;
+  Eigen::VectorXd d_, rise_;              // of each place: integral psi_i, and of psi_i times the bulge
 };
 
 }  // namespace

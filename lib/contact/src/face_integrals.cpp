@@ -23,11 +23,19 @@ Eigen::VectorXd whole_face(const FaceGeometry& face)
 
 }  // namespace
 
-FaceIntegrals integrate(const Side& secondary, std::size_t face, const Side& primary, const Tree& tree, double reach)
+FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, std::size_t face, const Side& primary, const Places& primary_places,
+                        const Tree& tree, double reach)
 {
+  const auto normals_of = [](const Side& side, const Places& places, std::size_t f) {
+    std::vector<Point> normals;
+    for (std::size_t k = 0; k < side.faces[f].size(); ++k)
+      normals.push_back(places.all[static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.faces.offset[f]) + k])].normal);
+    return normals;
+  };
+  const auto own_normals = normals_of(secondary, secondary_places, face);
   const FaceGeometry own = secondary.geometry(face);
   const auto n = static_cast<Eigen::Index>(own.nodes.size());
-  FaceIntegrals result{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), whole_face(own), {}};
+  FaceIntegrals result{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), whole_face(own), Eigen::VectorXd::Zero(n), {}};
   Box box;
   for (const auto& p : own.nodes) box.extend(p);
   // Boxes of the primary faces carry their own part of the default reach; see discretize().
@@ -38,11 +46,13 @@ FaceIntegrals integrate(const Side& secondary, std::size_t face, const Side& pri
   for (const int m : tree.meeting(box)) {
     const FaceGeometry other = primary.geometry(static_cast<std::size_t>(m));
     const auto nodes = primary.faces[static_cast<std::size_t>(m)];
+    const auto other_normals = normals_of(primary, primary_places, static_cast<std::size_t>(m));
     const double limit = reach > 0 ? reach : default_reach * std::max(own.size(), other.size());
     for (const auto& point : overlap(own, other, limit)) {
       const Eigen::VectorXd phi = point.secondary.head(n);
       result.mass += point.weight * phi * phi.transpose();
       result.covered += point.weight * phi;
+      result.rise += point.weight * (bulge(own, own_normals, point.secondary) + bulge(other, other_normals, point.primary)) * phi;
       for (std::size_t k = 0; k < nodes.size(); ++k)
         opposite.try_emplace(nodes[k], Eigen::VectorXd::Zero(n)).first->second += point.weight * point.primary[static_cast<Eigen::Index>(k)] * phi;
     }
@@ -56,7 +66,7 @@ FaceRows dual_rows(const FaceIntegrals& integrals, const std::vector<bool>& kept
   const auto n = static_cast<Eigen::Index>(nodes.size());
   std::vector<Eigen::Index> keep, drop;
   for (Eigen::Index i = 0; i < n; ++i) (kept[static_cast<std::size_t>(i)] ? keep : drop).push_back(i);
-  FaceRows rows{Eigen::VectorXd::Zero(n), {}};
+  FaceRows rows{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), {}};
   if (keep.empty() || integrals.covered.sum() <= 0) return rows;
 
   // phi~ = T phi.
@@ -86,9 +96,11 @@ FaceRows dual_rows(const FaceIntegrals& integrals, const std::vector<bool>& kept
     if (value != 0) rows.terms.push_back({places[static_cast<std::size_t>(keep[static_cast<std::size_t>(k)])], node, primary, value});
   };
   const Eigen::MatrixXd own = a * all;
+  const Eigen::VectorXd rise = a * (t * integrals.rise);
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto corner = keep[static_cast<std::size_t>(k)];
     rows.d[corner] = d[k];
+    rows.rise[corner] = rise[k];
     for (Eigen::Index j = 0; j < n; ++j)
       if (j == corner || std::abs(own(k, j)) > 1e-12 * d[k]) put(k, nodes[static_cast<std::size_t>(j)], false, own(k, j));
   }

@@ -13,11 +13,13 @@ struct FaceIntegrals {
   Eigen::MatrixXd mass;                             ///< integral phi_i phi_j, n x n
   Eigen::VectorXd covered;                          ///< integral phi_i
   Eigen::VectorXd whole;                            ///< the same over the whole face
+  Eigen::VectorXd rise;                             ///< integral phi_i (bulge of both faces)
   std::vector<std::pair<Local, Eigen::VectorXd>> opposite;  ///< for each primary node met, integral phi_i phi^m, ascending nodes
 };
 
 /// Everything on the primary side that face `face` looks at within `reach` (0: chosen from the faces' sizes).
-FaceIntegrals integrate(const Side& secondary, std::size_t face, const Side& primary, const Tree& tree, double reach);
+FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, std::size_t face, const Side& primary, const Places& primary_places,
+                        const Tree& tree, double reach);
 
 /// One coefficient of the rows before they are divided by D: place, secondary or primary node, value.
 struct Term {
@@ -32,6 +34,7 @@ struct Term {
 /// N_kj = integral phi~_k phi_j, which keeps biorthogonality among those kept and sum psi = 1.
 struct FaceRows {
   Eigen::VectorXd d;
+  Eigen::VectorXd rise;  ///< integral psi_i (bulge of both faces)
   std::vector<Term> terms;
 };
 FaceRows dual_rows(const FaceIntegrals& integrals, const std::vector<bool>& kept, std::span<const Local> nodes, std::span<const Local> places);

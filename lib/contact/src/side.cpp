@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace mortise::contact {
@@ -21,7 +22,61 @@ Point corner_normal(const FaceGeometry& face, std::size_t k)
   return next.cross(last) / (next.squaredNorm() * last.squaredNorm());
 }
 
+// Corrects the normals of places on a border; see find_places().
+void continue_curvature(const Side& side, Places& places)
+{
+  // Edges from place to place and how many faces have them.
+  std::map<std::pair<Local, Local>, int> edges;
+  for (std::size_t f = 0; f < side.faces.size(); ++f) {
+    const auto begin = static_cast<std::size_t>(side.faces.offset[f]), n = side.faces[f].size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const Local a = places.of_corner[begin + k], b = places.of_corner[begin + (k + 1) % n];
+      if (n == 2 && k == 1) continue;
+      ++edges[{a, b}];
+      ++edges[{b, a}];
+    }
+  }
+  const bool plane = side.faces.size() > 0 && side.faces.type[0] == mesh::CellType::line2;
+  std::vector<int> degree(places.all.size(), 0);
+  std::vector<bool> border(places.all.size(), false);
+  for (const auto& [edge, count] : edges) {
+    ++degree[static_cast<std::size_t>(edge.first)];
+    if (!plane && count == 1) border[static_cast<std::size_t>(edge.first)] = true;
+  }
+  if (plane)
+    for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
+
+  for (int sweep = 0; sweep < 10; ++sweep)
+    for (const auto& [edge, count] : edges) {
+      const auto a = static_cast<std::size_t>(edge.first), b = static_cast<std::size_t>(edge.second);
+      if (!border[a] || border[b]) continue;
+      auto& place = places.all[a];
+      const Place& inner = places.all[b];
+      const Point along = (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(place.node)]).normalized();
+      place.normal = (place.normal - (place.normal.dot(along) + inner.normal.dot(along)) * along).normalized();
+    }
+}
+
 }  // namespace
+
+double bulge(const FaceGeometry& face, std::span<const Point> normals, const Eigen::Vector4d& shape)
+{
+  const auto n = face.nodes.size();
+  const auto rise = [&](std::size_t i, std::size_t j) { return (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8; };
+  if (n == 2) return 4 * shape[0] * shape[1] * rise(0, 1);
+  double result = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+    if (n == 3) {
+      result += 4 * shape[a] * shape[b] * rise(i, j);
+    } else {  // on a quad N_i N_j = (1 - t^2)(1 + s)^2 / 16 along edge ij, whose own function is (1 - t^2)(1 + s) / 2
+      const double across = shape[a] + shape[b];
+      if (across > 1e-12) result += 4 * shape[a] * shape[b] / across * rise(i, j);
+    }
+  }
+  return result;
+}
 
 FaceGeometry Side::geometry(std::size_t face) const
 {
@@ -112,6 +167,7 @@ Places find_places(const Side& side)
       if (normal.squaredNorm() > 0) places.all.push_back({static_cast<Local>(n), normal.normalized()});
     }
   }
+  continue_curvature(side, places);
   return places;
 }
 

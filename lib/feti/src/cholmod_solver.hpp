@@ -43,7 +43,7 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
   bool loadA_impl(Amesos2::EPhase) { return true; }
 
   // The arrays of the CRS matrix, read as the compressed columns of its transpose.
-  Eigen::Map<const SparseMatrix> lower() const;
+  SparseMatrix lower() const;
 
   std::unique_ptr<Cholesky> factor_;
 };

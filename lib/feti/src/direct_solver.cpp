@@ -27,28 +27,28 @@ template <class Matrix, class Vector>
 const char* CholmodSolver<Matrix, Vector>::name = "CHOLMOD";
 
 template <class Matrix, class Vector>
-Eigen::Map<const SparseMatrix> CholmodSolver<Matrix, Vector>::lower() const
+SparseMatrix CholmodSolver<Matrix, Vector>::lower() const
 {
-  OrdinalView offsets, indices;
+  OrdinalView offsets, indices;  // copies or views, as Amesos2 sees fit: they live until the matrix is made
   ScalarView values;
   this->matrixA_->returnRowPtr_kokkos_view(offsets);
   this->matrixA_->returnColInd_kokkos_view(indices);
   this->matrixA_->returnValues_kokkos_view(values);
   const auto n = static_cast<Eigen::Index>(this->globalNumCols_);
-  return {n, n, static_cast<Eigen::Index>(this->globalNumNonZeros_), offsets.data(), indices.data(), values.data()};
+  return Eigen::Map<const SparseMatrix>(n, n, static_cast<Eigen::Index>(this->globalNumNonZeros_), offsets.data(), indices.data(), values.data());
 }
 
 template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::symbolicFactorization_impl()
 {
-  factor_ = std::make_unique<Cholesky>(SparseMatrix(lower()));
+  factor_ = std::make_unique<Cholesky>(lower());
   return 0;
 }
 
 template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::numericFactorization_impl()
 {
-  if (!factor_->factorize(SparseMatrix(lower()))) throw std::runtime_error("CHOLMOD: the matrix is not positive definite");
+  if (!factor_->factorize(lower())) throw std::runtime_error("CHOLMOD: the matrix is not positive definite");
   this->setNnzLU(factor_->factor_bytes() / sizeof(double));
   return 0;
 }

@@ -63,7 +63,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
   std::vector<double> bounds = slip_bounds(problem, laws, nullptr), previous_bounds;
   std::optional<qp::Solution> solution;
   double change = 1, previous_change = 1, damping = 1;
-  int step = 0, infeasible = 0, outer = 0;
+  int step = 0, stalled = 0, infeasible = 0, outer = 0;
   bool settled = false;
   while (true) {
     ++step;
@@ -91,8 +91,9 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
     change = step == 1 ? 1.0 : relative_change(wanted, bounds, problem.communicator());
     settled = step > 1 && change <= options.tolerance && tolerance <= solver.tolerance;
     if (settled || step >= options.max_steps || hessian.exhausted()) break;
-    // A fixed point that hardly contracts is most often one that swings: meet it half way.
-    if (step > 2 && change > 0.7 * previous_change) damping = std::max(0.5 * damping, 0.25);
+    // A fixed point that twice fails to contract is most often one that swings: meet it half way until it contracts again.
+    stalled = step > 2 && change > 0.9 * previous_change ? stalled + 1 : 0;
+    damping = stalled >= 2 ? 0.5 : std::min(1.0, 2 * damping);
     for (std::size_t i = 0; i < wanted.size(); ++i)
       if (!std::isinf(bounds[i])) wanted[i] = bounds[i] + damping * (wanted[i] - bounds[i]);
     previous_bounds = std::exchange(bounds, std::move(wanted));

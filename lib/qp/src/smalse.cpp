@@ -11,9 +11,12 @@ namespace mortise::qp {
 
 namespace {
 
+constexpr double start_precision = 0.25;  // M0; smaller than the usual 1, since the start is feasible and mu is known roughly
 constexpr double shrink_precision = 0.5;  // beta: M falls by this when the Lagrangian did not rise enough
 constexpr double start_accuracy = 0.1;    // eta, relative to ||P b||
 constexpr int max_outer_iterations = 1000;
+constexpr int start_steps = 3;           // gradient projections of a cold start
+constexpr double start_length = 1.5;     // their length, over ||P A P||
 
 // The problem divided by nrm = ||P A P|| and moved to x = x0 + z with a feasible x0:
 //     L(z, mu) = 1/2 z'(P A P / nrm + rho Q) z + z'P g0 / nrm + mu'S G z,   rho = 1,
@@ -60,7 +63,7 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
   }
   result.hessian_norm = start ? start->hessian_norm : projected_norm(hessian, equality);
   if (observer && !start) observer({"norm", 0, hessian.count()});
-  result.precision = start ? start->precision : 1;
+  result.precision = start ? start->precision : start_precision;
   Eigen::VectorXd nu = start && start->augmented.size() == equality.size() ? start->augmented
                                                                            : Eigen::VectorXd::Zero(equality.size());
   double norm = result.hessian_norm;
@@ -68,13 +71,27 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
   double size = relative_size(problem) / norm;
   if (size == 0) size = 1;
 
+  Vector constant(map);  // P (A x0 - b) / nrm
+  const auto renew = [&] {
+    hessian.apply(feasible.point, constant);
+    constant.update(-1, linear, 1);
+    equality.project(constant);
+    constant.scale(1 / norm);
+  };
+  renew();
+  // A cold start takes gradient projections on {G x = e} intersected with Omega, which cost one product each and, through the
+  // multipliers of the last projection, tell how hard the equality constraint pulls.
+  for (int step = 0; !start && step < start_steps; ++step) {
+    Vector moved(feasible.point, Teuchos::Copy);
+    moved.update(-start_length, constant, 1);
+    Projection next = project(moved, equality, set);
+    if (!next.found) break;
+    nu = next.nu / start_length;
+    feasible = std::move(next);
+    renew();
+  }
   const Vector origin(feasible.point, Teuchos::Copy);
   const FeasibleSet moved = set.shifted(view(origin));
-  Vector constant(map);  // P (A x0 - b) / nrm
-  hessian.apply(origin, constant);
-  constant.update(-1, linear, 1);
-  equality.project(constant);
-  constant.scale(1 / norm);
 
   AugmentedLagrangian lagrangian(problem, norm);
   const Product product = [&](const Vector& z, Vector& y) { lagrangian.apply(z, y); };
@@ -126,7 +143,7 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
   result.equality = residual / size;
 
   // Back to x = x0 + z, with what is left of G z removed exactly, and to nu of the unscaled problem.
-  result.x.update(1, point.x, 1);
+  result.x.update(1, origin, 1, point.x, 0);
   result.x.assign(project(result.x, equality, set).point);
   hessian.apply(result.x, result.gradient);
   result.gradient.update(-1, linear, 1);
