@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <memory>
 #include <tuple>
 
 #include "contact/mortar.hpp"
@@ -110,9 +112,29 @@ class Builder {
       const Point margin = Point::Constant(reach > 0 ? 0.0 : face.size());
       boxes.emplace_back(box.min() - margin, box.max() + margin);
     }
-    const Tree tree(std::move(boxes));
+    tree_ = std::make_unique<Tree>(std::move(boxes));
     for (std::size_t f = first_face(comm_.rank()); f < first_face(comm_.rank() + 1); ++f)
-      integrals_.push_back(integrate(secondary_, places_, f, primary_, primary_places_, tree, reach));
+      integrals_.push_back(integrate(secondary_, places_, f, primary_, primary_places_, *tree_, reach));
+  }
+
+  // The gap between the smooth surfaces at the node itself, along its normal. Its mean over the dual basis, which has negative parts, would
+  // see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch; that mean is left for nodes
+  // which look past the border of the primary side.
+  double gap_at(std::size_t p, double mean) const
+  {
+    const Place& place = places_.all[p];
+    const Point x = secondary_.points[static_cast<std::size_t>(place.node)];
+    const Point margin = Point::Constant(2 * std::abs(mean) + pair_.options.search_distance + 1e-9);  // the boxes have a margin of their own
+    double best = std::numeric_limits<double>::infinity();
+    for (const int m : tree_->meeting(Box(x - margin, x + margin))) {
+      const auto face = static_cast<std::size_t>(m);
+      const auto geometry = primary_.geometry(face);
+      const auto hit = shoot(x, place.normal, geometry);
+      if (!hit.found) continue;
+      const double gap = hit.distance - bulge(geometry, corner_normals(primary_, primary_places_, face), hit.shape);
+      if (std::abs(gap) < std::abs(best)) best = gap;
+    }
+    return std::isfinite(best) ? best : mean;
   }
 
   // Which places carry a multiplier: covered enough, and not held along their normal.
@@ -211,8 +233,10 @@ class Builder {
           if (std::abs(frame[axis][c]) > 1e-14)
             contacts.rows.entries.push_back({side.node_id[static_cast<std::size_t>(term.node)], c, term.value / d * frame[axis][c]});
       }
-      const bool gap = axis == 0 && !bonded;
-      contacts.rows.close(gap ? frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d - pair_.options.interference : 0.0);
+      if (axis == 0 && !bonded)
+        contacts.rows.close(weight * gap_at(p, (frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d) / weight) - weight * pair_.options.interference);
+      else
+        contacts.rows.close(0.0);
     }
     contacts.points.push_back(std::move(point));
     contacts.bonded.push_back(bonded);
@@ -225,6 +249,7 @@ class Builder {
   Side secondary_, primary_;
   Places places_, primary_places_;
   HeldNodes held_;
+  std::unique_ptr<Tree> tree_;            // of the primary faces
   std::vector<FaceIntegrals> integrals_;  // of this rank's faces
   std::vector<Directions> directions_;    // of each place
   std::vector<bool> kept_;

@@ -23,16 +23,18 @@ Eigen::VectorXd whole_face(const FaceGeometry& face)
 
 }  // namespace
 
+std::vector<Point> corner_normals(const Side& side, const Places& places, std::size_t face)
+{
+  std::vector<Point> normals;
+  for (std::size_t k = 0; k < side.faces[face].size(); ++k)
+    normals.push_back(places.all[static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.faces.offset[face]) + k])].normal);
+  return normals;
+}
+
 FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, std::size_t face, const Side& primary, const Places& primary_places,
                         const Tree& tree, double reach)
 {
-  const auto normals_of = [](const Side& side, const Places& places, std::size_t f) {
-    std::vector<Point> normals;
-    for (std::size_t k = 0; k < side.faces[f].size(); ++k)
-      normals.push_back(places.all[static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.faces.offset[f]) + k])].normal);
-    return normals;
-  };
-  const auto own_normals = normals_of(secondary, secondary_places, face);
+  const auto own_normals = corner_normals(secondary, secondary_places, face);
   const FaceGeometry own = secondary.geometry(face);
   const auto n = static_cast<Eigen::Index>(own.nodes.size());
   FaceIntegrals result{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), whole_face(own), Eigen::VectorXd::Zero(n), {}};
@@ -46,7 +48,7 @@ FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, s
   for (const int m : tree.meeting(box)) {
     const FaceGeometry other = primary.geometry(static_cast<std::size_t>(m));
     const auto nodes = primary.faces[static_cast<std::size_t>(m)];
-    const auto other_normals = normals_of(primary, primary_places, static_cast<std::size_t>(m));
+    const auto other_normals = corner_normals(primary, primary_places, static_cast<std::size_t>(m));
     const double limit = reach > 0 ? reach : default_reach * std::max(own.size(), other.size());
     for (const auto& point : overlap(own, other, limit)) {
       const Eigen::VectorXd phi = point.secondary.head(n);

@@ -21,6 +21,9 @@ struct FaceIntegrals {
 FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, std::size_t face, const Side& primary, const Places& primary_places,
                         const Tree& tree, double reach);
 
+/// The normals of the places at the corners of a face.
+std::vector<Point> corner_normals(const Side& side, const Places& places, std::size_t face);
+
 /// One coefficient of the rows before they are divided by D: place, secondary or primary node, value.
 struct Term {
   Local place;

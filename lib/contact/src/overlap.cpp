@@ -187,4 +187,24 @@ std::vector<OverlapPoint> overlap(const FaceGeometry& secondary, const FaceGeome
   return result;
 }
 
+Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face)
+{
+  constexpr double margin = 1e-6;  // of the face's size: rays on an edge hit one of its faces
+  if (direction.dot(face.normal()) > opposed) return {};
+  Frame frame{from, Point::Zero(), Point::Zero(), direction};
+  if (face.type == CellType::line2) {
+    frame.first = Point(-direction[1], direction[0], 0);
+  } else {
+    frame.first = direction.unitOrthogonal();
+    frame.second = direction.cross(frame.first);
+  }
+  std::vector<Plane> nodes;
+  for (const auto& p : face.nodes) nodes.push_back(frame.project(p));
+  Hit hit;
+  hit.shape = shape(face.type, locate(face.type, nodes, Plane::Zero()));
+  hit.found = hit.shape.head(static_cast<Eigen::Index>(nodes.size())).minCoeff() >= -margin;
+  hit.distance = height_at(face, frame, hit.shape);
+  return hit;
+}
+
 }  // namespace mortise::contact

@@ -30,4 +30,12 @@ struct OverlapPoint {
 /// (the distance is taken at the centre of the common part).
 std::vector<OverlapPoint> overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach);
 
+/// Where the line through `from` along the unit vector `direction` meets a face: the distance along it and the face's shape functions there.
+struct Hit {
+  bool found = false;
+  double distance = 0;
+  Eigen::Vector4d shape = Eigen::Vector4d::Zero();
+};
+Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face);
+
 }  // namespace mortise::contact

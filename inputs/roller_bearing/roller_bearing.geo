@@ -1,0 +1,85 @@
+// Cylindrical roller bearing: outer ring, inner ring and Z rollers without clearance, hexahedra swept along the axis z.
+// Rings have one sector a roller, with the middle of the sector on the roller, so that the sectors of the bore can be loaded one by one.
+DefineConstant[ Z = 16 ];                          // rollers; the first at the bottom (-y)
+DefineConstant[ bore = 30, F = 40, D = 54, OD = 65, width = 14 ]; // radii of bore, raceways and outside; width of all
+DefineConstant[ m = 16 ];                          // cells round a sector, even
+DefineConstant[ nr = 6, nz = 6, na = 10, nl = 4 ]; // cells through a ring, along the axis, round a quarter of a roller, from its core out
+
+R = (D - F) / 2; pitch = (D + F) / 2; sector = 2 * Pi / Z;
+Geometry.OldNewReg = 0;
+Mesh.ElementOrder = 1;
+
+c = newp; Point(c) = {0, 0, 0};
+
+Macro Ring   // r1, r2: radii; fills surfaces(), and inside() and outside() with its curves
+  p1() = {}; p2() = {}; radial() = {}; inside() = {}; outside() = {}; surfaces() = {};
+  For i In {0 : Z - 1}
+    a = -Pi / 2 + (i - 0.5) * sector;
+    p1(i) = newp; Point(p1(i)) = {r1 * Cos(a), r1 * Sin(a), 0};
+    p2(i) = newp; Point(p2(i)) = {r2 * Cos(a), r2 * Sin(a), 0};
+    radial(i) = newl; Line(radial(i)) = {p1(i), p2(i)};
+    Transfinite Curve {radial(i)} = nr + 1;
+  EndFor
+  For i In {0 : Z - 1}
+    j = (i + 1) % Z;
+    inside(i) = newl; Circle(inside(i)) = {p1(i), c, p1(j)};
+    outside(i) = newl; Circle(outside(i)) = {p2(i), c, p2(j)};
+    Transfinite Curve {inside(i), outside(i)} = m + 1;
+    loop = newll; Curve Loop(loop) = {radial(i), outside(i), -radial(j), -inside(i)};
+    surfaces(i) = news; Plane Surface(surfaces(i)) = {loop};
+    Transfinite Surface {surfaces(i)}; Recombine Surface {surfaces(i)};
+  EndFor
+Return
+
+r1 = bore; r2 = F; Call Ring;
+For i In {0 : Z - 1}
+  e() = Extrude {0, 0, width} { Surface{surfaces(i)}; Layers{nz}; Recombine; };
+  inner_volumes(i) = e(1); inner_raceway(i) = e(3); bore_faces(i) = e(5);
+EndFor
+
+r1 = D; r2 = OD; Call Ring;
+For i In {0 : Z - 1}
+  e() = Extrude {0, 0, width} { Surface{surfaces(i)}; Layers{nz}; Recombine; };
+  outer_volumes(i) = e(1); housing(i) = e(3); outer_raceway(i) = e(5);
+EndFor
+
+For i In {0 : Z - 1}
+  a = -Pi / 2 + i * sector;
+  x = pitch * Cos(a); y = pitch * Sin(a);
+  o = newp; Point(o) = {x, y, 0};
+  For k In {0 : 3}
+    b = a + Pi / 4 + k * Pi / 2;
+    q(k) = newp; Point(q(k)) = {x + 0.5 * R * Cos(b), y + 0.5 * R * Sin(b), 0};
+    s(k) = newp; Point(s(k)) = {x + R * Cos(b), y + R * Sin(b), 0};
+    spoke(k) = newl; Line(spoke(k)) = {q(k), s(k)};
+    Transfinite Curve {spoke(k)} = nl + 1;
+  EndFor
+  For k In {0 : 3}
+    n = (k + 1) % 4;
+    edge(k) = newl; Line(edge(k)) = {q(k), q(n)};
+    arc(k) = newl; Circle(arc(k)) = {s(k), o, s(n)};
+    Transfinite Curve {edge(k), arc(k)} = na + 1;
+    loop = newll; Curve Loop(loop) = {spoke(k), arc(k), -spoke(n), -edge(k)};
+    f = news; Plane Surface(f) = {loop};
+    Transfinite Surface {f}; Recombine Surface {f};
+    e() = Extrude {0, 0, width} { Surface{f}; Layers{nz}; Recombine; };
+    roller_volumes() += e(1); roller_faces() += e(3);
+  EndFor
+  loop = newll; Curve Loop(loop) = {edge(0), edge(1), edge(2), edge(3)};
+  f = news; Plane Surface(f) = {loop};
+  Transfinite Surface {f}; Recombine Surface {f};
+  e() = Extrude {0, 0, width} { Surface{f}; Layers{nz}; Recombine; };
+  roller_volumes() += e(1);
+EndFor
+
+Physical Volume("inner_ring") = {inner_volumes()};
+Physical Volume("outer_ring") = {outer_volumes()};
+Physical Volume("rollers") = {roller_volumes()};
+Physical Surface("inner_raceway") = {inner_raceway()};
+Physical Surface("outer_raceway") = {outer_raceway()};
+Physical Surface("housing") = {housing()};
+Physical Surface("roller_surface") = {roller_faces()};
+Physical Surface("bore_0") = {bore_faces(0)};
+Physical Surface("bore_1") = {bore_faces(1), bore_faces(Z - 1)};
+Physical Surface("bore_2") = {bore_faces(2), bore_faces(Z - 2)};
+Physical Surface("bore_3") = {bore_faces(3), bore_faces(Z - 3)};

@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Renders the fields of a run to a PNG file, off screen.
+
+    render.py OUTPUT_DIRECTORY PICTURE.png [--field von_mises] [--warp 100] [--view iso|x|y|z|-x|-y|-z] [--contact] [--edges] [--max VALUE]
+
+--contact shows the contact surfaces (fields contact_pressure, gap, slip, contact_status) instead of the volume; --warp multiplies the
+displacements; --max ends the colour scale, since peaks at edges and corners hide the rest.
+"""
+import argparse
+import pathlib
+
+import pyvista
+
+
+def load(directory, name):
+    dataset = pyvista.get_reader(str(directory / f"{name}.pvd")).read()
+    while isinstance(dataset, pyvista.MultiBlock):
+        dataset = dataset[0] if len(dataset) == 1 else dataset.combine()
+    return dataset
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("directory", type=pathlib.Path)
+    parser.add_argument("picture", type=pathlib.Path)
+    parser.add_argument("--field", default=None)
+    parser.add_argument("--warp", type=float, default=0.0)
+    parser.add_argument("--view", default="iso", choices=["iso", "x", "y", "z", "-x", "-y", "-z"])
+    parser.add_argument("--contact", action="store_true")
+    parser.add_argument("--edges", action="store_true")
+    parser.add_argument("--max", type=float, default=None)
+    arguments = parser.parse_args()
+
+    mesh = load(arguments.directory, "contact" if arguments.contact else "solution")
+    field = arguments.field or ("contact_pressure" if arguments.contact else "von_mises")
+    if field not in mesh.point_data:
+        parser.error(f"there is no point field {field}; there are {', '.join(mesh.point_data.keys())}")
+    if arguments.warp and "displacement" in mesh.point_data:
+        mesh = mesh.warp_by_vector("displacement", factor=arguments.warp)
+
+    plotter = pyvista.Plotter(off_screen=True, window_size=(1000, 750))
+    limits = None if arguments.max is None else (0, arguments.max)
+    plotter.add_mesh(mesh, scalars=field, cmap="viridis", show_edges=arguments.edges, clim=limits, line_width=0.5 if arguments.edges else None,
+                     scalar_bar_args={"title": field.replace("_", " ")})
+    plotter.set_background("white")
+    if arguments.view == "iso":
+        plotter.view_isometric()
+    else:
+        getattr(plotter, {"x": "view_yz", "y": "view_xz", "z": "view_xy"}[arguments.view[-1]])(negative=arguments.view.startswith("-"))
+    plotter.camera.zoom(1.2)
+    plotter.screenshot(str(arguments.picture))
+
+
+if __name__ == "__main__":
+    main()
