@@ -61,7 +61,7 @@ std::vector<std::string> names_of(const auto& map)
 void check_bodies(const Deck& deck, deck::Document& document)
 {
   for (const auto& [name, body] : deck.bodies)
-    if (!deck.materials.contains(body.material))
+    if (!body.material.empty() && !deck.materials.contains(body.material))
       document.error("bodies." + name + ".material", fmt::format("there is no material \"{}\"{}", body.material, deck::suggestion(body.material, names_of(deck.materials))));
   for (const auto& [name, block] : deck.mesh.blocks) {
     const bool plane = block.element == "quad4" || block.element == "tri3";

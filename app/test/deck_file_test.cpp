@@ -1,1 +1,142 @@
+// The deck as a whole, the decks under inputs/, and the command line.
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "command_line.hpp"
+#include "deck.hpp"
+
+namespace mortise {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path)
+{
+  std::ifstream stream(path);
+  std::ostringstream content;
+  content << stream.rdbuf();
+  return content.str();
+}
+
+std::vector<fs::path> example_decks()
+{
+  std::vector<fs::path> decks;
+  for (const auto& folder : {"inputs", "regression/cases"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(MORTISE_SOURCE_DIR) / folder))
+      if (entry.path().extension() == ".yaml") decks.push_back(entry.path());
+  return decks;
+}
+
+TEST(Decks, AllExamplesReadAndTheirWrittenFormReadsBackTheSame)
+{
+  ASSERT_GT(example_decks().size(), 7U);
+  for (const auto& path : example_decks()) {
+    SCOPED_TRACE(path);
+    deck::Document document(text_of(path), path.string(), {});
+    const auto deck = read_deck(document, "");
+    EXPECT_NO_THROW(document.check());
+    const auto written = write_deck(deck);
+    deck::Document again(written, path.string(), {});
+    const auto copy = read_deck(again, "");
+    EXPECT_NO_THROW(again.check());
+    EXPECT_EQ(write_deck(copy), written);
+  }
+}
+
+std::string complaints(const std::string& text, const std::vector<std::string>& settings = {})
+{
+  deck::Document document(text, "deck.yaml", settings);
+  read_deck(document, "");
+  try {
+    document.check();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const char* blocks = R"(mesh:
+  blocks:
+    a: {size: [1, 1, 1], cells: [2, 2, 2]}
+    b: {origin: [0, 0, 1], size: [1, 1, 1], cells: [2, 2, 2]}
+materials: {steel: {young_modulus: 1, poisson_ratio: 0.3}}
+bodies: {a: {material: steel}, b: {material: steel}}
+)";
+
+void expect_complaint(const std::string& text, const std::string& expected)
+{
+  EXPECT_NE(complaints(blocks + text).find(expected), std::string::npos) << complaints(blocks + text);
+}
+
+TEST(Decks, SectionsAreCheckedAgainstEachOther)
+{
+  EXPECT_EQ(complaints(blocks), "");
+  expect_complaint("decomposition: {method: grid, counts: {a: [2, 2, 2]}}\n", "the block \"b\" needs an entry");
+  expect_complaint("decomposition: {method: grid, counts: {a: [2, 2, 2], b: [3, 1, 1]}}\n", "expected 1 to 2 subdomains along x, found 3");
+  expect_complaint("loads: [{boundary: a.xmax, pressure: 1, force: [1, 0, 0]}]\n", "exactly one of pressure, traction, force and acceleration, found 2");
+  expect_complaint("loads: [{boundary: a.xmax, acceleration: [1, 0, 0]}]\n", "an acceleration acts on a `body`");
+  expect_complaint("contacts: auto\n", "`auto` is not available");
+  expect_complaint("contacts: [{secondary: a.zmax, primary: {plane: {}}}]\n", "rigid obstacles are not available");
+  expect_complaint("contacts: [{secondary: a.zmax, primary: a.zmax}]\n", "same boundary");
+  expect_complaint("contacts: [{secondary: a.zmax, primary: b.zmin}, {secondary: a.zmax, primary: b.zmin}]\n", "two contacts are called");
+  expect_complaint("contacts: [{secondary: a.zmax, primary: b.zmin, friction: {coulomb: -1}}]\n", "expected a number >= 0");
+  expect_complaint("dimension: plane_strain\n", "does not fit a model of dimension 2");
+  expect_complaint("dimension: axisymmetric\n", "not available in this version");
+  expect_complaint("steps: []\n", "not available in this version");
+}
+
+TEST(Decks, NamesAreCheckedAgainstTheMesh)
+{
+  deck::Document document(std::string(blocks) + "supports: [{boundary: a.zmn, displacement: {z: 0}}, {boundary: 'c:a.zmin', displacement: {z: 0}}]\nloads: [{body: a, acceleration: [0, 0, 1]}]\n",
+                          "deck.yaml", {});
+  const auto deck = read_deck(document, "");
+  mesh::Catalogue catalogue;
+  catalogue.bodies = {{"a", "a"}, {"bb", "bb"}};
+  catalogue.boundaries = {"a.zmin"};
+  check_names(deck, document, catalogue);
+  try {
+    document.check();
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    for (const char* expected : {"the mesh has no body \"b\", did you mean \"bb\"?", "the body \"bb\" of the mesh has no entry", "the mesh has no boundary \"a.zmn\", did you mean \"a.zmin\"?",
+                                 "the mesh has no body \"c\"", "needs a density > 0"})
+      EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
+  }
+}
+
+TEST(Decks, SchemaIsJsonWithEverySection)
+{
+  const auto schema = nlohmann::json::parse(deck_schema());
+  for (const char* section : {"title", "dimension", "mesh", "materials", "bodies", "supports", "loads", "contacts", "decomposition", "solver", "friction_loop", "output"})
+    EXPECT_TRUE(schema["properties"].contains(section)) << section;
+  EXPECT_TRUE(schema["properties"]["solver"]["properties"].contains("factorization"));
+}
+
+Parsed parse(std::vector<const char*> words)
+{
+  words.insert(words.begin(), "mortise");
+  return parse_command_line(static_cast<int>(words.size()), words.data());
+}
+
+TEST(CommandLine, KnowsItsOptions)
+{
+  const auto parsed = parse({"a.yaml", "--set", "solver.tolerance=1e-6", "--set", "title=x", "--output", "out", "--check"});
+  ASSERT_TRUE(parsed.command_line);
+  EXPECT_EQ(parsed.command_line->deck, "a.yaml");
+  EXPECT_EQ(parsed.command_line->settings, (std::vector<std::string>{"solver.tolerance=1e-6", "title=x"}));
+  EXPECT_EQ(parsed.command_line->output, "out");
+  EXPECT_TRUE(parsed.command_line->check);
+  EXPECT_EQ(parse({"--help"}).status, 0);
+  EXPECT_NE(parse({"--version"}).text.find("mortise "), std::string::npos);
+  EXPECT_EQ(parse({}).status, 1);
+  EXPECT_EQ(parse({"a.yaml", "--frobnicate"}).status, 1);
+  EXPECT_EQ(parse({"a.yaml", "b.yaml"}).status, 1);
+}
+
+}  // namespace
+}  // namespace mortise

@@ -1,1 +1,172 @@
+// The dual problem of a cube cut into eight, glued and held on one face: its rows, its operator, and its solution against a direct solve.
+#include "feti/dual_problem.hpp"
+
 #include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "base/error.hpp"
+#include "constraint/supports.hpp"
+#include "fem/loads.hpp"
+#include "fem/stiffness.hpp"
+#include "partition/decompose.hpp"
+#include "qp/smalse.hpp"
+
+namespace mortise::feti {
+namespace {
+
+constexpr int cells = 4;
+
+struct Cube {
+  Communicator comm;
+  Timers timers;
+  Log log{comm, nullptr};
+  Context context{comm, log, timers};
+  partition::Decomposition decomposition;
+  std::unique_ptr<partition::NodeDirectory> directory;
+  partition::Interface interface;
+  Floating floating;
+  constraint::Constraints constraints;
+
+  // Young's modulus jumps from subdomain to subdomain by `jump`. Held at z = 0, unless it floats; pulled at z = 1.
+  explicit Cube(double jump, bool held, const MPI_Comm mpi = MPI_COMM_WORLD) : comm(mpi)
+  {
+    mesh::Options mesh;
+    mesh::BlockOptions block;
+    block.cells = {cells, cells, cells};
+    mesh.blocks["cube"] = block;
+    partition::Options options;
+    options.method = "grid";
+    options.counts["cube"] = {2, 2, 2};
+    decomposition = partition::decompose(mesh, options, 3, context);
+    std::vector<Global> bottom;
+    std::vector<SparseMatrix> stiffness;
+    for (const auto& s : decomposition.subdomains) {
+      const double e = (s.id + s.id / 2 + s.id / 4) % 2 == 0 ? 1.0 : jump;
+      stiffness.push_back(fem::stiffness(s.mesh, {e, 0.3, 0, 0}, fem::Kinematics::solid));
+      floating.nodal_stiffness.push_back(nodal_stiffness(stiffness.back(), 3));
+      floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.back().cols()));
+      fem::add_traction(s.mesh, 5, 3, Point(0.1, 0, 1), floating.load.back());
+      floating.subdomains.push_back(std::make_unique<ElasticSubdomain>(stiffness.back(), fem::rigid_motions(s.mesh.points, 3), s.mesh.points, 3, "cholmod"));
+    }
+    directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
+    interface = partition::find_interface(decomposition, *directory, comm);
+    const std::vector<constraint::SupportOptions> supports{{"cube.zmin", {0, 0, 0.25}}};
+    const auto surface = partition::boundary_surface(decomposition, 4, {true});
+    if (held) constraints.held = constraint::hold(supports, std::vector<std::vector<Global>>{surface.node_id}, 3, comm);
+  }
+};
+
+TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
+{
+  const Cube cube(1e6, true, MPI_COMM_SELF);
+  const JumpOperator jump(cube.decomposition, *cube.directory, cube.interface, cube.constraints.held, {}, {}, cube.comm);
+  int unknowns = 0;
+  for (const auto& w : cube.floating.nodal_stiffness) unknowns += 3 * static_cast<int>(w.size());
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(jump.rows()->getGlobalNumElements()), unknowns);
+  int base = 0;
+  for (std::size_t s = 0; s < jump.blocks().size(); ++s) {
+    const auto& block = jump.blocks()[s];
+    for (std::size_t r = 0; r < block.row.size(); ++r)
+      for (std::size_t i = block.offset[r]; i < block.offset[r + 1]; ++i)
+        b(block.row[r], base + block.unknown[i]) = block.coefficient[i] / std::sqrt(cube.floating.nodal_stiffness[s][static_cast<std::size_t>(block.unknown[i] / 3)]);
+    base += block.size;
+  }
+  EXPECT_LT((b * b.transpose() - Eigen::MatrixXd::Identity(b.rows(), b.rows())).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
+{
+  const Cube cube(100, true);
+  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.context);
+  const auto map = problem.hessian().getDomainMap();
+  Vector x(map), y(map), fx(map), fy(map);
+  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) {
+    view(x)[i] = std::sin(static_cast<double>(map->getGlobalElement(i)));
+    view(y)[i] = std::cos(3.0 * static_cast<double>(map->getGlobalElement(i)));
+  }
+  problem.hessian().apply(x, fx);
+  problem.hessian().apply(y, fy);
+  EXPECT_NEAR(y.dot(fx), x.dot(fy), 1e-9 * std::abs(x.dot(fx)) + 1e-12);
+  auto forces = problem.jump().apply_transpose(x);
+  double product = 0;
+  std::vector<Eigen::VectorXd> u;
+  for (auto& f : forces) {
+    u.push_back(Eigen::VectorXd::LinSpaced(f.size(), -1, 2));
+    product += f.dot(u.back());
+  }
+  EXPECT_NEAR(cube.comm.sum(product), problem.jump().apply(u).dot(x), 1e-9 * std::abs(product) + 1e-10);
+}
+
+// Against the assembled system solved at once, for equal and for very different subdomains, with few products for both.
+TEST(DualProblem, SolutionIsThatOfTheAssembledSystem)
+{
+  for (const double jump : {1.0, 1e6}) {
+    Cube cube(jump, true);
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.context);
+    qp::Hessian hessian(problem.hessian(), 1000);
+    const qp::Solution solution = qp::smalse({hessian, problem.linear(), problem.equality(), problem.set()}, {}, 1e-10, {});
+    ASSERT_TRUE(solution.converged);
+    EXPECT_LT(hessian.count(), 120);
+    const auto u = problem.displacement(solution.x, solution.nu);
+
+    const Cube whole(jump, true, MPI_COMM_SELF);  // every rank assembles it whole
+    const auto nodes = static_cast<Eigen::Index>(whole.decomposition.catalogue.node_count);
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(3 * nodes, 3 * nodes);
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * nodes);
+    for (std::size_t s = 0; s < whole.decomposition.subdomains.size(); ++s) {
+      const auto& id = whole.decomposition.subdomains[s].mesh.node_id;
+      const auto unknown = [&](Eigen::Index i) { return 3 * id[static_cast<std::size_t>(i / 3)] + i % 3; };
+      const auto size = whole.floating.subdomains[s]->size();
+      for (Eigen::Index j = 0; j < size; ++j) {
+        const Eigen::VectorXd column = whole.floating.subdomains[s]->apply(Eigen::VectorXd::Unit(size, j));
+        for (Eigen::Index i = 0; i < size; ++i) k(unknown(i), unknown(j)) += column[i];
+        f[unknown(j)] += whole.floating.load[s][j];
+      }
+    }
+    for (const auto& h : whole.constraints.held) {
+      const auto i = 3 * h.node + h.component;
+      f -= k.col(i) * h.value;
+      k.row(i).setZero();
+      k.col(i).setZero();
+      k(i, i) = 1;
+      f[i] = h.value;
+    }
+    for (const auto& h : whole.constraints.held) f[3 * h.node + h.component] = h.value;
+    const Eigen::VectorXd expected = k.ldlt().solve(f);
+    for (std::size_t s = 0; s < u.size(); ++s)
+      for (std::size_t n = 0; n < cube.decomposition.subdomains[s].mesh.node_count(); ++n)
+        EXPECT_LT((u[s].segment<3>(static_cast<Eigen::Index>(3 * n)) - expected.segment<3>(3 * cube.decomposition.subdomains[s].mesh.node_id[n])).norm(), 1e-6 * expected.norm());
+    EXPECT_LT(problem.imbalance(u, solution.x), 1e-9);
+  }
+}
+
+TEST(DualProblem, AFloatingBodyThatIsPulledIsNamed)
+{
+  const Cube cube(1, false);
+  try {
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.context);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);
+    EXPECT_NE(std::string(error.what()).find("body \"cube\" moves along"), std::string::npos) << error.what();
+  }
+}
+
+TEST(DualProblem, AFloatingBodyThatNothingPullsIsGauged)
+{
+  Cube cube(1, false);
+  for (auto& f : cube.floating.load) f.setZero();
+  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.context);
+  EXPECT_EQ(cube.comm.sum(static_cast<long long>(problem.jump().ranges().end - problem.jump().ranges().extra)), 6);
+}
+
+TEST(RigidMotion, IsDescribedInWords)
+{
+  EXPECT_EQ(describe({0, Point(1, 2, 3), Point(0, -2, 0), Point::Zero()}, 1), "moves along (0, -1, 0)");
+  // A turn about the axis x = 2, y = 0: the centre at the origin moves along -y.
+  EXPECT_EQ(describe({0, Point::Zero(), Point(0, -2, 0), Point(0, 0, 1)}, 1), "rotates about the axis through (2, 0, 0) along (0, 0, 1)");
+}
+
+}  // namespace
+}  // namespace mortise::feti

@@ -1,1 +1,62 @@
+#include "feti/subdomain_operator.hpp"
+
 #include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "fem/stiffness.hpp"
+#include "mesh/blocks.hpp"
+
+namespace mortise::feti {
+namespace {
+
+mesh::Mesh block(std::array<int, 3> cells, std::array<double, 3> size)
+{
+  mesh::Options options;
+  mesh::BlockOptions box;
+  box.cells = cells;
+  box.size = size;
+  options.blocks["box"] = box;
+  return mesh::generate(options, 3, 0, {0, 0, 0}, cells);
+}
+
+class Inverse : public testing::TestWithParam<std::tuple<std::string, std::array<double, 3>>> {};
+
+// K K^+ f = f for every f in the image of K, whatever the shape of the subdomain; K K^+ K = K is the same statement.
+TEST_P(Inverse, IsAGeneralisedInverse)
+{
+  const auto& [factorization, size] = GetParam();
+  const auto mesh = block({4, 3, 3}, size);
+  const auto k = fem::stiffness(mesh, {2e5, 0.3, 0, 0}, fem::Kinematics::solid);
+  const ElasticSubdomain subdomain(k, fem::rigid_motions(mesh.points, 3), mesh.points, 3, factorization);
+  Eigen::MatrixXd u = Eigen::MatrixXd::Random(subdomain.size(), 3), f(subdomain.size(), 3), x(subdomain.size(), 3);
+  for (int c = 0; c < 3; ++c) f.col(c) = subdomain.apply(u.col(c));
+  subdomain.apply_inverse(f.data(), x.data(), 3);
+  for (int c = 0; c < 3; ++c) EXPECT_LT((subdomain.apply(x.col(c)) - f.col(c)).norm(), 1e-9 * f.col(c).norm());
+  EXPECT_LT(subdomain.apply(subdomain.kernel().col(5)).norm(), 1e-9 * k.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Inverse,
+                         testing::Combine(testing::Values("cholmod", "klu2"),
+                                          testing::Values(std::array<double, 3>{1, 1, 1}, std::array<double, 3>{100, 1, 1}, std::array<double, 3>{50, 50, 1})));
+
+TEST(FixingNodes, AreFewForACompactSubdomain)
+{
+  const auto mesh = block({6, 6, 6}, {1, 1, 1});
+  const auto nodes = fixing_nodes(mesh.points, fem::rigid_motions(mesh.points, 3), 3);
+  EXPECT_GE(nodes.size(), 3U);
+  EXPECT_LE(nodes.size(), 8U);
+}
+
+TEST(DirectSolver, RefusesWhatIsNotPositiveDefinite)
+{
+  SparseMatrix a(2, 2);
+  a.insert(0, 0) = 1;
+  a.insert(1, 0) = 2;
+  a.insert(1, 1) = 1;
+  a.makeCompressed();
+  EXPECT_THROW(DirectSolver("cholmod", a), Error);
+  EXPECT_THROW(DirectSolver("pencil", a), Error);
+}
+
+}  // namespace
+}  // namespace mortise::feti

@@ -1,1 +1,141 @@
+// Files of every format are written by gmsh and read back.
+#include "mesh/read.hpp"
+
+#include <gmsh.h>
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.hpp"
+
+namespace mortise::mesh {
+namespace {
+
+std::string path(const std::string& name)
+{
+  const auto directory = std::filesystem::temp_directory_path() / ("mortise_read_test_" + std::to_string(getpid()));
+  std::filesystem::create_directories(directory);
+  return (directory / name).string();
+}
+
+std::string geo(const std::string& name, const std::string& text)
+{
+  std::ofstream(path(name)) << text;
+  return path(name);
+}
+
+// Two unit cubes side by side that share the nodes of the face between them, each a body.
+const char* two_cubes = R"(
+SetFactory("OpenCASCADE");
+DefineConstant[ n = 2 ];
+Box(1) = {0, 0, 0, 1, 1, 1};
+Box(2) = {1, 0, 0, 1, 1, 1};
+Coherence;
+Transfinite Curve {:} = n + 1; Transfinite Surface {:}; Transfinite Volume {:};
+Physical Volume("left") = {1};
+Physical Volume("right") = {2};
+between() = Surface In BoundingBox {0.9, -0.1, -0.1, 1.1, 1.1, 1.1};
+Physical Surface("between") = {between()};
+bottom() = Surface In BoundingBox {-0.1, -0.1, -0.1, 2.1, 1.1, 0.1};
+Physical Surface("bottom") = {bottom()};
+)";
+
+Assembly read_file(const std::string& file, int dimension = 3, std::map<std::string, double> constants = {})
+{
+  Options options;
+  options.file = file;
+  options.constants = std::move(constants);
+  return read(options, dimension);
+}
+
+void expect_two_cubes(const Assembly& assembly, int n)
+{
+  ASSERT_EQ(assembly.catalogue.bodies.size(), 2U);
+  EXPECT_EQ(assembly.catalogue.bodies[0].name, "left");
+  EXPECT_EQ(assembly.catalogue.boundaries, (std::vector<std::string>{"between", "bottom"}));
+  EXPECT_EQ(assembly.mesh.node_count(), 2U * static_cast<unsigned>((n + 1) * (n + 1) * (n + 1)));  // the face between has two sets of nodes
+  EXPECT_EQ(assembly.mesh.cells.size(), static_cast<std::size_t>(2 * 6 * n * n * n));
+  Point sum = Point::Zero();
+  int between = 0;
+  for (std::size_t f = 0; f < assembly.mesh.facets.cells.size(); ++f) {
+    const auto nodes = assembly.mesh.facets.cells[f];
+    const auto& p = assembly.mesh.points;
+    const Point area = 0.5 * (p[static_cast<std::size_t>(nodes[1])] - p[static_cast<std::size_t>(nodes[0])]).cross(p[static_cast<std::size_t>(nodes[2])] - p[static_cast<std::size_t>(nodes[0])]);
+    if (assembly.mesh.facets.boundary[f] == 0) {
+      ++between;
+      const bool left = assembly.mesh.cell_body[static_cast<std::size_t>(assembly.mesh.facets.parent[f])] == 0;
+      EXPECT_NEAR(area.normalized()[0], left ? 1 : -1, 1e-12);
+    } else {
+      sum += area;
+    }
+  }
+  EXPECT_EQ(between, 2 * 2 * n * n);
+  EXPECT_LT((sum - Point(0, 0, -2)).norm(), 1e-12);
+}
+
+TEST(Read, GeometryWithConstants) { expect_two_cubes(read_file(geo("cubes.geo", two_cubes), 3, {{"n", 3}}), 3); }
+
+TEST(Read, EveryMshFormat)
+{
+  const auto source = geo("source.geo", two_cubes);
+  for (const double version : {2.2, 4.1})
+    for (const int binary : {0, 1}) {
+      const auto file = path("cubes_" + std::to_string(version) + (binary != 0 ? "b" : "a") + ".msh");
+      gmsh::initialize(0, nullptr, false);
+      gmsh::option::setNumber("General.Terminal", 0);
+      gmsh::open(source);
+      gmsh::model::mesh::generate(3);
+      gmsh::option::setNumber("Mesh.MshFileVersion", version);
+      gmsh::option::setNumber("Mesh.Binary", binary);
+      gmsh::write(file);
+      gmsh::finalize();
+      SCOPED_TRACE(file);
+      expect_two_cubes(read_file(file), 2);
+    }
+}
+
+TEST(Read, PartsOfAGroupBecomeBodies)
+{
+  const auto assembly = read_file(geo("parts.geo", R"(
+SetFactory("OpenCASCADE");
+Rectangle(1) = {0, 0, 0, 1, 1};
+Rectangle(2) = {3, 0, 0, 1, 1};
+Rectangle(3) = {6, 0, 0, 1, 1};
+Physical Surface("pads") = {1, 2};
+Physical Surface("rest") = {3};
+)"), 2);
+  ASSERT_EQ(assembly.catalogue.bodies.size(), 3U);
+  EXPECT_EQ(assembly.catalogue.bodies[0].name, "pads.1");
+  EXPECT_EQ(assembly.catalogue.bodies[1].name, "pads.2");
+  EXPECT_EQ(assembly.catalogue.bodies[1].group, "pads");
+  EXPECT_EQ(assembly.catalogue.bodies[2].name, "rest");
+}
+
+void expect_error(const std::string& file, int dimension, const std::string& text)
+{
+  try {
+    read_file(file, dimension);
+    FAIL() << "no error for " << file;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input);
+    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).rfind(file, 0), 0U) << error.what();
+  }
+}
+
+TEST(Read, MistakesAreExplained)
+{
+  const std::string square = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nRectangle(2) = {2, 0, 0, 1, 1};\n";
+  expect_error(path("absent.msh"), 3, "no such file");
+  expect_error(geo("syntax.geo", "Point(1) = {0, 0"), 3, "gmsh");
+  expect_error(geo("nameless.geo", square), 2, "Physical Surface");
+  expect_error(geo("second.geo", square + "Mesh.ElementOrder = 2;\nPhysical Surface(\"a\") = {1, 2};\n"), 2, "order 1");
+  expect_error(geo("forgotten.geo", square + "Physical Surface(\"a\") = {1};\nMesh.SaveAll = 1;\n"), 2, "belongs to no physical surface");
+  expect_error(geo("twice.geo", square + "Physical Surface(\"a\") = {1, 2};\nPhysical Surface(\"b\") = {2};\n"), 2, "two bodies");
+  expect_error(geo("loose.geo", square + "Line(77) = {1, 7};\nPhysical Curve(\"loose\") = {77};\nPhysical Surface(\"a\") = {1, 2};\n"), 2, "lie on no cell");
+  expect_error(geo("high.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0.5, 1, 1};\nPhysical Surface(\"a\") = {1};\n"), 2, "z = 0");
+}
+
+}  // namespace
+}  // namespace mortise::mesh

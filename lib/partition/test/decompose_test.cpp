@@ -1,1 +1,144 @@
+#include "partition/decompose.hpp"
+
 #include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "mesh/topology.hpp"
+#include "partition/node_directory.hpp"
+
+namespace mortise::partition {
+namespace {
+
+mesh::Options beams(const std::string& element, std::array<int, 3> cells)
+{
+  mesh::Options options;
+  mesh::BlockOptions block;
+  block.size = {2, 1, 1};
+  block.cells = cells;
+  block.element = element;
+  options.blocks["lower"] = options.blocks["upper"] = block;
+  options.blocks["upper"].origin = {0.5, 0, 1};
+  return options;
+}
+
+Decomposition make(const mesh::Options& mesh, const Options& options, const Communicator& comm, int dimension = 3)
+{
+  Timers timers;
+  Log log(comm, nullptr);
+  return decompose(mesh, options, dimension, {comm, log, timers});
+}
+
+// The cells of all subdomains, in order, on every rank: does not depend on the number of ranks.
+std::vector<Global> fingerprint(const Decomposition& d, const Communicator& comm)
+{
+  std::vector<Global> mine;
+  for (const auto& s : d.subdomains) {
+    mine.push_back(-1 - s.id);
+    mine.insert(mine.end(), s.mesh.cell_id.begin(), s.mesh.cell_id.end());
+  }
+  return comm.all_gather(mine);
+}
+
+TEST(Decompose, PaperSFirstRowHasItsUnknowns)
+{
+  const Communicator comm;
+  Options options;
+  options.method = "grid";
+  options.counts = {{"lower", {6, 3, 3}}, {"upper", {6, 3, 3}}};
+  const auto d = make(beams("hex8", {60, 30, 30}), options, comm);
+  EXPECT_EQ(d.subdomain_count(), 108);
+  long long nodes = 0;
+  for (const auto& s : d.subdomains) nodes += static_cast<long long>(s.mesh.node_count());
+  EXPECT_EQ(3 * comm.sum(nodes), 431244);
+}
+
+TEST(Decompose, MetisPartsAreConnectedAndCoverEveryCellOnce)
+{
+  const Communicator comm;
+  Options options;
+  options.subdomains = 14;
+  const auto d = make(beams("tet4", {8, 4, 4}), options, comm);
+  const Communicator alone(MPI_COMM_SELF);
+  const auto serial = make(beams("tet4", {8, 4, 4}), options, alone);
+  EXPECT_EQ(fingerprint(d, comm), fingerprint(serial, alone));
+  std::set<Global> cells;
+  for (const auto& s : serial.subdomains) {
+    const auto part = mesh::connected_parts(mesh::face_neighbours(s.mesh.cells), std::vector<int>(s.mesh.cells.size(), 0));
+    EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0) << "subdomain " << s.id;
+    for (const Global c : s.mesh.cell_id) EXPECT_TRUE(cells.insert(c).second);
+  }
+  EXPECT_EQ(static_cast<Global>(cells.size()), serial.catalogue.cell_count);
+  EXPECT_NEAR(static_cast<double>(d.subdomain_count()), 14, 2);
+}
+
+TEST(Cut, IslandsJoinANeighbour)
+{
+  // Two squares that touch in an edge only by their corner cells: any part that held both would be disconnected.
+  mesh::Options options;
+  mesh::BlockOptions block;
+  block.cells = {6, 6, 0};
+  block.element = "quad4";
+  options.blocks["plate"] = block;
+  Options cut_options;
+  cut_options.subdomains = 5;
+  const Communicator alone(MPI_COMM_SELF);
+  for (int parts = 2; parts < 13; ++parts) {
+    cut_options.subdomains = parts;
+    for (const auto& s : make(options, cut_options, alone, 2).subdomains) {
+      const auto part = mesh::connected_parts(mesh::face_neighbours(s.mesh.cells), std::vector<int>(s.mesh.cells.size(), 0));
+      EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0);
+    }
+  }
+}
+
+TEST(NodeDirectory, KnowsEveryCopy)
+{
+  const Communicator comm;
+  Options options;
+  options.method = "grid";
+  options.counts = {{"lower", {3, 2, 2}}, {"upper", {2, 2, 1}}};
+  const auto d = make(beams("hex8", {6, 4, 4}), options, comm);
+  std::vector<std::vector<double>> weight;
+  for (const auto& s : d.subdomains) weight.emplace_back(s.mesh.node_count(), static_cast<double>(s.id));
+  const NodeDirectory directory(d, weight, comm);
+
+  std::vector<Global> all;  // every copy of every node, gathered whole
+  for (const auto& s : d.subdomains) all.insert(all.end(), s.mesh.node_id.begin(), s.mesh.node_id.end());
+  std::map<Global, std::size_t> copies;
+  for (const Global node : comm.all_gather(all)) ++copies[node];
+  std::vector<Global> asked;
+  for (const auto& [node, count] : copies) asked.push_back(node);
+  const auto found = directory.find(asked, comm);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (copies[asked[i]] > 1) {
+      EXPECT_EQ(found[i].size(), copies[asked[i]]);
+    }
+    for (const auto& copy : found[i]) EXPECT_EQ(copy.weight, static_cast<double>(copy.subdomain));
+  }
+
+  const auto interface = find_interface(d, directory, comm);
+  std::vector<Eigen::MatrixXd> values;
+  for (const auto& s : d.subdomains) values.push_back(Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(s.mesh.node_count()), 2));
+  sum_over_copies(d, interface, values, comm);
+  for (std::size_t s = 0; s < values.size(); ++s)
+    for (std::size_t n = 0; n < d.subdomains[s].mesh.node_count(); ++n)
+      EXPECT_EQ(values[s](static_cast<Eigen::Index>(n), 1), static_cast<double>(copies[d.subdomains[s].mesh.node_id[n]]));
+}
+
+TEST(BoundarySurface, IsWholeOverAllRanks)
+{
+  const Communicator comm;
+  Options options;
+  options.subdomains = 9;
+  const auto d = make(beams("prism6", {6, 4, 4}), options, comm);
+  const auto surface = boundary_surface(d, 4, {true, true});  // lower.zmin
+  EXPECT_EQ(comm.sum(static_cast<long long>(surface.faces.size())), 2 * 6 * 4);
+  std::set<Global> ids;
+  for (const Global id : comm.all_gather(surface.face_id)) EXPECT_TRUE(ids.insert(id).second);
+  EXPECT_EQ(comm.sum(static_cast<long long>(boundary_surface(d, 4, {false, true}).faces.size())), 0);
+}
+
+}  // namespace
+}  // namespace mortise::partition
