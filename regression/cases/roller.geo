@@ -6,13 +6,11 @@ Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
 For k In {0 : 1}
   y = k == 0 ? -2 : 1;
   p = newp;
-  Point(p) = {-1.5, y, 0, 0.3}; Point(p + 1) = {1.5, y, 0, 0.3}; Point(p + 2) = {1.5, y + 1, 0, 0.3}; Point(p + 3) = {-1.5, y + 1, 0, 0.3};
-  Point(p + 4) = {0.05, k == 0 ? -1 : 1, 0, 0.06};
+  Point(p) = {-1.5, y, 0, 0.1}; Point(p + 1) = {1.5, y, 0, 0.12}; Point(p + 2) = {1.5, y + 1, 0, 0.11}; Point(p + 3) = {-1.5, y + 1, 0, 0.13};
   l = newl;
   Line(l) = {p, p + 1}; Line(l + 1) = {p + 1, p + 2}; Line(l + 2) = {p + 2, p + 3}; Line(l + 3) = {p + 3, p};
   loop = newll; Curve Loop(loop) = {l, l + 1, l + 2, l + 3};
   s(k) = news; Plane Surface(s(k)) = {loop};
-  Point{p + 4} In Surface{s(k)};
   below(k) = l; above(k) = l + 2;
 EndFor
 Physical Surface("roller") = {1};

@@ -46,15 +46,23 @@ void continue_curvature(const Side& side, Places& places)
   if (plane)
     for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
 
-  for (int sweep = 0; sweep < 10; ++sweep)
-    for (const auto& [edge, count] : edges) {
-      const auto a = static_cast<std::size_t>(edge.first), b = static_cast<std::size_t>(edge.second);
-      if (!border[a] || border[b]) continue;
-      auto& place = places.all[a];
-      const Place& inner = places.all[b];
-      const Point along = (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(place.node)]).normalized();
-      place.normal = (place.normal - (place.normal.dot(along) + inner.normal.dot(along)) * along).normalized();
-    }
+  // First from edges that lead inside; then corners, which have none, from their neighbours on the border.
+  std::vector<bool> known(border.size());
+  for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];
+  for (int pass = 0; pass < 2; ++pass) {
+    std::vector<bool> reached = known;
+    for (int sweep = 0; sweep < 10; ++sweep)
+      for (const auto& [edge, count] : edges) {
+        const auto a = static_cast<std::size_t>(edge.first), b = static_cast<std::size_t>(edge.second);
+        if (known[a] || !known[b]) continue;
+        auto& place = places.all[a];
+        const Place& inner = places.all[b];
+        const Point along = (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(place.node)]).normalized();
+        place.normal = (place.normal - (place.normal.dot(along) + inner.normal.dot(along)) * along).normalized();
+        reached[a] = true;
+      }
+    known = reached;
+  }
 }
 
 }  // namespace

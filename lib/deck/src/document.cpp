@@ -145,7 +145,7 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
   std::string best;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const auto& candidate : candidates)
-    if (const auto distance = edit_distance(name, candidate); distance < least) {
+    if (const auto distance = edit_distance(name, candidate); distance < least && distance < std::max(name.size(), candidate.size())) {
       least = distance;
       best = candidate;
     }

@@ -6,7 +6,7 @@ void describe(deck::Description<BlockOptions>& d)
 {
   d.help("A box of equal cells; the body NAME gets the boundaries NAME.xmin ... NAME.zmax.");
   d.key("origin", &BlockOptions::origin, "Lowest corner.");
-  d.key("size", &BlockOptions::size, "Edge lengths.").required().positive();
+  d.key("size", &BlockOptions::size, "Edge lengths.").required().at_least(0);
   d.key("cells", &BlockOptions::cells, "Grid cells along each edge.").required().at_least(0);
   d.key("element", &BlockOptions::element, "hex8, tet4, prism6; plane models: quad4, tri3.")
       .one_of({"hex8", "tet4", "prism6", "quad4", "tri3"})
