@@ -66,6 +66,13 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
   const auto& scale = problem.jump().scale();
   const auto& contacts = problem.constraints().contacts;
   double penetration = 0, slackness = 0;
+  std::vector<double> largest(deck.contacts.size(), 0.0);  // pressure of each contact
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    const auto row = problem.points()[i].normal;
+    auto& pressure = largest[static_cast<std::size_t>(contacts.points[i].contact)];
+    pressure = std::max(pressure, lambda[row] * scale[row] / contacts.points[i].area);
+  }
+  for (auto& pressure : largest) pressure = comm.max(pressure);
   for (std::size_t i = 0; i < contacts.points.size(); ++i) {
     const auto& rows = problem.points()[i];
     std::vector<double> multipliers, row_jumps;
@@ -74,7 +81,8 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
       row_jumps.push_back(jump[r] / scale[r]);
     }
     const double limit = rows.disc < 0 ? 0.0 : problem.set().discs()[static_cast<std::size_t>(rows.disc)].radius * scale[rows.normal];
-    results.points.push_back(contact::state_of(contacts.points[i], contacts.bonded[i], multipliers, row_jumps, contacts.rows.bound[contacts.points[i].row], limit));
+    results.points.push_back(contact::state_of(contacts.points[i], contacts.bonded[i], multipliers, row_jumps, contacts.rows.bound[contacts.points[i].row], limit,
+                                                 1e-4 * largest[static_cast<std::size_t>(contacts.points[i].contact)]));
     if (contacts.bonded[i]) continue;
     penetration = std::max(penetration, -results.points.back().gap);
     slackness += std::abs(results.points.back().gap * multipliers[0]);
@@ -85,6 +93,24 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
   const double energy = results.summary.strain_energy;
   slackness = comm.sum(slackness);
   results.summary.residuals.complementarity = energy > 0 ? slackness / (2 * energy) : slackness;
+}
+
+// A surface that closes where the search for contact ended may have closed farther on as well.
+void warn_of_short_search(const Deck& deck, const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem, const Results& results, const Context& context)
+{
+  const auto& contacts = problem.constraints().contacts;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (pairs[c].options.law == contact::Law::bonded) continue;
+    double widest = 0;
+    for (std::size_t i = 0; i < results.points.size(); ++i)
+      if (results.points[i].contact == static_cast<int>(c) && results.points[i].status != contact::Status::open)
+        widest = std::max(widest, contacts.rows.bound[contacts.points[i].row] + pairs[c].options.interference);
+    widest = context.comm.max(widest);
+    const double reach = contact::search_distance(pairs[c], context.comm);
+    if (widest > 0.7 * reach)
+      context.log.warning("contact {} closes over gaps of up to {:.3g}, close to the search distance {:.3g}: set a larger search_distance and solve again", deck.contacts[c].name,
+                          widest, reach);
+  }
 }
 
 // Forces of the supports on the bodies, by boundary.
@@ -144,7 +170,8 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
 }  // namespace
 
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const partition::Interface& interface,
-                 const feti::DualProblem& problem, const feti::Floating& floating, const friction::Result& solved, const Context& context)
+                 const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem, const feti::Floating& floating, const friction::Result& solved,
+                 const Context& context)
 {
   Results results;
   results.displacement = problem.displacement(solved.solution.x, solved.solution.nu);
@@ -153,6 +180,7 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   sum_up(decomposition, problem, floating, solved, results);
   recover_stress(deck, decomposition, model, interface, context.comm, results);
   contact_states(deck, problem, solved, results);
+  warn_of_short_search(deck, pairs, problem, results, context);
   reactions(deck, problem, solved, results);
   for (std::size_t c = 0; c < deck.contacts.size(); ++c) {
     const auto& r = results.resultants[c];

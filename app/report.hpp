@@ -23,7 +23,8 @@ struct Results {
 
 /// Collective.
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const partition::Interface& interface,
-                 const feti::DualProblem& problem, const feti::Floating& floating, const friction::Result& solved, const Context& context);
+                 const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem, const feti::Floating& floating, const friction::Result& solved,
+                 const Context& context);
 
 /// Writes every file but the history and the summary. Collective.
 void write_fields(const Deck& deck, const partition::Decomposition& decomposition, const std::vector<contact::Pair>& pairs,

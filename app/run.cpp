@@ -150,7 +150,7 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   log.end_progress();
   stage("solve", "solve");
 
-  Results results = evaluate(deck, decomposition, model, interface, *problem, floating, *solved, context);
+  Results results = evaluate(deck, decomposition, model, interface, pairs, *problem, floating, *solved, context);
   {
     const auto scope = timers.scope("output");
     write_fields(deck, decomposition, pairs, interface, *problem, *solved, results, comm);

@@ -76,7 +76,7 @@ class Builder {
  public:
   Builder(const Pair& pair, int index, std::span<const constraint::Held> held, int dimension, const Communicator& comm)
       : pair_(pair), index_(index), dimension_(dimension), comm_(comm), secondary_(gather(pair.secondary, comm)),
-        primary_(gather(pair.primary, comm)), places_(find_places(secondary_)), primary_places_(find_places(primary_)), held_(gather_held(held, secondary_.node_id, comm))
+        primary_(gather(pair.primary, comm)), places_(find_places(secondary_)), primary_places_(find_places(primary_)), held_(gather_held(held, secondary_.node_id, comm)), reach_(search_distance(pair, comm))
   {}
 
   // Adds the rows of the places that this rank owns. Collective.
@@ -103,18 +103,16 @@ class Builder {
 
   void integrate_faces()
   {
-    const double reach = pair_.options.search_distance;
     std::vector<Box> boxes;
     for (std::size_t f = 0; f < primary_.faces.size(); ++f) {
       const auto face = primary_.geometry(f);
       Box box;
       for (const auto& p : face.nodes) box.extend(p);
-      const Point margin = Point::Constant(reach > 0 ? 0.0 : face.size());
-      boxes.emplace_back(box.min() - margin, box.max() + margin);
+      boxes.push_back(box);
     }
     tree_ = std::make_unique<Tree>(std::move(boxes));
     for (std::size_t f = first_face(comm_.rank()); f < first_face(comm_.rank() + 1); ++f)
-      integrals_.push_back(integrate(secondary_, places_, f, primary_, primary_places_, *tree_, reach));
+      integrals_.push_back(integrate(secondary_, places_, f, primary_, primary_places_, *tree_, reach_));
   }
 
   // The gap between the smooth surfaces at the node itself, along its normal. Its mean over the dual basis, which has negative parts, would
@@ -124,7 +122,7 @@ class Builder {
   {
     const Place& place = places_.all[p];
     const Point x = secondary_.points[static_cast<std::size_t>(place.node)];
-    const Point margin = Point::Constant(2 * std::abs(mean) + pair_.options.search_distance + 1e-9);  // the boxes have a margin of their own
+    const Point margin = Point::Constant(2 * std::max(std::abs(mean), reach_));
     double best = std::numeric_limits<double>::infinity();
     for (const int m : tree_->meeting(Box(x - margin, x + margin))) {
       const auto face = static_cast<std::size_t>(m);
@@ -249,6 +247,7 @@ class Builder {
   Side secondary_, primary_;
   Places places_, primary_places_;
   HeldNodes held_;
+  double reach_;
   std::unique_ptr<Tree> tree_;            // of the primary faces
   std::vector<FaceIntegrals> integrals_;  // of this rank's faces
   std::vector<Directions> directions_;    // of each place
@@ -256,7 +255,41 @@ class Builder {
   Eigen::VectorXd d_, rise_;              // of each place: integral psi_i, and of psi_i times the bulge
 };
 
+// Diagonal of the box round a side, over all ranks.
+double extent(const mesh::Surface& side, const Communicator& comm)
+{
+  double square = 0;
+  for (int c = 0; c < 3; ++c) {
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    for (const auto& p : side.points) {
+      low = std::min(low, p[c]);
+      high = std::max(high, p[c]);
+    }
+    const double length = comm.max(high) - comm.min(low);
+    square += length > 0 ? length * length : 0;
+  }
+  return std::sqrt(square);
+}
+
+double largest_face(const mesh::Surface& side, const Communicator& comm)
+{
+  double size = 0;
+  for (std::size_t f = 0; f < side.faces.size(); ++f) {
+    FaceGeometry face{side.faces.type[f], {}};
+    for (const Local n : side.faces[f]) face.nodes.push_back(side.points[static_cast<std::size_t>(n)]);
+    size = std::max(size, face.size());
+  }
+  return comm.max(size);
+}
+
 }  // namespace
+
+double search_distance(const Pair& pair, const Communicator& comm)
+{
+  if (pair.options.search_distance > 0) return pair.options.search_distance;
+  const double tenth = 0.1 * std::min(extent(pair.secondary, comm), extent(pair.primary, comm));
+  return std::max({tenth, largest_face(pair.secondary, comm), largest_face(pair.primary, comm)});
+}
 
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, int dimension,
                                 const Communicator& comm)

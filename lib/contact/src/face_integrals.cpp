@@ -9,9 +9,6 @@ namespace mortise::contact {
 
 namespace {
 
-// Without a distance given, surfaces meet over gaps and overlaps of at most so many face sizes.
-constexpr double default_reach = 1.0;
-
 Eigen::VectorXd whole_face(const FaceGeometry& face)
 {
   FaceGeometry mirror = face;
@@ -40,8 +37,7 @@ FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, s
   FaceIntegrals result{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), whole_face(own), Eigen::VectorXd::Zero(n), {}};
   Box box;
   for (const auto& p : own.nodes) box.extend(p);
-  // Boxes of the primary faces carry their own part of the default reach; see discretize().
-  const Point margin = Point::Constant(reach > 0 ? reach : default_reach * own.size());
+  const Point margin = Point::Constant(reach);
   box.min() -= margin;
   box.max() += margin;
   std::map<Local, Eigen::VectorXd> opposite;
@@ -49,8 +45,7 @@ FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, s
     const FaceGeometry other = primary.geometry(static_cast<std::size_t>(m));
     const auto nodes = primary.faces[static_cast<std::size_t>(m)];
     const auto other_normals = corner_normals(primary, primary_places, static_cast<std::size_t>(m));
-    const double limit = reach > 0 ? reach : default_reach * std::max(own.size(), other.size());
-    for (const auto& point : overlap(own, other, limit)) {
+    for (const auto& point : overlap(own, other, reach)) {
       const Eigen::VectorXd phi = point.secondary.head(n);
       result.mass += point.weight * phi * phi.transpose();
       result.covered += point.weight * phi;

@@ -17,7 +17,7 @@ struct FaceIntegrals {
   std::vector<std::pair<Local, Eigen::VectorXd>> opposite;  ///< for each primary node met, integral phi_i phi^m, ascending nodes
 };
 
-/// Everything on the primary side that face `face` looks at within `reach` (0: chosen from the faces' sizes).
+/// Everything on the primary side that face `face` looks at within `reach`.
 FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, std::size_t face, const Side& primary, const Places& primary_places,
                         const Tree& tree, double reach);
 

@@ -75,7 +75,7 @@ void describe(deck::Description<Options>& d)
            friction_schema);
   d.key("discretization", &Options::discretization, "mortar: dual multipliers, integrated segment by segment.").one_of({"mortar"}).not_yet({"node_to_segment"});
   d.key("interference", &Options::interference, "Added overlap (press fit); negative opens a gap.");
-  d.key("search_distance", &Options::search_distance, "Surfaces farther apart than this never meet; 0 chooses the size of the faces.").at_least(0);
+  d.key("search_distance", &Options::search_distance, "Surfaces farther apart than this never meet; 0 chooses a tenth of the smaller side's extent.").at_least(0);
   d.check([](const Options& contact, const std::string& path, deck::Document& document) {
     if (contact.secondary == contact.primary) document.error(path, fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available", contact.primary));
   });

@@ -7,7 +7,7 @@
 namespace mortise::contact {
 
 PointState state_of(const constraint::ContactPoint& point, bool bonded, std::span<const double> multipliers, std::span<const double> jumps,
-                    double bound, double limit)
+                    double bound, double limit, double nothing)
 {
   PointState state;
   state.contact = point.contact;
@@ -24,7 +24,7 @@ PointState state_of(const constraint::ContactPoint& point, bool bonded, std::spa
   }
   if (bonded)
     state.status = Status::stick;
-  else if (state.force > 0)
+  else if (state.force > nothing * point.area)
     state.status = limit > 0 && tangential < limit * (1 - 1e-6) ? Status::stick : Status::slip;
   return state;
 }

@@ -297,12 +297,13 @@ TEST(State, SumsAndStatus)
 {
   const Communicator comm;
   constraint::ContactPoint point{0, 7, 0.5, Point(0, 0, 1), {Point(1, 0, 0), Point(0, 1, 0)}, 0};
-  const auto slip = state_of(point, false, std::vector<double>{10, 3, 0}, std::vector<double>{0.1, 0.2, 0.0}, 0.1, 3.0);
+  const auto slip = state_of(point, false, std::vector<double>{10, 3, 0}, std::vector<double>{0.1, 0.2, 0.0}, 0.1, 3.0, 0);
   EXPECT_EQ(slip.status, Status::slip);
   EXPECT_LT((slip.force_on_secondary - Point(-3, 0, -10)).norm(), 1e-14);
   EXPECT_NEAR(slip.gap, 0, 1e-15);
-  EXPECT_EQ(state_of(point, false, std::vector<double>{10, 1, 0}, std::vector<double>{0, 0, 0}, 0, 3.0).status, Status::stick);
-  EXPECT_EQ(state_of(point, false, std::vector<double>{0, 0, 0}, std::vector<double>{0, 0, 0}, 0.2, 0.0).status, Status::open);
+  EXPECT_EQ(state_of(point, false, std::vector<double>{10, 1, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 0).status, Status::stick);
+  EXPECT_EQ(state_of(point, false, std::vector<double>{1e-6, 0, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 1e-3).status, Status::open);
+  EXPECT_EQ(state_of(point, false, std::vector<double>{0, 0, 0}, std::vector<double>{0, 0, 0}, 0.2, 0.0, 0).status, Status::open);
   const auto sums = resultants(std::vector<PointState>{slip}, 1, comm);
   EXPECT_NEAR(sums[0].force[2], -10.0 * comm.size(), 1e-12);
   EXPECT_NEAR(sums[0].max_pressure, 20, 1e-12);

@@ -22,6 +22,10 @@ struct Pair {
   mesh::Surface secondary, primary;
 };
 
+/// How far apart the two sides of a pair may lie to meet: the deck's search_distance, or a tenth of the extent of the smaller side, but at
+/// least the size of a face. Collective.
+double search_distance(const Pair& pair, const Communicator& comm);
+
 /// The contact rows of all pairs; contact c of ContactPoint is pairs[c]. Rows stand on any rank, each once; they do not depend on the
 /// number of ranks. `held` are the supports of this rank. Frictionless pairs have normal rows only. Collective.
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, int dimension,

@@ -17,7 +17,7 @@ struct Options {
   double friction = 0;               ///< tresca: slip bound as a traction; coulomb: coefficient
   std::string discretization = "mortar";
   double interference = 0;           ///< added overlap; negative opens a gap
-  double search_distance = 0;        ///< surfaces farther apart than this never meet; 0: chosen from the sizes of the faces
+  double search_distance = 0;        ///< surfaces farther apart than this never meet; 0: a tenth of the smaller side's extent
 };
 
 /// The keywords.

@@ -23,9 +23,10 @@ struct PointState {
 };
 
 /// One point: `multipliers` are forces (normal, then tangents); `jumps` are row . u (without bounds) in the same order, `bound` that of
-/// the normal row; `limit` the slip bound as a force (infinite: sticks; 0: frictionless).
+/// the normal row; `limit` the slip bound as a force (infinite: sticks; 0: frictionless). A point counts as open while its pressure is
+/// at most `nothing`, what the solver's tolerance leaves of zero.
 PointState state_of(const constraint::ContactPoint& point, bool bonded, std::span<const double> multipliers, std::span<const double> jumps,
-                    double bound, double limit);
+                    double bound, double limit, double nothing);
 
 /// Totals of one contact, over all ranks.
 struct Resultant {
