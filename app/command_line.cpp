@@ -10,12 +10,15 @@ Parsed parse_command_line(int argc, const char* const* argv)
   CommandLine result;
   bool version = false;
   app.add_option("DECK", result.deck, "YAML file that says what is solved");
-  app.add_option("--set", result.settings, "key.path=value, laid over the deck; may be repeated")->allow_extra_args(false)->type_name("KEY.PATH=VALUE");
+  app.add_option("--set", result.settings, "key.path=value, laid over the deck; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("KEY.PATH=VALUE");
   app.add_option("--output", result.output, "directory for the results, instead of the deck's")->type_name("DIR");
   app.add_flag("--check", result.check, "read deck and mesh, print what would be solved, and stop");
   app.add_flag("--schema", result.schema, "print the JSON schema of a deck and stop");
   app.add_flag("--version", version, "print the version and stop");
-  app.footer("Exit status: 0 solved, 1 command line, deck or mesh wrong, 2 not converged, 3 no equilibrium, 4 out of memory or disk.");
+  app.footer(
+      "Exit status: 0 solved, 1 command line, deck or mesh wrong, 2 not converged, 3 no equilibrium, 4 out of memory or disk.");
   try {
     app.parse(argc, const_cast<char**>(argv));
   } catch (const CLI::CallForHelp&) {

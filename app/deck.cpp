@@ -15,12 +15,14 @@ namespace fs = std::filesystem;
 
 const std::map<std::string, fem::Kinematics>& dimensions()
 {
-  static const std::map<std::string, fem::Kinematics> table{
-      {"3", fem::Kinematics::solid}, {"plane_strain", fem::Kinematics::plane_strain}, {"plane_stress", fem::Kinematics::plane_stress}};
+  static const std::map<std::string, fem::Kinematics> table{{"3", fem::Kinematics::solid},
+                                                            {"plane_strain", fem::Kinematics::plane_strain},
+                                                            {"plane_stress", fem::Kinematics::plane_stress}};
   return table;
 }
 
-void read_dimension(Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits)
+void read_dimension(Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document,
+                    const deck::Limits& limits)
 {
   std::string name;
   const auto before = document.error_count();
@@ -42,7 +44,8 @@ nlohmann::ordered_json dimension_schema(const deck::Limits& limits)
   return {{"enum", names}};
 }
 
-void read_contacts(Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits)
+void read_contacts(Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document,
+                   const deck::Limits& limits)
 {
   if (node.IsScalar() && node.Scalar() == "auto")
     document.error(path, "`auto` is not available in this version of Mortise; list the pairs of boundaries");
@@ -62,12 +65,15 @@ void check_bodies(const Deck& deck, deck::Document& document)
 {
   for (const auto& [name, body] : deck.bodies)
     if (!body.material.empty() && !deck.materials.contains(body.material))
-      document.error("bodies." + name + ".material", fmt::format("there is no material \"{}\"{}", body.material, deck::suggestion(body.material, names_of(deck.materials))));
+      document.error("bodies." + name + ".material", fmt::format("there is no material \"{}\"{}", body.material,
+                                                                 deck::suggestion(body.material, names_of(deck.materials))));
   for (const auto& [name, block] : deck.mesh.blocks) {
     const bool plane = block.element == "quad4" || block.element == "tri3";
     if (plane != (deck.dimension() == 2))
-      document.error("mesh.blocks." + name + ".element", fmt::format("\"{}\" does not fit a model of dimension {}; expected {}", block.element, deck.dimension() == 2 ? "2" : "3",
-                                                                     deck.dimension() == 2 ? "quad4 or tri3" : "hex8, tet4 or prism6"));
+      document.error(
+          "mesh.blocks." + name + ".element",
+          fmt::format("\"{}\" does not fit a model of dimension {}; expected {}", block.element,
+                      deck.dimension() == 2 ? "2" : "3", deck.dimension() == 2 ? "quad4 or tri3" : "hex8, tet4 or prism6"));
   }
 }
 
@@ -90,11 +96,14 @@ void check_decomposition(const Deck& deck, deck::Document& document)
     for (int axis = 0; axis < deck.dimension(); ++axis) {
       const auto c = static_cast<std::size_t>(axis);
       if (counts->second[c] < 1 || counts->second[c] > block.cells[c])
-        document.error("decomposition.counts." + name, fmt::format("expected 1 to {} subdomains along {}, found {}", block.cells[c], "xyz"[axis], counts->second[c]));
+        document.error("decomposition.counts." + name, fmt::format("expected 1 to {} subdomains along {}, found {}",
+                                                                   block.cells[c], "xyz"[axis], counts -> second[c]));
     }
   }
   for (const auto& [name, counts] : deck.decomposition.counts)
-    if (!deck.mesh.blocks.contains(name)) document.error("decomposition.counts." + name, "there is no such block" + deck::suggestion(name, names_of(deck.mesh.blocks)));
+    if (!deck.mesh.blocks.contains(name))
+      document.error("decomposition.counts." + name,
+                     "there is no such block" + deck::suggestion(name, names_of(deck.mesh.blocks)));
 }
 
 void check_vectors(const Deck& deck, deck::Document& document)
@@ -110,14 +119,17 @@ void check_vectors(const Deck& deck, deck::Document& document)
     flat(deck.loads[i].acceleration, path + "acceleration");
   }
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
-    if (deck.supports[i].displacement[2]) document.error(fmt::format("supports[{}].displacement.z", i), "a plane model has no z component");
+    if (deck.supports[i].displacement[2])
+      document.error(fmt::format("supports[{}].displacement.z", i), "a plane model has no z component");
 }
 
 void check_contact_names(const Deck& deck, deck::Document& document)
 {
   for (std::size_t i = 0; i < deck.contacts.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (deck.contacts[i].name == deck.contacts[j].name) document.error(fmt::format("contacts[{}]", i), fmt::format("two contacts are called \"{}\"; give one of them another `name`", deck.contacts[i].name));
+      if (deck.contacts[i].name == deck.contacts[j].name)
+        document.error(fmt::format("contacts[{}]", i),
+                       fmt::format("two contacts are called \"{}\"; give one of them another `name`", deck.contacts[i].name));
 }
 
 // Why a boundary cannot be found, or "".
@@ -125,13 +137,15 @@ std::string missing(const std::string& name, const mesh::Catalogue& catalogue)
 {
   const auto [boundary, body] = parse_boundary(name);
   const auto& known = catalogue.boundaries;
-  if (std::find(known.begin(), known.end(), boundary) == known.end()) return fmt::format("the mesh has no boundary \"{}\"{}", boundary, deck::suggestion(boundary, known));
+  if (std::find(known.begin(), known.end(), boundary) == known.end())
+    return fmt::format("the mesh has no boundary \"{}\"{}", boundary, deck::suggestion(boundary, known));
   if (body.empty()) return "";
   std::vector<std::string> bodies;
   for (const auto& b : catalogue.bodies)
     for (const auto& n : {b.name, b.group})
       if (std::find(bodies.begin(), bodies.end(), n) == bodies.end()) bodies.push_back(n);
-  if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) return fmt::format("the mesh has no body \"{}\"{}", body, deck::suggestion(body, bodies));
+  if (std::find(bodies.begin(), bodies.end(), body) == bodies.end())
+    return fmt::format("the mesh has no body \"{}\"{}", body, deck::suggestion(body, bodies));
   return "";
 }
 
@@ -146,9 +160,8 @@ void describe(deck::Description<SolverOptions>& d)
       const auto* source = key.get();
       auto& own = d.custom(
           source->name, source->help,
-          [source, member](SolverOptions& value, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits) {
-            source->read(value.*member, node, path, document, limits);
-          },
+          [source, member](SolverOptions& value, const YAML::Node& node, const std::string& path, deck::Document& document,
+                           const deck::Limits& limits) { source->read(value.*member, node, path, document, limits); },
           [source, member](const SolverOptions& value) { return source->write(value.*member); }, source->schema);
       own.limits = source->limits;
     }
@@ -167,7 +180,8 @@ void describe(deck::Description<Deck>& d)
       .not_yet({"axisymmetric"});
   d.key("mesh", &Deck::mesh, "The mesh.").required();
   d.key("materials", &Deck::materials, "Materials by name.").required();
-  d.key("bodies", &Deck::bodies, "One entry for each physical volume (plane models: surface) of the mesh, by its name.").required();
+  d.key("bodies", &Deck::bodies, "One entry for each physical volume (plane models: surface) of the mesh, by its name.")
+      .required();
   d.key("supports", &Deck::supports, "Prescribed displacements.");
   d.key("loads", &Deck::loads, "Loads.");
   d.custom(
@@ -216,20 +230,24 @@ void check_names(const Deck& deck, deck::Document& document, const mesh::Catalog
   for (const auto& body : catalogue.bodies)
     if (std::find(groups.begin(), groups.end(), body.group) == groups.end()) groups.push_back(body.group);
   for (const auto& [name, body] : deck.bodies)
-    if (std::find(groups.begin(), groups.end(), name) == groups.end()) document.error("bodies." + name, fmt::format("the mesh has no body \"{}\"{}", name, deck::suggestion(name, groups)));
+    if (std::find(groups.begin(), groups.end(), name) == groups.end())
+      document.error("bodies." + name, fmt::format("the mesh has no body \"{}\"{}", name, deck::suggestion(name, groups)));
   for (const auto& group : groups)
-    if (!deck.bodies.contains(group)) document.error("bodies", fmt::format("the body \"{}\" of the mesh has no entry; give it a material", group));
+    if (!deck.bodies.contains(group))
+      document.error("bodies", fmt::format("the body \"{}\" of the mesh has no entry; give it a material", group));
 
   const auto check = [&](const std::string& name, const std::string& path) {
     if (const auto why = missing(name, catalogue); !why.empty()) document.error(path, why);
   };
-  for (std::size_t i = 0; i < deck.supports.size(); ++i) check(deck.supports[i].boundary, fmt::format("supports[{}].boundary", i));
+  for (std::size_t i = 0; i < deck.supports.size(); ++i)
+    check(deck.supports[i].boundary, fmt::format("supports[{}].boundary", i));
   for (std::size_t i = 0; i < deck.loads.size(); ++i) {
     const auto& load = deck.loads[i];
     if (!load.boundary.empty()) check(load.boundary, fmt::format("loads[{}].boundary", i));
     if (load.body.empty()) continue;
     const auto at = fmt::format("loads[{}].body", i);
-    const bool known = std::any_of(catalogue.bodies.begin(), catalogue.bodies.end(), [&](const mesh::Body& b) { return b.name == load.body || b.group == load.body; });
+    const bool known = std::any_of(catalogue.bodies.begin(), catalogue.bodies.end(),
+                                   [&](const mesh::Body& b) { return b.name == load.body || b.group == load.body; });
     if (!known) document.error(at, fmt::format("the mesh has no body \"{}\"{}", load.body, deck::suggestion(load.body, groups)));
     for (const auto& body : catalogue.bodies) {
       if (body.name != load.body && body.group != load.body) continue;
@@ -255,6 +273,9 @@ std::string write_deck(const Deck& deck)
   return std::string(out.c_str()) + "\n";
 }
 
-std::string deck_schema() { return deck::schema<Deck>().dump(2) + "\n"; }
+std::string deck_schema()
+{
+  return deck::schema<Deck>().dump(2) + "\n";
+}
 
 }  // namespace mortise

@@ -42,8 +42,8 @@ struct Deck {
   int dimension() const { return kinematics == fem::Kinematics::solid ? 3 : 2; }
 };
 
-/// Reads the deck from `document`: all sections and the checks between them. Paths in the result are absolute. `output` replaces the
-/// deck's output directory if it is not empty. Errors go to the document.
+/// Reads the deck from `document`: all sections and the checks between them. Paths in the result are absolute. `output` replaces
+/// the deck's output directory if it is not empty. Errors go to the document.
 Deck read_deck(deck::Document& document, const std::string& output);
 
 /// A boundary by its name in the deck: `boundary`, or `body:boundary` for the part of it that lies on one body or group.
@@ -53,7 +53,8 @@ struct BoundaryName {
 };
 BoundaryName parse_boundary(const std::string& name);
 
-/// Checks all names against the mesh: each body group has an entry, each entry a body, each boundary exists. Errors go to the document.
+/// Checks all names against the mesh: each body group has an entry, each entry a body, each boundary exists. Errors go to the
+/// document.
 void check_names(const Deck& deck, deck::Document& document, const mesh::Catalogue& catalogue);
 
 /// The deck with every default filled in, as YAML that reads back to the same deck.

@@ -20,14 +20,15 @@ io::Piece volume_piece(const Deck& deck, const partition::Decomposition& decompo
 {
   io::Piece piece;
   std::vector<Global> ids;
-  for (const auto& subdomain : decomposition.subdomains) ids.insert(ids.end(), subdomain.mesh.node_id.begin(), subdomain.mesh.node_id.end());
+  for (const auto& subdomain : decomposition.subdomains)
+    ids.insert(ids.end(), subdomain.mesh.node_id.begin(), subdomain.mesh.node_id.end());
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   const auto count = ids.size();
   const auto dimension = static_cast<std::size_t>(decomposition.catalogue.dimension);
   piece.points.resize(count);
-  io::Field displacement{"displacement", 3, std::vector<double>(3 * count, 0.0)}, von_mises{"von_mises", 1, std::vector<double>(count)},
-      stress{"stress", 6, std::vector<double>(6 * count)};
+  io::Field displacement{"displacement", 3, std::vector<double>(3 * count, 0.0)},
+      von_mises{"von_mises", 1, std::vector<double>(count)}, stress{"stress", 6, std::vector<double>(6 * count)};
   io::Field cell_von_mises{"von_mises", 1, {}}, body{"body", 1, {}, true}, owner{"subdomain", 1, {}, true};
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
@@ -38,7 +39,8 @@ io::Piece volume_piece(const Deck& deck, const partition::Decomposition& decompo
       place.push_back(static_cast<Local>(at));
       piece.points[at] = mesh.points[n];
       const auto row = static_cast<Eigen::Index>(n);
-      for (std::size_t c = 0; c < dimension; ++c) displacement.values[3 * at + c] = results.displacement[s][static_cast<Eigen::Index>(n * dimension + c)];
+      for (std::size_t c = 0; c < dimension; ++c)
+        displacement.values[3 * at + c] = results.displacement[s][static_cast<Eigen::Index>(n * dimension + c)];
       von_mises.values[at] = results.nodal_von_mises[s][row];
       for (std::size_t c = 0; c < 6; ++c) stress.values[6 * at + c] = results.nodal_stress[s](row, static_cast<Eigen::Index>(c));
     }
@@ -62,7 +64,10 @@ io::Piece volume_piece(const Deck& deck, const partition::Decomposition& decompo
   return piece;
 }
 
-void append(std::vector<double>& to, const Point& p) { to.insert(to.end(), {p[0], p[1], p[2]}); }
+void append(std::vector<double>& to, const Point& p)
+{
+  to.insert(to.end(), {p[0], p[1], p[2]});
+}
 
 // The secondary sides of all contacts.
 io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vector<contact::SurfaceState>& states)
@@ -94,7 +99,8 @@ io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vect
 }
 
 // Nodal tables: each node from its lowest copy.
-std::vector<io::Table> node_tables(const partition::Decomposition& decomposition, const partition::Interface& interface, const Results& results)
+std::vector<io::Table> node_tables(const partition::Decomposition& decomposition, const partition::Interface& interface,
+                                   const Results& results)
 {
   const Global total = decomposition.catalogue.node_count;
   const int dimension = decomposition.catalogue.dimension;
@@ -124,7 +130,13 @@ std::vector<io::Table> node_tables(const partition::Decomposition& decomposition
 io::Table contact_table(const Results& results, const Communicator& comm)
 {
   const auto mine = static_cast<long long>(results.points.size());
-  io::Table table{"contact/points", "contact, node, area, normal force, force on the secondary side (3), gap, slip (3), status 0 open 1 stick 2 slip", 12, comm.sum(mine), {}, {}};
+  io::Table table{
+      "contact/points",
+      "contact, node, area, normal force, force on the secondary side (3), gap, slip (3), status 0 open 1 stick 2 slip",
+      12,
+      comm.sum(mine),
+      {},
+      {}};
   Global row = comm.offset(mine);
   for (const auto& p : results.points) {
     table.row.push_back(row++);
@@ -139,7 +151,12 @@ io::Table contact_table(const Results& results, const Communicator& comm)
 
 io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambda)
 {
-  io::Table table{"dual/multipliers", "multipliers of the scaled rows: gluing, supports, contacts, gauges", 1, problem.dual_unknowns(), {}, {}};
+  io::Table table{"dual/multipliers",
+                  "multipliers of the scaled rows: gluing, supports, contacts, gauges",
+                  1,
+                  problem.dual_unknowns(),
+                  {},
+                  {}};
   const auto values = view(lambda);
   const auto rows = problem.jump().rows()->getNodeElementList();
   table.row.assign(rows.begin(), rows.end());
@@ -150,15 +167,16 @@ io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambd
 }  // namespace
 
 void write_fields(const Deck& deck, const partition::Decomposition& decomposition, const std::vector<contact::Pair>& pairs,
-                  const partition::Interface& interface, const feti::DualProblem& problem, const friction::Result& solved, const Results& results,
-                  const Communicator& comm)
+                  const partition::Interface& interface, const feti::DualProblem& problem, const friction::Result& solved,
+                  const Results& results, const Communicator& comm)
 {
   const auto& directory = deck.output.directory;
   auto tables = node_tables(decomposition, interface, results);
   tables.push_back(multiplier_table(problem, solved.solution.x));
   if (!pairs.empty()) tables.push_back(contact_table(results, comm));
   io::write_results(directory + "/results.h5", tables, comm);
-  if (!pairs.empty()) io::write_vtk(directory, "contact", contact_piece(pairs, contact::surface_states(results.points, pairs, comm)), comm);
+  if (!pairs.empty())
+    io::write_vtk(directory, "contact", contact_piece(pairs, contact::surface_states(results.points, pairs, comm)), comm);
   io::write_vtk(directory, "solution", volume_piece(deck, decomposition, results), comm);
 }
 

@@ -5,10 +5,9 @@
 //
 // Sample runs:  mortise inputs/hertz_sphere/hertz_sphere.yaml
 //               mpirun -n 2 mortise inputs/cantilever_3d/cantilever_3d.yaml --set solver.tolerance=1e-6
-#include <Tpetra_Core.hpp>
-
 #include <dlfcn.h>
 
+#include <Tpetra_Core.hpp>
 #include <fstream>
 #include <iostream>
 #include <new>

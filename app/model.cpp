@@ -10,14 +10,18 @@ namespace mortise {
 
 namespace {
 
-Point point(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
+Point point(const std::array<double, 3>& x)
+{
+  return {x[0], x[1], x[2]};
+}
 
 }  // namespace
 
 std::vector<bool> Model::bodies_called(const std::string& name) const
 {
   std::vector<bool> result;
-  for (const auto& body : decomposition_.catalogue.bodies) result.push_back(name.empty() || body.name == name || body.group == name);
+  for (const auto& body : decomposition_.catalogue.bodies)
+    result.push_back(name.empty() || body.name == name || body.group == name);
   return result;
 }
 
@@ -37,7 +41,8 @@ const fem::Material& Model::material(const partition::Subdomain& subdomain) cons
 std::vector<SparseMatrix> Model::stiffness() const
 {
   std::vector<SparseMatrix> result;
-  for (const auto& subdomain : decomposition_.subdomains) result.push_back(fem::stiffness(subdomain.mesh, material(subdomain), deck_.kinematics));
+  for (const auto& subdomain : decomposition_.subdomains)
+    result.push_back(fem::stiffness(subdomain.mesh, material(subdomain), deck_.kinematics));
   return result;
 }
 
@@ -45,7 +50,8 @@ std::vector<Eigen::VectorXd> Model::loads(const Communicator& comm) const
 {
   const int dimension = deck_.dimension();
   std::vector<Eigen::VectorXd> f;
-  for (const auto& subdomain : decomposition_.subdomains) f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
+  for (const auto& subdomain : decomposition_.subdomains)
+    f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
   for (const auto& load : deck_.loads) {
     if (load.acceleration) {
       const auto on_body = bodies_called(load.body);
@@ -97,7 +103,9 @@ std::vector<friction::Law> Model::friction_laws() const
   using Kind = friction::Law::Kind;
   std::vector<friction::Law> laws;
   for (const auto& contact : deck_.contacts) {
-    const Kind kind = contact.law == contact::Law::tresca ? Kind::tresca : contact.law == contact::Law::coulomb ? Kind::coulomb : Kind::frictionless;
+    const Kind kind = contact.law == contact::Law::tresca    ? Kind::tresca
+                      : contact.law == contact::Law::coulomb ? Kind::coulomb
+                                                             : Kind::frictionless;
     laws.push_back({kind, contact.friction});
   }
   return laws;

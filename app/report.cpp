@@ -20,15 +20,16 @@ Peak over_ranks(const Peak& mine, const Communicator& comm)
 {
   const double largest = comm.max(mine.value);
   // The lowest rank that has it tells where.
-  const long long winner = comm.min(mine.value == largest ? static_cast<long long>(comm.rank()) : static_cast<long long>(comm.size()));
+  const long long winner =
+      comm.min(mine.value == largest ? static_cast<long long>(comm.rank()) : static_cast<long long>(comm.size()));
   std::vector<double> at(3, 0.0);
   if (winner == comm.rank()) at = {mine.at[0], mine.at[1], mine.at[2]};
   comm.sum_in_place(at);
   return {largest, Point(at[0], at[1], at[2])};
 }
 
-void recover_stress(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const partition::Interface& interface,
-                    const Communicator& comm, Results& results)
+void recover_stress(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                    const partition::Interface& interface, const Communicator& comm, Results& results)
 {
   std::vector<Eigen::MatrixXd> sums;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
@@ -51,6 +52,16 @@ void recover_stress(const Deck& deck, const partition::Decomposition& decomposit
     results.nodal_stress.push_back(std::move(stress));
     results.nodal_von_mises.push_back(std::move(von_mises));
   }
+  double squared_error = 0;
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    squared_error += fem::squared_errors(subdomain.mesh, model.material(subdomain), deck.kinematics, results.displacement[s],
+                                         results.nodal_stress[s])
+                         .sum();
+  }
+  squared_error = comm.sum(squared_error);
+  const double squared_norm = 2 * results.summary.strain_energy + squared_error;
+  if (squared_norm > 0) results.summary.error_estimate.discretization = std::sqrt(squared_error / squared_norm);
   peak = over_ranks(peak, comm);
   results.summary.max_von_mises = peak.value;
   results.max_von_mises_at = peak.at;
@@ -80,9 +91,11 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
       multipliers.push_back(lambda[r] * scale[r]);
       row_jumps.push_back(jump[r] / scale[r]);
     }
-    const double limit = rows.disc < 0 ? 0.0 : problem.set().discs()[static_cast<std::size_t>(rows.disc)].radius * scale[rows.normal];
-    results.points.push_back(contact::state_of(contacts.points[i], contacts.bonded[i], multipliers, row_jumps, contacts.rows.bound[contacts.points[i].row], limit,
-                                                 1e-4 * largest[static_cast<std::size_t>(contacts.points[i].contact)]));
+    const double limit =
+        rows.disc < 0 ? 0.0 : problem.set().discs()[static_cast<std::size_t>(rows.disc)].radius * scale[rows.normal];
+    results.points.push_back(contact::state_of(contacts.points[i], contacts.bonded[i], multipliers, row_jumps,
+                                               contacts.rows.bound[contacts.points[i].row], limit,
+                                               1e-4 * largest[static_cast<std::size_t>(contacts.points[i].contact)]));
     if (contacts.bonded[i]) continue;
     penetration = std::max(penetration, -results.points.back().gap);
     slackness += std::abs(results.points.back().gap * multipliers[0]);
@@ -96,7 +109,8 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
 }
 
 // A surface that closes where the search for contact ended may have closed farther on as well.
-void warn_of_short_search(const Deck& deck, const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem, const Results& results, const Context& context)
+void warn_of_short_search(const Deck& deck, const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem,
+                          const Results& results, const Context& context)
 {
   const auto& contacts = problem.constraints().contacts;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -108,8 +122,10 @@ void warn_of_short_search(const Deck& deck, const std::vector<contact::Pair>& pa
     widest = context.comm.max(widest);
     const double reach = contact::search_distance(pairs[c], context.comm);
     if (widest > 0.7 * reach)
-      context.log.warning("contact {} closes over gaps of up to {:.3g}, close to the search distance {:.3g}: set a larger search_distance and solve again", deck.contacts[c].name,
-                          widest, reach);
+      context.log.warning(
+          "contact {} closes over gaps of up to {:.3g}, close to the search distance {:.3g}: set a larger search_distance and "
+          "solve again",
+          deck.contacts[c].name, widest, reach);
   }
 }
 
@@ -121,7 +137,8 @@ void reactions(const Deck& deck, const feti::DualProblem& problem, const frictio
   const auto& held = problem.constraints().held;
   for (std::size_t i = 0; i < held.size(); ++i) {
     const auto row = problem.jump().ranges().held + static_cast<Local>(i);
-    sums[static_cast<std::size_t>(held[i].support) * 3 + static_cast<std::size_t>(held[i].component)] -= lambda[row] * problem.jump().scale()[row];
+    sums[static_cast<std::size_t>(held[i].support) * 3 + static_cast<std::size_t>(held[i].component)] -=
+        lambda[row] * problem.jump().scale()[row];
   }
   problem.communicator().sum_in_place(sums);
   for (std::size_t s = 0; s < deck.supports.size(); ++s) {
@@ -132,8 +149,8 @@ void reactions(const Deck& deck, const feti::DualProblem& problem, const frictio
 }
 
 // What needs the displacements alone: their largest, the loads' sum, the largest penetration.
-void sum_up(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const feti::Floating& floating, const friction::Result& solved,
-            Results& results)
+void sum_up(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const feti::Floating& floating,
+            const friction::Result& solved, Results& results)
 {
   const auto& comm = problem.communicator();
   const int dimension = decomposition.catalogue.dimension;
@@ -169,9 +186,9 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
 
 }  // namespace
 
-Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const partition::Interface& interface,
-                 const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem, const feti::Floating& floating, const friction::Result& solved,
-                 const Context& context)
+Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                 const partition::Interface& interface, const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem,
+                 const feti::Floating& floating, const friction::Result& solved, const Context& context)
 {
   Results results;
   results.displacement = problem.displacement(solved.solution.x, solved.solution.nu);
@@ -184,7 +201,8 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   reactions(deck, problem, solved, results);
   for (std::size_t c = 0; c < deck.contacts.size(); ++c) {
     const auto& r = results.resultants[c];
-    results.summary.contacts.push_back({deck.contacts[c].name, {r.force[0], r.force[1], r.force[2]}, r.max_pressure, r.area, r.open, r.stick, r.slip});
+    results.summary.contacts.push_back(
+        {deck.contacts[c].name, {r.force[0], r.force[1], r.force[2]}, r.max_pressure, r.area, r.open, r.stick, r.slip});
   }
   return results;
 }
@@ -197,16 +215,23 @@ void print(const Results& results, const Context& context)
   log.line("");
   log.line("{}", s.converged ? "Solved." : "NOT CONVERGED within the limits: the results are written, but do not trust them.");
   const double size = std::max({results.applied.norm(), results.reaction.norm(), 1e-300});
-  log.line("  balance of forces   applied {}, supports {}, difference {:.1e} of it", vector(results.applied), vector(results.reaction),
-           (results.applied + results.reaction).norm() / size);
+  log.line("  balance of forces   applied {}, supports {}, difference {:.1e} of it", vector(results.applied),
+           vector(results.reaction), (results.applied + results.reaction).norm() / size);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);
+  log.line("  error of the mesh   about {:.1f} % in the energy norm, by recovered stresses",
+           100 * s.error_estimate.discretization);
   for (const auto& c : s.contacts)
-    log.line("  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g}, area {:.4g}; {} open, {} stick, {} slip", c.name, c.force[0],
-             c.force[1], c.force[2], c.max_pressure, c.area, c.open, c.stick, c.slip);
-  log.line("  residuals           gradient {:.1e}, equality {:.1e}, equilibrium {:.1e}, penetration {:.1e}, complementarity {:.1e}", s.residuals.projected_gradient,
-           s.residuals.equality, s.residuals.equilibrium, s.residuals.penetration, s.residuals.complementarity);
-  log.line("  work                {} products with F, {} outer iterations, {} friction steps", s.hessian_multiplications, s.outer_iterations, s.friction_steps);
+    log.line(
+        "  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g}, area {:.4g}; {} open, {} "
+        "stick, {} slip",
+        c.name, c.force[0], c.force[1], c.force[2], c.max_pressure, c.area, c.open, c.stick, c.slip);
+  log.line(
+      "  residuals           gradient {:.1e}, equality {:.1e}, equilibrium {:.1e}, penetration {:.1e}, complementarity {:.1e}",
+      s.residuals.projected_gradient, s.residuals.equality, s.residuals.equilibrium, s.residuals.penetration,
+      s.residuals.complementarity);
+  log.line("  work                {} products with F, {} outer iterations, {} friction steps", s.hessian_multiplications,
+           s.outer_iterations, s.friction_steps);
 }
 
 }  // namespace mortise

@@ -10,11 +10,11 @@ namespace mortise {
 
 /// Fields and numbers of a solved problem.
 struct Results {
-  std::vector<Eigen::VectorXd> displacement;         ///< of each subdomain
-  std::vector<Eigen::MatrixXd> nodal_stress;         ///< nodes x 6 of each subdomain, recovered inside the body
+  std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
+  std::vector<Eigen::MatrixXd> nodal_stress;  ///< nodes x 6 of each subdomain, recovered inside the body
   std::vector<Eigen::VectorXd> nodal_von_mises, cell_von_mises;
-  std::vector<contact::PointState> points;           ///< of this rank's contact points
-  std::vector<contact::Resultant> resultants;        ///< of each contact
+  std::vector<contact::PointState> points;     ///< of this rank's contact points
+  std::vector<contact::Resultant> resultants;  ///< of each contact
   Point max_von_mises_at = Point::Zero();
   Point applied = Point::Zero(), reaction = Point::Zero();  ///< sums of loads and of support forces
   double dual_jump = 0;
@@ -22,14 +22,14 @@ struct Results {
 };
 
 /// Collective.
-Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const partition::Interface& interface,
-                 const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem, const feti::Floating& floating, const friction::Result& solved,
-                 const Context& context);
+Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                 const partition::Interface& interface, const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem,
+                 const feti::Floating& floating, const friction::Result& solved, const Context& context);
 
 /// Writes every file but the history and the summary. Collective.
 void write_fields(const Deck& deck, const partition::Decomposition& decomposition, const std::vector<contact::Pair>& pairs,
-                  const partition::Interface& interface, const feti::DualProblem& problem, const friction::Result& solved, const Results& results,
-                  const Communicator& comm);
+                  const partition::Interface& interface, const feti::DualProblem& problem, const friction::Result& solved,
+                  const Results& results, const Communicator& comm);
 
 /// The last lines on the terminal, for an engineer to judge. Collective.
 void print(const Results& results, const Context& context);

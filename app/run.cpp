@@ -22,13 +22,15 @@ void print_header(const Deck& deck, const partition::Decomposition& decompositio
 {
   const auto& catalogue = decomposition.catalogue;
   context.log.line("Mortise {}: {}", MORTISE_VERSION, deck.title.empty() ? "(no title)" : deck.title);
-  context.log.line("  {} bodies, {} nodes, {} cells, {} unknowns; {} subdomains on {} ranks; {} contacts", catalogue.bodies.size(), catalogue.node_count,
-                   catalogue.cell_count, catalogue.node_count * catalogue.dimension, decomposition.subdomain_count(), context.comm.size(), deck.contacts.size());
+  context.log.line("  {} bodies, {} nodes, {} cells, {} unknowns; {} subdomains on {} ranks; {} contacts",
+                   catalogue.bodies.size(), catalogue.node_count, catalogue.cell_count,
+                   catalogue.node_count * catalogue.dimension, decomposition.subdomain_count(), context.comm.size(),
+                   deck.contacts.size());
 }
 
 // --check: what would be solved.
-void print_check(const partition::Decomposition& decomposition, const std::vector<constraint::Held>& held, const constraint::Contacts& contacts,
-                 const Deck& deck, const Context& context)
+void print_check(const partition::Decomposition& decomposition, const std::vector<constraint::Held>& held,
+                 const constraint::Contacts& contacts, const Deck& deck, const Context& context)
 {
   const auto& comm = context.comm;
   long long unknowns = 0;
@@ -37,29 +39,34 @@ void print_check(const partition::Decomposition& decomposition, const std::vecto
   for (const auto& subdomain : decomposition.subdomains) {
     const auto n = static_cast<double>(subdomain.mesh.node_count() * static_cast<std::size_t>(dimension));
     unknowns += static_cast<long long>(n);
-    factor_bytes += dimension == 3 ? 8 * 5.0 * std::pow(n, 4.0 / 3) : 8 * 8.0 * n * std::log2(n + 1);  // nested dissection's growth, measured factor
+    factor_bytes += dimension == 3 ? 8 * 5.0 * std::pow(n, 4.0 / 3)
+                                   : 8 * 8.0 * n * std::log2(n + 1);  // nested dissection's growth, measured factor
   }
   const auto total = comm.sum(unknowns);
-  context.log.line("  {} unknowns in the subdomains, {} held components, {} contact points with {} rows", total, comm.sum(static_cast<long long>(held.size())),
-                   comm.sum(static_cast<long long>(contacts.points.size())), comm.sum(static_cast<long long>(contacts.rows.size())));
+  context.log.line("  {} unknowns in the subdomains, {} held components, {} contact points with {} rows", total,
+                   comm.sum(static_cast<long long>(held.size())), comm.sum(static_cast<long long>(contacts.points.size())),
+                   comm.sum(static_cast<long long>(contacts.rows.size())));
   std::vector<double> points(deck.contacts.size(), 0.0);
   for (const auto& point : contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
   comm.sum_in_place(points);
   for (std::size_t c = 0; c < points.size(); ++c)
-    context.log.line("  contact {}: {} points{}", deck.contacts[c].name, points[c], points[c] == 0 ? " - the surfaces do not face each other within the search distance" : "");
+    context.log.line("  contact {}: {} points{}", deck.contacts[c].name, points[c],
+                     points[c] == 0 ? " - the surfaces do not face each other within the search distance" : "");
   context.log.line("  memory expected: about {:.1f} GB", (comm.sum(factor_bytes) + 1500.0 * static_cast<double>(total)) / 1e9);
 }
 
 // Factorizes every subdomain.
-feti::Floating float_subdomains(const Deck& deck, const partition::Decomposition& decomposition, std::vector<SparseMatrix> stiffness, std::vector<Eigen::VectorXd> load,
+feti::Floating float_subdomains(const Deck& deck, const partition::Decomposition& decomposition,
+                                std::vector<SparseMatrix> stiffness, std::vector<Eigen::VectorXd> load,
                                 std::vector<std::vector<double>> nodal_stiffness, const Communicator& comm)
 {
   feti::Floating floating{{}, std::move(load), std::move(nodal_stiffness)};
   collectively(comm, [&] {
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
       const auto& points = decomposition.subdomains[s].mesh.points;
-      floating.subdomains.push_back(std::make_unique<feti::ElasticSubdomain>(std::move(stiffness[s]), fem::rigid_motions(points, deck.dimension()), points, deck.dimension(),
-                                                                             deck.solver.subdomains.factorization));
+      floating.subdomains.push_back(
+          std::make_unique<feti::ElasticSubdomain>(std::move(stiffness[s]), fem::rigid_motions(points, deck.dimension()), points,
+                                                   deck.dimension(), deck.solver.subdomains.factorization));
     }
   });
   return floating;
@@ -73,19 +80,23 @@ class History {
   void note(int step, double change, const qp::Progress& p)
   {
     if (p.what == "inner") {
-      context_.log.progress("  {}outer {}, {} products, gradient {:.1e}, equality {:.1e} (tolerance {:.1e})", step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer,
-                            p.multiplications, p.projected_gradient, p.equality, deck_.solver.programme.tolerance);
+      context_.log.progress("  {}outer {}, {} products, gradient {:.1e}, equality {:.1e} (tolerance {:.1e})",
+                            step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer, p.multiplications,
+                            p.projected_gradient, p.equality, deck_.solver.programme.tolerance);
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
-    text_ += fmt::format("{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{}\n", p.what, step, p.outer, p.multiplications, p.projected_gradient, p.equality, change, p.precision, bounds, discs);
+    text_ += fmt::format("{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{}\n", p.what, step, p.outer, p.multiplications,
+                         p.projected_gradient, p.equality, change, p.precision, bounds, discs);
   }
   const std::string& text() const { return text_; }
 
  private:
   const Deck& deck_;
   const Context& context_;
-  std::string text_ = "stage,friction_step,outer_iteration,hessian_multiplications,projected_gradient,equality,slip_bound_change,precision,open,slipping\n";
+  std::string text_ =
+      "stage,friction_step,outer_iteration,hessian_multiplications,projected_gradient,equality,slip_bound_change,precision,open,"
+      "slipping\n";
 };
 
 }  // namespace
@@ -98,7 +109,9 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   check_names(deck, document, decomposition.catalogue);
   document.check();
   print_header(deck, decomposition, context);
-  const auto stage = [&](const char* what, const char* name) { log.line("  {:<22} {:8.2f} s", what, comm.max(timers.seconds(name))); };
+  const auto stage = [&](const char* what, const char* name) {
+    log.line("  {:<22} {:8.2f} s", what, comm.max(timers.seconds(name)));
+  };
   stage("mesh", "mesh");
   stage("partition", "partition");
   if (!command_line.check) io::prepare_directory(deck.output.directory, comm);
@@ -144,8 +157,9 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
     const auto scope = timers.scope("solve");
     problem = std::make_unique<feti::DualProblem>(decomposition, directory, interface, constraints, floating, context);
     log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(), problem->kernel_dimension());
-    solved = std::make_unique<friction::Result>(friction::solve(*problem, model.friction_laws(), deck.friction_loop, deck.solver.programme,
-                                                                [&](int step, double change, const qp::Progress& p) { history.note(step, change, p); }));
+    solved = std::make_unique<friction::Result>(
+        friction::solve(*problem, model.friction_laws(), deck.friction_loop, deck.solver.programme,
+                        [&](int step, double change, const qp::Progress& p) { history.note(step, change, p); }));
   }
   log.end_progress();
   stage("solve", "solve");
@@ -168,7 +182,8 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
     if (comm.root()) io::write_text(deck.output.directory + "/summary.json", io::to_json(results.summary));
   });
   print(results, context);
-  log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", results.summary.time["total"], results.summary.peak_memory_bytes / 1e9, deck.output.directory);
+  log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", results.summary.time["total"],
+           results.summary.peak_memory_bytes / 1e9, deck.output.directory);
   return solved->converged ? ExitStatus::solved : ExitStatus::not_converged;
 }
 

@@ -76,13 +76,16 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
 {
   EXPECT_EQ(complaints(blocks), "");
   expect_complaint("decomposition: {method: grid, counts: {a: [2, 2, 2]}}\n", "the block \"b\" needs an entry");
-  expect_complaint("decomposition: {method: grid, counts: {a: [2, 2, 2], b: [3, 1, 1]}}\n", "expected 1 to 2 subdomains along x, found 3");
-  expect_complaint("loads: [{boundary: a.xmax, pressure: 1, force: [1, 0, 0]}]\n", "exactly one of pressure, traction, force and acceleration, found 2");
+  expect_complaint("decomposition: {method: grid, counts: {a: [2, 2, 2], b: [3, 1, 1]}}\n",
+                   "expected 1 to 2 subdomains along x, found 3");
+  expect_complaint("loads: [{boundary: a.xmax, pressure: 1, force: [1, 0, 0]}]\n",
+                   "exactly one of pressure, traction, force and acceleration, found 2");
   expect_complaint("loads: [{boundary: a.xmax, acceleration: [1, 0, 0]}]\n", "an acceleration acts on a `body`");
   expect_complaint("contacts: auto\n", "`auto` is not available");
   expect_complaint("contacts: [{secondary: a.zmax, primary: {plane: {}}}]\n", "rigid obstacles are not available");
   expect_complaint("contacts: [{secondary: a.zmax, primary: a.zmax}]\n", "same boundary");
-  expect_complaint("contacts: [{secondary: a.zmax, primary: b.zmin}, {secondary: a.zmax, primary: b.zmin}]\n", "two contacts are called");
+  expect_complaint("contacts: [{secondary: a.zmax, primary: b.zmin}, {secondary: a.zmax, primary: b.zmin}]\n",
+                   "two contacts are called");
   expect_complaint("contacts: [{secondary: a.zmax, primary: b.zmin, friction: {coulomb: -1}}]\n", "expected a number >= 0");
   expect_complaint("dimension: plane_strain\n", "does not fit a model of dimension 2");
   expect_complaint("dimension: axisymmetric\n", "not available in this version");
@@ -91,7 +94,9 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
 
 TEST(Decks, NamesAreCheckedAgainstTheMesh)
 {
-  deck::Document document(std::string(blocks) + "supports: [{boundary: a.zmn, displacement: {z: 0}}, {boundary: 'c:a.zmin', displacement: {z: 0}}]\nloads: [{body: a, acceleration: [0, 0, 1]}]\n",
+  deck::Document document(std::string(blocks) +
+                              "supports: [{boundary: a.zmn, displacement: {z: 0}}, {boundary: 'c:a.zmin', displacement: {z: "
+                              "0}}]\nloads: [{body: a, acceleration: [0, 0, 1]}]\n",
                           "deck.yaml", {});
   const auto deck = read_deck(document, "");
   mesh::Catalogue catalogue;
@@ -103,8 +108,9 @@ TEST(Decks, NamesAreCheckedAgainstTheMesh)
     FAIL() << "no error";
   } catch (const Error& error) {
     const std::string text = error.what();
-    for (const char* expected : {"the mesh has no body \"b\", did you mean \"bb\"?", "the body \"bb\" of the mesh has no entry", "the mesh has no boundary \"a.zmn\", did you mean \"a.zmin\"?",
-                                 "the mesh has no body \"c\"", "needs a density > 0"})
+    for (const char* expected :
+         {"the mesh has no body \"b\", did you mean \"bb\"?", "the body \"bb\" of the mesh has no entry",
+          "the mesh has no boundary \"a.zmn\", did you mean \"a.zmin\"?", "the mesh has no body \"c\"", "needs a density > 0"})
       EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
   }
 }
@@ -112,7 +118,8 @@ TEST(Decks, NamesAreCheckedAgainstTheMesh)
 TEST(Decks, SchemaIsJsonWithEverySection)
 {
   const auto schema = nlohmann::json::parse(deck_schema());
-  for (const char* section : {"title", "dimension", "mesh", "materials", "bodies", "supports", "loads", "contacts", "decomposition", "solver", "friction_loop", "output"})
+  for (const char* section : {"title", "dimension", "mesh", "materials", "bodies", "supports", "loads", "contacts",
+                              "decomposition", "solver", "friction_loop", "output"})
     EXPECT_TRUE(schema["properties"].contains(section)) << section;
   EXPECT_TRUE(schema["properties"]["solver"]["properties"].contains("factorization"));
 }

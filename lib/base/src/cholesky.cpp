@@ -108,7 +108,10 @@ Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const
   return x;
 }
 
-int Cholesky::size() const { return static_cast<int>(data_->factor->n); }
+int Cholesky::size() const
+{
+  return static_cast<int>(data_->factor->n);
+}
 
 std::size_t Cholesky::factor_bytes() const
 {

@@ -2,11 +2,26 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
+#include <string_view>
+
 namespace mortise {
+
+namespace {
+
+// mpirun gives its processes a pseudo-terminal wherever their output goes, so there the wrapper script must say what stands
+// behind it.
+bool on_terminal(std::FILE* out)
+{
+  if (const char* told = std::getenv("MORTISE_TERMINAL")) return std::string_view(told) == "1";
+  return isatty(fileno(out)) != 0 && std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr;
+}
+
+}  // namespace
 
 Log::Log(const Communicator& comm, std::FILE* out) : out_(comm.root() ? out : nullptr)
 {
-  terminal_ = out_ && isatty(fileno(out_)) != 0;
+  terminal_ = out_ && on_terminal(out_);
   next_ = MPI_Wtime() + (terminal_ ? 0.1 : 10.0);
 }
 

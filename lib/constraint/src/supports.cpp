@@ -15,11 +15,12 @@ namespace {
 void check_agreement(const Held& a, const Held& b, std::span<const SupportOptions> supports)
 {
   if (std::abs(a.value - b.value) <= 1e-12 * std::max(std::abs(a.value), std::abs(b.value))) return;
-  throw Error(ExitStatus::bad_input,
-              fmt::format("supports[{}] (boundary \"{}\") and supports[{}] (boundary \"{}\") meet in a node and prescribe different "
-                          "displacements {} there: {} and {}; make them agree or drop the component from one of them",
-                          a.support, supports[a.support].boundary, b.support, supports[b.support].boundary,
-                          "xyz"[a.component], a.value, b.value));
+  throw Error(
+      ExitStatus::bad_input,
+      fmt::format("supports[{}] (boundary \"{}\") and supports[{}] (boundary \"{}\") meet in a node and prescribe different "
+                  "displacements {} there: {} and {}; make them agree or drop the component from one of them",
+                  a.support, supports[a.support].boundary, b.support, supports[b.support].boundary, "xyz"[a.component], a.value,
+                  b.value));
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -75,9 +74,18 @@ Directions directions(const Point& normal, const std::array<bool, 3>& held, int 
 class Builder {
  public:
   Builder(const Pair& pair, int index, std::span<const constraint::Held> held, int dimension, const Communicator& comm)
-      : pair_(pair), index_(index), dimension_(dimension), comm_(comm), secondary_(gather(pair.secondary, comm)),
-        primary_(gather(pair.primary, comm)), places_(find_places(secondary_)), primary_places_(find_places(primary_)), held_(gather_held(held, secondary_.node_id, comm)), reach_(search_distance(pair, comm))
-  {}
+      : pair_(pair),
+        index_(index),
+        dimension_(dimension),
+        comm_(comm),
+        secondary_(gather(pair.secondary, comm)),
+        primary_(gather(pair.primary, comm)),
+        places_(find_places(secondary_)),
+        primary_places_(find_places(primary_)),
+        held_(gather_held(held, secondary_.node_id, comm)),
+        reach_(search_distance(pair, comm))
+  {
+  }
 
   // Adds the rows of the places that this rank owns. Collective.
   void add_rows(constraint::Contacts& contacts)
@@ -94,11 +102,18 @@ class Builder {
   }
 
  private:
-  std::size_t first_face(int rank) const { return secondary_.faces.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm_.size()); }
-  std::size_t first_place(int rank) const { return places_.all.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm_.size()); }
+  std::size_t first_face(int rank) const
+  {
+    return secondary_.faces.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm_.size());
+  }
+  std::size_t first_place(int rank) const
+  {
+    return places_.all.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm_.size());
+  }
   std::span<const Local> corner_places(std::size_t face) const
   {
-    return std::span(places_.of_corner).subspan(static_cast<std::size_t>(secondary_.faces.offset[face]), secondary_.faces[face].size());
+    return std::span(places_.of_corner)
+        .subspan(static_cast<std::size_t>(secondary_.faces.offset[face]), secondary_.faces[face].size());
   }
 
   void integrate_faces()
@@ -115,9 +130,9 @@ class Builder {
       integrals_.push_back(integrate(secondary_, places_, f, primary_, primary_places_, *tree_, reach_));
   }
 
-  // The gap between the smooth surfaces at the node itself, along its normal. Its mean over the dual basis, which has negative parts, would
-  // see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch; that mean is left for nodes
-  // which look past the border of the primary side.
+  // The gap between the smooth surfaces at the node itself, along its normal. Its mean over the dual basis, which has negative
+  // parts, would see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch; that mean is
+  // left for nodes which look past the border of the primary side.
   double gap_at(std::size_t p, double mean) const
   {
     const Place& place = places_.all[p];
@@ -193,11 +208,13 @@ class Builder {
     std::vector<Sent> all;
     for (const auto& part : comm_.exchange(send)) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end(), [](const Sent& a, const Sent& b) {
-      return std::tie(a.term.place, a.term.on_primary, a.term.node, a.face) < std::tie(b.term.place, b.term.on_primary, b.term.node, b.face);
+      return std::tie(a.term.place, a.term.on_primary, a.term.node, a.face) <
+             std::tie(b.term.place, b.term.on_primary, b.term.node, b.face);
     });
     std::vector<Term> terms;
     for (const auto& sent : all) {
-      if (!terms.empty() && terms.back().place == sent.term.place && terms.back().on_primary == sent.term.on_primary && terms.back().node == sent.term.node)
+      if (!terms.empty() && terms.back().place == sent.term.place && terms.back().on_primary == sent.term.on_primary &&
+          terms.back().node == sent.term.node)
         terms.back().value += sent.term.value;
       else
         terms.push_back(sent.term);
@@ -210,7 +227,8 @@ class Builder {
     const Place& place = places_.all[p];
     const double d = d_[static_cast<Eigen::Index>(p)];
     const bool bonded = pair_.options.law == Law::bonded;
-    constraint::ContactPoint point{index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, place.normal, {}, contacts.rows.size()};
+    constraint::ContactPoint point{
+        index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, place.normal, {}, contacts.rows.size()};
     if (pair_.options.law != Law::frictionless) point.tangents = directions_[p].tangents;
 
     std::vector<Point> frame{place.normal};
@@ -229,10 +247,12 @@ class Builder {
         if (std::abs(term.value) <= 1e-12 * d) continue;
         for (int c = 0; c < dimension_; ++c)
           if (std::abs(frame[axis][c]) > 1e-14)
-            contacts.rows.entries.push_back({side.node_id[static_cast<std::size_t>(term.node)], c, term.value / d * frame[axis][c]});
+            contacts.rows.entries.push_back(
+                {side.node_id[static_cast<std::size_t>(term.node)], c, term.value / d * frame[axis][c]});
       }
       if (axis == 0 && !bonded)
-        contacts.rows.close(weight * gap_at(p, (frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d) / weight) - weight * pair_.options.interference);
+        contacts.rows.close(weight * gap_at(p, (frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d) / weight) -
+                            weight * pair_.options.interference);
       else
         contacts.rows.close(0.0);
     }
@@ -252,7 +272,7 @@ class Builder {
   std::vector<FaceIntegrals> integrals_;  // of this rank's faces
   std::vector<Directions> directions_;    // of each place
   std::vector<bool> kept_;
-  Eigen::VectorXd d_, rise_;              // of each place: integral psi_i, and of psi_i times the bulge
+  Eigen::VectorXd d_, rise_;  // of each place: integral psi_i, and of psi_i times the bulge
 };
 
 // Diagonal of the box round a side, over all ranks.

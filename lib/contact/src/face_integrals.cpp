@@ -1,7 +1,6 @@
 #include "face_integrals.hpp"
 
 #include <Eigen/Dense>
-
 #include <algorithm>
 #include <map>
 
@@ -24,12 +23,13 @@ std::vector<Point> corner_normals(const Side& side, const Places& places, std::s
 {
   std::vector<Point> normals;
   for (std::size_t k = 0; k < side.faces[face].size(); ++k)
-    normals.push_back(places.all[static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.faces.offset[face]) + k])].normal);
+    normals.push_back(
+        places.all[static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.faces.offset[face]) + k])].normal);
   return normals;
 }
 
-FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, std::size_t face, const Side& primary, const Places& primary_places,
-                        const Tree& tree, double reach)
+FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, std::size_t face, const Side& primary,
+                        const Places& primary_places, const Tree& tree, double reach)
 {
   const auto own_normals = corner_normals(secondary, secondary_places, face);
   const FaceGeometry own = secondary.geometry(face);
@@ -51,14 +51,16 @@ FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, s
       result.covered += point.weight * phi;
       result.rise += point.weight * (bulge(own, own_normals, point.secondary) + bulge(other, other_normals, point.primary)) * phi;
       for (std::size_t k = 0; k < nodes.size(); ++k)
-        opposite.try_emplace(nodes[k], Eigen::VectorXd::Zero(n)).first->second += point.weight * point.primary[static_cast<Eigen::Index>(k)] * phi;
+        opposite.try_emplace(nodes[k], Eigen::VectorXd::Zero(n)).first->second +=
+            point.weight * point.primary[static_cast<Eigen::Index>(k)] * phi;
     }
   }
   result.opposite.assign(opposite.begin(), opposite.end());
   return result;
 }
 
-FaceRows dual_rows(const FaceIntegrals& integrals, const std::vector<bool>& kept, std::span<const Local> nodes, std::span<const Local> places)
+FaceRows dual_rows(const FaceIntegrals& integrals, const std::vector<bool>& kept, std::span<const Local> nodes,
+                   std::span<const Local> places)
 {
   const auto n = static_cast<Eigen::Index>(nodes.size());
   std::vector<Eigen::Index> keep, drop;
@@ -90,7 +92,8 @@ FaceRows dual_rows(const FaceIntegrals& integrals, const std::vector<bool>& kept
     a = Eigen::MatrixXd::Identity(count, count);
 
   const auto put = [&](Eigen::Index k, Local node, bool primary, double value) {
-    if (value != 0) rows.terms.push_back({places[static_cast<std::size_t>(keep[static_cast<std::size_t>(k)])], node, primary, value});
+    if (value != 0)
+      rows.terms.push_back({places[static_cast<std::size_t>(keep[static_cast<std::size_t>(k)])], node, primary, value});
   };
   const Eigen::MatrixXd own = a * all;
   const Eigen::VectorXd rise = a * (t * integrals.rise);

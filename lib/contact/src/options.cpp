@@ -7,7 +7,8 @@ namespace mortise::contact {
 namespace {
 
 // friction: {coulomb: 0.3} | {tresca: 25} | {bonded: true}
-void read_friction(Options& contact, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits&)
+void read_friction(Options& contact, const YAML::Node& node, const std::string& path, deck::Document& document,
+                   const deck::Limits&)
 {
   if (!node.IsMap() || node.size() != 1) {
     document.error(path, "expected one of {coulomb: 0.3}, {tresca: 25.0} and {bonded: true}, found " + deck::found(node));
@@ -36,10 +37,17 @@ YAML::Node write_friction(const Options& contact)
   YAML::Node node(YAML::NodeType::Map);
   node.SetStyle(YAML::EmitterStyle::Flow);
   switch (contact.law) {
-    case Law::frictionless: return {};
-    case Law::tresca: node["tresca"] = deck::Codec<double>::write(contact.friction); break;
-    case Law::coulomb: node["coulomb"] = deck::Codec<double>::write(contact.friction); break;
-    case Law::bonded: node["bonded"] = true; break;
+    case Law::frictionless:
+      return {};
+    case Law::tresca:
+      node["tresca"] = deck::Codec<double>::write(contact.friction);
+      break;
+    case Law::coulomb:
+      node["coulomb"] = deck::Codec<double>::write(contact.friction);
+      break;
+    case Law::bonded:
+      node["bonded"] = true;
+      break;
   }
   return node;
 }
@@ -63,21 +71,31 @@ void describe(deck::Description<Options>& d)
   d.key("secondary", &Options::secondary, "Boundary that carries the multipliers: the finer or softer side.").required();
   d.custom(
        "primary", "The boundary opposite.",
-       [](Options& contact, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits) {
+       [](Options& contact, const YAML::Node& node, const std::string& path, deck::Document& document,
+          const deck::Limits& limits) {
          if (node.IsMap())
            document.error(path, "rigid obstacles are not available in this version of Mortise; expected the name of a boundary");
          else
            deck::Codec<std::string>::read(contact.primary, node, path, document, limits);
        },
-       [](const Options& contact) { return YAML::Node(contact.primary); }, [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); })
+       [](const Options& contact) { return YAML::Node(contact.primary); },
+       [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); })
       .required();
-  d.custom("friction", "{coulomb: coefficient}, {tresca: slip bound as a traction} or {bonded: true}; absent: frictionless.", read_friction, write_friction,
-           friction_schema);
-  d.key("discretization", &Options::discretization, "mortar: dual multipliers, integrated segment by segment.").one_of({"mortar"}).not_yet({"node_to_segment"});
+  d.custom("friction", "{coulomb: coefficient}, {tresca: slip bound as a traction} or {bonded: true}; absent: frictionless.",
+           read_friction, write_friction, friction_schema);
+  d.key("discretization", &Options::discretization, "mortar: dual multipliers, integrated segment by segment.")
+      .one_of({"mortar"})
+      .not_yet({"node_to_segment"});
   d.key("interference", &Options::interference, "Added overlap (press fit); negative opens a gap.");
-  d.key("search_distance", &Options::search_distance, "Surfaces farther apart than this never meet; 0 chooses a tenth of the smaller side's extent.").at_least(0);
+  d.key("search_distance", &Options::search_distance,
+        "Surfaces farther apart than this never meet; 0 chooses a tenth of the smaller side's extent.")
+      .at_least(0);
   d.check([](const Options& contact, const std::string& path, deck::Document& document) {
-    if (contact.secondary == contact.primary) document.error(path, fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available", contact.primary));
+    if (contact.secondary == contact.primary)
+      document.error(
+          path,
+          fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available",
+                      contact.primary));
   });
 }
 

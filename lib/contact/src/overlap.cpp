@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +30,10 @@ Frame frame_of(const FaceGeometry& face)
   return frame;
 }
 
-double cross(const Plane& a, const Plane& b) { return a[0] * b[1] - a[1] * b[0]; }
+double cross(const Plane& a, const Plane& b)
+{
+  return a[0] * b[1] - a[1] * b[0];
+}
 
 double area_of(const std::vector<Plane>& polygon)
 {
@@ -88,8 +90,8 @@ struct Sample {
   double weight;
 };
 
-// Products of bilinear functions of two parallelograms have degree 4 in the plane; other quads make them rational, and only many points
-// keep the patch test at rounding.
+// Products of bilinear functions of two parallelograms have degree 4 in the plane; other quads make them rational, and only many
+// points keep the patch test at rounding.
 std::vector<Sample> samples(const std::vector<Plane>& polygon, bool polynomial)
 {
   static const Rule low = gauss(4), high = gauss(9);
@@ -103,7 +105,8 @@ std::vector<Sample> samples(const std::vector<Plane>& polygon, bool polynomial)
     if (!(twice > 0)) continue;
     for (std::size_t k = 0; k < rule.at.size(); ++k)  // the square collapsed to a triangle at the centre
       for (std::size_t l = 0; l < rule.at.size(); ++l)
-        result.push_back({centre + rule.at[k] * (a + rule.at[l] * (b - a)), twice * rule.at[k] * rule.weight[k] * rule.weight[l]});
+        result.push_back(
+            {centre + rule.at[k] * (a + rule.at[l] * (b - a)), twice * rule.at[k] * rule.weight[k] * rule.weight[l]});
   }
   return result;
 }
@@ -112,7 +115,8 @@ std::vector<Sample> samples_on_line(double begin, double end)
 {
   static const Rule rule = gauss(3);
   std::vector<Sample> result;
-  for (std::size_t k = 0; k < rule.at.size(); ++k) result.push_back({{begin + rule.at[k] * (end - begin), 0}, (end - begin) * rule.weight[k]});
+  for (std::size_t k = 0; k < rule.at.size(); ++k)
+    result.push_back({{begin + rule.at[k] * (end - begin), 0}, (end - begin) * rule.weight[k]});
   return result;
 }
 
@@ -183,7 +187,8 @@ std::vector<OverlapPoint> overlap(const FaceGeometry& secondary, const FaceGeome
   if (std::abs(distance) > reach) return {};
   std::vector<OverlapPoint> result;
   for (const auto& sample : points)
-    result.push_back({sample.weight, shape(secondary.type, locate(secondary.type, own, sample.at)), shape(primary.type, locate(primary.type, other, sample.at))});
+    result.push_back({sample.weight, shape(secondary.type, locate(secondary.type, own, sample.at)),
+                      shape(primary.type, locate(primary.type, other, sample.at))});
   return result;
 }
 

@@ -14,9 +14,9 @@ struct FaceGeometry {
   std::vector<Point> nodes;
 
   Point centre() const;
-  Point normal() const;   ///< unit, at the centre
-  double size() const;    ///< longest distance between two nodes
-  double area() const;    ///< in the plane of the centre
+  Point normal() const;  ///< unit, at the centre
+  double size() const;   ///< longest distance between two nodes
+  double area() const;   ///< in the plane of the centre
 };
 
 /// An integration point: its weight in the auxiliary plane (2D: line) and both faces' shape functions there.
@@ -25,12 +25,13 @@ struct OverlapPoint {
   Eigen::Vector4d secondary, primary;
 };
 
-/// The secondary face's auxiliary plane through its centre is where both are projected along its normal and clipped [Puso and Laursen,
-/// CMAME 193 (2004); Popp et al., IJNME 83 (2010)]. Empty if the faces do not look at each other, or lie farther apart than `reach`
-/// (the distance is taken at the centre of the common part).
+/// The secondary face's auxiliary plane through its centre is where both are projected along its normal and clipped [Puso and
+/// Laursen, CMAME 193 (2004); Popp et al., IJNME 83 (2010)]. Empty if the faces do not look at each other, or lie farther apart
+/// than `reach` (the distance is taken at the centre of the common part).
 std::vector<OverlapPoint> overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach);
 
-/// Where the line through `from` along the unit vector `direction` meets a face: the distance along it and the face's shape functions there.
+/// Where the line through `from` along the unit vector `direction` meets a face: the distance along it and the face's shape
+/// functions there.
 struct Hit {
   bool found = false;
   double distance = 0;

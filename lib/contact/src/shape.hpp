@@ -12,7 +12,8 @@ using Plane = Eigen::Vector2d;  ///< coordinates in an auxiliary plane; on an au
 /// Values of up to four shape functions at reference coordinates: line2 and quad4 in [-1, 1], tri3 in the unit triangle.
 Eigen::Vector4d shape(mesh::CellType type, const Plane& at);
 
-/// Reference coordinates of the point `x` in a face whose nodes lie at `nodes` in the plane: the inverse of the isoparametric map.
+/// Reference coordinates of the point `x` in a face whose nodes lie at `nodes` in the plane: the inverse of the isoparametric
+/// map.
 Plane locate(mesh::CellType type, std::span<const Plane> nodes, const Plane& x);
 
 }  // namespace mortise::contact

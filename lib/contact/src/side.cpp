@@ -1,7 +1,6 @@
 #include "side.hpp"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -57,7 +56,8 @@ void continue_curvature(const Side& side, Places& places)
         if (known[a] || !known[b]) continue;
         auto& place = places.all[a];
         const Place& inner = places.all[b];
-        const Point along = (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(place.node)]).normalized();
+        const Point along =
+            (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(place.node)]).normalized();
         place.normal = (place.normal - (place.normal.dot(along) + inner.normal.dot(along)) * along).normalized();
         reached[a] = true;
       }
@@ -70,7 +70,9 @@ void continue_curvature(const Side& side, Places& places)
 double bulge(const FaceGeometry& face, std::span<const Point> normals, const Eigen::Vector4d& shape)
 {
   const auto n = face.nodes.size();
-  const auto rise = [&](std::size_t i, std::size_t j) { return (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8; };
+  const auto rise = [&](std::size_t i, std::size_t j) {
+    return (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8;
+  };
   if (n == 2) return 4 * shape[0] * shape[1] * rise(0, 1);
   double result = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -128,7 +130,9 @@ Side gather(const mesh::Surface& surface, const Communicator& comm)
   for (const auto& face : faces) {
     std::vector<Local> local;
     for (const Global id : face.nodes)
-      if (id >= 0) local.push_back(static_cast<Local>(std::lower_bound(side.node_id.begin(), side.node_id.end(), id) - side.node_id.begin()));
+      if (id >= 0)
+        local.push_back(
+            static_cast<Local>(std::lower_bound(side.node_id.begin(), side.node_id.end(), id) - side.node_id.begin()));
     side.faces.add(face.type, local);
   }
   return side;
@@ -142,7 +146,8 @@ Places find_places(const Side& side)
   };
   std::vector<std::vector<Corner>> round(side.points.size());
   for (std::size_t f = 0; f < side.faces.size(); ++f)
-    for (std::size_t k = 0; k < side.faces[f].size(); ++k) round[static_cast<std::size_t>(side.faces[f][k])].push_back({static_cast<Local>(f), k});
+    for (std::size_t k = 0; k < side.faces[f].size(); ++k)
+      round[static_cast<std::size_t>(side.faces[f][k])].push_back({static_cast<Local>(f), k});
 
   Places places;
   places.of_corner.resize(side.faces.nodes.size());
@@ -170,7 +175,8 @@ Places find_places(const Side& side)
       for (std::size_t a = 0; a < corners.size(); ++a) {
         if (group[a] != g) continue;
         normal += corner_normal(faces[a], corners[a].k);
-        places.of_corner[static_cast<std::size_t>(side.faces.offset[static_cast<std::size_t>(corners[a].face)]) + corners[a].k] = static_cast<Local>(places.all.size());
+        places.of_corner[static_cast<std::size_t>(side.faces.offset[static_cast<std::size_t>(corners[a].face)]) + corners[a].k] =
+            static_cast<Local>(places.all.size());
       }
       if (normal.squaredNorm() > 0) places.all.push_back({static_cast<Local>(n), normal.normalized()});
     }

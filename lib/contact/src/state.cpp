@@ -6,8 +6,8 @@
 
 namespace mortise::contact {
 
-PointState state_of(const constraint::ContactPoint& point, bool bonded, std::span<const double> multipliers, std::span<const double> jumps,
-                    double bound, double limit, double nothing)
+PointState state_of(const constraint::ContactPoint& point, bool bonded, std::span<const double> multipliers,
+                    std::span<const double> jumps, double bound, double limit, double nothing)
 {
   PointState state;
   state.contact = point.contact;
@@ -45,7 +45,8 @@ std::vector<Resultant> resultants(std::span<const PointState> points, std::size_
   std::vector<Resultant> result(contacts);
   for (std::size_t c = 0; c < contacts; ++c) {
     const double* s = &sums[c * width];
-    result[c] = {Point(s[0], s[1], s[2]), comm.max(pressure[c]), s[3], std::llround(s[4]), std::llround(s[5]), std::llround(s[6])};
+    result[c] = {Point(s[0], s[1], s[2]), comm.max(pressure[c]), s[3],
+                 std::llround(s[4]),      std::llround(s[5]),    std::llround(s[6])};
   }
   return result;
 }
@@ -64,14 +65,21 @@ std::vector<Sent> gather(std::span<const PointState> points, const Communicator&
 {
   std::vector<Sent> mine;
   for (const auto& p : points)
-    mine.push_back({p.contact, static_cast<int>(p.status), p.node, p.area, p.force, p.gap,
-                    {p.force_on_secondary[0], p.force_on_secondary[1], p.force_on_secondary[2]}, {p.slip[0], p.slip[1], p.slip[2]}});
+    mine.push_back({p.contact,
+                    static_cast<int>(p.status),
+                    p.node,
+                    p.area,
+                    p.force,
+                    p.gap,
+                    {p.force_on_secondary[0], p.force_on_secondary[1], p.force_on_secondary[2]},
+                    {p.slip[0], p.slip[1], p.slip[2]}});
   return comm.all_gather(mine);
 }
 
 }  // namespace
 
-std::vector<SurfaceState> surface_states(std::span<const PointState> points, std::span<const Pair> pairs, const Communicator& comm)
+std::vector<SurfaceState> surface_states(std::span<const PointState> points, std::span<const Pair> pairs,
+                                         const Communicator& comm)
 {
   const auto all = gather(points, comm);
   std::map<std::pair<int, Global>, std::vector<const Sent*>> at;
@@ -79,8 +87,9 @@ std::vector<SurfaceState> surface_states(std::span<const PointState> points, std
   std::vector<SurfaceState> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& nodes = pairs[c].secondary.node_id;
-    SurfaceState state{std::vector<double>(nodes.size(), 0.0), std::vector<double>(nodes.size(), 0.0), std::vector<Point>(nodes.size(), Point::Zero()),
-                       std::vector<Point>(nodes.size(), Point::Zero()), std::vector<int>(nodes.size(), 0)};
+    SurfaceState state{std::vector<double>(nodes.size(), 0.0), std::vector<double>(nodes.size(), 0.0),
+                       std::vector<Point>(nodes.size(), Point::Zero()), std::vector<Point>(nodes.size(), Point::Zero()),
+                       std::vector<int>(nodes.size(), 0)};
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto found = at.find({static_cast<int>(c), nodes[i]});
       if (found == at.end()) continue;

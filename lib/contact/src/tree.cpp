@@ -23,7 +23,8 @@ int Tree::build(int begin, int end)
     branch.box.sizes().maxCoeff(&axis);
     const int middle = (begin + end) / 2;
     std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {
-      return std::pair(boxes_[static_cast<std::size_t>(a)].center()[axis], a) < std::pair(boxes_[static_cast<std::size_t>(b)].center()[axis], b);
+      return std::pair(boxes_[static_cast<std::size_t>(a)].center()[axis], a) <
+             std::pair(boxes_[static_cast<std::size_t>(b)].center()[axis], b);
     });
     const int left = build(begin, middle), right = build(middle, end);
     branches_[static_cast<std::size_t>(index)].left = left;
@@ -46,7 +47,8 @@ std::vector<int> Tree::meeting(const Box& box) const
       continue;
     }
     for (int i = branch.begin; i < branch.end; ++i)
-      if (boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])].intersects(box)) found.push_back(order_[static_cast<std::size_t>(i)]);
+      if (boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])].intersects(box))
+        found.push_back(order_[static_cast<std::size_t>(i)]);
   }
   std::sort(found.begin(), found.end());
   return found;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-
 #include <span>
 #include <vector>
 
@@ -19,7 +18,7 @@ class Tree {
  private:
   struct Branch {
     Box box;
-    int begin, end;         // into order_
+    int begin, end;  // into order_
     int left = -1, right = -1;
   };
   int build(int begin, int end);

@@ -1,4 +1,5 @@
-// Contact rows judged without any finite element: what they say of rigid motions and linear fields, and what a constant pressure does.
+// Contact rows judged without any finite element: what they say of rigid motions and linear fields, and what a constant pressure
+// does.
 #include "contact/mortar.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,8 @@ mesh::Surface surface(const Grid& g, const Height& height, const Communicator& c
   for (int j = 0; j <= g.ny; ++j)
     for (int i = 0; i <= g.nx; ++i) {
       const bool inner = i > 0 && i < g.nx && j > 0 && j < g.ny;
-      const double x = g.x0 + (g.x1 - g.x0) * (i + (inner ? shift(generator) : 0)) / g.nx, y = g.y0 + (g.y1 - g.y0) * (j + (inner ? shift(generator) : 0)) / g.ny;
+      const double x = g.x0 + (g.x1 - g.x0) * (i + (inner ? shift(generator) : 0)) / g.nx,
+                   y = g.y0 + (g.y1 - g.y0) * (j + (inner ? shift(generator) : 0)) / g.ny;
       points.push_back(height(x, y));
     }
   std::vector<std::vector<int>> faces;
@@ -93,9 +95,11 @@ Gathered gather_rows(const constraint::Contacts& contacts, const Communicator& c
   std::vector<double> stream;
   for (const auto& point : contacts.points)
     for (std::size_t r = point.row; r <= point.row + point.tangents.size(); ++r) {
-      stream.insert(stream.end(), {static_cast<double>(contacts.rows[r].size()), contacts.rows.bound[r], static_cast<double>(point.node), point.area, point.weight,
-                                   point.normal[0], point.normal[1], point.normal[2], r == point.row ? 1.0 : 0.0});
-      for (const auto& e : contacts.rows[r]) stream.insert(stream.end(), {static_cast<double>(e.node), static_cast<double>(e.component), e.coefficient});
+      stream.insert(stream.end(),
+                    {static_cast<double>(contacts.rows[r].size()), contacts.rows.bound[r], static_cast<double>(point.node),
+                     point.area, point.weight, point.normal[0], point.normal[1], point.normal[2], r == point.row ? 1.0 : 0.0});
+      for (const auto& e : contacts.rows[r])
+        stream.insert(stream.end(), {static_cast<double>(e.node), static_cast<double>(e.component), e.coefficient});
     }
   stream = comm.all_gather(stream);
   Gathered result;
@@ -109,7 +113,8 @@ Gathered gather_rows(const constraint::Contacts& contacts, const Communicator& c
     row.normal = Point(stream[at + 5], stream[at + 6], stream[at + 7]);
     row.is_normal = stream[at + 8] == 1;
     at += 9;
-    for (std::size_t e = 0; e < count; ++e, at += 3) row.entries.push_back({static_cast<Global>(stream[at]), static_cast<int>(stream[at + 1]), stream[at + 2]});
+    for (std::size_t e = 0; e < count; ++e, at += 3)
+      row.entries.push_back({static_cast<Global>(stream[at]), static_cast<int>(stream[at + 1]), stream[at + 2]});
     result.rows.push_back(row);
   }
   return result;
@@ -122,10 +127,13 @@ std::map<Global, Point> nodes_of(const Pair& pair, const Communicator& comm)
 {
   std::vector<double> flat;
   for (const auto* side : {&pair.secondary, &pair.primary})
-    for (std::size_t n = 0; n < side->points.size(); ++n) flat.insert(flat.end(), {static_cast<double>(side->node_id[n]), side->points[n][0], side->points[n][1], side->points[n][2]});
+    for (std::size_t n = 0; n < side->points.size(); ++n)
+      flat.insert(flat.end(),
+                  {static_cast<double>(side->node_id[n]), side->points[n][0], side->points[n][1], side->points[n][2]});
   std::map<Global, Point> result;
   flat = comm.all_gather(flat);
-  for (std::size_t i = 0; i < flat.size(); i += 4) result[static_cast<Global>(flat[i])] = Point(flat[i + 1], flat[i + 2], flat[i + 3]);
+  for (std::size_t i = 0; i < flat.size(); i += 4)
+    result[static_cast<Global>(flat[i])] = Point(flat[i + 1], flat[i + 2], flat[i + 3]);
   return result;
 }
 
@@ -140,7 +148,8 @@ std::map<Global, Point> consistent(const mesh::Surface& side, const Communicator
     for (const Local l : nodes) x.push_back(side.points[static_cast<std::size_t>(l)]);
     if (nodes.size() == 3) {
       const Point area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
-      for (const Local l : nodes) mine.try_emplace(side.node_id[static_cast<std::size_t>(l)], Point::Zero()).first->second += area / 3;
+      for (const Local l : nodes)
+        mine.try_emplace(side.node_id[static_cast<std::size_t>(l)], Point::Zero()).first->second += area / 3;
       continue;
     }
     for (int i = 0; i < n; ++i)  // composite two-point Gauss: exact for what stands here
@@ -152,15 +161,19 @@ std::map<Global, Point> consistent(const mesh::Surface& side, const Communicator
         double s = 0, t = 0;
         const double w = gauss(i, s) * gauss(j, t);
         const double shape[4] = {(1 - s) * (1 - t) / 4, (1 + s) * (1 - t) / 4, (1 + s) * (1 + t) / 4, (1 - s) * (1 + t) / 4};
-        const Point ds = ((x[1] - x[0]) * (1 - t) + (x[2] - x[3]) * (1 + t)) / 4, dt = ((x[3] - x[0]) * (1 - s) + (x[2] - x[1]) * (1 + s)) / 4;
-        for (std::size_t k = 0; k < 4; ++k) mine.try_emplace(side.node_id[static_cast<std::size_t>(nodes[k])], Point::Zero()).first->second += w * shape[k] * ds.cross(dt);
+        const Point ds = ((x[1] - x[0]) * (1 - t) + (x[2] - x[3]) * (1 + t)) / 4,
+                    dt = ((x[3] - x[0]) * (1 - s) + (x[2] - x[1]) * (1 + s)) / 4;
+        for (std::size_t k = 0; k < 4; ++k)
+          mine.try_emplace(side.node_id[static_cast<std::size_t>(nodes[k])], Point::Zero()).first->second +=
+              w * shape[k] * ds.cross(dt);
       }
   }
   std::vector<double> flat;
   for (const auto& [node, force] : mine) flat.insert(flat.end(), {static_cast<double>(node), force[0], force[1], force[2]});
   flat = comm.all_gather(flat);
   std::map<Global, Point> result;
-  for (std::size_t i = 0; i < flat.size(); i += 4) result.try_emplace(static_cast<Global>(flat[i]), Point::Zero()).first->second += Point(flat[i + 1], flat[i + 2], flat[i + 3]);
+  for (std::size_t i = 0; i < flat.size(); i += 4)
+    result.try_emplace(static_cast<Global>(flat[i]), Point::Zero()).first->second += Point(flat[i + 1], flat[i + 2], flat[i + 3]);
   return result;
 }
 
@@ -196,11 +209,13 @@ TEST_P(Patch, ConstantPressureIsConsistentOnBothSidesAndLinearFieldsPass)
     if (!row.is_normal) continue;
     EXPECT_NEAR(row.bound, 0, 1e-12);
     area += row.area;
-    for (const auto& e : row.entries) force.try_emplace(e.node, Point::Zero()).first->second[e.component] += row.area * e.coefficient;
+    for (const auto& e : row.entries)
+      force.try_emplace(e.node, Point::Zero()).first->second[e.component] += row.area * e.coefficient;
   }
   EXPECT_NEAR(area, std::sqrt(1 + 0.09 + 0.04), 1e-10);
   for (const auto* side : {&pair.secondary, &pair.primary})
-    for (const auto& [node, expected] : consistent(*side, comm)) EXPECT_LT((force.at(node) - expected).norm(), 1e-10) << "node " << node;
+    for (const auto& [node, expected] : consistent(*side, comm))
+      EXPECT_LT((force.at(node) - expected).norm(), 1e-10) << "node " << node;
 }
 
 INSTANTIATE_TEST_SUITE_P(Faces, Patch, testing::Combine(testing::Bool(), testing::Bool()));
@@ -209,7 +224,8 @@ TEST(Mortar, MatchingMeshesGiveNodePairsAlsoAtTheBorderOfTheOverlap)
 {
   const Communicator comm;
   const auto flat = [](double x, double y) { return Point(x, y, 0); };
-  const auto pair = make_pair(surface({8, 2, 0, 2, 0, 0.5, true}, flat, comm), surface({8, 2, 0.5, 2.5, 0, 0.5, false, false, primary_ids}, flat, comm), Law::tresca);
+  const auto pair = make_pair(surface({8, 2, 0, 2, 0, 0.5, true}, flat, comm),
+                              surface({8, 2, 0.5, 2.5, 0, 0.5, false, false, primary_ids}, flat, comm), Law::tresca);
   const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, 3, comm), comm);
   EXPECT_EQ(rows.rows.size(), 3U * 7U * 3U);  // x = 0.5 .. 2, three nodes across, three rows each
   const auto nodes = nodes_of(pair, comm);
@@ -227,7 +243,8 @@ TEST(Mortar, HeldNodesLeaveTheirPressureToTheOthers)
 {
   const Communicator comm;
   const auto flat = [](double x, double y) { return Point(x, y, 0); };
-  const auto pair = make_pair(surface({4, 4, 0, 1, 0, 1, true}, flat, comm), surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::tresca);
+  const auto pair = make_pair(surface({4, 4, 0, 1, 0, 1, true}, flat, comm),
+                              surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::tresca);
   std::vector<constraint::Held> held;
   if (comm.root())
     for (const Global node : {0, 5, 10, 15, 20}) {  // x = 0: held along the normal, and along y
@@ -247,16 +264,19 @@ TEST(Mortar, HeldNodesLeaveTheirPressureToTheOthers)
   std::map<Global, Point> force;
   for (const auto& row : rows.rows)
     if (row.is_normal)
-      for (const auto& e : row.entries) force.try_emplace(e.node, Point::Zero()).first->second[e.component] += row.area * e.coefficient;
+      for (const auto& e : row.entries)
+        force.try_emplace(e.node, Point::Zero()).first->second[e.component] += row.area * e.coefficient;
   for (const auto* side : {&pair.secondary, &pair.primary})
-    for (const auto& [node, expected] : consistent(*side, comm)) EXPECT_LT((force.at(node) - expected).norm(), 1e-11) << "node " << node;
+    for (const auto& [node, expected] : consistent(*side, comm))
+      EXPECT_LT((force.at(node) - expected).norm(), 1e-11) << "node " << node;
 }
 
 TEST(Mortar, KinksHaveAPointForEachSide)
 {
   const Communicator comm;
   const auto roof = [](double x, double y) { return Point(x, y, -std::abs(x)); };
-  const auto pair = make_pair(surface({4, 2, -1, 1, 0, 1, true}, roof, comm), surface({6, 3, -1, 1, 0, 1, false, false, primary_ids}, roof, comm), Law::frictionless);
+  const auto pair = make_pair(surface({4, 2, -1, 1, 0, 1, true}, roof, comm),
+                              surface({6, 3, -1, 1, 0, 1, false, false, primary_ids}, roof, comm), Law::frictionless);
   const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, 3, comm), comm);
   EXPECT_EQ(rows.rows.size(), 15U + 3U);
   for (const auto& row : rows.rows) EXPECT_NEAR(std::abs(row.normal[0]), std::sqrt(0.5), 1e-12);
@@ -266,8 +286,11 @@ TEST(Mortar, KinksHaveAPointForEachSide)
 TEST(Mortar, FacetedCylindersHaveTheGapOfTheirCircles)
 {
   const Communicator comm;
-  const auto arc = [](double radius) { return [radius](double x, double y) { return Point(radius * std::sin(x), y, radius * std::cos(x)); }; };
-  auto pair = make_pair(surface({8, 2, -0.6, 0.6, 0, 1, true}, arc(10), comm), surface({11, 3, -0.6, 0.6, 0, 1, false, false, primary_ids}, arc(10.03), comm), Law::frictionless);
+  const auto arc = [](double radius) {
+    return [radius](double x, double y) { return Point(radius * std::sin(x), y, radius * std::cos(x)); };
+  };
+  auto pair = make_pair(surface({8, 2, -0.6, 0.6, 0, 1, true}, arc(10), comm),
+                        surface({11, 3, -0.6, 0.6, 0, 1, false, false, primary_ids}, arc(10.03), comm), Law::frictionless);
   pair.options.interference = 0.02;
   const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, 3, comm), comm);
   EXPECT_EQ(rows.rows.size(), 27U);
@@ -283,9 +306,12 @@ TEST(Mortar, FarAndFacingAwayNeverMeet)
 {
   const Communicator comm;
   const auto at = [](double z) { return [z](double x, double y) { return Point(x, y, z); }; };
-  const auto count = [&](const Pair& pair) { return comm.sum(static_cast<long long>(discretize(std::vector<Pair>{pair}, {}, 3, comm).points.size())); };
+  const auto count = [&](const Pair& pair) {
+    return comm.sum(static_cast<long long>(discretize(std::vector<Pair>{pair}, {}, 3, comm).points.size()));
+  };
   const auto below = surface({4, 4, 0, 1, 0, 1, true}, at(0), comm);
-  EXPECT_EQ(count(make_pair(below, surface({4, 4, 0, 1, 0, 1, false, false, primary_ids}, at(0.2), comm), Law::frictionless)), 25);
+  EXPECT_EQ(count(make_pair(below, surface({4, 4, 0, 1, 0, 1, false, false, primary_ids}, at(0.2), comm), Law::frictionless)),
+            25);
   EXPECT_EQ(count(make_pair(below, surface({4, 4, 0, 1, 0, 1, false, false, primary_ids}, at(0.6), comm), Law::frictionless)), 0);
   EXPECT_EQ(count(make_pair(below, surface({4, 4, 0, 1, 0, 1, true, false, primary_ids}, at(0.2), comm), Law::frictionless)), 0);
   auto far = make_pair(below, surface({4, 4, 0, 1, 0, 1, false, false, primary_ids}, at(0.6), comm), Law::frictionless);
@@ -302,7 +328,8 @@ TEST(State, SumsAndStatus)
   EXPECT_LT((slip.force_on_secondary - Point(-3, 0, -10)).norm(), 1e-14);
   EXPECT_NEAR(slip.gap, 0, 1e-15);
   EXPECT_EQ(state_of(point, false, std::vector<double>{10, 1, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 0).status, Status::stick);
-  EXPECT_EQ(state_of(point, false, std::vector<double>{1e-6, 0, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 1e-3).status, Status::open);
+  EXPECT_EQ(state_of(point, false, std::vector<double>{1e-6, 0, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 1e-3).status,
+            Status::open);
   EXPECT_EQ(state_of(point, false, std::vector<double>{0, 0, 0}, std::vector<double>{0, 0, 0}, 0.2, 0.0, 0).status, Status::open);
   const auto sums = resultants(std::vector<PointState>{slip}, 1, comm);
   EXPECT_NEAR(sums[0].force[2], -10.0 * comm.size(), 1e-12);

@@ -12,13 +12,16 @@ std::string expectation(const Limits& limits, const char* kind)
 {
   std::string text = kind;
   if (std::isfinite(limits.lower)) text += fmt::format(" {} {:g}", limits.strictly_above ? ">" : ">=", limits.lower);
-  if (std::isfinite(limits.upper)) text += fmt::format("{} {} {:g}", std::isfinite(limits.lower) ? " and" : "", limits.strictly_below ? "<" : "<=", limits.upper);
+  if (std::isfinite(limits.upper))
+    text +=
+        fmt::format("{} {} {:g}", std::isfinite(limits.lower) ? " and" : "", limits.strictly_below ? "<" : "<=", limits.upper);
   return text;
 }
 
 bool inside(double value, const Limits& limits)
 {
-  return (limits.strictly_above ? value > limits.lower : value >= limits.lower) && (limits.strictly_below ? value < limits.upper : value <= limits.upper);
+  return (limits.strictly_above ? value > limits.lower : value >= limits.lower) &&
+         (limits.strictly_below ? value < limits.upper : value <= limits.upper);
 }
 
 nlohmann::ordered_json with_limits(nlohmann::ordered_json schema, const Limits& limits)
@@ -45,9 +48,15 @@ void Codec<double>::read(double& value, const YAML::Node& node, const std::strin
     document.error(path, fmt::format("expected {}, found {}", expectation(limits, "a number"), found(node)));
 }
 
-YAML::Node Codec<double>::write(double value) { return YAML::Node(fmt::format("{}", value)); }
+YAML::Node Codec<double>::write(double value)
+{
+  return YAML::Node(fmt::format("{}", value));
+}
 
-nlohmann::ordered_json Codec<double>::schema(const Limits& limits) { return with_limits({{"type", "number"}}, limits); }
+nlohmann::ordered_json Codec<double>::schema(const Limits& limits)
+{
+  return with_limits({{"type", "number"}}, limits);
+}
 
 void Codec<int>::read(int& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
 {
@@ -58,14 +67,19 @@ void Codec<int>::read(int& value, const YAML::Node& node, const std::string& pat
     document.error(path, fmt::format("expected {}, found {}", expectation(limits, "a whole number"), found(node)));
 }
 
-nlohmann::ordered_json Codec<int>::schema(const Limits& limits) { return with_limits({{"type", "integer"}}, limits); }
+nlohmann::ordered_json Codec<int>::schema(const Limits& limits)
+{
+  return with_limits({{"type", "integer"}}, limits);
+}
 
 void Codec<bool>::read(bool& value, const YAML::Node& node, const std::string& path, Document& document, const Limits&)
 {
-  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) document.error(path, "expected true or false, found " + found(node));
+  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value))
+    document.error(path, "expected true or false, found " + found(node));
 }
 
-void Codec<std::string>::read(std::string& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+void Codec<std::string>::read(std::string& value, const YAML::Node& node, const std::string& path, Document& document,
+                              const Limits& limits)
 {
   if (!node.IsScalar()) {
     document.error(path, "expected a word, found " + found(node));
@@ -74,7 +88,8 @@ void Codec<std::string>::read(std::string& value, const YAML::Node& node, const 
   value = node.Scalar();
   if (limits.names.empty() || std::find(limits.names.begin(), limits.names.end(), value) != limits.names.end()) return;
   if (std::find(limits.future.begin(), limits.future.end(), value) != limits.future.end())
-    document.error(path, fmt::format("\"{}\" is not available in this version of Mortise (there {} {})", value, limits.names.size() == 1 ? "is" : "are", fmt::join(limits.names, ", ")));
+    document.error(path, fmt::format("\"{}\" is not available in this version of Mortise (there {} {})", value,
+                                     limits.names.size() == 1 ? "is" : "are", fmt::join(limits.names, ", ")));
   else
     document.error(path, fmt::format("unknown value \"{}\"{}", value, suggestion(value, limits.names)));
 }
@@ -86,7 +101,8 @@ nlohmann::ordered_json Codec<std::string>::schema(const Limits& limits)
   return result;
 }
 
-void Codec<std::array<std::optional<double>, 3>>::read(Value& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+void Codec<std::array<std::optional<double>, 3>>::read(Value& value, const YAML::Node& node, const std::string& path,
+                                                       Document& document, const Limits& limits)
 {
   if (!node.IsMap() || node.size() == 0) {
     document.error(path, "expected components such as {x: 0, y: 0}, found " + found(node));
@@ -116,7 +132,10 @@ YAML::Node Codec<std::array<std::optional<double>, 3>>::write(const Value& value
 nlohmann::ordered_json Codec<std::array<std::optional<double>, 3>>::schema(const Limits& limits)
 {
   const auto number = Codec<double>::schema(limits);
-  return {{"type", "object"}, {"properties", {{"x", number}, {"y", number}, {"z", number}}}, {"additionalProperties", false}, {"minProperties", 1}};
+  return {{"type", "object"},
+          {"properties", {{"x", number}, {"y", number}, {"z", number}}},
+          {"additionalProperties", false},
+          {"minProperties", 1}};
 }
 
 }  // namespace mortise::deck

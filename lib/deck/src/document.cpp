@@ -11,7 +11,10 @@ namespace mortise::deck {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& text) { throw Error(ExitStatus::bad_input, text); }
+[[noreturn]] void fail(const std::string& text)
+{
+  throw Error(ExitStatus::bad_input, text);
+}
 
 // One step of a path: a key or an index.
 struct Step {
@@ -98,11 +101,13 @@ void Document::set(const std::string& setting)
   for (const auto& step : split(path)) {
     if (step.is_index) {
       if (!node.IsSequence() || step.index >= node.size())
-        fail(fmt::format("--set {}: {} has no entry [{}]{}", setting, walked, step.index, node.IsSequence() ? fmt::format(", only {}", node.size()) : " because it is no list"));
+        fail(fmt::format("--set {}: {} has no entry [{}]{}", setting, walked, step.index,
+                         node.IsSequence() ? fmt::format(", only {}", node.size()) : " because it is no list"));
       walked += fmt::format("[{}]", step.index);
       node.reset(node[step.index]);
     } else {
-      if (node.IsDefined() && !node.IsMap() && !node.IsNull()) fail(fmt::format("--set {}: {} is no mapping, it has no key \"{}\"", setting, walked, step.key));
+      if (node.IsDefined() && !node.IsMap() && !node.IsNull())
+        fail(fmt::format("--set {}: {} is no mapping, it has no key \"{}\"", setting, walked, step.key));
       walked += (walked.empty() ? "" : ".") + step.key;
       node.reset(node[step.key]);
     }
@@ -111,7 +116,10 @@ void Document::set(const std::string& setting)
   set_[walked] = setting;
 }
 
-void Document::locate(const std::string& path, const YAML::Node& node) { lines_[path] = node.Mark().line + 1; }
+void Document::locate(const std::string& path, const YAML::Node& node)
+{
+  lines_[path] = node.Mark().line + 1;
+}
 
 void Document::error(const std::string& path, const std::string& message)
 {
@@ -145,7 +153,8 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
   std::string best;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const auto& candidate : candidates)
-    if (const auto distance = edit_distance(name, candidate); distance < least && distance < std::max(name.size(), candidate.size())) {
+    if (const auto distance = edit_distance(name, candidate);
+        distance < least && distance < std::max(name.size(), candidate.size())) {
       least = distance;
       best = candidate;
     }
@@ -156,7 +165,8 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
 {
   std::string text;
   if (const auto near = nearest(name, candidates); !near.empty()) text += fmt::format(", did you mean \"{}\"?", near);
-  if (!candidates.empty() && candidates.size() <= 12) text += fmt::format(" (there {} {})", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
+  if (!candidates.empty() && candidates.size() <= 12)
+    text += fmt::format(" (there {} {})", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
   return text;
 }
 

@@ -63,7 +63,8 @@ const std::string good = "wheels:\n  left: {radius: 0.5}\n  right: {radius: 5e-1
 
 TEST(Deck, ReadsEveryKindOfValue)
 {
-  Document document(good + "title: Old cart\nseats: 4\nroof: true\nsize: [1, 2.5]\nprice: 99.5\nspares:\n  - {radius: 2}\n", "cart.yaml", {"seats=5", "wheels.left.radius=3", "spares[0].tyre=mud"});
+  Document document(good + "title: Old cart\nseats: 4\nroof: true\nsize: [1, 2.5]\nprice: 99.5\nspares:\n  - {radius: 2}\n",
+                    "cart.yaml", {"seats=5", "wheels.left.radius=3", "spares[0].tyre=mud"});
   Cart cart;
   read(cart, document);
   document.check();
@@ -83,43 +84,58 @@ struct Mistake {
 
 class Mistakes : public testing::TestWithParam<Mistake> {};
 
-TEST_P(Mistakes, AreReportedWithPlaceAndCure) { EXPECT_EQ(complaints(GetParam().text), GetParam().message); }
+TEST_P(Mistakes, AreReportedWithPlaceAndCure)
+{
+  EXPECT_EQ(complaints(GetParam().text), GetParam().message);
+}
 
 INSTANTIATE_TEST_SUITE_P(
     All, Mistakes,
-    testing::Values(Mistake{good + "seats: abc\n", "cart.yaml:4: seats: expected a whole number >= 1, found \"abc\""},
-                    Mistake{good + "seats: 1.5\n", "cart.yaml:4: seats: expected a whole number >= 1, found \"1.5\""},
-                    Mistake{good + "seats: 0\n", "cart.yaml:4: seats: expected a whole number >= 1, found \"0\""},
-                    Mistake{good + "price: .nan\n", "cart.yaml:4: price: expected a number < 100, found \".nan\""},
-                    Mistake{good + "price: [1]\n", "cart.yaml:4: price: expected a number < 100, found a list"},
-                    Mistake{good + "roof: maybe\n", "cart.yaml:4: roof: expected true or false, found \"maybe\""},
-                    Mistake{good + "size: [1]\n", "cart.yaml:4: size: expected a list of 2 (plane models) or 3 entries, found 1 entries"},
-                    Mistake{good + "seat: 3\n", "cart.yaml:4: seat: unknown key, did you mean \"seats\"? (there are title, seats, roof, size, price, wheels, spares)"},
-                    Mistake{good + "engine: big\n", "cart.yaml:4: engine: is not available in this version of Mortise"},
-                    Mistake{good + "seats: 3\nseats: 4\n", "cart.yaml:5: seats: is given twice"},
-                    Mistake{"wheels:\n  left: {tyre: ice, radius: 1}\n  right: {radius: 1}\n", "cart.yaml:2: wheels.left.tyre: \"ice\" is not available in this version of Mortise (there are road, mud)"},
-                    Mistake{"wheels:\n  left: {tyre: roads, radius: 1}\n  right: {radius: 1}\n", "cart.yaml:2: wheels.left.tyre: unknown value \"roads\", did you mean \"road\"? (there are road, mud)"},
-                    Mistake{"wheels:\n  left: {tyre: mud}\n  right: {radius: 1}\n", "cart.yaml:2: wheels.left: the key \"radius\" is missing: Radius."},
-                    Mistake{"title: x\n", "cart.yaml:1: the key \"wheels\" is missing: By place."},
-                    Mistake{"wheels: {only: {radius: 1}}\n", "cart.yaml:1: wheels: one wheel is a unicycle"},
-                    Mistake{"- a\n- b\n", "cart.yaml:1: a deck is a mapping of sections such as `mesh:` and `bodies:`"}));
+    testing::Values(
+        Mistake{good + "seats: abc\n", "cart.yaml:4: seats: expected a whole number >= 1, found \"abc\""},
+        Mistake{good + "seats: 1.5\n", "cart.yaml:4: seats: expected a whole number >= 1, found \"1.5\""},
+        Mistake{good + "seats: 0\n", "cart.yaml:4: seats: expected a whole number >= 1, found \"0\""},
+        Mistake{good + "price: .nan\n", "cart.yaml:4: price: expected a number < 100, found \".nan\""},
+        Mistake{good + "price: [1]\n", "cart.yaml:4: price: expected a number < 100, found a list"},
+        Mistake{good + "roof: maybe\n", "cart.yaml:4: roof: expected true or false, found \"maybe\""},
+        Mistake{good + "size: [1]\n", "cart.yaml:4: size: expected a list of 2 (plane models) or 3 entries, found 1 entries"},
+        Mistake{good + "seat: 3\n",
+                "cart.yaml:4: seat: unknown key, did you mean \"seats\"? (there are title, seats, roof, size, price, wheels, "
+                "spares)"},
+        Mistake{good + "engine: big\n", "cart.yaml:4: engine: is not available in this version of Mortise"},
+        Mistake{good + "seats: 3\nseats: 4\n", "cart.yaml:5: seats: is given twice"},
+        Mistake{"wheels:\n  left: {tyre: ice, radius: 1}\n  right: {radius: 1}\n",
+                "cart.yaml:2: wheels.left.tyre: \"ice\" is not available in this version of Mortise (there are road, mud)"},
+        Mistake{"wheels:\n  left: {tyre: roads, radius: 1}\n  right: {radius: 1}\n",
+                "cart.yaml:2: wheels.left.tyre: unknown value \"roads\", did you mean \"road\"? (there are road, mud)"},
+        Mistake{"wheels:\n  left: {tyre: mud}\n  right: {radius: 1}\n",
+                "cart.yaml:2: wheels.left: the key \"radius\" is missing: Radius."},
+        Mistake{"title: x\n", "cart.yaml:1: the key \"wheels\" is missing: By place."},
+        Mistake{"wheels: {only: {radius: 1}}\n", "cart.yaml:1: wheels: one wheel is a unicycle"},
+        Mistake{"- a\n- b\n", "cart.yaml:1: a deck is a mapping of sections such as `mesh:` and `bodies:`"}));
 
-TEST(Deck, SyntaxErrorsHaveALine) { EXPECT_EQ(complaints("title: x\nwheels: {left: [1, 2}\n").rfind("cart.yaml:2: this is not valid YAML", 0), 0U); }
+TEST(Deck, SyntaxErrorsHaveALine)
+{
+  EXPECT_EQ(complaints("title: x\nwheels: {left: [1, 2}\n").rfind("cart.yaml:2: this is not valid YAML", 0), 0U);
+}
 
 TEST(Deck, AllMistakesAreReportedAtOnceInTheOrderOfLines)
 {
   const auto text = complaints("seats: none\nwheels:\n  left: {radius: -1}\n  right: {radius: 1}\nroof: 7\n");
-  EXPECT_EQ(text, "cart.yaml:1: seats: expected a whole number >= 1, found \"none\"\n"
-                  "cart.yaml:3: wheels.left.radius: expected a number > 0, found \"-1\"\n"
-                  "cart.yaml:5: roof: expected true or false, found \"7\"");
+  EXPECT_EQ(text,
+            "cart.yaml:1: seats: expected a whole number >= 1, found \"none\"\n"
+            "cart.yaml:3: wheels.left.radius: expected a number > 0, found \"-1\"\n"
+            "cart.yaml:5: roof: expected true or false, found \"7\"");
 }
 
 TEST(Deck, SettingsSayThatTheyAreToBlame)
 {
   EXPECT_EQ(complaints(good, {"seats=none"}), "--set seats=none: seats: expected a whole number >= 1, found \"none\"");
-  EXPECT_EQ(complaints(good, {"wheels.left.radius=-2"}), "--set wheels.left.radius=-2: wheels.left.radius: expected a number > 0, found \"-2\"");
+  EXPECT_EQ(complaints(good, {"wheels.left.radius=-2"}),
+            "--set wheels.left.radius=-2: wheels.left.radius: expected a number > 0, found \"-2\"");
   EXPECT_EQ(complaints(good, {"seats"}), "--set seats: expected key.path=value");
-  EXPECT_EQ(complaints(good + "spares: [{radius: 1}]\n", {"spares[1].radius=2"}), "--set spares[1].radius=2: spares has no entry [1], only 1");
+  EXPECT_EQ(complaints(good + "spares: [{radius: 1}]\n", {"spares[1].radius=2"}),
+            "--set spares[1].radius=2: spares has no entry [1], only 1");
 }
 
 TEST(Deck, WhatIsWrittenReadsBackTheSame)

@@ -1,7 +1,6 @@
 #include "fem/element.hpp"
 
 #include <Eigen/Dense>
-
 #include <array>
 #include <cmath>
 

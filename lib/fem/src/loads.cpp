@@ -8,9 +8,8 @@ namespace mortise::fem {
 
 namespace {
 
-// The face's rules for loads: those of its stiffness integrate a linear shape function over a flat face exactly, over a warped quad
-// to the order of the element.
-// Calls visit(shape values, area vector of the integration point, nodes).
+// The rules of the faces integrate shape function times area vector exactly, warped quadrilaterals included; times its length
+// exactly on parallelograms. Calls visit(shape values, area vector of the integration point, nodes).
 template <class Visit>
 void for_each_point(const mesh::Mesh& mesh, int boundary, int dimension, const Visit& visit)
 {
@@ -18,9 +17,11 @@ void for_each_point(const mesh::Mesh& mesh, int boundary, int dimension, const V
     if (mesh.facets.boundary[f] != boundary) continue;
     const auto nodes = mesh.facets.cells[f];
     const Element& face = element(mesh.facets.cells.type[f]);
-    const Eigen::MatrixXd x = coordinates(mesh, nodes, 3);
-    for (std::size_t q = 0; q < face.weight.size(); ++q) {
-      const Eigen::MatrixXd tangents = x.transpose() * face.gradient[q];  // 3 x 2, in 2D 3 x 1
+    for (std::size_t q = 0; q < face.points(); ++q) {
+      Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();  // in 2D the first alone
+      for (int i = 0; i < face.nodes; ++i)
+        tangents.leftCols(face.dimension) +=
+            mesh.points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)])] * face.gradient[q].row(i);
       Point normal;
       if (dimension == 3)
         normal = Point(tangents.col(0)).cross(Point(tangents.col(1)));
@@ -42,7 +43,8 @@ void add(const Eigen::VectorXd& shape, const Point& force, std::span<const Local
 double area(const mesh::Mesh& mesh, int boundary, int dimension)
 {
   double sum = 0;
-  for_each_point(mesh, boundary, dimension, [&](const Eigen::VectorXd&, const Point& normal, std::span<const Local>) { sum += normal.norm(); });
+  for_each_point(mesh, boundary, dimension,
+                 [&](const Eigen::VectorXd&, const Point& normal, std::span<const Local>) { sum += normal.norm(); });
   return sum;
 }
 
@@ -62,11 +64,12 @@ void add_traction(const mesh::Mesh& mesh, int boundary, int dimension, const Poi
 
 void add_acceleration(const mesh::Mesh& mesh, int dimension, double density, const Point& acceleration, Eigen::VectorXd& f)
 {
+  CellGeometry cell(dimension);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const Element& cell = element(mesh.cells.type[c]);
-    const Eigen::MatrixXd x = coordinates(mesh, mesh.cells[c], dimension);
-    for (std::size_t q = 0; q < cell.weight.size(); ++q)
-      add(cell.shape[q], density * space_gradient(cell, x, q).volume * acceleration, mesh.cells[c], dimension, f);
+    cell.gather(mesh, c);
+    cell.evaluate();
+    for (std::size_t q = 0; q < cell.volumes().size(); ++q)
+      add(cell.element().shape[q], density * cell.volumes()[q] * acceleration, mesh.cells[c], dimension, f);
   }
 }
 

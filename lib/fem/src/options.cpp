@@ -10,7 +10,8 @@ void describe(deck::Description<Material>& d)
   d.key("young_modulus", &Material::young_modulus, "Young's modulus.").required().positive();
   d.key("poisson_ratio", &Material::poisson_ratio, "Poisson's ratio.").required().above(-1).below(0.5);
   d.key("density", &Material::density, "Mass a volume, for accelerations.").at_least(0);
-  d.key("thermal_expansion", &Material::thermal_expansion, "Strain a degree; read for the sake of the deck, no load uses it yet.");
+  d.key("thermal_expansion", &Material::thermal_expansion,
+        "Strain a degree; read for the sake of the deck, no load uses it yet.");
 }
 
 void describe(deck::Description<BodyOptions>& d)
@@ -18,12 +19,13 @@ void describe(deck::Description<BodyOptions>& d)
   d.help("What a body is made of.");
   d.key("material", &BodyOptions::material, "Name of a material.").required();
   d.custom(
-      "formulation", "standard: full integration.",
-      [](BodyOptions&, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits) {
-        std::string name;
-        deck::Codec<std::string>::read(name, node, path, document, limits);
-      },
-      [](const BodyOptions&) { return YAML::Node("standard"); }, [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); })
+       "formulation", "standard: full integration.",
+       [](BodyOptions&, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits) {
+         std::string name;
+         deck::Codec<std::string>::read(name, node, path, document, limits);
+       },
+       [](const BodyOptions&) { return YAML::Node("standard"); },
+       [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); })
       .one_of({"standard"})
       .not_yet({"bbar", "incompatible"});
   d.unavailable("instances");
@@ -40,8 +42,10 @@ void describe(deck::Description<LoadOptions>& d)
   d.key("acceleration", &LoadOptions::acceleration, "Body force is density times this.");
   d.unavailable("temperature_change");
   d.check([](const LoadOptions& load, const std::string& path, deck::Document& document) {
-    const int given = load.pressure.has_value() + load.traction.has_value() + load.force.has_value() + load.acceleration.has_value();
-    if (given != 1) document.error(path, fmt::format("expected exactly one of pressure, traction, force and acceleration, found {}", given));
+    const int given =
+        load.pressure.has_value() + load.traction.has_value() + load.force.has_value() + load.acceleration.has_value();
+    if (given != 1)
+      document.error(path, fmt::format("expected exactly one of pressure, traction, force and acceleration, found {}", given));
     const bool on_body = load.acceleration.has_value();
     if (load.boundary.empty() != on_body || load.body.empty() == on_body)
       document.error(path, on_body ? "an acceleration acts on a `body`" : "this load acts on a `boundary`");

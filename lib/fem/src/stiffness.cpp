@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "geometry.hpp"
@@ -22,16 +24,29 @@ struct Adjacency {
 
 Adjacency adjacency(const mesh::Mesh& mesh)
 {
-  std::vector<std::vector<Local>> lists(mesh.node_count());
+  // The cells of each node.
+  const auto nodes = mesh.node_count();
+  std::vector<int> first(nodes + 1, 0), cells(mesh.cells.nodes.size());
+  for (const Local n : mesh.cells.nodes) ++first[static_cast<std::size_t>(n) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> next(first.begin(), first.end() - 1);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    for (const Local a : mesh.cells[c])
-      for (const Local b : mesh.cells[c])
-        if (b >= a) lists[static_cast<std::size_t>(a)].push_back(b);
+    for (const Local n : mesh.cells[c])
+      cells[static_cast<std::size_t>(next[static_cast<std::size_t>(n)]++)] = static_cast<int>(c);
+
   Adjacency result;
-  for (auto& list : lists) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    result.nodes.insert(result.nodes.end(), list.begin(), list.end());
+  std::vector<Local> seen_from(nodes, -1);
+  for (std::size_t a = 0; a < nodes; ++a) {
+    result.nodes.push_back(static_cast<Local>(a));  // also if no cell has the node
+    seen_from[a] = static_cast<Local>(a);
+    for (int i = first[a]; i < first[a + 1]; ++i)
+      for (const Local b : mesh.cells[static_cast<std::size_t>(cells[static_cast<std::size_t>(i)])]) {
+        auto& seen = seen_from[static_cast<std::size_t>(b)];
+        if (b < static_cast<Local>(a) || seen == static_cast<Local>(a)) continue;
+        seen = static_cast<Local>(a);
+        result.nodes.push_back(b);
+      }
+    std::sort(result.nodes.begin() + result.offset.back(), result.nodes.end());
     result.offset.push_back(static_cast<int>(result.nodes.size()));
   }
   return result;
@@ -55,40 +70,45 @@ Sparse pattern(const Adjacency& graph, int d)
     for (int b = 0; b < d; ++b) {
       int at = outer[j * d + b];
       for (int n = graph.offset[j]; n < graph.offset[j + 1]; ++n)
-        for (int a = graph.nodes[static_cast<std::size_t>(n)] == j ? b : 0; a < d; ++a) inner[at++] = graph.nodes[static_cast<std::size_t>(n)] * d + a;
+        for (int a = graph.nodes[static_cast<std::size_t>(n)] == j ? b : 0; a < d; ++a)
+          inner[at++] = graph.nodes[static_cast<std::size_t>(n)] * d + a;
     }
   std::fill_n(k.valuePtr(), outer[nodes * d], 0.0);
   return k;
 }
 
-// Element stiffness from S = sum over q of w g g', g the stacked gradients: block ij is lambda S_ij + mu S_ij' + mu tr(S_ij) I.
-Eigen::MatrixXd element_stiffness(const Element& element, const Eigen::MatrixXd& x, const Lame& lame, Global cell_id)
+void require_positive(const CellGeometry& cell, Global cell_id)
 {
-  const int n = element.nodes, d = element.dimension;
-  Eigen::MatrixXd gradients(n * d, static_cast<Eigen::Index>(element.weight.size())), weighted = gradients;
-  for (std::size_t q = 0; q < element.weight.size(); ++q) {
-    const auto [gradient, volume] = space_gradient(element, x, q);
-    if (!(volume > 0))
-      throw Error(ExitStatus::bad_input, fmt::format("cell {} near ({:.4g}, {:.4g}, {:.4g}) is turned inside out or too distorted (its Jacobian is not positive); improve the mesh there",
-                                                     cell_id, x(0, 0), x(0, 1), d == 3 ? x(0, 2) : 0.0));
-    for (int i = 0; i < n; ++i)
-      for (int c = 0; c < d; ++c) gradients(i * d + c, static_cast<Eigen::Index>(q)) = gradient(i, c);
-    weighted.col(static_cast<Eigen::Index>(q)) = volume * gradients.col(static_cast<Eigen::Index>(q));
+  for (const double volume : cell.volumes()) {
+    if (volume > 0) continue;
+    const auto& x = cell.coordinates();
+    const auto n = static_cast<std::size_t>(cell.element().nodes);
+    throw Error(ExitStatus::bad_input,
+                fmt::format("cell {} near ({:.4g}, {:.4g}, {:.4g}) is turned inside out or too distorted (its Jacobian "
+                            "is not positive); improve the mesh there",
+                            cell_id, x[0], x[n], x.size() > 2 * n ? x[2 * n] : 0.0));
   }
-  const Eigen::MatrixXd s = weighted * gradients.transpose();
-  Eigen::MatrixXd k(n * d, n * d);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const auto block = s.block(i * d, j * d, d, d);
-      k.block(i * d, j * d, d, d) = lame.lambda * block + lame.mu * block.transpose() + lame.mu * block.trace() * Eigen::MatrixXd::Identity(d, d);
-    }
-  return k;
 }
 
-void add(const Eigen::MatrixXd& local, std::span<const Local> nodes, const Adjacency& graph, int d, Sparse& k)
+// Whether the nodes at x are those at `other` moved as a whole, as far as the rounding of the coordinates lets one tell.
+bool is_translate(const std::vector<double>& x, const std::vector<double>& other, int d)
+{
+  const auto n = x.size() / static_cast<std::size_t>(d);
+  double size = 0, difference = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto first = i - i % n;
+    size = std::max({size, std::abs(x[i]), std::abs(other[i])});
+    difference = std::max(difference, std::abs((x[i] - x[first]) - (other[i] - other[first])));
+  }
+  return difference <= 4 * std::numeric_limits<double>::epsilon() * size;
+}
+
+// Adds the (d n) x (d n) matrix of a cell to the lower triangle.
+void scatter(const std::vector<double>& local, std::span<const Local> nodes, const Adjacency& graph, int d, Sparse& k)
 {
   const int* outer = k.outerIndexPtr();
   double* values = k.valuePtr();
+  const auto stride = static_cast<int>(nodes.size()) * d;
   for (std::size_t j = 0; j < nodes.size(); ++j) {
     const Local column = nodes[j];
     const auto begin = graph.nodes.begin() + graph.offset[column], end = graph.nodes.begin() + graph.offset[column + 1];
@@ -96,14 +116,21 @@ void add(const Eigen::MatrixXd& local, std::span<const Local> nodes, const Adjac
       const Local row = nodes[i];
       if (row < column) continue;
       const int place = static_cast<int>(std::lower_bound(begin, end, row) - begin);
-      for (int b = 0; b < d; ++b)
-        for (int a = row == column ? b : 0; a < d; ++a)
-          values[outer[column * d + b] + place * d + a - b] += local(static_cast<Eigen::Index>(i) * d + a, static_cast<Eigen::Index>(j) * d + b);
+      for (int b = 0; b < d; ++b) {
+        const double* from = local.data() + (static_cast<int>(j) * d + b) * stride + static_cast<int>(i) * d;
+        double* to = values + outer[column * d + b] + place * d - b;
+        for (int a = row == column ? b : 0; a < d; ++a) to[a] += from[a];
+      }
     }
   }
 }
 
 }  // namespace
+
+int dimension(Kinematics kinematics)
+{
+  return kinematics == Kinematics::solid ? 3 : 2;
+}
 
 Lame lame(const Material& material, Kinematics kinematics)
 {
@@ -115,23 +142,26 @@ Lame lame(const Material& material, Kinematics kinematics)
 
 Sparse stiffness(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics)
 {
-  const int d = kinematics == Kinematics::solid ? 3 : 2;
+  const int d = dimension(kinematics);
   const Lame constants = lame(material, kinematics);
   const Adjacency graph = adjacency(mesh);
   Sparse k = pattern(graph, d);
   // Cells that are translates of the one before, as in every structured mesh, share its matrix.
-  Eigen::MatrixXd local, shape;
-  mesh::CellType type{};
+  CellGeometry cell(d);
+  std::vector<double> local, computed_for;
+  const Element* computed_with = nullptr;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const Eigen::MatrixXd x = coordinates(mesh, mesh.cells[c], d);
-    const Eigen::MatrixXd relative = x.rowwise() - x.row(0);
-    const bool same = c > 0 && mesh.cells.type[c] == type && (relative - shape).cwiseAbs().maxCoeff() <= 1e-13 * relative.cwiseAbs().maxCoeff();
-    if (!same) {
-      type = mesh.cells.type[c];
-      shape = relative;
-      local = element_stiffness(element(type), x, constants, mesh.cell_id[c]);
+    cell.gather(mesh, c);
+    if (computed_with != &cell.element() || !is_translate(cell.coordinates(), computed_for, d)) {
+      cell.evaluate();
+      require_positive(cell, mesh.cell_id[c]);
+      computed_with = &cell.element();
+      computed_for = cell.coordinates();
+      local.resize(computed_for.size() * computed_for.size());
+      cell.element().stiffness(cell.element(), cell.gradients().data(), cell.volumes().data(), constants.lambda, constants.mu,
+                               local.data());
     }
-    add(local, mesh.cells[c], graph, d, k);
+    scatter(local, mesh.cells[c], graph, d, k);
   }
   return k;
 }

@@ -9,14 +9,47 @@ namespace mortise::fem {
 
 namespace {
 
+// Small matrices of run-time size, on the stack.
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
+
 // Stress from the displacement gradient H = du_i/dx_j, d x d.
-Stress stress_of(const Eigen::MatrixXd& h, const Lame& constants, Kinematics kinematics)
+Stress stress_of(const Square& h, const Lame& constants, Kinematics kinematics)
 {
   Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
   strain.topLeftCorner(h.rows(), h.cols()) = 0.5 * (h + h.transpose());
   Eigen::Matrix3d s = constants.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2 * constants.mu * strain;
   if (kinematics == Kinematics::plane_stress) s(2, 2) = 0;
   return (Stress() << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)).finished();
+}
+
+// s : C^-1 : s of isotropic elasticity. It serves the plane states as well, because the stress across the plane is among the six.
+double complementary_energy(const Stress& s, const Material& material)
+{
+  const double trace = s[0] + s[1] + s[2], product = s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm();
+  return ((1 + material.poisson_ratio) * product - material.poisson_ratio * trace * trace) / material.young_modulus;
+}
+
+// Calls visit(c, cell, stress) for every cell c; stress is q x 6.
+template <class Visit>
+void for_each_cell(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
+                   const Visit& visit)
+{
+  const int d = dimension(kinematics);
+  const Lame constants = lame(material, kinematics);
+  CellGeometry cell(d);
+  Eigen::MatrixXd displacement, stress;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto nodes = mesh.cells[c];
+    cell.gather(mesh, c);
+    cell.evaluate();
+    displacement.resize(d, cell.element().nodes);
+    for (int i = 0; i < cell.element().nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
+    stress.resize(static_cast<Eigen::Index>(cell.volumes().size()), 6);
+    for (std::size_t q = 0; q < cell.volumes().size(); ++q)
+      stress.row(static_cast<Eigen::Index>(q)) =
+          stress_of(displacement.lazyProduct(cell.gradient(q)), constants, kinematics).transpose();
+    visit(c, cell, stress);
+  }
 }
 
 }  // namespace
@@ -29,36 +62,39 @@ double von_mises(const Stress& s)
 
 StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u)
 {
-  const int d = kinematics == Kinematics::solid ? 3 : 2;
-  const Lame constants = lame(material, kinematics);
   StressField field;
   field.nodal_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), 7);
   field.cell_von_mises.resize(static_cast<Eigen::Index>(mesh.cells.size()));
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto nodes = mesh.cells[c];
-    const Element& cell = element(mesh.cells.type[c]);
-    const Eigen::MatrixXd x = coordinates(mesh, nodes, d);
-    Eigen::MatrixXd displacement(d, cell.nodes);
-    for (int i = 0; i < cell.nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
-    Eigen::MatrixXd at_points(static_cast<Eigen::Index>(cell.weight.size()), 6);
-    Stress mean = Stress::Zero();
+  for_each_cell(mesh, material, kinematics, u, [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
+    Stress sum = Stress::Zero();
     double volume = 0;
-    for (std::size_t q = 0; q < cell.weight.size(); ++q) {
-      const auto [gradient, part] = space_gradient(cell, x, q);
-      const Stress s = stress_of(displacement * gradient, constants, kinematics);
-      at_points.row(static_cast<Eigen::Index>(q)) = s.transpose();
-      mean += part * s;
-      volume += part;
+    for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+      sum += cell.volumes()[q] * stress.row(static_cast<Eigen::Index>(q)).transpose();
+      volume += cell.volumes()[q];
     }
-    field.cell_von_mises[static_cast<Eigen::Index>(c)] = von_mises(mean / volume);
-    const Eigen::MatrixXd at_nodes = cell.extrapolation * at_points;
-    for (int i = 0; i < cell.nodes; ++i) {
-      auto row = field.nodal_sums.row(nodes[static_cast<std::size_t>(i)]);
-      row.head(6) += volume * at_nodes.row(i);
+    field.cell_von_mises[static_cast<Eigen::Index>(c)] = von_mises(sum / volume);
+    for (int i = 0; i < cell.element().nodes; ++i) {
+      auto row = field.nodal_sums.row(mesh.cells[c][static_cast<std::size_t>(i)]);
+      row.head(6) += volume * cell.element().extrapolation.row(i).lazyProduct(stress);
       row[6] += volume;
     }
-  }
+  });
   return field;
+}
+
+Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
+                               const Eigen::MatrixXd& recovered)
+{
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
+  for_each_cell(mesh, material, kinematics, u, [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
+    for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+      Stress difference = -stress.row(static_cast<Eigen::Index>(q)).transpose();
+      for (int i = 0; i < cell.element().nodes; ++i)
+        difference += cell.element().shape[q][i] * recovered.row(mesh.cells[c][static_cast<std::size_t>(i)]).transpose();
+      result[static_cast<Eigen::Index>(c)] += cell.volumes()[q] * complementary_energy(difference, material);
+    }
+  });
+  return result;
 }
 
 }  // namespace mortise::fem

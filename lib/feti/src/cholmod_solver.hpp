@@ -1,11 +1,10 @@
 // CHOLMOD as a concrete solver of Amesos2, which Debian's Amesos2 lacks: a thin face over mortise::Cholesky.
 //
-// The matrix is symmetric positive definite, on one rank, and only entries on and above its diagonal are read: a row of the CRS matrix
-// is a column of CHOLMOD's lower triangle.
+// The matrix is symmetric positive definite, on one rank, and only entries on and above its diagonal are read: a row of the CRS
+// matrix is a column of CHOLMOD's lower triangle.
 #pragma once
 
 #include <Amesos2_SolverCore_decl.hpp>
-
 #include <memory>
 
 #include "base/cholesky.hpp"
@@ -21,7 +20,8 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
 
   explicit CholmodSolver(Teuchos::RCP<const Matrix> a)
       : Amesos2::SolverCore<CholmodSolver, Matrix, Vector>(a, Teuchos::null, Teuchos::null)
-  {}
+  {
+  }
 
   /// The factor itself, for products that want no MultiVector in between; null before the symbolic factorization.
   const Cholesky* factor() const { return factor_.get(); }

@@ -4,7 +4,6 @@
 #include <Amesos2_SolverCore_def.hpp>
 #include <Teuchos_DefaultSerialComm.hpp>
 #include <Tpetra_CrsMatrix.hpp>
-
 #include <algorithm>
 #include <map>
 
@@ -35,7 +34,8 @@ SparseMatrix CholmodSolver<Matrix, Vector>::lower() const
   this->matrixA_->returnColInd_kokkos_view(indices);
   this->matrixA_->returnValues_kokkos_view(values);
   const auto n = static_cast<Eigen::Index>(this->globalNumCols_);
-  return Eigen::Map<const SparseMatrix>(n, n, static_cast<Eigen::Index>(this->globalNumNonZeros_), offsets.data(), indices.data(), values.data());
+  return Eigen::Map<const SparseMatrix>(n, n, static_cast<Eigen::Index>(this->globalNumNonZeros_), offsets.data(), indices.data(),
+                                        values.data());
 }
 
 template <class Matrix, class Vector>
@@ -140,7 +140,8 @@ DirectSolver::~DirectSolver() = default;
 void DirectSolver::solve(const double* b, double* x, int columns) const
 {
   if (data_->cholesky) return data_->cholesky->solve(b, x, columns, data_->size);
-  const auto map = Teuchos::rcp(new Map(static_cast<std::size_t>(data_->size), 0, Teuchos::rcp(new Teuchos::SerialComm<int>), Tpetra::LocallyReplicated));
+  const auto map = Teuchos::rcp(
+      new Map(static_cast<std::size_t>(data_->size), 0, Teuchos::rcp(new Teuchos::SerialComm<int>), Tpetra::LocallyReplicated));
   const auto count = static_cast<std::size_t>(data_->size) * static_cast<std::size_t>(columns);
   const MultiVector right(map, Teuchos::ArrayView<const double>(b, static_cast<Teuchos::Ordinal>(count)),
                           static_cast<std::size_t>(data_->size), static_cast<std::size_t>(columns));
@@ -152,6 +153,9 @@ void DirectSolver::solve(const double* b, double* x, int columns) const
   }
 }
 
-std::size_t DirectSolver::factor_bytes() const { return data_->cholesky ? data_->cholesky->factor_bytes() : 0; }
+std::size_t DirectSolver::factor_bytes() const
+{
+  return data_->cholesky ? data_->cholesky->factor_bytes() : 0;
+}
 
 }  // namespace mortise::feti

@@ -25,8 +25,8 @@ std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bo
 }  // namespace
 
 DualProblem::DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
-                         const partition::Interface& interface, const constraint::Constraints& constraints, const Floating& floating,
-                         const Context& context)
+                         const partition::Interface& interface, const constraint::Constraints& constraints,
+                         const Floating& floating, const Context& context)
     : decomposition_(decomposition), constraints_(constraints), floating_(floating), comm_(context.comm)
 {
   jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints.held, constraints.contacts,
@@ -74,7 +74,8 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
                 "no equilibrium: no support or contact resists these motions:" + loaded +
                     "\nhold the body by a support, let a contact (perhaps with friction) reach it, or remove the load");
   if (!gauges.empty()) {
-    jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.held, constraints_.contacts, gauges, comm_);
+    jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.held, constraints_.contacts, gauges,
+                                           comm_);
     g = coarse_rows(decomposition_, *jump_, floating_.subdomains, comm_);
   }
   equality_ = std::make_unique<qp::EqualityConstraint>(

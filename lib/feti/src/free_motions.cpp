@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-
 #include <cmath>
 
 namespace mortise::feti {
 
 namespace {
 
-// A motion is nearly free if the rows feel at most this of it in the root mean square, and three times it anywhere. The normals of a
-// faceted cylinder are wrong by about half the difference of neighbouring facet angles.
+// A motion is nearly free if the rows feel at most this of it in the root mean square, and three times it anywhere. The normals
+// of a faceted cylinder are wrong by about half the difference of neighbouring facet angles.
 constexpr double nearly = 0.02;
 constexpr double exactly = 1e-7;
 
@@ -48,11 +47,11 @@ RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eig
 // Everything body-wise: A maps the amplitudes of the bodies' motions to kernel coordinates of the subdomains.
 struct Bodies {
   int dimension;
-  int modes;                        // 6, or 3 in two dimensions
+  int modes;  // 6, or 3 in two dimensions
   std::vector<BodyFrame> frames;
-  SparseMatrix aggregate;           // A: kernels x (bodies * modes)
-  Eigen::VectorXd force;            // sum of |nodal forces| of each body
-  Eigen::VectorXd generalised;      // work of the loads on each unit motion
+  SparseMatrix aggregate;       // A: kernels x (bodies * modes)
+  Eigen::VectorXd force;        // sum of |nodal forces| of each body
+  Eigen::VectorXd generalised;  // work of the loads on each unit motion
 };
 
 Bodies aggregate(const partition::Decomposition& decomposition, const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
@@ -74,7 +73,8 @@ Bodies aggregate(const partition::Decomposition& decomposition, const std::vecto
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     for (int k = 0; k < bodies.modes; ++k) {
-      const auto v = sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, bodies.dimension), subdomain.mesh.points, bodies.dimension);
+      const auto v = sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, bodies.dimension),
+                            subdomain.mesh.points, bodies.dimension);
       const Eigen::VectorXd coordinates = subdomains[s]->kernel().transpose() * v;
       for (int i = 0; i < coordinates.size(); ++i)
         entries.push_back({numbering.first(subdomain.id) + i, subdomain.body * bodies.modes + k, coordinates[i]});
@@ -122,7 +122,8 @@ std::string describe(const RigidMotion& motion, double size)
   const auto print = [](const Point& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0], p[1], p[2]); };
   const auto clean = [](Point p) { return Point((p.array().abs() < 1e-6 * p.cwiseAbs().maxCoeff()).select(0.0, p)); };
   const double turning = motion.rotation.norm() * size;
-  if (turning < 1e-2 * motion.translation.norm() || turning == 0) return "moves along " + print(clean(motion.translation.normalized()));
+  if (turning < 1e-2 * motion.translation.norm() || turning == 0)
+    return "moves along " + print(clean(motion.translation.normalized()));
   const Point axis = motion.centre + motion.rotation.cross(motion.translation) / motion.rotation.squaredNorm();
   return "rotates about the axis through " + print(clean(axis)) + " along " + print(clean(motion.rotation.normalized()));
 }
@@ -144,14 +145,16 @@ std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition
     frames[b].centre = Point(sums[b * 5 + 1], sums[b * 5 + 2], sums[b * 5 + 3]) / std::max(sums[b * 5], 1.0);
   for (const auto& subdomain : decomposition.subdomains)
     for (const auto& p : subdomain.mesh.points)
-      squares[static_cast<std::size_t>(subdomain.body)] += (p - frames[static_cast<std::size_t>(subdomain.body)].centre).squaredNorm();
+      squares[static_cast<std::size_t>(subdomain.body)] +=
+          (p - frames[static_cast<std::size_t>(subdomain.body)].centre).squaredNorm();
   comm.sum_in_place(squares);
   for (std::size_t b = 0; b < count; ++b) frames[b].radius = std::sqrt(squares[b] / std::max(sums[b * 5], 1.0));
   return frames;
 }
 
-RigidMotion rigid_part(const partition::Decomposition& decomposition, const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
-                       const BodyFrame& frame, int body, const Eigen::VectorXd& coordinates, const Communicator& comm)
+RigidMotion rigid_part(const partition::Decomposition& decomposition,
+                       const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains, const BodyFrame& frame, int body,
+                       const Eigen::VectorXd& coordinates, const Communicator& comm)
 {
   const int dimension = decomposition.catalogue.dimension;
   const KernelNumbering numbering{dimension == 3 ? 6 : 3};
@@ -162,7 +165,8 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const std:
     if (subdomain.body != body) continue;
     Eigen::MatrixXd a(modes, modes);
     for (int k = 0; k < modes; ++k)
-      a.col(k) = subdomains[s]->kernel().transpose() * sample(unit_motion(body, frame, k, dimension), subdomain.mesh.points, dimension);
+      a.col(k) =
+          subdomains[s]->kernel().transpose() * sample(unit_motion(body, frame, k, dimension), subdomain.mesh.points, dimension);
     normal.leftCols(modes) += a.transpose() * a;
     normal.rightCols(1) += a.transpose() * coordinates.segment(numbering.first(subdomain.id), modes);
   }
@@ -172,8 +176,9 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const std:
 }
 
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
-                                          const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains, const SparseMatrix& g,
-                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
+                                          const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
+                                          const SparseMatrix& g, const std::vector<Eigen::VectorXd>& load,
+                                          const Communicator& comm)
 {
   const Bodies bodies = aggregate(decomposition, subdomains, load, comm);
   const int modes = bodies.modes;

@@ -22,12 +22,10 @@ class Assembly {
  public:
   Assembly(const partition::Decomposition& decomposition, const Communicator& comm)
       : decomposition_(decomposition), comm_(comm), send_(static_cast<std::size_t>(comm.size()))
-  {}
-
-  void add(const Piece& piece)
   {
-    send_[static_cast<std::size_t>(decomposition_.rank_of(piece.subdomain))].push_back(piece);
   }
+
+  void add(const Piece& piece) { send_[static_cast<std::size_t>(decomposition_.rank_of(piece.subdomain))].push_back(piece); }
   void add_local(const Piece& piece) { send_[static_cast<std::size_t>(comm_.rank())].push_back(piece); }
 
   // Pieces of this rank's subdomains, ordered by subdomain, row and unknown. Collective.
@@ -76,14 +74,15 @@ Numbering number(std::size_t count, const Communicator& comm)
 }
 
 // Gluing rows of the nodes whose lowest copy is on this rank; returns how many rows this rank owns and the total.
-std::pair<std::size_t, Global> glue(const partition::Decomposition& decomposition, const partition::Interface& interface, int dimension,
-                                    const Communicator& comm, Assembly& assembly)
+std::pair<std::size_t, Global> glue(const partition::Decomposition& decomposition, const partition::Interface& interface,
+                                    int dimension, const Communicator& comm, Assembly& assembly)
 {
   std::size_t owned = 0;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
     for (std::size_t i = 0; i < interface.nodes[s].size(); ++i) {
       const auto copies = interface.copies[s][i];
-      if (copies[0].subdomain == decomposition.subdomains[s].id) owned += (copies.size() - 1) * static_cast<std::size_t>(dimension);
+      if (copies[0].subdomain == decomposition.subdomains[s].id)
+        owned += (copies.size() - 1) * static_cast<std::size_t>(dimension);
     }
   const Numbering numbering = number(owned, comm);
   Global row = numbering.start;
@@ -103,7 +102,8 @@ std::pair<std::size_t, Global> glue(const partition::Decomposition& decompositio
 
 double total_weight(std::span<const partition::Copy> copies)
 {
-  return std::accumulate(copies.begin(), copies.end(), 0.0, [](double sum, const partition::Copy& copy) { return sum + copy.weight; });
+  return std::accumulate(copies.begin(), copies.end(), 0.0,
+                         [](double sum, const partition::Copy& copy) { return sum + copy.weight; });
 }
 
 }  // namespace
@@ -117,7 +117,8 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   const auto [glued, glued_total] = glue(decomposition, interface, dimension, comm, assembly);
   const Numbering held_numbers = number(held.size(), comm);
   const Numbering contact_numbers = number(contacts.rows.size(), comm);
-  const Global held_base = glued_total, contact_base = held_base + held_numbers.total, extra_base = contact_base + contact_numbers.total;
+  const Global held_base = glued_total, contact_base = held_base + held_numbers.total,
+               extra_base = contact_base + contact_numbers.total;
 
   // Owned rows: their numbers, scales and bounds.
   std::vector<Global> owned;
@@ -150,7 +151,8 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   };
   for (const auto& point : contacts.points) {
     double square = 0;  // of the normal row in D^-1, the copies' averages taken together
-    for (const auto& entry : contacts.rows[point.row]) square += entry.coefficient * entry.coefficient / total_weight(copies_of(entry.node));
+    for (const auto& entry : contacts.rows[point.row])
+      square += entry.coefficient * entry.coefficient / total_weight(copies_of(entry.node));
     const double factor = 1 / std::sqrt(square);
     for (std::size_t r = point.row; r <= point.row + point.tangents.size(); ++r) {
       const Global row = contact_base + contact_numbers.start + static_cast<Global>(r);
@@ -174,7 +176,8 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
       const auto& coefficients = extra[e].coefficients[s];
       if (coefficients.size() == 0) continue;
       lowest = std::min(lowest, decomposition.subdomains[s].id);
-      for (Local i = 0; i < coefficients.size(); ++i) assembly.add_local({decomposition.subdomains[s].id, row, i, coefficients[i]});
+      for (Local i = 0; i < coefficients.size(); ++i)
+        assembly.add_local({decomposition.subdomains[s].id, row, i, coefficients[i]});
     }
     if (decomposition.rank_of(comm.min(lowest)) == comm.rank()) {
       owned.push_back(row);
@@ -194,8 +197,10 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   const auto teuchos_comm = teuchos(comm);
-  rows_ = Teuchos::rcp(new Map(invalid, Teuchos::ArrayView<const Global>(owned.data(), static_cast<Teuchos::Ordinal>(owned.size())), 0, teuchos_comm));
-  overlap_ = Teuchos::rcp(new Map(invalid, Teuchos::ArrayView<const Global>(touched.data(), static_cast<Teuchos::Ordinal>(touched.size())), 0, teuchos_comm));
+  rows_ = Teuchos::rcp(new Map(
+      invalid, Teuchos::ArrayView<const Global>(owned.data(), static_cast<Teuchos::Ordinal>(owned.size())), 0, teuchos_comm));
+  overlap_ = Teuchos::rcp(new Map(
+      invalid, Teuchos::ArrayView<const Global>(touched.data(), static_cast<Teuchos::Ordinal>(touched.size())), 0, teuchos_comm));
   import_ = Teuchos::rcp(new Import(rows_, overlap_));
 
   auto piece = pieces.begin();
@@ -247,7 +252,8 @@ Vector JumpOperator::apply(const std::vector<Eigen::VectorXd>& u) const
   return jumps;
 }
 
-SparseMatrix JumpOperator::gather_columns(const std::vector<Contribution>& contributions, int height, const Communicator& comm) const
+SparseMatrix JumpOperator::gather_columns(const std::vector<Contribution>& contributions, int height,
+                                          const Communicator& comm) const
 {
   struct Sent {
     Global row;
@@ -258,7 +264,8 @@ SparseMatrix JumpOperator::gather_columns(const std::vector<Contribution>& contr
   std::vector<int> rank(static_cast<std::size_t>(touched.size()));
   rows_->getRemoteIndexList(touched, Teuchos::ArrayView<int>(rank.data(), touched.size()));
   std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
-  for (const auto& c : contributions) send[static_cast<std::size_t>(rank[static_cast<std::size_t>(c.row)])].push_back({touched[c.row], c.index, c.value});
+  for (const auto& c : contributions)
+    send[static_cast<std::size_t>(rank[static_cast<std::size_t>(c.row)])].push_back({touched[c.row], c.index, c.value});
   std::vector<Eigen::Triplet<double>> triplets;
   for (const auto& part : comm.exchange(send))
     for (const auto& entry : part) triplets.emplace_back(entry.index, rows_->getLocalElement(entry.row), entry.value);

@@ -1,7 +1,6 @@
 #include "feti/subdomain_operator.hpp"
 
 #include <Eigen/Dense>
-
 #include <algorithm>
 #include <numeric>
 
@@ -22,9 +21,8 @@ void spread(std::span<Local> nodes, std::span<const Point> points, int levels, s
     Eigen::Index axis = 0;
     (high - low).maxCoeff(&axis);
     const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
-    std::nth_element(nodes.begin(), middle, nodes.end(), [&](Local a, Local b) {
-      return std::pair(points[a][axis], a) < std::pair(points[b][axis], b);
-    });
+    std::nth_element(nodes.begin(), middle, nodes.end(),
+                     [&](Local a, Local b) { return std::pair(points[a][axis], a) < std::pair(points[b][axis], b); });
     spread(nodes.first(nodes.size() / 2), points, levels - 1, chosen);
     spread(nodes.subspan(nodes.size() / 2), points, levels - 1, chosen);
     return;
@@ -96,7 +94,9 @@ ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, s
   const double r = stiffness_.diagonal().mean();
   const Eigen::MatrixXd fixing = r * rows * (rows.transpose() * rows).ldlt().solve(rows.transpose());
   std::vector<Eigen::Triplet<double>> triplets;
-  const auto unknown = [&](Eigen::Index i) { return nodes[static_cast<std::size_t>(i / dimension)] * dimension + static_cast<int>(i % dimension); };
+  const auto unknown = [&](Eigen::Index i) {
+    return nodes[static_cast<std::size_t>(i / dimension)] * dimension + static_cast<int>(i % dimension);
+  };
   for (Eigen::Index i = 0; i < fixing.rows(); ++i)
     for (Eigen::Index j = 0; j <= i; ++j) triplets.emplace_back(unknown(i), unknown(j), fixing(i, j));
   SparseMatrix regularised(stiffness_.rows(), stiffness_.cols());

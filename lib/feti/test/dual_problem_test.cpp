@@ -1,4 +1,5 @@
-// The dual problem of a cube cut into eight, glued and held on one face: its rows, its operator, and its solution against a direct solve.
+// The dual problem of a cube cut into eight, glued and held on one face: its rows, its operator, and its solution against a
+// direct solve.
 #include "feti/dual_problem.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +48,8 @@ struct Cube {
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness.back(), 3));
       floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.back().cols()));
       fem::add_traction(s.mesh, 5, 3, Point(0.1, 0, 1), floating.load.back());
-      floating.subdomains.push_back(std::make_unique<ElasticSubdomain>(stiffness.back(), fem::rigid_motions(s.mesh.points, 3), s.mesh.points, 3, "cholmod"));
+      floating.subdomains.push_back(std::make_unique<ElasticSubdomain>(stiffness.back(), fem::rigid_motions(s.mesh.points, 3),
+                                                                       s.mesh.points, 3, "cholmod"));
     }
     directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
     interface = partition::find_interface(decomposition, *directory, comm);
@@ -69,7 +71,8 @@ TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
     const auto& block = jump.blocks()[s];
     for (std::size_t r = 0; r < block.row.size(); ++r)
       for (std::size_t i = block.offset[r]; i < block.offset[r + 1]; ++i)
-        b(block.row[r], base + block.unknown[i]) = block.coefficient[i] / std::sqrt(cube.floating.nodal_stiffness[s][static_cast<std::size_t>(block.unknown[i] / 3)]);
+        b(block.row[r], base + block.unknown[i]) =
+            block.coefficient[i] / std::sqrt(cube.floating.nodal_stiffness[s][static_cast<std::size_t>(block.unknown[i] / 3)]);
     base += block.size;
   }
   EXPECT_LT((b * b.transpose() - Eigen::MatrixXd::Identity(b.rows(), b.rows())).cwiseAbs().maxCoeff(), 1e-12);
@@ -136,7 +139,10 @@ TEST(DualProblem, SolutionIsThatOfTheAssembledSystem)
     const Eigen::VectorXd expected = k.ldlt().solve(f);
     for (std::size_t s = 0; s < u.size(); ++s)
       for (std::size_t n = 0; n < cube.decomposition.subdomains[s].mesh.node_count(); ++n)
-        EXPECT_LT((u[s].segment<3>(static_cast<Eigen::Index>(3 * n)) - expected.segment<3>(3 * cube.decomposition.subdomains[s].mesh.node_id[n])).norm(), 1e-6 * expected.norm());
+        EXPECT_LT((u[s].segment<3>(static_cast<Eigen::Index>(3 * n)) -
+                   expected.segment<3>(3 * cube.decomposition.subdomains[s].mesh.node_id[n]))
+                      .norm(),
+                  1e-6 * expected.norm());
     EXPECT_LT(problem.imbalance(u, solution.x), 1e-9);
   }
 }
@@ -165,7 +171,8 @@ TEST(RigidMotion, IsDescribedInWords)
 {
   EXPECT_EQ(describe({0, Point(1, 2, 3), Point(0, -2, 0), Point::Zero()}, 1), "moves along (0, -1, 0)");
   // A turn about the axis x = 2, y = 0: the centre at the origin moves along -y.
-  EXPECT_EQ(describe({0, Point::Zero(), Point(0, -2, 0), Point(0, 0, 1)}, 1), "rotates about the axis through (2, 0, 0) along (0, 0, 1)");
+  EXPECT_EQ(describe({0, Point::Zero(), Point(0, -2, 0), Point(0, 0, 1)}, 1),
+            "rotates about the axis through (2, 0, 0) along (0, 0, 1)");
 }
 
 }  // namespace

@@ -9,8 +9,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-Json vector(const std::array<double, 3>& x) { return Json::array({number(x[0]), number(x[1]), number(x[2])}); }
+Json number(double x)
+{
+  return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
+Json vector(const std::array<double, 3>& x)
+{
+  return Json::array({number(x[0]), number(x[1]), number(x[2])});
+}
 
 }  // namespace
 
@@ -34,7 +40,8 @@ std::string to_json(const Summary& s)
                        {"equilibrium", number(s.residuals.equilibrium)},
                        {"penetration", number(s.residuals.penetration)},
                        {"complementarity", number(s.residuals.complementarity)}};
-  json["error_estimate"] = {{"discretization", nullptr}, {"algebraic", nullptr}};  // not estimated by this version
+  json["error_estimate"] = {{"discretization", number(s.error_estimate.discretization)},
+                            {"algebraic", number(s.error_estimate.algebraic)}};
   json["strain_energy"] = number(s.strain_energy);
   json["max_von_mises"] = number(s.max_von_mises);
   json["max_displacement"] = number(s.max_displacement);
@@ -50,12 +57,14 @@ std::string to_json(const Summary& s)
                                 {"stick", c.stick},
                                 {"slip", c.slip}});
   json["time"] = Json::object();
-  for (const char* stage : {"total", "mesh", "partition", "assembly", "contact", "factorization", "solve", "multiplication", "output"}) {
+  for (const char* stage :
+       {"total", "mesh", "partition", "assembly", "contact", "factorization", "solve", "multiplication", "output"}) {
     const auto found = s.time.find(stage);
     json["time"][stage] = found == s.time.end() ? Json(0.0) : number(found->second);
   }
-  json["peak_memory_bytes"] = number(s.peak_memory_bytes);
-  return json.dump(1) + "\n";
+  json["peak_memory_bytes"] = std::llround(s.peak_memory_bytes);
+  // A title need not be valid UTF-8; it must not cost the user the summary.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace mortise::io

@@ -47,7 +47,8 @@ Base base_of(const Options& options, int dimension, int block)
   for (int b = 0; b < block; ++b) {
     const auto grid = grid_of(options, dimension, b);
     base.node += nodes_of(grid, dimension);
-    base.cell += Global{grid[0]} * grid[1] * grid[2] * static_cast<Global>(cut_of(block_at(options, b).second.element).pieces.size());
+    base.cell +=
+        Global{grid[0]} * grid[1] * grid[2] * static_cast<Global>(cut_of(block_at(options, b).second.element).pieces.size());
   }
   return base;
 }
@@ -135,7 +136,9 @@ Mesh generate(const Options& options, int dimension, int block, std::array<int, 
             cell.push_back(node(i + at[0], j + at[1], k + at[2]));
           }
           mesh.cells.add(cut.type, cell);
-          mesh.cell_id.push_back(base.cell + (i + Global{grid[0]} * (j + Global{grid[1]} * k)) * static_cast<Global>(cut.pieces.size()) + static_cast<Global>(p));
+          mesh.cell_id.push_back(base.cell +
+                                 (i + Global{grid[0]} * (j + Global{grid[1]} * k)) * static_cast<Global>(cut.pieces.size()) +
+                                 static_cast<Global>(p));
           mesh.cell_body.push_back(block);
         }
   add_facets(mesh, place, grid, dimension, block);

@@ -41,9 +41,21 @@ const Shape& shape(CellType type)
 
 }  // namespace
 
-int dimension(CellType type) { return shape(type).dimension; }
-int node_count(CellType type) { return shape(type).nodes; }
-std::string_view name(CellType type) { return shape(type).name; }
-const std::vector<Face>& faces(CellType type) { return shape(type).faces; }
+int dimension(CellType type)
+{
+  return shape(type).dimension;
+}
+int node_count(CellType type)
+{
+  return shape(type).nodes;
+}
+std::string_view name(CellType type)
+{
+  return shape(type).name;
+}
+const std::vector<Face>& faces(CellType type)
+{
+  return shape(type).faces;
+}
 
 }  // namespace mortise::mesh

@@ -14,7 +14,8 @@ void describe(deck::Description<BlockOptions>& d)
   d.check([](const BlockOptions& block, const std::string& path, deck::Document& document) {
     const bool plane = block.element == "quad4" || block.element == "tri3";
     for (std::size_t axis = 0; axis < (plane ? 2U : 3U); ++axis)
-      if (block.cells[axis] < 1 || !(block.size[axis] > 0)) document.error(path + (block.cells[axis] < 1 ? ".cells" : ".size"), "expected a positive entry for each axis");
+      if (block.cells[axis] < 1 || !(block.size[axis] > 0))
+        document.error(path + (block.cells[axis] < 1 ? ".cells" : ".size"), "expected a positive entry for each axis");
   });
 }
 
@@ -27,7 +28,8 @@ void describe(deck::Description<Options>& d)
   d.key("blocks", &Options::blocks, "Structured boxes by body name.");
   d.check([](const Options& mesh, const std::string& path, deck::Document& document) {
     if (mesh.file.empty() == mesh.blocks.empty()) document.error(path, "expected either `file` or `blocks`");
-    if (mesh.file.empty() && !mesh.constants.empty()) document.error(path + ".constants", "constants are for a `file` that gmsh meshes");
+    if (mesh.file.empty() && !mesh.constants.empty())
+      document.error(path + ".constants", "constants are for a `file` that gmsh meshes");
   });
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gmsh.h>
-
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -51,7 +50,8 @@ class Session {
   {
     std::vector<std::string> log;
     gmsh::logger::get(log);
-    const auto found = std::find_if(log.rbegin(), log.rend(), [](const std::string& line) { return line.rfind("Error", 0) == 0; });
+    const auto found =
+        std::find_if(log.rbegin(), log.rend(), [](const std::string& line) { return line.rfind("Error", 0) == 0; });
     return found == log.rend() ? std::string() : *found;
   }
 };
@@ -80,7 +80,8 @@ std::string load(const std::string& file, int dimension)
   return Session::error();
 }
 
-// Meshes a geometry in a process of its own and leaves the mesh in the file `target`, for gmsh's meshers crash on some faulty geometries.
+// Meshes a geometry in a process of its own and leaves the mesh in the file `target`, for gmsh's meshers crash on some faulty
+// geometries.
 void mesh_apart(const Options& options, int dimension, const std::string& target)
 {
   int pipe_ends[2];
@@ -110,7 +111,8 @@ void mesh_apart(const Options& options, int dimension, const std::string& target
   close(pipe_ends[0]);
   int status = 0;
   waitpid(child, &status, 0);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) error = "gmsh crashed while it meshed this geometry; try it in gmsh itself, with another mesh algorithm or size";
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    error = "gmsh crashed while it meshed this geometry; try it in gmsh itself, with another mesh algorithm or size";
   if (!error.empty()) fail(options.file, "gmsh: " + error);
 }
 
@@ -177,7 +179,8 @@ CellType cell_type(const std::string& file, int gmsh_type)
   int dimension = 0, order = 0, nodes = 0, primary = 0;
   std::vector<double> coordinates;
   gmsh::model::mesh::getElementProperties(gmsh_type, name, dimension, order, nodes, coordinates, primary);
-  fail(file, fmt::format("has cells of type \"{}\"; this version knows first-order line2, tri3, quad4, tet4, hex8 and prism6: mesh with order 1{}",
+  fail(file, fmt::format("has cells of type \"{}\"; this version knows first-order line2, tri3, quad4, tet4, hex8 and prism6: "
+                         "mesh with order 1{}",
                          name, order == 1 ? " and without pyramids" : ""));
 }
 
@@ -220,7 +223,8 @@ Nodes read_nodes(const Options& options, int dimension)
   }
   if (dimension == 2)
     for (auto& point : nodes.points) {
-      if (std::abs(point[2]) > 1e-9 * extent) fail(options.file, "a plane model must lie in z = 0, but a node has z = " + std::to_string(point[2]));
+      if (std::abs(point[2]) > 1e-9 * extent)
+        fail(options.file, "a plane model must lie in z = 0, but a node has z = " + std::to_string(point[2]));
       point[2] = 0;
     }
   return nodes;
@@ -252,12 +256,18 @@ std::vector<Local> turned(CellType type, std::span<const Local> n)
 {
   using enum CellType;
   switch (type) {
-    case tri3: return {n[0], n[2], n[1]};
-    case quad4: return {n[0], n[3], n[2], n[1]};
-    case tet4: return {n[0], n[2], n[1], n[3]};
-    case hex8: return {n[4], n[5], n[6], n[7], n[0], n[1], n[2], n[3]};
-    case prism6: return {n[3], n[4], n[5], n[0], n[1], n[2]};
-    default: return {n.begin(), n.end()};
+    case tri3:
+      return {n[0], n[2], n[1]};
+    case quad4:
+      return {n[0], n[3], n[2], n[1]};
+    case tet4:
+      return {n[0], n[2], n[1], n[3]};
+    case hex8:
+      return {n[4], n[5], n[6], n[7], n[0], n[1], n[2], n[3]};
+    case prism6:
+      return {n[3], n[4], n[5], n[0], n[1], n[2]};
+    default:
+      return {n.begin(), n.end()};
   }
 }
 
@@ -276,14 +286,17 @@ RawCells read_cells(const Options& options, int dimension, const std::vector<Gro
   for (std::size_t g = 0; g < bodies.size(); ++g)
     for (const int entity : bodies[g].entities)
       if (const auto [at, fresh] = owner.emplace(entity, static_cast<int>(g)); !fresh)
-        fail(options.file, fmt::format("entity {} belongs to two bodies, \"{}\" and \"{}\"", entity, bodies[static_cast<std::size_t>(at->second)].name, bodies[g].name));
+        fail(options.file, fmt::format("entity {} belongs to two bodies, \"{}\" and \"{}\"", entity,
+                                       bodies[static_cast<std::size_t>(at->second)].name, bodies[g].name));
   RawCells raw;
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, dimension);
   for (const auto& [dim, entity] : entities) {
     const auto body = owner.find(entity);
     for_each_element(options.file, dimension, entity, [&](CellType type, std::size_t tag, std::span<const std::size_t> tags) {
-      if (body == owner.end()) fail(options.file, fmt::format("element {} lies in entity {}, which belongs to no physical {}; add the entity to a body", tag, entity, dimension == 3 ? "volume" : "surface"));
+      if (body == owner.end())
+        fail(options.file, fmt::format("element {} lies in entity {}, which belongs to no physical {}; add the entity to a body",
+                                       tag, entity, dimension == 3 ? "volume" : "surface"));
       std::vector<Local> cell;
       for (const std::size_t t : tags) cell.push_back(nodes.local.at(t));
       const double volume = orientation(type, cell, nodes.points);
@@ -293,7 +306,8 @@ RawCells read_cells(const Options& options, int dimension, const std::vector<Gro
         high = high.cwiseMax(nodes.points[static_cast<std::size_t>(n)]);
       }
       if (std::abs(volume) <= 1e-12 * std::pow((high - low).maxCoeff(), dimension))
-        fail(options.file, fmt::format("element {} ({}) of body \"{}\" has no volume; improve the mesh there", tag, name(type), bodies[static_cast<std::size_t>(body->second)].name));
+        fail(options.file, fmt::format("element {} ({}) of body \"{}\" has no volume; improve the mesh there", tag, name(type),
+                                       bodies[static_cast<std::size_t>(body->second)].name));
       if (volume < 0) cell = turned(type, cell);
       raw.cells.add(type, cell);
       raw.group.push_back(body->second);
@@ -304,14 +318,16 @@ RawCells read_cells(const Options& options, int dimension, const std::vector<Gro
 }
 
 // Cells ordered by body, with nodes of its own for each body.
-Assembly separate(const RawCells& raw, const std::vector<Group>& bodies, const Nodes& nodes, int dimension, std::vector<Local>& original)
+Assembly separate(const RawCells& raw, const std::vector<Group>& bodies, const Nodes& nodes, int dimension,
+                  std::vector<Local>& original)
 {
   const auto part = connected_parts(face_neighbours(raw.cells), raw.group);
   const int parts = 1 + *std::max_element(part.begin(), part.end());
   std::vector<int> group_of(static_cast<std::size_t>(parts)), parts_in(bodies.size(), 0), order(static_cast<std::size_t>(parts));
   for (std::size_t c = part.size(); c-- > 0;) group_of[static_cast<std::size_t>(part[c])] = raw.group[c];
   for (int p = 0; p < parts; ++p) order[static_cast<std::size_t>(p)] = p;
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return group_of[static_cast<std::size_t>(a)] < group_of[static_cast<std::size_t>(b)]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return group_of[static_cast<std::size_t>(a)] < group_of[static_cast<std::size_t>(b)]; });
   for (const int g : group_of) ++parts_in[static_cast<std::size_t>(g)];
 
   Assembly assembly;
@@ -326,7 +342,8 @@ Assembly separate(const RawCells& raw, const std::vector<Group>& bodies, const N
     assembly.catalogue.bodies.push_back({parts_in[g] == 1 ? name : fmt::format("{}.{}", name, ++numbered[g]), name});
     const auto& cells = cells_of[static_cast<std::size_t>(p)];
     std::vector<Local> used;
-    for (const Local c : cells) used.insert(used.end(), raw.cells[static_cast<std::size_t>(c)].begin(), raw.cells[static_cast<std::size_t>(c)].end());
+    for (const Local c : cells)
+      used.insert(used.end(), raw.cells[static_cast<std::size_t>(c)].begin(), raw.cells[static_cast<std::size_t>(c)].end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     const auto base = static_cast<Local>(mesh.points.size());
@@ -350,7 +367,8 @@ Assembly separate(const RawCells& raw, const std::vector<Group>& bodies, const N
 }
 
 // Facets of the boundaries, found on the cells by the nodes of the file.
-void attach_boundaries(const Options& options, int dimension, const Nodes& nodes, const std::vector<Local>& original, Assembly& assembly)
+void attach_boundaries(const Options& options, int dimension, const Nodes& nodes, const std::vector<Local>& original,
+                       Assembly& assembly)
 {
   Mesh& mesh = assembly.mesh;
   Cells in_file = mesh.cells;
@@ -365,15 +383,19 @@ void attach_boundaries(const Options& options, int dimension, const Nodes& nodes
         std::vector<Local> on;
         for (const std::size_t tag : tags) on.push_back(nodes.local.at(tag));
         const CellFace wanted{face_key(on)};
-        const auto range = std::equal_range(all.begin(), all.end(), wanted, [](const CellFace& a, const CellFace& b) { return a.nodes < b.nodes; });
+        const auto range = std::equal_range(all.begin(), all.end(), wanted,
+                                            [](const CellFace& a, const CellFace& b) { return a.nodes < b.nodes; });
         if (range.first == range.second) {
           ++lost;
           return;
         }
         const auto body = [&](const CellFace& face) { return mesh.cell_body[static_cast<std::size_t>(face.cell)]; };
         if (range.second - range.first == 2 && body(*range.first) == body(*(range.first + 1)))
-          fail(options.file, fmt::format("boundary \"{}\" runs through the inside of body \"{}\"; only faces on the surface of a body can be a boundary",
-                                         group.name, assembly.catalogue.bodies[static_cast<std::size_t>(body(*range.first))].name));
+          fail(
+              options.file,
+              fmt::format(
+                  "boundary \"{}\" runs through the inside of body \"{}\"; only faces on the surface of a body can be a boundary",
+                  group.name, assembly.catalogue.bodies[static_cast<std::size_t>(body(*range.first))].name));
         for (auto match = range.first; match != range.second; ++match) {
           const auto cell = static_cast<std::size_t>(match->cell);
           const auto& face = faces(mesh.cells.type[cell])[static_cast<std::size_t>(match->face)];
@@ -385,7 +407,8 @@ void attach_boundaries(const Options& options, int dimension, const Nodes& nodes
           ++found;
         }
       });
-    if (lost > 0) fail(options.file, fmt::format("boundary \"{}\" has {} facets that lie on no cell of any body", group.name, lost));
+    if (lost > 0)
+      fail(options.file, fmt::format("boundary \"{}\" has {} facets that lie on no cell of any body", group.name, lost));
     if (found == 0) assembly.warnings.push_back(fmt::format("boundary \"{}\" of the mesh is empty", group.name));
   }
 }

@@ -31,9 +31,8 @@ std::vector<CellFace> sorted_faces(const Cells& cells)
       result.push_back({face_key(on), static_cast<Local>(c), static_cast<int>(f)});
     }
   }
-  std::sort(result.begin(), result.end(), [](const CellFace& a, const CellFace& b) {
-    return std::tie(a.nodes, a.cell) < std::tie(b.nodes, b.cell);
-  });
+  std::sort(result.begin(), result.end(),
+            [](const CellFace& a, const CellFace& b) { return std::tie(a.nodes, a.cell) < std::tie(b.nodes, b.cell); });
   return result;
 }
 
@@ -83,7 +82,8 @@ std::vector<int> connected_parts(const Neighbours& neighbours, const std::vector
 Mesh submesh(const Mesh& mesh, std::span<const Local> cells)
 {
   std::vector<Local> nodes;
-  for (const Local c : cells) nodes.insert(nodes.end(), mesh.cells[static_cast<std::size_t>(c)].begin(), mesh.cells[static_cast<std::size_t>(c)].end());
+  for (const Local c : cells)
+    nodes.insert(nodes.end(), mesh.cells[static_cast<std::size_t>(c)].begin(), mesh.cells[static_cast<std::size_t>(c)].end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const auto local = [&](Local n) { return static_cast<Local>(std::lower_bound(nodes.begin(), nodes.end(), n) - nodes.begin()); };

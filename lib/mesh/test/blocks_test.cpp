@@ -57,17 +57,20 @@ TEST_P(Blocks, HaveTheirCellsAndOutwardFacetsOnAllSides)
 }
 
 INSTANTIATE_TEST_SUITE_P(Elements, Blocks,
-                         testing::Values(std::tuple("hex8", 3, 1), std::tuple("tet4", 3, 6), std::tuple("prism6", 3, 2), std::tuple("quad4", 2, 1), std::tuple("tri3", 2, 2)));
+                         testing::Values(std::tuple("hex8", 3, 1), std::tuple("tet4", 3, 6), std::tuple("prism6", 3, 2),
+                                         std::tuple("quad4", 2, 1), std::tuple("tri3", 2, 2)));
 
 TEST(Blocks, PiecesAgreeWithTheWholeToTheLastBit)
 {
   const auto options = one_block("tet4", {4, 3, 5});
   const auto whole = generate(options, 3, 0, {0, 0, 0}, {4, 3, 5});
   const auto piece = generate(options, 3, 0, {1, 0, 2}, {3, 3, 5});
-  for (std::size_t n = 0; n < piece.node_count(); ++n) EXPECT_EQ(piece.points[n], whole.points[static_cast<std::size_t>(piece.node_id[n])]);
+  for (std::size_t n = 0; n < piece.node_count(); ++n)
+    EXPECT_EQ(piece.points[n], whole.points[static_cast<std::size_t>(piece.node_id[n])]);
   for (std::size_t c = 0; c < piece.cells.size(); ++c) {
     const auto in_whole = whole.cells[static_cast<std::size_t>(piece.cell_id[c])];
-    for (std::size_t i = 0; i < in_whole.size(); ++i) EXPECT_EQ(piece.node_id[static_cast<std::size_t>(piece.cells[c][i])], in_whole[i]);
+    for (std::size_t i = 0; i < in_whole.size(); ++i)
+      EXPECT_EQ(piece.node_id[static_cast<std::size_t>(piece.cells[c][i])], in_whole[i]);
   }
   EXPECT_TRUE(std::is_sorted(piece.node_id.begin(), piece.node_id.end()));
 }

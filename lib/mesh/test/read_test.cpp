@@ -54,14 +54,16 @@ void expect_two_cubes(const Assembly& assembly, int n)
   ASSERT_EQ(assembly.catalogue.bodies.size(), 2U);
   EXPECT_EQ(assembly.catalogue.bodies[0].name, "left");
   EXPECT_EQ(assembly.catalogue.boundaries, (std::vector<std::string>{"between", "bottom"}));
-  EXPECT_EQ(assembly.mesh.node_count(), 2U * static_cast<unsigned>((n + 1) * (n + 1) * (n + 1)));  // the face between has two sets of nodes
+  EXPECT_EQ(assembly.mesh.node_count(),
+            2U * static_cast<unsigned>((n + 1) * (n + 1) * (n + 1)));  // the face between has two sets of nodes
   EXPECT_EQ(assembly.mesh.cells.size(), static_cast<std::size_t>(2 * 6 * n * n * n));
   Point sum = Point::Zero();
   int between = 0;
   for (std::size_t f = 0; f < assembly.mesh.facets.cells.size(); ++f) {
     const auto nodes = assembly.mesh.facets.cells[f];
     const auto& p = assembly.mesh.points;
-    const Point area = 0.5 * (p[static_cast<std::size_t>(nodes[1])] - p[static_cast<std::size_t>(nodes[0])]).cross(p[static_cast<std::size_t>(nodes[2])] - p[static_cast<std::size_t>(nodes[0])]);
+    const Point area = 0.5 * (p[static_cast<std::size_t>(nodes[1])] - p[static_cast<std::size_t>(nodes[0])])
+                                 .cross(p[static_cast<std::size_t>(nodes[2])] - p[static_cast<std::size_t>(nodes[0])]);
     if (assembly.mesh.facets.boundary[f] == 0) {
       ++between;
       const bool left = assembly.mesh.cell_body[static_cast<std::size_t>(assembly.mesh.facets.parent[f])] == 0;
@@ -102,7 +104,8 @@ Rectangle(2) = {3, 0, 0, 1, 1};
 Rectangle(3) = {6, 0, 0, 1, 1};
 Physical Surface("pads") = {1, 2};
 Physical Surface("rest") = {3};
-)"), 2);
+)"),
+                                  2);
   ASSERT_EQ(assembly.catalogue.bodies.size(), 3U);
   EXPECT_EQ(assembly.catalogue.bodies[0].name, "pads.1");
   EXPECT_EQ(assembly.catalogue.bodies[1].name, "pads.2");
@@ -110,7 +113,10 @@ Physical Surface("rest") = {3};
   EXPECT_EQ(assembly.catalogue.bodies[2].name, "rest");
 }
 
-TEST(Read, GeometryWithConstants) { expect_two_cubes(read_file(geo("cubes.geo", two_cubes), 3, {{"n", 3}}), 3); }
+TEST(Read, GeometryWithConstants)
+{
+  expect_two_cubes(read_file(geo("cubes.geo", two_cubes), 3, {{"n", 3}}), 3);
+}
 
 void expect_error(const std::string& file, int dimension, const std::string& text)
 {
@@ -129,16 +135,25 @@ TEST(Read, MistakesAreExplained)
   const std::string square = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\nRectangle(2) = {2, 0, 0, 1, 1};\n";
   expect_error(path("absent.msh"), 3, "no such file");
   // gmsh itself crashes on this one: a point that is said to lie inside a surface lies on its border.
-  expect_error(geo("crash.geo", "Point(1) = {0, 0, 0, 1}; Point(2) = {1, 0, 0, 1}; Point(3) = {1, 1, 0, 1}; Point(4) = {0, 1, 0, 1}; Point(5) = {0.5, 0, 0, 1};\n"
-                                "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\nCurve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
-                                "Point{5} In Surface{1};\nPhysical Surface(\"a\") = {1};\n"), 2, "gmsh");
+  expect_error(geo("crash.geo",
+                   "Point(1) = {0, 0, 0, 1}; Point(2) = {1, 0, 0, 1}; Point(3) = {1, 1, 0, 1}; Point(4) = {0, 1, 0, 1}; Point(5) "
+                   "= {0.5, 0, 0, 1};\n"
+                   "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\nCurve Loop(1) = {1, 2, 3, 4}; Plane "
+                   "Surface(1) = {1};\n"
+                   "Point{5} In Surface{1};\nPhysical Surface(\"a\") = {1};\n"),
+               2, "gmsh");
   expect_error(geo("syntax.geo", "Point(1) = {0, 0"), 3, "gmsh");
   expect_error(geo("nameless.geo", square), 2, "Physical Surface");
   expect_error(geo("second.geo", square + "Mesh.ElementOrder = 2;\nPhysical Surface(\"a\") = {1, 2};\n"), 2, "order 1");
-  expect_error(geo("forgotten.geo", square + "Physical Surface(\"a\") = {1};\nMesh.SaveAll = 1;\n"), 2, "belongs to no physical surface");
+  expect_error(geo("forgotten.geo", square + "Physical Surface(\"a\") = {1};\nMesh.SaveAll = 1;\n"), 2,
+               "belongs to no physical surface");
   expect_error(geo("twice.geo", square + "Physical Surface(\"a\") = {1, 2};\nPhysical Surface(\"b\") = {2};\n"), 2, "two bodies");
-  expect_error(geo("loose.geo", square + "Line(77) = {1, 7};\nPhysical Curve(\"loose\") = {77};\nPhysical Surface(\"a\") = {1, 2};\n"), 2, "lie on no cell");
-  expect_error(geo("high.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0.5, 1, 1};\nPhysical Surface(\"a\") = {1};\n"), 2, "z = 0");
+  expect_error(
+      geo("loose.geo", square + "Line(77) = {1, 7};\nPhysical Curve(\"loose\") = {77};\nPhysical Surface(\"a\") = {1, 2};\n"), 2,
+      "lie on no cell");
+  expect_error(
+      geo("high.geo", "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0.5, 1, 1};\nPhysical Surface(\"a\") = {1};\n"), 2,
+      "z = 0");
 }
 
 }  // namespace

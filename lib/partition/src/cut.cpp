@@ -25,8 +25,8 @@ std::vector<int> metis(const mesh::Neighbours& graph, int parts)
   options[METIS_OPTION_CONTIG] = 1;
   options[METIS_OPTION_UFACTOR] = 50;
   const auto run = [&] {
-    return METIS_PartGraphKway(&vertices, &constraints, offset.data(), adjacent.data(), nullptr, nullptr, nullptr, &wanted, nullptr,
-                               nullptr, options, &cut, label.data());
+    return METIS_PartGraphKway(&vertices, &constraints, offset.data(), adjacent.data(), nullptr, nullptr, nullptr, &wanted,
+                               nullptr, nullptr, options, &cut, label.data());
   };
   int status = run();
   if (status != METIS_OK) {  // a disconnected graph cannot be cut into contiguous parts at once
@@ -59,7 +59,9 @@ void join_islands(const mesh::Neighbours& graph, std::vector<int>& label)
     if (border.empty()) return;
     std::map<int, int> target;
     for (const auto& [island, neighbours] : border)
-      target[island] = std::max_element(neighbours.begin(), neighbours.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+      target[island] = std::max_element(neighbours.begin(), neighbours.end(), [](const auto& a, const auto& b) {
+                         return a.second < b.second;
+                       })->first;
     for (std::size_t c = 0; c < label.size(); ++c)
       if (const auto found = target.find(piece[c]); found != target.end()) label[c] = found->second;
   }

@@ -24,7 +24,8 @@ std::vector<Global> deal(const std::vector<long long>& weight, int ranks)
   const auto count = static_cast<Global>(weight.size());
   for (int r = 1; r < ranks; ++r) {
     const double aim = total * r / ranks;
-    while (next < count && sum + 0.5 * static_cast<double>(weight[static_cast<std::size_t>(next)]) < aim) sum += static_cast<double>(weight[static_cast<std::size_t>(next++)]);
+    while (next < count && sum + 0.5 * static_cast<double>(weight[static_cast<std::size_t>(next)]) < aim)
+      sum += static_cast<double>(weight[static_cast<std::size_t>(next++)]);
     first.push_back(next);
   }
   first.push_back(count);
@@ -37,7 +38,8 @@ std::vector<int> subdomain_counts(const std::vector<long long>& nodes, int dimen
   const double unknowns = dimension * static_cast<double>(std::accumulate(nodes.begin(), nodes.end(), 0LL));
   const double aim = options.subdomains > 0 ? unknowns / options.subdomains : options.unknowns_per_subdomain;
   std::vector<int> counts;
-  for (const long long n : nodes) counts.push_back(std::max(1, static_cast<int>(std::lround(dimension * static_cast<double>(n) / aim))));
+  for (const long long n : nodes)
+    counts.push_back(std::max(1, static_cast<int>(std::lround(dimension * static_cast<double>(n) / aim))));
   return counts;
 }
 
@@ -55,7 +57,8 @@ Share distribute(const mesh::Mesh& mesh, std::size_t bodies, int dimension, cons
   collectively(comm, [&] {
     if (!comm.root()) return;
     std::vector<std::vector<Local>> of_body(bodies);
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c) of_body[static_cast<std::size_t>(mesh.cell_body[c])].push_back(static_cast<Local>(c));
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      of_body[static_cast<std::size_t>(mesh.cell_body[c])].push_back(static_cast<Local>(c));
     std::vector<mesh::Mesh> pieces;
     std::vector<long long> nodes;
     for (const auto& list : of_body) {
@@ -80,7 +83,8 @@ Share distribute(const mesh::Mesh& mesh, std::size_t bodies, int dimension, cons
     std::vector<std::vector<char>> send(static_cast<std::size_t>(comm.size()));
     if (comm.root())
       for (Global s = share.first[static_cast<std::size_t>(rank)]; s < share.first[static_cast<std::size_t>(rank) + 1]; ++s)
-        pack({s, body_of[static_cast<std::size_t>(s)], mesh::submesh(mesh, cells[static_cast<std::size_t>(s)])}, send[static_cast<std::size_t>(rank)]);
+        pack({s, body_of[static_cast<std::size_t>(s)], mesh::submesh(mesh, cells[static_cast<std::size_t>(s)])},
+             send[static_cast<std::size_t>(rank)]);
     const auto received = comm.exchange(send);
     if (rank == comm.rank()) share.subdomains = unpack(received[0]);
   }
@@ -88,9 +92,13 @@ Share distribute(const mesh::Mesh& mesh, std::size_t bodies, int dimension, cons
 }
 
 // Grid indices where the i-th of `parts` pieces of `cells` cells begins.
-int grid_start(int cells, int parts, int i) { return static_cast<int>(static_cast<long long>(cells) * i / parts); }
+int grid_start(int cells, int parts, int i)
+{
+  return static_cast<int>(static_cast<long long>(cells) * i / parts);
+}
 
-Share generate_grid(const mesh::Options& mesh, const Options& options, int dimension, const mesh::Catalogue& catalogue, const Communicator& comm)
+Share generate_grid(const mesh::Options& mesh, const Options& options, int dimension, const mesh::Catalogue& catalogue,
+                    const Communicator& comm)
 {
   struct Box {
     int body;
@@ -156,8 +164,8 @@ mesh::Mesh generate_whole(const mesh::Options& options, int dimension, const mes
 void broadcast(mesh::Catalogue& catalogue, const Communicator& comm)
 {
   const auto share = [&](std::string& text) { comm.broadcast(text); };
-  std::vector<long long> head{catalogue.dimension, static_cast<long long>(catalogue.bodies.size()), static_cast<long long>(catalogue.boundaries.size()),
-                              catalogue.node_count, catalogue.cell_count};
+  std::vector<long long> head{catalogue.dimension, static_cast<long long>(catalogue.bodies.size()),
+                              static_cast<long long>(catalogue.boundaries.size()), catalogue.node_count, catalogue.cell_count};
   comm.broadcast(head);
   catalogue.dimension = static_cast<int>(head[0]);
   catalogue.bodies.resize(static_cast<std::size_t>(head[1]));
@@ -224,7 +232,8 @@ mesh::Surface boundary_surface(const Decomposition& decomposition, int boundary,
       std::vector<Local> face;
       for (const Local n : mesh.facets.cells[f]) {
         const auto node = static_cast<std::size_t>(n);
-        const auto at = std::lower_bound(surface.node_id.begin(), surface.node_id.end(), mesh.node_id[node]) - surface.node_id.begin();
+        const auto at =
+            std::lower_bound(surface.node_id.begin(), surface.node_id.end(), mesh.node_id[node]) - surface.node_id.begin();
         face.push_back(static_cast<Local>(at));
         surface.points[static_cast<std::size_t>(at)] = mesh.points[node];
       }
@@ -235,7 +244,8 @@ mesh::Surface boundary_surface(const Decomposition& decomposition, int boundary,
       Local place = 0;
       const auto& table = mesh::faces(mesh.cells.type[parent]);
       for (std::size_t k = 0; k < table.size(); ++k)
-        if (cell[static_cast<std::size_t>(table[k].nodes[0])] == mesh.facets.cells[f][0] && cell[static_cast<std::size_t>(table[k].nodes[1])] == mesh.facets.cells[f][1])
+        if (cell[static_cast<std::size_t>(table[k].nodes[0])] == mesh.facets.cells[f][0] &&
+            cell[static_cast<std::size_t>(table[k].nodes[1])] == mesh.facets.cells[f][1])
           place = static_cast<Local>(k);
       surface.face_id.push_back(6 * mesh.cell_id[parent] + place);
       surface.body.push_back(subdomain.body);

@@ -16,7 +16,8 @@ struct Entry {
 
 }  // namespace
 
-NodeDirectory::NodeDirectory(const Decomposition& decomposition, const std::vector<std::vector<double>>& weight, const Communicator& comm)
+NodeDirectory::NodeDirectory(const Decomposition& decomposition, const std::vector<std::vector<double>>& weight,
+                             const Communicator& comm)
 {
   std::vector<std::vector<Entry>> send(static_cast<std::size_t>(comm.size()));
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
@@ -149,7 +150,8 @@ void sum_over_copies(const Decomposition& decomposition, const Interface& interf
   };
   std::vector<Term> terms;
   for (std::size_t r = 0; r < ranks; ++r)
-    for (std::size_t i = 0; i < head_in[r].size(); ++i) terms.push_back({head_in[r][i], row_in[r].data() + static_cast<std::size_t>(width) * i});
+    for (std::size_t i = 0; i < head_in[r].size(); ++i)
+      terms.push_back({head_in[r][i], row_in[r].data() + static_cast<std::size_t>(width) * i});
   std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) {
     return std::tie(a.head.to, a.head.node, a.head.from) < std::tie(b.head.to, b.head.node, b.head.from);
   });

@@ -26,7 +26,10 @@ void scatter(const Disc& disc, const Eigen::Vector2d& value, Eigen::Ref<Eigen::V
   if (disc.index[1] >= 0) v[disc.index[1]] = value[1];
 }
 
-Eigen::Vector2d centre(const Disc& disc) { return {disc.centre[0], disc.centre[1]}; }
+Eigen::Vector2d centre(const Disc& disc)
+{
+  return {disc.centre[0], disc.centre[1]};
+}
 
 // Largest a with ||y - a p|| <= radius for ||y|| <= radius, written without cancellation.
 double step_in_disc(const Eigen::Vector2d& y, const Eigen::Vector2d& p, double radius)
@@ -93,8 +96,7 @@ void FeasibleSet::split(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen:
   }
 }
 
-double FeasibleSet::feasible_step(const Eigen::Ref<const Eigen::VectorXd>& x,
-                                  const Eigen::Ref<const Eigen::VectorXd>& p) const
+double FeasibleSet::feasible_step(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& p) const
 {
   double step = std::numeric_limits<double>::infinity();
   for (const auto& bound : bounds_)

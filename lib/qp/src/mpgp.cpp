@@ -36,9 +36,7 @@ void mpgp(const Product& hessian, const FeasibleSet& set, Point& point, double& 
   auto& [x, g] = point;
   const auto map = x.getMap();
   Vector free(map), chopped(map), direction(map), product(map), linear(map);
-  const auto split = [&] {
-    set.split(view(std::as_const(x)), view(std::as_const(g)), view(free), view(chopped));
-  };
+  const auto split = [&] { set.split(view(std::as_const(x)), view(std::as_const(g)), view(free), view(chopped)); };
   // g = H x - c; c = H x - g of the point that came in is never formed: a full product renews g from the change of x.
   const auto renew = [&](const Vector& from) {
     direction.update(1, x, -1, from, 0);
@@ -66,7 +64,7 @@ void mpgp(const Product& hessian, const FeasibleSet& set, Point& point, double& 
     const double step = curvature > 0 ? g.dot(direction) / curvature : std::numeric_limits<double>::infinity();
     const double limit = min_over_ranks(x, set.feasible_step(view(std::as_const(x)), view(std::as_const(direction))));
     if (!std::isfinite(std::min(step, limit))) return;  // no curvature and no limit along a direction of descent
-    if (step <= limit) {  // conjugate gradient step
+    if (step <= limit) {                                // conjugate gradient step
       x.update(-step, direction, 1);
       g.update(-step, product, 1);
       split();

@@ -1,7 +1,6 @@
 #include "qp/norm.hpp"
 
 #include <Eigen/Eigenvalues>
-
 #include <cmath>
 
 namespace mortise::qp {

@@ -1,7 +1,6 @@
 #include "qp/projection.hpp"
 
 #include <Eigen/SparseCore>
-
 #include <cmath>
 
 namespace mortise::qp {

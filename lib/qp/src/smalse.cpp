@@ -15,8 +15,8 @@ constexpr double start_precision = 0.25;  // M0; smaller than the usual 1, since
 constexpr double shrink_precision = 0.5;  // beta: M falls by this when the Lagrangian did not rise enough
 constexpr double start_accuracy = 0.1;    // eta, relative to ||P b||
 constexpr int max_outer_iterations = 1000;
-constexpr int start_steps = 3;           // gradient projections of a cold start
-constexpr double start_length = 1.5;     // their length, over ||P A P||
+constexpr int start_steps = 3;        // gradient projections of a cold start
+constexpr double start_length = 1.5;  // their length, over ||P A P||
 
 // The problem divided by nrm = ||P A P|| and moved to x = x0 + z with a feasible x0:
 //     L(z, mu) = 1/2 z'(P A P / nrm + rho Q) z + z'P g0 / nrm + mu'S G z,   rho = 1,
@@ -64,8 +64,8 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
   result.hessian_norm = start ? start->hessian_norm : projected_norm(hessian, equality);
   if (observer && !start) observer({"norm", 0, hessian.count()});
   result.precision = start ? start->precision : start_precision;
-  Eigen::VectorXd nu = start && start->augmented.size() == equality.size() ? start->augmented
-                                                                           : Eigen::VectorXd::Zero(equality.size());
+  Eigen::VectorXd nu =
+      start && start->augmented.size() == equality.size() ? start->augmented : Eigen::VectorXd::Zero(equality.size());
   double norm = result.hessian_norm;
   if (norm == 0) norm = 1;
   double size = relative_size(problem) / norm;

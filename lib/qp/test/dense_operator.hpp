@@ -10,7 +10,8 @@ class DenseOperator : public Operator {
  public:
   DenseOperator(Eigen::MatrixXd a, Teuchos::RCP<const Map> map, const Communicator& comm)
       : a_(std::move(a)), map_(map), comm_(comm)
-  {}
+  {
+  }
   Teuchos::RCP<const Map> getDomainMap() const override { return map_; }
   Teuchos::RCP<const Map> getRangeMap() const override { return map_; }
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const override

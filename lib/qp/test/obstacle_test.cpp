@@ -66,7 +66,8 @@ TEST(Obstacle, EqualityAndDiscs)
   std::mt19937 generator(7);
   std::normal_distribution<double> normal;
   const auto random = [&](Eigen::Index rows, Eigen::Index columns) {
-    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) { return normal(generator); }));
+    return Eigen::MatrixXd(
+        Eigen::MatrixXd::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) { return normal(generator); }));
   };
   const Eigen::MatrixXd root = random(n, n);
   const Eigen::MatrixXd dense = root * root.transpose() / n + 0.05 * Eigen::MatrixXd::Identity(n, n);

@@ -56,8 +56,8 @@ TEST(Projection, DiscsLimitWhatFrictionCanCarry)
   Eigen::MatrixXd g = Eigen::MatrixXd::Zero(2, n);  // resultant in both directions
   for (int i = 0; i < n; ++i) g(i % 2, i) = 1;
   const auto columns = local_columns(g, *map);
-  const EqualityConstraint held(columns, Eigen::Vector2d(2.0, 2.0), world());    // 2.83 of 3
-  const EqualityConstraint slips(columns, Eigen::Vector2d(2.2, 2.2), world());   // 3.11 of 3
+  const EqualityConstraint held(columns, Eigen::Vector2d(2.0, 2.0), world());   // 2.83 of 3
+  const EqualityConstraint slips(columns, Eigen::Vector2d(2.2, 2.2), world());  // 3.11 of 3
   EXPECT_TRUE(project(Vector(map), held, set).found);
   EXPECT_FALSE(project(Vector(map), slips, set).found);
 }

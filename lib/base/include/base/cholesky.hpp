@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/SparseCore>
-
 #include <cstddef>
 #include <memory>
 

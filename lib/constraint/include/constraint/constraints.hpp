@@ -50,17 +50,18 @@ struct Held {
 
 /// A point of a contact surface that carries multipliers: a node of the secondary side, or one side of a kink at that node.
 struct ContactPoint {
-  int contact;                     ///< index into the deck's contacts
-  Global node;                     ///< of the secondary surface
-  double area;                     ///< integral of its shape function over the overlap, which turns a multiplier into a traction
-  Point normal;                    ///< unit, out of the secondary body
-  std::vector<Point> tangents;     ///< 0, 1 (2D, or one direction is held) or 2 unit vectors, orthogonal to the normal
-  std::size_t row;                 ///< its normal row in Contacts::rows; its tangential rows follow, then the next point's normal row
-  double weight = 1;               ///< sum of the row's coefficients on the secondary side, above 1 where it stands in for dropped nodes
+  int contact;                  ///< index into the deck's contacts
+  Global node;                  ///< of the secondary surface
+  double area;                  ///< integral of its shape function over the overlap, which turns a multiplier into a traction
+  Point normal;                 ///< unit, out of the secondary body
+  std::vector<Point> tangents;  ///< 0, 1 (2D, or one direction is held) or 2 unit vectors, orthogonal to the normal
+  std::size_t row;    ///< its normal row in Contacts::rows; its tangential rows follow, then the next point's normal row
+  double weight = 1;  ///< sum of the row's coefficients on the secondary side, above 1 where it stands in for dropped nodes
 };
 
 /// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the point in length units, with the
-/// coefficient of the secondary node n (normal row) or t (tangential): (u_s - sum_j m_j u_j) . n <= gap. Its multiplier is a force.
+/// coefficient of the secondary node n (normal row) or t (tangential): (u_s - sum_j m_j u_j) . n <= gap. Its multiplier is a
+/// force.
 struct Contacts {
   Rows rows;
   std::vector<ContactPoint> points;
@@ -68,7 +69,7 @@ struct Contacts {
 };
 
 struct Constraints {
-  std::vector<Held> held;   ///< each pair (node, component) once over all ranks
+  std::vector<Held> held;  ///< each pair (node, component) once over all ranks
   Contacts contacts;
 };
 

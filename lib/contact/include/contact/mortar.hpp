@@ -1,10 +1,11 @@
 // Mortar contact with dual multipliers: from two surfaces to rows, and from multipliers back to tractions.
 //
-// The multiplier space is biorthogonal to the secondary side's shape functions, integral psi_i phi_j = delta_ij integral phi_j [Wohlmuth,
-// SIAM J. Numer. Anal. 38 (2000); Popp, Gitterle, Gee, Wall, IJNME 83 (2010)], integrated segment by segment, so that each row speaks of one secondary
-// node and the primary nodes opposite. It is built on the covered part of each face, which keeps constant pressures exact at the
-// border of the overlap. Nodes that can have no multiplier (held along the normal, or hardly covered) leave theirs to the other nodes of
-// the face [in the spirit of Popp et al., SIAM J. Sci. Comput. 35 (2013), boundary modification].
+// The multiplier space is biorthogonal to the secondary side's shape functions, integral psi_i phi_j = delta_ij integral phi_j
+// [Wohlmuth, SIAM J. Numer. Anal. 38 (2000); Popp, Gitterle, Gee, Wall, IJNME 83 (2010)], integrated segment by segment, so that
+// each row speaks of one secondary node and the primary nodes opposite. It is built on the covered part of each face, which keeps
+// constant pressures exact at the border of the overlap. Nodes that can have no multiplier (held along the normal, or hardly
+// covered) leave theirs to the other nodes of the face [in the spirit of Popp et al., SIAM J. Sci. Comput. 35 (2013), boundary
+// modification].
 #pragma once
 
 #include <span>
@@ -22,12 +23,12 @@ struct Pair {
   mesh::Surface secondary, primary;
 };
 
-/// How far apart the two sides of a pair may lie to meet: the deck's search_distance, or a tenth of the extent of the smaller side, but at
-/// least the size of a face. Collective.
+/// How far apart the two sides of a pair may lie to meet: the deck's search_distance, or a tenth of the extent of the smaller
+/// side, but at least the size of a face. Collective.
 double search_distance(const Pair& pair, const Communicator& comm);
 
-/// The contact rows of all pairs; contact c of ContactPoint is pairs[c]. Rows stand on any rank, each once; they do not depend on the
-/// number of ranks. `held` are the supports of this rank. Frictionless pairs have normal rows only. Collective.
+/// The contact rows of all pairs; contact c of ContactPoint is pairs[c]. Rows stand on any rank, each once; they do not depend on
+/// the number of ranks. `held` are the supports of this rank. Frictionless pairs have normal rows only. Collective.
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, int dimension,
                                 const Communicator& comm);
 

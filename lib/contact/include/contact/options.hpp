@@ -10,14 +10,14 @@ namespace mortise::contact {
 enum class Law { frictionless, tresca, coulomb, bonded };
 
 struct Options {
-  std::string name;                  ///< default: "secondary/primary"
-  std::string secondary;             ///< boundary that carries the multipliers
+  std::string name;       ///< default: "secondary/primary"
+  std::string secondary;  ///< boundary that carries the multipliers
   std::string primary;
   Law law = Law::frictionless;
-  double friction = 0;               ///< tresca: slip bound as a traction; coulomb: coefficient
+  double friction = 0;  ///< tresca: slip bound as a traction; coulomb: coefficient
   std::string discretization = "mortar";
-  double interference = 0;           ///< added overlap; negative opens a gap
-  double search_distance = 0;        ///< surfaces farther apart than this never meet; 0: a tenth of the smaller side's extent
+  double interference = 0;     ///< added overlap; negative opens a gap
+  double search_distance = 0;  ///< surfaces farther apart than this never meet; 0: a tenth of the smaller side's extent
 };
 
 /// The keywords.

@@ -15,36 +15,38 @@ struct PointState {
   int contact = 0;
   Global node = 0;
   double area = 0;
-  double force = 0;                     ///< normal multiplier, >= 0 when pressing (bonded: any sign)
+  double force = 0;                          ///< normal multiplier, >= 0 when pressing (bonded: any sign)
   Point force_on_secondary = Point::Zero();  ///< all multipliers of the point, as the secondary side feels them
-  double gap = 0;                       ///< >= 0 up to the solver's tolerance
-  Point slip = Point::Zero();           ///< tangential jump, secondary minus primary side
+  double gap = 0;                            ///< >= 0 up to the solver's tolerance
+  Point slip = Point::Zero();                ///< tangential jump, secondary minus primary side
   Status status = Status::open;
 };
 
-/// One point: `multipliers` are forces (normal, then tangents); `jumps` are row . u (without bounds) in the same order, `bound` that of
-/// the normal row; `limit` the slip bound as a force (infinite: sticks; 0: frictionless). A point counts as open while its pressure is
-/// at most `nothing`, what the solver's tolerance leaves of zero.
-PointState state_of(const constraint::ContactPoint& point, bool bonded, std::span<const double> multipliers, std::span<const double> jumps,
-                    double bound, double limit, double nothing);
+/// One point: `multipliers` are forces (normal, then tangents); `jumps` are row . u (without bounds) in the same order, `bound`
+/// that of the normal row; `limit` the slip bound as a force (infinite: sticks; 0: frictionless). A point counts as open while
+/// its pressure is at most `nothing`, what the solver's tolerance leaves of zero.
+PointState state_of(const constraint::ContactPoint& point, bool bonded, std::span<const double> multipliers,
+                    std::span<const double> jumps, double bound, double limit, double nothing);
 
 /// Totals of one contact, over all ranks.
 struct Resultant {
   Point force = Point::Zero();  ///< on the secondary side
   double max_pressure = 0;
-  double area = 0;              ///< of the points that are closed
+  double area = 0;  ///< of the points that are closed
   long long open = 0, stick = 0, slip = 0;
 };
 /// Collective.
 std::vector<Resultant> resultants(std::span<const PointState> points, std::size_t contacts, const Communicator& comm);
 
-/// Nodal fields on this rank's secondary surface of one contact; where two points share a node at a kink, pressures are averaged by area.
+/// Nodal fields on this rank's secondary surface of one contact; where two points share a node at a kink, pressures are averaged
+/// by area.
 struct SurfaceState {
   std::vector<double> pressure, gap;
   std::vector<Point> traction, slip;
   std::vector<int> status;
 };
 /// One for each surface. Collective.
-std::vector<SurfaceState> surface_states(std::span<const PointState> points, std::span<const Pair> pairs, const Communicator& comm);
+std::vector<SurfaceState> surface_states(std::span<const PointState> points, std::span<const Pair> pairs,
+                                         const Communicator& comm);
 
 }  // namespace mortise::contact

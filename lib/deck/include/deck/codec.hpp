@@ -1,12 +1,11 @@
 // How values of each type are read, written back and described: to add a type, specialise Codec.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,7 +54,8 @@ struct Codec<std::string> {
 /// An absent value is not written back.
 template <class V>
 struct Codec<std::optional<V>> {
-  static void read(std::optional<V>& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+  static void read(std::optional<V>& value, const YAML::Node& node, const std::string& path, Document& document,
+                   const Limits& limits)
   {
     value.emplace();
     Codec<V>::read(*value, node, path, document, limits);
@@ -67,14 +67,17 @@ struct Codec<std::optional<V>> {
 /// Vectors in space: two or three entries; what is not given stays as it is.
 template <class V, std::size_t N>
 struct Codec<std::array<V, N>> {
-  static void read(std::array<V, N>& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+  static void read(std::array<V, N>& value, const YAML::Node& node, const std::string& path, Document& document,
+                   const Limits& limits)
   {
     if (!node.IsSequence() || node.size() < 2 || node.size() > N) {
-      document.error(path, "expected a list of 2 (plane models) or 3 entries, found " + (node.IsSequence() ? std::to_string(node.size()) + " entries" : found(node)));
+      document.error(path, "expected a list of 2 (plane models) or 3 entries, found " +
+                               (node.IsSequence() ? std::to_string(node.size()) + " entries" : found(node)));
       return;
     }
     if (node.size() < N) value[N - 1] = V{};
-    for (std::size_t i = 0; i < node.size(); ++i) Codec<V>::read(value[i], node[i], path + "[" + std::to_string(i) + "]", document, limits);
+    for (std::size_t i = 0; i < node.size(); ++i)
+      Codec<V>::read(value[i], node[i], path + "[" + std::to_string(i) + "]", document, limits);
   }
   static YAML::Node write(const std::array<V, N>& value)
   {
@@ -83,12 +86,16 @@ struct Codec<std::array<V, N>> {
     node.SetStyle(YAML::EmitterStyle::Flow);
     return node;
   }
-  static nlohmann::ordered_json schema(const Limits& limits) { return {{"type", "array"}, {"items", Codec<V>::schema(limits)}, {"minItems", 2}, {"maxItems", N}}; }
+  static nlohmann::ordered_json schema(const Limits& limits)
+  {
+    return {{"type", "array"}, {"items", Codec<V>::schema(limits)}, {"minItems", 2}, {"maxItems", N}};
+  }
 };
 
 template <class V>
 struct Codec<std::vector<V>> {
-  static void read(std::vector<V>& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+  static void read(std::vector<V>& value, const YAML::Node& node, const std::string& path, Document& document,
+                   const Limits& limits)
   {
     value.clear();
     if (node.IsNull()) return;
@@ -116,7 +123,8 @@ struct Codec<std::vector<V>> {
 /// Entries by name.
 template <class V>
 struct Codec<std::map<std::string, V>> {
-  static void read(std::map<std::string, V>& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+  static void read(std::map<std::string, V>& value, const YAML::Node& node, const std::string& path, Document& document,
+                   const Limits& limits)
   {
     value.clear();
     if (node.IsNull()) return;
@@ -139,7 +147,10 @@ struct Codec<std::map<std::string, V>> {
     for (const auto& [name, item] : value) node[name] = Codec<V>::write(item);
     return value.empty() ? YAML::Node() : node;
   }
-  static nlohmann::ordered_json schema(const Limits& limits) { return {{"type", "object"}, {"additionalProperties", Codec<V>::schema(limits)}}; }
+  static nlohmann::ordered_json schema(const Limits& limits)
+  {
+    return {{"type", "object"}, {"additionalProperties", Codec<V>::schema(limits)}};
+  }
 };
 
 /// Components by axis, {x: 0, z: 1}; an axis that is not named has no value.

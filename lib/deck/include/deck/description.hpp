@@ -9,10 +9,9 @@
 // From a description come reading with checks, the deck with all defaults filled in, and a JSON schema.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -57,7 +56,8 @@ class Description {
         [member](T& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits) {
           Codec<V>::read(value.*member, node, path, document, limits);
         },
-        [member](const T& value) { return Codec<V>::write(value.*member); }, [](const Limits& limits) { return Codec<V>::schema(limits); });
+        [member](const T& value) { return Codec<V>::write(value.*member); },
+        [](const Limits& limits) { return Codec<V>::schema(limits); });
   }
 
   /// A keyword with functions of its own.
@@ -104,7 +104,10 @@ const Description<T>& description()
   return made;
 }
 
-inline std::string join(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+inline std::string join(const std::string& path, const std::string& key)
+{
+  return path.empty() ? key : path + "." + key;
+}
 
 /// Structs with a description.
 template <class T>

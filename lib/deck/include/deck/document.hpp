@@ -12,8 +12,8 @@ namespace mortise::deck {
 /// Errors are collected, so that one run reports all that is wrong. A path looks like `contacts[0].friction.coulomb`.
 class Document {
  public:
-  /// Parses `text` and lays `settings`, each "path=value" with a YAML value, over it. Throws Error(bad_input) where the text is no YAML,
-  /// is not a mapping, or a setting cannot be placed.
+  /// Parses `text` and lays `settings`, each "path=value" with a YAML value, over it. Throws Error(bad_input) where the text is
+  /// no YAML, is not a mapping, or a setting cannot be placed.
   Document(const std::string& text, std::string file, const std::vector<std::string>& settings);
 
   const YAML::Node& root() const { return root_; }
@@ -36,8 +36,8 @@ class Document {
 
   std::string file_;
   YAML::Node root_;
-  std::map<std::string, int> lines_;       // path -> line, from 1; 0 for what --set created
-  std::map<std::string, std::string> set_; // path -> the setting that gave it its value
+  std::map<std::string, int> lines_;        // path -> line, from 1; 0 for what --set created
+  std::map<std::string, std::string> set_;  // path -> the setting that gave it its value
   std::vector<Complaint> errors_;
 };
 

@@ -1,9 +1,9 @@
-// Reference elements: shape functions tabulated at integration points. To add one: a file in src/elements, its declaration there and a
-// row in element.cpp.
+// Reference elements: shape functions tabulated at integration points, and the two kernels in which a program that assembles
+// stiffnesses spends its time, compiled for the size of each element. To add one: a file in src/elements, its declaration there
+// and a row in element.cpp.
 #pragma once
 
 #include <Eigen/Core>
-
 #include <vector>
 
 #include "mesh/cell.hpp"
@@ -14,10 +14,22 @@ namespace mortise::fem {
 struct Element {
   int dimension = 0;
   int nodes = 0;
-  std::vector<double> weight;              ///< q
-  std::vector<Eigen::VectorXd> shape;      ///< q times n
-  std::vector<Eigen::MatrixXd> gradient;   ///< q times n x d, by the reference coordinates
-  Eigen::MatrixXd extrapolation;           ///< n x q: from integration points to nodes, by least squares in the shape functions
+  std::vector<double> weight;             ///< q
+  std::vector<Eigen::VectorXd> shape;     ///< q times n
+  std::vector<Eigen::MatrixXd> gradient;  ///< q times n x d, by the reference coordinates
+  Eigen::MatrixXd extrapolation;          ///< n x q: from integration points to nodes, by least squares in the shape functions
+
+  /// Gradients by the space coordinates, q times n x d, and the volumes that the points stand for, of the cell with the nodes at
+  /// x, n x d. All matrices column-major. A volume that is not positive means that the cell is inside out there; its gradients
+  /// are then useless.
+  void (*gradients_in_space)(const Element& element, const double* x, double* gradients, double* volumes) = nullptr;
+
+  /// K of one cell, (d n) x (d n), unknown d * node + component, from what gradients_in_space() found:
+  /// block ij is the sum over the points of volume * (lambda g_i g_j' + mu g_j g_i' + mu (g_i . g_j) I).
+  void (*stiffness)(const Element& element, const double* gradients, const double* volumes, double lambda, double mu,
+                    double* k) = nullptr;
+
+  std::size_t points() const { return weight.size(); }
 };
 
 const Element& element(mesh::CellType type);

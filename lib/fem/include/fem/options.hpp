@@ -31,10 +31,10 @@ struct BodyOptions {
 struct LoadOptions {
   std::string boundary;
   std::string body;
-  std::optional<double> pressure;                       ///< force an area, positive into the body
-  std::optional<std::array<double, 3>> traction;        ///< force an area
-  std::optional<std::array<double, 3>> force;           ///< resultant, spread evenly over the boundary (2D: force a thickness)
-  std::optional<std::array<double, 3>> acceleration;    ///< body force is density times this
+  std::optional<double> pressure;                     ///< force an area, positive into the body
+  std::optional<std::array<double, 3>> traction;      ///< force an area
+  std::optional<std::array<double, 3>> force;         ///< resultant, spread evenly over the boundary (2D: force a thickness)
+  std::optional<std::array<double, 3>> acceleration;  ///< body force is density times this
 };
 
 /// The keywords.

@@ -1,4 +1,4 @@
-// Stresses at integration points and their recovery at nodes.
+// Stresses at integration points, their recovery at nodes, and what the two say about the error of the mesh.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,12 +16,19 @@ double von_mises(const Stress& stress);
 
 /// What one piece knows of the stress.
 struct StressField {
-  /// nodes x 7: sums over the cells of the piece of volume * stress extrapolated to the node, and of the volumes. Added up over the copies of
-  /// a node and divided by the last column this is the recovered nodal stress, which never mixes two bodies.
+  /// nodes x 7: sums over the cells of the piece of volume * stress extrapolated to the node, and of the volumes. Added up over
+  /// the copies of a node and divided by the last column this is the recovered nodal stress, which never mixes two bodies.
   Eigen::MatrixXd nodal_sums;
   /// Of each cell, from the volume mean of its stress.
   Eigen::VectorXd cell_von_mises;
 };
 StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u);
+
+/// For each cell the squared energy norm of s* - s: the integral of (s* - s) : C^-1 : (s* - s), where s is the stress of the
+/// finite elements and s* interpolates `recovered`, nodes x 6, by the shape functions [Zienkiewicz and Zhu, A simple error
+/// estimator and adaptive procedure for practical engineering analysis, IJNME 24 (1987)]. The sum over all cells estimates ||u -
+/// u_h||^2 in the energy norm; in the same norm ||u_h||^2 is twice the strain energy.
+Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
+                               const Eigen::MatrixXd& recovered);
 
 }  // namespace mortise::fem

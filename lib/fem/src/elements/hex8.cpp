@@ -4,8 +4,9 @@ namespace mortise::fem {
 
 Element hex8()
 {
-  return tabulate(3, 8, gauss2(3),
-                  multilinear(3, {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}));
+  return make_element<8, 3>(
+      gauss2(3),
+      multilinear(3, {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}));
 }
 
 }  // namespace mortise::fem

@@ -11,7 +11,7 @@ Element prism6()
   std::vector<IntegrationPoint> points;
   for (const double z : {-g, g})
     for (const auto& [x, y] : {std::pair(a, a), std::pair(b, a), std::pair(a, b)}) points.push_back({{x, y, z}, 1.0 / 6});
-  return tabulate(3, 6, points, [](const Eigen::Vector3d& x, Eigen::VectorXd& value, Eigen::MatrixXd& gradient) {
+  return make_element<6, 3>(points, [](const Eigen::Vector3d& x, Eigen::VectorXd& value, Eigen::MatrixXd& gradient) {
     const double l[3] = {1 - x[0] - x[1], x[0], x[1]};
     const double dl[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
     for (int layer = 0; layer < 2; ++layer) {

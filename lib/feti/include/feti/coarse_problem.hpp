@@ -11,7 +11,8 @@
 
 namespace mortise::feti {
 
-/// Where the kernel of each subdomain stands among all: subdomain s (global number) has the coordinates first(s) .. first(s)+dim-1.
+/// Where the kernel of each subdomain stands among all: subdomain s (global number) has the coordinates first(s) ..
+/// first(s)+dim-1.
 struct KernelNumbering {
   int dimension = 6;  ///< of each kernel: 6, or 3 in two dimensions
   int first(Global subdomain) const { return static_cast<int>(subdomain) * dimension; }

@@ -16,7 +16,8 @@ class DualOperator : public Operator {
  public:
   DualOperator(const JumpOperator& jump, const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains, Timers& timers)
       : jump_(jump), subdomains_(subdomains), timers_(timers)
-  {}
+  {
+  }
   Teuchos::RCP<const Map> getDomainMap() const override { return jump_.rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return jump_.rows(); }
   /// y = alpha F x + beta y, column by column. Collective.

@@ -1,4 +1,5 @@
-// The whole dual problem of an assembly: subdomain operators, B, F, G, e, d and the feasible set, and the way back to displacements.
+// The whole dual problem of an assembly: subdomain operators, B, F, G, e, d and the feasible set, and the way back to
+// displacements.
 //
 //     minimise  1/2 lambda'F lambda - lambda'd   subject to  G lambda = e,  lambda in Omega,
 //     F = B K^+ B',  d = B K^+ f - c,  G = R'B',  e = R'f,     u = K^+ (f - B' lambda) - R nu,
@@ -21,8 +22,8 @@ namespace mortise::feti {
 /// What is floating: the subdomains of this rank, in the order of Decomposition::subdomains, and what acts on them.
 struct Floating {
   std::vector<std::unique_ptr<SubdomainOperator>> subdomains;
-  std::vector<Eigen::VectorXd> load;                   ///< f
-  std::vector<std::vector<double>> nodal_stiffness;    ///< as given to the NodeDirectory
+  std::vector<Eigen::VectorXd> load;                 ///< f
+  std::vector<std::vector<double>> nodal_stiffness;  ///< as given to the NodeDirectory
 };
 
 /// Where the multipliers of a contact point stand in the dual vector of this rank.
@@ -35,8 +36,9 @@ struct PointRows {
 /// Heavy: neither copies nor moves, for its parts refer to each other.
 class DualProblem {
  public:
-  /// Looks for free rigid motions and gauges those that nothing loads. Throws Error(no_equilibrium), naming the body and its motion, if
-  /// a load works on a motion that nothing resists. `decomposition`, `constraints` and `floating` outlive it. Collective.
+  /// Looks for free rigid motions and gauges those that nothing loads. Throws Error(no_equilibrium), naming the body and its
+  /// motion, if a load works on a motion that nothing resists. `decomposition`, `constraints` and `floating` outlive it.
+  /// Collective.
   DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
               const partition::Interface& interface, const constraint::Constraints& constraints, const Floating& floating,
               const Context& context);
@@ -57,7 +59,8 @@ class DualProblem {
 
   /// u of every subdomain. Collective.
   std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;
-  /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers run away. Collective.
+  /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers run away.
+  /// Collective.
   std::string runaway(const Eigen::VectorXd& nu) const;
   /// ||K u + B'lambda - f|| / (||f|| + ||B'lambda||) over all subdomains. Collective.
   double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const;
@@ -65,7 +68,8 @@ class DualProblem {
   double strain_energy(const std::vector<Eigen::VectorXd>& u) const;
 
  private:
-  void settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface, const Context& context);
+  void settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
+                           const Context& context);
   void make_set();
 
   const partition::Decomposition& decomposition_;

@@ -1,10 +1,11 @@
 // B: the jump operator from the displacements of all subdomains to the dual space, and the scaling of its rows.
 //
-// Gluing rows of a node with copies of stiffness w_1 .. w_m: row k = 1 .. m-1 (and component) has the coefficients a w_q at copies
-// q < k and -a (w_1 + .. + w_k) at the copy after them, which makes the rows orthonormal in the inner product of D^-1, D = diag(w).
-// Supports and contacts act on the average of the copies with weights w_q / sum w, and are therefore D^-1-orthogonal to the gluing
-// rows. Each such row is multiplied by a factor `scale` that makes it a unit vector in D^-1 as well (one factor for all rows
-// of a contact point, so that discs stay discs). This keeps the dual operator well conditioned when the stiffness jumps by 1e6.
+// Gluing rows of a node with copies of stiffness w_1 .. w_m: row k = 1 .. m-1 (and component) has the coefficients a w_q at
+// copies q < k and -a (w_1 + .. + w_k) at the copy after them, which makes the rows orthonormal in the inner product of D^-1, D =
+// diag(w). Supports and contacts act on the average of the copies with weights w_q / sum w, and are therefore D^-1-orthogonal to
+// the gluing rows. Each such row is multiplied by a factor `scale` that makes it a unit vector in D^-1 as well (one factor for
+// all rows of a contact point, so that discs stay discs). This keeps the dual operator well conditioned when the stiffness jumps
+// by 1e6.
 #pragma once
 
 #include <vector>
@@ -17,8 +18,8 @@
 
 namespace mortise::feti {
 
-/// An additional equality row given in terms of subdomains: coefficients over all unknowns of this rank's subdomains (empty vectors
-/// where it has none). The row stands on the rank of the lowest subdomain that has it.
+/// An additional equality row given in terms of subdomains: coefficients over all unknowns of this rank's subdomains (empty
+/// vectors where it has none). The row stands on the rank of the lowest subdomain that has it.
 struct SubdomainRow {
   std::vector<Eigen::VectorXd> coefficients;
 };

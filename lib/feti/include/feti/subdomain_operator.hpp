@@ -1,8 +1,8 @@
-// What the dual problem needs of a floating subdomain, whatever discretizes it: finite elements here, boundary elements may follow.
+// What the dual problem needs of a floating subdomain, whatever discretizes it: finite elements here, boundary elements may
+// follow.
 #pragma once
 
 #include <Eigen/Core>
-
 #include <memory>
 #include <span>
 #include <vector>
@@ -27,11 +27,12 @@ class SubdomainOperator {
   virtual std::size_t factor_bytes() const = 0;
 };
 
-/// Finite elements. K^+ = (K + r N)^-1 with N = E R_I (R_I'R_I)^-1 R_I'E', where R_I is the kernel at a few fixing nodes and r the mean of
-/// diag K: multiplied by R' it shows that R_I'u_I = 0 when f is in Im K, so that K u = f exactly for every r > 0.
+/// Finite elements. K^+ = (K + r N)^-1 with N = E R_I (R_I'R_I)^-1 R_I'E', where R_I is the kernel at a few fixing nodes and r
+/// the mean of diag K: multiplied by R' it shows that R_I'u_I = 0 when f is in Im K, so that K u = f exactly for every r > 0.
 class ElasticSubdomain : public SubdomainOperator {
  public:
-  /// `lower`: lower triangle of K, unknown dimension * node + component. `kernel`: orthonormal rigid motions. Throws as DirectSolver.
+  /// `lower`: lower triangle of K, unknown dimension * node + component. `kernel`: orthonormal rigid motions. Throws as
+  /// DirectSolver.
   ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
                    const std::string& factorization);
 

@@ -1,9 +1,9 @@
 // Friction: where the slip bounds of the contact points come from, and the fixed point that Coulomb's law needs.
 //
-// Tresca: the bound of a point is a given traction times its area; one quadratic programme gives the answer. Coulomb: the bound is the coefficient
-// times the point's normal force, which is found by repeating Tresca problems, each solved only as exactly as the
-// bounds are known and started from the one before. The first step lets every Coulomb point stick, so that a floating body that is
-// pushed sideways has an equilibrium from the start.
+// Tresca: the bound of a point is a given traction times its area; one quadratic programme gives the answer. Coulomb: the bound
+// is the coefficient times the point's normal force, which is found by repeating Tresca problems, each solved only as exactly as
+// the bounds are known and started from the one before. The first step lets every Coulomb point stick, so that a floating body
+// that is pushed sideways has an equilibrium from the start.
 #pragma once
 
 #include <functional>
@@ -29,8 +29,8 @@ std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vec
 
 struct Result {
   qp::Solution solution;
-  int steps = 1;          ///< Tresca problems solved
-  double change = 0;      ///< relative, of the slip bounds in the last step
+  int steps = 1;      ///< Tresca problems solved
+  double change = 0;  ///< relative, of the slip bounds in the last step
   bool converged = false;
   int multiplications = 0;
   int outer_iterations = 0;  ///< of all Tresca problems

@@ -19,7 +19,8 @@ struct Table {
   std::vector<double> values;
 };
 
-/// Writes all tables collectively: row i of the data set is the row with number i. Throws Error(machine) on all ranks. Collective.
+/// Writes all tables collectively: row i of the data set is the row with number i. Throws Error(machine) on all ranks if the file
+/// cannot be written or a table has not each of its rows once; then there is no file. Collective.
 void write_results(const std::string& path, const std::vector<Table>& tables, const Communicator& comm);
 
 }  // namespace mortise::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ struct Summary {
   struct {
     double projected_gradient = 0, equality = 0, equilibrium = 0, penetration = 0, complementarity = 0;
   } residuals;
+  struct {
+    double discretization = std::numeric_limits<double>::quiet_NaN();  ///< relative, in the energy norm; NaN: not estimated
+    double algebraic = std::numeric_limits<double>::quiet_NaN();
+  } error_estimate;
   double strain_energy = 0, max_von_mises = 0, max_displacement = 0;
   struct Reaction {
     std::string boundary;

@@ -23,8 +23,8 @@ struct Piece {
   std::vector<Field> point_fields, cell_fields;  ///< the same names on every rank
 };
 
-/// Writes `name`_0.vtu, `name`_1.vtu ... (compressed), `name`.pvtu on several ranks, and last `name`.pvd, which opens them. Throws
-/// Error(machine) on all ranks if one fails. Collective.
+/// Writes `name`_0.vtu, `name`_1.vtu ... (compressed), `name`.pvtu on several ranks, and last `name`.pvd, which opens them.
+/// Throws Error(machine) on all ranks if one fails; then none of these files is there. Collective.
 void write_vtk(const std::string& directory, const std::string& name, const Piece& piece, const Communicator& comm);
 
 }  // namespace mortise::io

@@ -19,9 +19,9 @@ struct Face {
   std::vector<int> nodes;
 };
 
-int dimension(CellType type);               ///< 1 line2; 2 tri3, quad4; 3 tet4, hex8, prism6
-int node_count(CellType type);              ///< nodes a cell
-std::string_view name(CellType type);       ///< "hex8", as the deck spells it
+int dimension(CellType type);          ///< 1 line2; 2 tri3, quad4; 3 tet4, hex8, prism6
+int node_count(CellType type);         ///< nodes a cell
+std::string_view name(CellType type);  ///< "hex8", as the deck spells it
 const std::vector<Face>& faces(CellType type);
 
 /// Many cells of mixed types in compressed rows: cell i has the local node indices nodes[offset[i] .. offset[i+1]).

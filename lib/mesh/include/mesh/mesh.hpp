@@ -28,9 +28,9 @@ struct Catalogue {
 
 /// Faces on named boundaries. A face that lies on two boundaries stands here twice.
 struct Facets {
-  Cells cells;                  ///< line2, or tri3 and quad4, oriented so that the normal points out of the body
-  std::vector<Local> parent;    ///< the cell of the Mesh that it is a face of
-  std::vector<int> boundary;    ///< index into Catalogue::boundaries
+  Cells cells;                ///< line2, or tri3 and quad4, oriented so that the normal points out of the body
+  std::vector<Local> parent;  ///< the cell of the Mesh that it is a face of
+  std::vector<int> boundary;  ///< index into Catalogue::boundaries
 };
 
 struct Mesh {

@@ -18,10 +18,10 @@ struct BlockOptions {
 };
 
 struct Options {
-  std::string file;                             ///< absolute path by the time it gets here; empty: `blocks` are used
-  std::map<std::string, double> constants;      ///< gmsh's -setnumber, for files that gmsh meshes
-  double scale = 1.0;                           ///< coordinates of the file or of the blocks are multiplied by this
-  std::map<std::string, BlockOptions> blocks;   ///< by body name
+  std::string file;                            ///< absolute path by the time it gets here; empty: `blocks` are used
+  std::map<std::string, double> constants;     ///< gmsh's -setnumber, for files that gmsh meshes
+  double scale = 1.0;                          ///< coordinates of the file or of the blocks are multiplied by this
+  std::map<std::string, BlockOptions> blocks;  ///< by body name
 };
 
 /// The keywords.

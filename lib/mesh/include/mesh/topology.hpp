@@ -32,11 +32,12 @@ struct Neighbours {
 };
 Neighbours face_neighbours(const Cells& cells);
 
-/// Connected parts of the graph, where cells are connected only if `label` agrees: the part of each cell, numbered in the order of
-/// their smallest cells.
+/// Connected parts of the graph, where cells are connected only if `label` agrees: the part of each cell, numbered in the order
+/// of their smallest cells.
 std::vector<int> connected_parts(const Neighbours& neighbours, const std::vector<int>& label);
 
-/// The mesh of some cells of `mesh`, ascending indices: its nodes are those of the cells, its facets those whose parents are among them.
+/// The mesh of some cells of `mesh`, ascending indices: its nodes are those of the cells, its facets those whose parents are
+/// among them.
 Mesh submesh(const Mesh& mesh, std::span<const Local> cells);
 
 }  // namespace mortise::mesh

@@ -1,5 +1,6 @@
 // Where a node lives: the subdomains that hold a copy of it, over all ranks. Only nodes on the surface of a subdomain (on a cell
-// face that no second cell of the same subdomain shares) have entries; no other node can be shared, loaded by a neighbour or touched.
+// face that no second cell of the same subdomain shares) have entries; no other node can be shared, loaded by a neighbour or
+// touched.
 #pragma once
 
 #include <span>

@@ -1,9 +1,9 @@
 // The feasible set Omega of the quadratic programme: a product of half-lines x_i >= l_i, of intervals |x_i| <= r, of discs
-// ||(x_i, x_j)|| <= r, and of the whole line for every other unknown. Each factor lives on one rank, so nothing here communicates.
+// ||(x_i, x_j)|| <= r, and of the whole line for every other unknown. Each factor lives on one rank, so nothing here
+// communicates.
 #pragma once
 
 #include <Eigen/Core>
-
 #include <array>
 #include <limits>
 #include <span>

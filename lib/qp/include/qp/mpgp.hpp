@@ -1,6 +1,6 @@
-// MPGP: modified proportioning with gradient projections, for min 1/2 x'H x - c'x over Omega alone [Dostal and Kozubek, An optimal
-// algorithm and superrelaxation for minimization of a quadratic function subject to separable convex constraints, Math. Program. 135
-// (2012)]. With bounds only it is MPRGP.
+// MPGP: modified proportioning with gradient projections, for min 1/2 x'H x - c'x over Omega alone [Dostal and Kozubek, An
+// optimal algorithm and superrelaxation for minimization of a quadratic function subject to separable convex constraints, Math.
+// Program. 135 (2012)]. With bounds only it is MPRGP.
 #pragma once
 
 #include <functional>
@@ -24,9 +24,9 @@ struct MpgpOptions {
   double proportioning = 1.0;  ///< Gamma
 };
 
-/// Improves `point`, which must lie in Omega with its true gradient, until `done(measure, point)` says so; `measure` is the norm of
-/// the reduced projected gradient (x - P_Omega(x - a g)) / a. `norm` is ||H|| as far as known and is raised when a direction shows
-/// more. `done` is called once an iteration with the same arguments on all ranks. Collective.
+/// Improves `point`, which must lie in Omega with its true gradient, until `done(measure, point)` says so; `measure` is the norm
+/// of the reduced projected gradient (x - P_Omega(x - a g)) / a. `norm` is ||H|| as far as known and is raised when a direction
+/// shows more. `done` is called once an iteration with the same arguments on all ranks. Collective.
 void mpgp(const Product& hessian, const FeasibleSet& set, Point& point, double& norm, const MpgpOptions& options,
           const std::function<bool(double measure, const Point& point)>& done);
 

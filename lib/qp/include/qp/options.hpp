@@ -9,8 +9,8 @@ namespace mortise::qp {
 
 struct Options {
   std::string algorithm = "smalse";
-  double tolerance = 1e-4;         ///< relative: reduced projected gradient and equality residual over ||P d||
-  int max_multiplications = 10000; ///< with F, in the whole run
+  double tolerance = 1e-4;          ///< relative: reduced projected gradient and equality residual over ||P d||
+  int max_multiplications = 10000;  ///< with F, in the whole run
 };
 
 /// The keywords.

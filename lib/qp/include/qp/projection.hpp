@@ -8,10 +8,10 @@ namespace mortise::qp {
 
 /// The result of project().
 struct Projection {
-  Vector point;        ///< in Omega; G point = e to rounding if `found`
-  Eigen::VectorXd nu;  ///< multiplier of G x = e, the same on every rank; if C is empty a direction along which it runs away
-  bool found = false;  ///< false: C is empty, or so nearly that the iteration did not settle
-  double residual = 0; ///< ||G point - e|| relative to ||e||, as EqualityConstraint::norm measures it
+  Vector point;         ///< in Omega; G point = e to rounding if `found`
+  Eigen::VectorXd nu;   ///< multiplier of G x = e, the same on every rank; if C is empty a direction along which it runs away
+  bool found = false;   ///< false: C is empty, or so nearly that the iteration did not settle
+  double residual = 0;  ///< ||G point - e|| relative to ||e||, as EqualityConstraint::norm measures it
 };
 
 /// The point of C nearest to y: x = P_Omega(y - G' nu), where nu minimises the convex, once differentiable dual function

@@ -1,0 +1,167 @@
+#include "fem/stiffness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/SparseCholesky>
+
+#include "base/error.hpp"
+#include "fem/loads.hpp"
+#include "sample.hpp"
+
+namespace mortise::fem {
+namespace {
+
+using namespace test;
+
+TEST(Stiffness, RigidMotionsHaveNoEnergyAndAreOrthonormal)
+{
+  for (const auto& [name, kinematics] : all_cases()) {
+    Block block(name, {3, 2, 2}, {3, 1, 2});
+    block.distort(0.05, true);
+    for (auto& p : block.mesh.points) p += Point(100, -40, block.dimension == 3 ? 7 : 0);  // far from the origin
+    const auto r = rigid_motions(block.mesh.points, block.dimension);
+    const auto k = dense(stiffness(block.mesh, steel(), kinematics));
+    ASSERT_EQ(r.cols(), block.dimension == 3 ? 6 : 3);
+    EXPECT_TRUE((r.transpose() * r).isIdentity(1e-13)) << name;
+    EXPECT_LT((k * r).norm(), 1e-11 * k.norm()) << name;
+  }
+}
+
+// A single cell resists everything but rigid motions: no hourglass, no negative eigenvalue.
+TEST(Stiffness, OfOneCellHasTheRankOfTheElement)
+{
+  for (const auto& [name, kinematics] : all_cases()) {
+    Block block(name, {1, 1, 1});
+    block.distort(0.08, true);
+    mesh::Mesh one;
+    one.cell_id = {0};
+    const auto nodes = block.mesh.cells[0];
+    std::vector<Local> local(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      one.points.push_back(block.mesh.points[static_cast<std::size_t>(nodes[i])]);
+      local[i] = static_cast<Local>(i);
+    }
+    one.cells.add(block.mesh.cells.type[0], local);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(stiffness(one, steel(), kinematics)));
+    const auto& values = solver.eigenvalues();
+    const int rigid = block.dimension == 3 ? 6 : 3;
+    EXPECT_LT(values.head(rigid).cwiseAbs().maxCoeff(), 1e-12 * values.maxCoeff()) << name;
+    EXPECT_GT(values[rigid], 1e-3 * values.maxCoeff()) << name;
+  }
+}
+
+// The patch test: a linear displacement on a distorted mesh has its exact energy, and no interior node feels a force.
+TEST(Stiffness, PassesThePatchTest)
+{
+  for (const auto& [name, kinematics] : all_cases()) {
+    Block block(name, {3, 3, 3}, {1, 2, 1.5});
+    block.distort(0.07);
+    const auto gradient = some_gradient(block.dimension);
+    const auto u = sample(block.mesh, block.dimension, [&](const Point& x) { return Point(gradient * x); });
+    const auto k = dense(stiffness(block.mesh, steel(), kinematics));
+    const Eigen::VectorXd force = k * u;
+    const double density = (hooke(gradient, steel(), kinematics).array() * gradient.array()).sum();
+    EXPECT_NEAR(u.dot(force), density * block.measure(), 1e-11 * density) << name;
+    std::size_t inside = 0;
+    for (std::size_t n = 0; n < block.mesh.node_count(); ++n) {
+      if (block.on_surface(n)) continue;
+      ++inside;
+      EXPECT_LT(force.segment(static_cast<Eigen::Index>(n) * block.dimension, block.dimension).norm(), 1e-12 * force.norm())
+          << name;
+    }
+    EXPECT_EQ(inside, block.dimension == 3 ? 8u : 4u);
+  }
+}
+
+// Turned with its mesh, the stiffness turns with it: K' = T K T'.
+TEST(Stiffness, IsInvariantUnderRotation)
+{
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Point(1, 2, -1).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d turn_in_plane = Eigen::AngleAxisd(0.8, Point(0, 0, 1)).toRotationMatrix();
+  for (const auto& [name, kinematics] : all_cases()) {
+    Block block(name, {2, 2, 2});
+    block.distort(0.06, true);
+    const int d = block.dimension;
+    const Eigen::MatrixXd q = (d == 3 ? turn : turn_in_plane).topLeftCorner(d, d);
+    const auto k = dense(stiffness(block.mesh, steel(), kinematics));
+    for (auto& p : block.mesh.points) p.head(d) = q * p.head(d);
+    const auto turned = dense(stiffness(block.mesh, steel(), kinematics));
+    Eigen::MatrixXd t = Eigen::MatrixXd::Zero(k.rows(), k.cols());
+    for (Eigen::Index n = 0; n < k.rows(); n += d) t.block(n, n, d, d) = q;
+    EXPECT_LT((turned - t * k * t.transpose()).norm(), 1e-12 * k.norm()) << name;
+  }
+}
+
+// The matrix of a cell is used again for the next one only if that is really its translate.
+TEST(Stiffness, NearlyCongruentCellsKeepTheirOwnMatrix)
+{
+  for (const double stretch : {0.0, 1e-9, 1e-5}) {
+    Block block("hex8", {2, 1, 1}, {2, 1, 1});
+    for (auto& p : block.mesh.points)
+      if (p[0] > 1.5) p[0] += stretch;
+    const auto both = dense(stiffness(block.mesh, steel(), Kinematics::solid));
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(both.rows(), both.cols());
+    for (std::size_t c = 0; c < 2; ++c) {
+      auto alone = block.mesh;
+      alone.cells = {};
+      alone.cells.add(mesh::CellType::hex8, block.mesh.cells[c]);
+      sum += dense(stiffness(alone, steel(), Kinematics::solid));
+    }
+    EXPECT_LT((both - sum).norm(), 1e-14 * sum.norm()) << stretch;
+  }
+}
+
+TEST(Stiffness, CellInsideOutIsNamed)
+{
+  for (const auto& [name, kinematics] : all_cases()) {
+    Block block(name, {2, 2, 2});
+    block.mesh.cell_id.back() = 4711;
+    const auto nodes = block.mesh.cells[block.mesh.cells.size() - 1];
+    // Its first edge runs the other way.
+    std::swap(block.mesh.cells.nodes[block.mesh.cells.nodes.size() - nodes.size()],
+              block.mesh.cells.nodes[block.mesh.cells.nodes.size() - nodes.size() + 1]);
+    try {
+      stiffness(block.mesh, steel(), kinematics);
+      FAIL() << "no error for " << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::bad_input);
+      EXPECT_NE(std::string(error.what()).find("cell 4711 "), std::string::npos) << error.what();
+    }
+  }
+}
+
+// Timoshenko's cantilever, Poisson's ratio 0: F L^3 / 3 E I + F L / (5/6 G A). Linear cells are too stiff: multilinear ones
+// by 1 + (dx / 4 dy)^2 / 2 = 1 + 1 / 32 with four layers of squares, those of triangles, also extruded ones, and tetrahedra by
+// more.
+TEST(Stiffness, CantileverBendsAsBeamTheorySays)
+{
+  struct Expectation {
+    Case kind;
+    double least;
+  };
+  for (const auto& [kind, least] :
+       {Expectation{{"hex8", Kinematics::solid}, 0.965}, Expectation{{"prism6", Kinematics::solid}, 0.8},
+        Expectation{{"tet4", Kinematics::solid}, 0.7}, Expectation{{"quad4", Kinematics::plane_stress}, 0.965},
+        Expectation{{"tri3", Kinematics::plane_stress}, 0.8}}) {
+    const double length = 8, e = 1000;
+    Block block(kind.element, {32, 4, 2}, {length, 1, 0.5});
+    const int d = block.dimension;
+    const double width = d == 3 ? 0.5 : 1.0, force = 0.01;
+    auto k = stiffness(block.mesh, {e, 0.0, 0, 0}, kind.kinematics);
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(k.rows());
+    add_traction(block.mesh, block.boundary("xmax"), d, Point(0, force / width, 0), f);
+    for (std::size_t n = 0; n < block.mesh.node_count(); ++n)
+      if (block.mesh.points[n][0] < 1e-9)
+        for (int c = 0; c < d; ++c) k.coeffRef(static_cast<int>(n) * d + c, static_cast<int>(n) * d + c) += 1e9 * e;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double, Eigen::ColMajor, int>> solver(k);
+    const Eigen::VectorXd u = solver.solve(f);
+    const double tip = f.dot(u) / force;  // mean over the loaded end
+    const double inertia = width / 12, shear = 5.0 / 6 * 0.5 * e * width;
+    const double beam = force * std::pow(length, 3) / (3 * e * inertia) + force * length / shear;
+    EXPECT_GT(tip / beam, least) << kind.element;
+    EXPECT_LT(tip / beam, 1.01) << kind.element;
+  }
+}
+
+}  // namespace
+}  // namespace mortise::fem

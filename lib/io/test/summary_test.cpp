@@ -1,0 +1,111 @@
+#include "io/summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace mortise::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> keys(const Json& object)
+{
+  std::vector<std::string> names;
+  for (const auto& [key, value] : object.items()) names.push_back(key);
+  return names;
+}
+
+Summary sample()
+{
+  Summary s;
+  s.version = "1.2.3";
+  s.title = "Two \"blocks\"";
+  s.converged = true;
+  s.primal_unknowns = 5'000'000'000;
+  s.strain_energy = 0.1;
+  s.reactions.push_back({"ground", {1, 2, 3}});
+  s.contacts.push_back({"interface", {4, 5, 6}, 7, 8, 9, 10, 11});
+  s.time["solve"] = 1.5;
+  s.peak_memory_bytes = 3e10;
+  return s;
+}
+
+TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
+{
+  const auto json = Json::parse(to_json(sample()));
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(keys(json), (Names{"version",
+                               "title",
+                               "converged",
+                               "exit_status",
+                               "ranks",
+                               "primal_unknowns",
+                               "dual_unknowns",
+                               "subdomains",
+                               "kernel_dimension",
+                               "bodies",
+                               "friction_steps",
+                               "outer_iterations",
+                               "hessian_multiplications",
+                               "residuals",
+                               "error_estimate",
+                               "strain_energy",
+                               "max_von_mises",
+                               "max_displacement",
+                               "reactions",
+                               "contacts",
+                               "time",
+                               "peak_memory_bytes"}));
+  EXPECT_EQ(keys(json["residuals"]), (Names{"projected_gradient", "equality", "equilibrium", "penetration", "complementarity"}));
+  EXPECT_EQ(keys(json["error_estimate"]), (Names{"discretization", "algebraic"}));
+  EXPECT_EQ(keys(json["reactions"][0]), (Names{"boundary", "force"}));
+  EXPECT_EQ(keys(json["contacts"][0]), (Names{"name", "force", "max_pressure", "area", "open", "stick", "slip"}));
+  EXPECT_EQ(keys(json["time"]),
+            (Names{"total", "mesh", "partition", "assembly", "contact", "factorization", "solve", "multiplication", "output"}));
+}
+
+TEST(Summary, ValuesComeBack)
+{
+  const auto json = Json::parse(to_json(sample()));
+  EXPECT_EQ(json["title"], "Two \"blocks\"");
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_EQ(json["primal_unknowns"], 5'000'000'000);
+  EXPECT_EQ(json["strain_energy"], 0.1);
+  EXPECT_EQ(json["reactions"][0]["force"], (Json{1, 2, 3}));
+  EXPECT_EQ(json["contacts"][0]["slip"], 11);
+  EXPECT_EQ(json["time"]["solve"], 1.5);
+  EXPECT_EQ(json["time"]["mesh"], 0);
+  EXPECT_TRUE(json["peak_memory_bytes"].is_number_integer());
+  EXPECT_EQ(json["peak_memory_bytes"], 30'000'000'000);
+}
+
+TEST(Summary, WhatIsNotFiniteOrNotEstimatedIsNull)
+{
+  auto s = sample();
+  s.strain_energy = std::nan("");
+  s.residuals.equality = INFINITY;
+  s.reactions[0].force[1] = std::nan("");
+  auto json = Json::parse(to_json(s));
+  EXPECT_TRUE(json["strain_energy"].is_null());
+  EXPECT_TRUE(json["residuals"]["equality"].is_null());
+  EXPECT_TRUE(json["reactions"][0]["force"][1].is_null());
+  EXPECT_TRUE(json["error_estimate"]["discretization"].is_null());
+  s.error_estimate.discretization = 0.03;
+  EXPECT_EQ(Json::parse(to_json(s))["error_estimate"]["discretization"], 0.03);
+}
+
+TEST(Summary, TitleThatIsNotUtf8DoesNotCostTheSummary)
+{
+  auto s = sample();
+  s.title =
+      "Druckst\xfc"
+      "ck";
+  EXPECT_EQ(Json::parse(to_json(s))["title"],
+            "Druckst\xef\xbf\xbd"
+            "ck");
+}
+
+}  // namespace
+}  // namespace mortise::io
