@@ -2,6 +2,7 @@
 """Renders the fields of a run to a PNG file, off screen.
 
     render.py OUTPUT_DIRECTORY PICTURE.png [--field von_mises] [--warp 100] [--view iso|x|y|z|-x|-y|-z] [--contact] [--edges] [--max VALUE]
+        [--focus X Y Z] [--zoom 1.2]
 
 --contact shows the contact surfaces (fields contact_pressure, gap, slip, contact_status) instead of the volume; --warp multiplies the
 displacements; --max ends the colour scale, since peaks at edges and corners hide the rest.
@@ -29,6 +30,8 @@ def main():
     parser.add_argument("--contact", action="store_true")
     parser.add_argument("--edges", action="store_true")
     parser.add_argument("--max", type=float, default=None)
+    parser.add_argument("--focus", type=float, nargs=3, default=None)
+    parser.add_argument("--zoom", type=float, default=1.2)
     arguments = parser.parse_args()
 
     mesh = load(arguments.directory, "contact" if arguments.contact else "solution")
@@ -41,13 +44,18 @@ def main():
     plotter = pyvista.Plotter(off_screen=True, window_size=(1000, 750))
     limits = None if arguments.max is None else (0, arguments.max)
     plotter.add_mesh(mesh, scalars=field, cmap="viridis", show_edges=arguments.edges, clim=limits, line_width=0.5 if arguments.edges else None,
-                     scalar_bar_args={"title": field.replace("_", " ")})
+                     scalar_bar_args={"title": field.replace("_", " "), "title_font_size": 18, "label_font_size": 14, "fmt": "%.3g", "n_labels": 5,
+                                      "position_x": 0.25, "position_y": 0.02, "height": 0.08})
     plotter.set_background("white")
     if arguments.view == "iso":
         plotter.view_isometric()
     else:
         getattr(plotter, {"x": "view_yz", "y": "view_xz", "z": "view_xy"}[arguments.view[-1]])(negative=arguments.view.startswith("-"))
-    plotter.camera.zoom(1.2)
+    if arguments.focus:
+        shift = [new - old for new, old in zip(arguments.focus, plotter.camera.focal_point)]
+        plotter.camera.position = [p + d for p, d in zip(plotter.camera.position, shift)]
+        plotter.camera.focal_point = arguments.focus
+    plotter.camera.zoom(arguments.zoom)
     plotter.screenshot(str(arguments.picture))
 
 

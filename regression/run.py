@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Runs one regression deck and judges what it left behind.
 
-    run.py MORTISE DECK --ranks N [--mpiexec MPIEXEC] [--work DIR] [--set key=value ...]   compare with the stored results
+    run.py MORTISE DECK --ranks N [--mpiexec MPIEXEC] [--set key=value ...]   compare with the stored results
     run.py MORTISE DECK --ranks N --update                                                 store the results of this run
 
-A deck NAME.yaml has its expectations beside it in NAME.expected.json:
+A deck NAME.yaml has its expectations beside it in NAME.expected.json, or in the file that --expected names:
 
     {"quantities": {"strain_energy": {"value": 1.25, "relative": 1e-3}, "contacts.0.force.2": {"value": -50, "absolute": 1e-2}},
      "residuals": {"equilibrium": 1e-6},            limits that replace the default ones below
@@ -82,10 +82,11 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--mpiexec", default="mpirun")
     parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--expected", type=pathlib.Path)
     parser.add_argument("--update", action="store_true")
     arguments = parser.parse_args()
 
-    store = arguments.deck.with_suffix(".expected.json")
+    store = arguments.expected or arguments.deck.with_suffix(".expected.json")
     expected = json.loads(store.read_text())
     with tempfile.TemporaryDirectory() as scratch:
         directory = pathlib.Path(scratch) / "results"
