@@ -80,9 +80,10 @@ class History {
   void note(int step, double change, const qp::Progress& p)
   {
     if (p.what == "inner") {
-      context_.log.progress("  {}outer {}, {} products, gradient {:.1e}, equality {:.1e} (tolerance {:.1e})",
-                            step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer, p.multiplications,
-                            p.projected_gradient, p.equality, deck_.solver.programme.tolerance);
+      context_.log.progress(
+          "  {}outer {}, {} products, gradient {:.1e}, equality {:.1e} (tolerance {:.1e}); {} open, {} slipping on rank 0",
+          step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer, p.multiplications, p.projected_gradient, p.equality,
+          deck_.solver.programme.tolerance, p.active.bounds, p.active.discs);
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
@@ -175,7 +176,8 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
     });
   }
   stage("output", "output");
-  for (const auto& spread : timers.spread(comm)) results.summary.time[spread.stage] = spread.max;
+  const auto spreads = timers.spread(comm);
+  for (const auto& spread : spreads) results.summary.time[spread.stage] = spread.max;
   results.summary.time["total"] = comm.max(MPI_Wtime() - start);
   results.summary.peak_memory_bytes = comm.sum(static_cast<double>(peak_memory()));
   collectively(comm, [&] {
@@ -184,6 +186,9 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   print(results, context);
   log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", results.summary.time["total"],
            results.summary.peak_memory_bytes / 1e9, deck.output.directory);
+  log.line("  seconds on the ranks       min     mean      max");
+  for (const auto& spread : spreads)
+    log.line("    {:<18} {:8.2f} {:8.2f} {:8.2f}", spread.stage, spread.min, spread.mean, spread.max);
   return solved->converged ? ExitStatus::solved : ExitStatus::not_converged;
 }
 

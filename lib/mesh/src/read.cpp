@@ -10,6 +10,7 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 #include "base/error.hpp"
@@ -38,7 +39,7 @@ class Session {
     gmsh::initialize(static_cast<int>(arguments.size()), arguments.data(), false);
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
-    gmsh::option::setNumber("Mesh.SaveAll", 0);
+    gmsh::option::setNumber("Mesh.SaveAll", 1);  // what is in no group is to be seen, and refused
     gmsh::logger::start();
   }
   Session(const Session&) = delete;
@@ -377,7 +378,8 @@ void attach_boundaries(const Options& options, int dimension, const Nodes& nodes
   for (const auto& group : groups(dimension - 1)) {
     const auto boundary = static_cast<int>(assembly.catalogue.boundaries.size());
     assembly.catalogue.boundaries.push_back(group.name);
-    std::size_t lost = 0, found = 0;
+    std::size_t lost = 0;
+    std::set<std::pair<Local, int>> taken;  // files of version 2.2 repeat a face for each group that it is in
     for (const int entity : group.entities)
       for_each_element(options.file, dimension - 1, entity, [&](CellType, std::size_t, std::span<const std::size_t> tags) {
         std::vector<Local> on;
@@ -397,6 +399,7 @@ void attach_boundaries(const Options& options, int dimension, const Nodes& nodes
                   "boundary \"{}\" runs through the inside of body \"{}\"; only faces on the surface of a body can be a boundary",
                   group.name, assembly.catalogue.bodies[static_cast<std::size_t>(body(*range.first))].name));
         for (auto match = range.first; match != range.second; ++match) {
+          if (!taken.emplace(match->cell, match->face).second) continue;
           const auto cell = static_cast<std::size_t>(match->cell);
           const auto& face = faces(mesh.cells.type[cell])[static_cast<std::size_t>(match->face)];
           std::vector<Local> facet;
@@ -404,12 +407,11 @@ void attach_boundaries(const Options& options, int dimension, const Nodes& nodes
           mesh.facets.cells.add(face.type, facet);
           mesh.facets.parent.push_back(match->cell);
           mesh.facets.boundary.push_back(boundary);
-          ++found;
         }
       });
     if (lost > 0)
       fail(options.file, fmt::format("boundary \"{}\" has {} facets that lie on no cell of any body", group.name, lost));
-    if (found == 0) assembly.warnings.push_back(fmt::format("boundary \"{}\" of the mesh is empty", group.name));
+    if (taken.empty()) assembly.warnings.push_back(fmt::format("boundary \"{}\" of the mesh is empty", group.name));
   }
 }
 

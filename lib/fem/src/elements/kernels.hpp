@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
 
 #include "fem/element.hpp"
 
@@ -23,36 +22,34 @@ void gradients_in_space(const Element& element, const double* x, double* gradien
 
 // With s_ab = sum over q of volume g_a g_b', n x n, of the components a and b of the gradients, component block ab of K is
 // lambda s_ab + mu s_ab' + [a = b] mu (s_11 + .. + s_dd). The blocks of components are what vectorises; K itself goes node by
-// node.
+// node. Plain loops: Eigen would unroll all of them, which gains little and takes a compiler with sanitizers minutes.
 template <int n, int d>
 void stiffness_of_cell(const Element& element, const double* gradients, const double* volumes, double lambda, double mu,
                        double* k)
 {
-  using Block = Eigen::Matrix<double, n, n>;
-  std::array<std::array<Block, d>, d> s;
+  double s[d][d][n][n];
   for (int a = 0; a < d; ++a)
-    for (int b = 0; b <= a; ++b) s[a][b].setZero();
-  for (std::size_t q = 0; q < element.points(); ++q) {
-    const Eigen::Map<const Eigen::Matrix<double, n, d>> g(gradients + q * n * d);
-    for (int a = 0; a < d; ++a) {
-      const Eigen::Matrix<double, n, 1> weighted = volumes[q] * g.col(a);
-      for (int b = 0; b <= a; ++b) s[a][b].noalias() += weighted.lazyProduct(g.col(b).transpose());
-    }
-  }
-  Block trace = mu * s[0][0];
-  for (int a = 1; a < d; ++a) trace += mu * s[a][a];
-  const auto put = [&](int a, int b, const Block& block) {
+    for (int b = 0; b <= a; ++b)
+      for (int j = 0; j < n; ++j) {
+        double sum[n] = {};
+        for (std::size_t q = 0; q < element.points(); ++q) {
+          const double* g = gradients + q * n * d;
+          const double factor = volumes[q] * g[b * n + j];
+          for (int i = 0; i < n; ++i) sum[i] += factor * g[a * n + i];
+        }
+        for (int i = 0; i < n; ++i) s[a][b][j][i] = s[b][a][i][j] = sum[i];
+      }
+  double trace[n][n] = {};
+  for (int a = 0; a < d; ++a)
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) k[(j * d + b) * n * d + i * d + a] = block(i, j);
-  };
-  for (int a = 0; a < d; ++a) {
-    put(a, a, (lambda + mu) * s[a][a] + trace);
-    for (int b = 0; b < a; ++b) {
-      const Block block = lambda * s[a][b] + mu * s[a][b].transpose();
-      put(a, b, block);
-      put(b, a, block.transpose());
+      for (int i = 0; i < n; ++i) trace[j][i] += mu * s[a][a][j][i];
+  for (int j = 0; j < n; ++j)
+    for (int b = 0; b < d; ++b) {
+      double* column = k + (j * d + b) * n * d;
+      for (int i = 0; i < n; ++i)
+        for (int a = 0; a < d; ++a)
+          column[i * d + a] = lambda * s[a][b][j][i] + mu * s[b][a][j][i] + (a == b ? trace[j][i] : 0.0);
     }
-  }
 }
 
 }  // namespace mortise::fem
