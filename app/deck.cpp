@@ -106,9 +106,20 @@ void check_decomposition(const Deck& deck, deck::Document& document)
                      "there is no such block" + deck::suggestion(name, names_of(deck.mesh.blocks)));
 }
 
+// Two entries are for plane models.
+void check_three_entries(deck::Document& document)
+{
+  const auto loads = document.root()["loads"];
+  if (!loads.IsDefined() || !loads.IsSequence()) return;
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    for (const char* key : {"traction", "force", "acceleration"})
+      if (const YAML::Node load = loads[i]; load.IsMap() && load[key] && load[key].IsSequence() && load[key].size() == 2)
+        document.error(fmt::format("loads[{}].{}", i, key), "expected 3 entries, since `dimension` is 3, found 2");
+}
+
 void check_vectors(const Deck& deck, deck::Document& document)
 {
-  if (deck.dimension() == 3) return;
+  if (deck.dimension() == 3) return check_three_entries(document);
   const auto flat = [&](const std::optional<std::array<double, 3>>& v, const std::string& path) {
     if (v && (*v)[2] != 0) document.error(path, "a plane model has no z component");
   };
@@ -206,7 +217,7 @@ Deck read_deck(deck::Document& document, const std::string& output)
   check_vectors(deck, document);
   check_contact_names(deck, document);
 
-  const auto file = fs::absolute(document.file());
+  const auto file = fs::absolute(document.file()).lexically_normal();
   if (!deck.mesh.file.empty()) deck.mesh.file = (file.parent_path() / deck.mesh.file).lexically_normal().string();
   if (!output.empty())
     deck.output.directory = fs::absolute(output).lexically_normal().string();
@@ -214,6 +225,8 @@ Deck read_deck(deck::Document& document, const std::string& output)
     deck.output.directory = (file.parent_path() / (file.stem().string() + ".out")).string();
   else
     deck.output.directory = (file.parent_path() / deck.output.directory).lexically_normal().string();
+  if ((fs::path(deck.output.directory) / "deck.yaml").lexically_normal() == file)
+    document.error("output.directory", "the results hold a deck.yaml, which would replace this deck; choose another directory");
   return deck;
 }
 

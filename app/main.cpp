@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 
 #include <Tpetra_Core.hpp>
+#include <csignal>
 #include <fstream>
 #include <iostream>
 #include <new>
@@ -56,7 +57,9 @@ ExitStatus solve(const CommandLine& command_line, const Communicator& comm)
 
 int main(int argc, char** argv)
 {
-  const Tpetra::ScopeGuard tpetra(&argc, &argv);
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away must not end the run
+  int no_arguments = 1;           // but the program's name: Kokkos would answer --help and take other options for its own
+  const Tpetra::ScopeGuard tpetra(&no_arguments, &argv);
   forbid_threads();
   const Communicator comm;
   const Parsed parsed = parse_command_line(argc, argv);

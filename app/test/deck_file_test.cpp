@@ -81,6 +81,8 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
   expect_complaint("loads: [{boundary: a.xmax, pressure: 1, force: [1, 0, 0]}]\n",
                    "exactly one of pressure, traction, force and acceleration, found 2");
   expect_complaint("loads: [{boundary: a.xmax, acceleration: [1, 0, 0]}]\n", "an acceleration acts on a `body`");
+  expect_complaint("loads: [{boundary: a.xmax, force: [1, 0]}]\n",
+                   "deck.yaml:7: loads[0].force: expected 3 entries, since `dimension` is 3, found 2");
   expect_complaint("contacts: auto\n", "`auto` is not available");
   expect_complaint("contacts: [{secondary: a.zmax, primary: {plane: {}}}]\n", "rigid obstacles are not available");
   expect_complaint("contacts: [{secondary: a.zmax, primary: a.zmax}]\n", "same boundary");
@@ -90,6 +92,16 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
   expect_complaint("dimension: plane_strain\n", "does not fit a model of dimension 2");
   expect_complaint("dimension: axisymmetric\n", "not available in this version");
   expect_complaint("steps: []\n", "not available in this version");
+}
+
+TEST(Decks, ResultsNeverReplaceTheDeck)
+{
+  deck::Document document(blocks, "models/deck.yaml", {});
+  read_deck(document, "models/.");
+  EXPECT_THROW(document.check(), Error);
+  deck::Document other(blocks, "models/other.yaml", {});
+  read_deck(other, "models");
+  EXPECT_NO_THROW(other.check());
 }
 
 TEST(Decks, NamesAreCheckedAgainstTheMesh)
