@@ -40,7 +40,7 @@ void print_check(const partition::Decomposition& decomposition, const std::vecto
     const auto n = static_cast<double>(subdomain.mesh.node_count() * static_cast<std::size_t>(dimension));
     unknowns += static_cast<long long>(n);
     factor_bytes += dimension == 3 ? 8 * 5.0 * std::pow(n, 4.0 / 3)
-                                   : 8 * 8.0 * n * std::log2(n + 1);  // nested dissection's growth, measured factor
+                                   : 8 * 8.0 * n * std::log2(n + 1);  // nested dissection's growth, a rough factor
   }
   const auto total = comm.sum(unknowns);
   context.log.line("  {} unknowns in the subdomains, {} held components, {} contact points with {} rows", total,
@@ -49,10 +49,22 @@ void print_check(const partition::Decomposition& decomposition, const std::vecto
   std::vector<double> points(deck.contacts.size(), 0.0);
   for (const auto& point : contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
   comm.sum_in_place(points);
-  for (std::size_t c = 0; c < points.size(); ++c)
-    context.log.line("  contact {}: {} points{}", deck.contacts[c].name, points[c],
-                     points[c] == 0 ? " - the surfaces do not face each other within the search distance" : "");
+  for (std::size_t c = 0; c < points.size(); ++c) context.log.line("  contact {}: {} points", deck.contacts[c].name, points[c]);
   context.log.line("  memory expected: about {:.1f} GB", (comm.sum(factor_bytes) + 1500.0 * static_cast<double>(total)) / 1e9);
+}
+
+// A contact that finds no partner does nothing: the bodies would pass through each other unnoticed.
+void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& deck, const Context& context)
+{
+  std::vector<double> points(deck.contacts.size(), 0.0);
+  for (const auto& point : contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
+  context.comm.sum_in_place(points);
+  for (std::size_t c = 0; c < points.size(); ++c)
+    if (points[c] == 0)
+      context.log.warning(
+          "contact {} has no point: its surfaces do not face each other within the search distance, and nothing "
+          "keeps them apart; look at the names, or set a larger search_distance",
+          deck.contacts[c].name);
 }
 
 // Factorizes every subdomain.
@@ -127,6 +139,7 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
     constraints.contacts = contact::discretize(pairs, constraints.held, deck.dimension(), comm);
   }
   stage("supports and contact", "contact");
+  warn_of_idle_contacts(constraints.contacts, deck, context);
   if (command_line.check) {
     print_check(decomposition, constraints.held, constraints.contacts, deck, context);
     return ExitStatus::solved;
