@@ -216,6 +216,9 @@ Deck read_deck(deck::Document& document, const std::string& output)
   check_decomposition(deck, document);
   check_vectors(deck, document);
   check_contact_names(deck, document);
+  auto& decomposition = deck.decomposition;
+  if (decomposition.method == "metis" && !decomposition.subdomains && !decomposition.unknowns_per_subdomain)
+    decomposition.unknowns_per_subdomain = partition::usual_size;
 
   const auto file = fs::absolute(document.file()).lexically_normal();
   if (!deck.mesh.file.empty()) deck.mesh.file = (file.parent_path() / deck.mesh.file).lexically_normal().string();

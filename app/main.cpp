@@ -8,7 +8,10 @@
 #include <dlfcn.h>
 
 #include <Tpetra_Core.hpp>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <new>
@@ -27,9 +30,11 @@ std::string read_text(const std::string& file, const Communicator& comm)
   std::string text;
   collectively(comm, [&] {
     if (!comm.root()) return;
+    if (std::filesystem::is_directory(file)) throw Error(ExitStatus::bad_input, file + ": is a directory; expected a deck");
     std::ifstream stream(file);
     std::ostringstream content;
-    if (!stream || !(content << stream.rdbuf())) throw Error(ExitStatus::bad_input, file + ": cannot be read");
+    if (!stream) throw Error(ExitStatus::bad_input, file + ": cannot be read: " + std::strerror(errno));
+    if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
     text = content.str();
   });
   comm.broadcast(text);

@@ -115,6 +115,8 @@ void Codec<std::array<std::optional<double>, 3>>::read(Value& value, const YAML:
     const auto axis = std::string("xyz").find(name);
     if (name.size() != 1 || axis == std::string::npos)
       document.error(at, "unknown component, expected x, y or z");
+    else if (value[axis])
+      document.error(at, "is given twice");
     else
       Codec<double>::read(value[axis].emplace(), entry.second, at, document, limits);
   }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <numeric>
+#include <sstream>
 
 #include "base/error.hpp"
 
@@ -14,6 +16,18 @@ namespace {
 [[noreturn]] void fail(const std::string& text)
 {
   throw Error(ExitStatus::bad_input, text);
+}
+
+// Titles and names go into files that must be UTF-8; the JSON library is strict about it.
+void check_encoding(const std::string& text, const std::string& file)
+{
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) try {
+      (void)nlohmann::json(line).dump();
+    } catch (const nlohmann::json::exception&) {
+      fail(fmt::format("{}:{}: this line is not UTF-8; save the deck in that encoding", file, number));
+    }
 }
 
 // One step of a path: a key or an index.
@@ -76,13 +90,26 @@ std::size_t edit_distance(const std::string& a, const std::string& b)
 
 Document::Document(const std::string& text, std::string file, const std::vector<std::string>& settings) : file_(std::move(file))
 {
+  check_encoding(text, file_);
+  std::vector<YAML::Node> documents;
   try {
-    root_ = YAML::Load(text);
+    documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
     fail(fmt::format("{}:{}: this is not valid YAML: {}", file_, error.mark.line + 1, error.msg));
   }
+  if (documents.empty() || documents.front().IsNull()) fail(fmt::format("{}:1: the deck is empty", file_));
+  if (documents.size() > 1)
+    fail(fmt::format("{}:{}: a second document begins, after `---`; a deck is one document, give each its own file", file_,
+                     documents[1].Mark().line + 1));
+  root_ = documents.front();
   if (!root_.IsMap()) fail(fmt::format("{}:1: a deck is a mapping of sections such as `mesh:` and `bodies:`", file_));
-  for (const auto& setting : settings) set(setting);
+  std::string misplaced;
+  for (const auto& setting : settings) try {
+      set(setting);
+    } catch (const Error& error) {
+      misplaced += (misplaced.empty() ? "" : "\n") + std::string(error.what());
+    }
+  if (!misplaced.empty()) fail(misplaced);
 }
 
 void Document::set(const std::string& setting)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <queue>
 
 #include "base/error.hpp"
 #include "mesh/blocks.hpp"
@@ -32,14 +33,23 @@ std::vector<Global> deal(const std::vector<long long>& weight, int ranks)
   return first;
 }
 
-// How many subdomains each body gets.
+// How many subdomains each body gets. A total is met exactly: the next one goes where subdomains are largest.
 std::vector<int> subdomain_counts(const std::vector<long long>& nodes, int dimension, const Options& options)
 {
-  const double unknowns = dimension * static_cast<double>(std::accumulate(nodes.begin(), nodes.end(), 0LL));
-  const double aim = options.subdomains > 0 ? unknowns / options.subdomains : options.unknowns_per_subdomain;
-  std::vector<int> counts;
-  for (const long long n : nodes)
-    counts.push_back(std::max(1, static_cast<int>(std::lround(dimension * static_cast<double>(n) / aim))));
+  std::vector<int> counts(nodes.size(), 1);
+  if (!options.subdomains) {
+    const double aim = options.unknowns_per_subdomain.value_or(usual_size);
+    for (std::size_t b = 0; b < nodes.size(); ++b)
+      counts[b] = std::max(1, static_cast<int>(std::lround(dimension * static_cast<double>(nodes[b]) / aim)));
+    return counts;
+  }
+  std::priority_queue<std::pair<double, std::size_t>> largest;  // nodes a subdomain, body
+  for (std::size_t b = 0; b < nodes.size(); ++b) largest.emplace(static_cast<double>(nodes[b]), b);
+  for (auto total = static_cast<int>(nodes.size()); total < *options.subdomains; ++total) {
+    const auto b = largest.top().second;
+    largest.pop();
+    largest.emplace(static_cast<double>(nodes[b]) / ++counts[b], b);
+  }
   return counts;
 }
 
