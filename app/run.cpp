@@ -92,15 +92,18 @@ class History {
   void note(int step, double change, const qp::Progress& p)
   {
     if (p.what == "inner") {
-      context_.log.progress(
-          "  {}outer {}, {} products, gradient {:.1e}, equality {:.1e} (tolerance {:.1e}); {} open, {} slipping on rank 0",
-          step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer, p.multiplications, p.projected_gradient, p.equality,
-          deck_.solver.programme.tolerance, p.active.bounds, p.active.discs);
+      const auto& options = deck_.solver.programme;
+      const auto measures = options.algorithm == "smalse"
+                                ? fmt::format("gradient {:.1e}, equality {:.1e}", p.projected_gradient, p.equality)
+                                : fmt::format("residual {:.1e}", std::max(p.projected_gradient, p.equality));
+      context_.log.progress("  {}outer {}, {} products, {} (tolerance {:.1e}); {} open, {} slipping on rank 0",
+                            step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer, p.multiplications, measures,
+                            options.tolerance, p.active.bounds, p.active.discs);
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
-    text_ += fmt::format("{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{}\n", p.what, step, p.outer, p.multiplications,
-                         p.projected_gradient, p.equality, change, p.precision, bounds, discs);
+    text_ += fmt::format("{},{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{}\n", p.what, step, p.outer, p.multiplications,
+                         p.preconditionings, p.projected_gradient, p.equality, change, p.precision, bounds, discs);
   }
   const std::string& text() const { return text_; }
 
@@ -108,7 +111,8 @@ class History {
   const Deck& deck_;
   const Context& context_;
   std::string text_ =
-      "stage,friction_step,outer_iteration,hessian_multiplications,projected_gradient,equality,slip_bound_change,precision,open,"
+      "stage,friction_step,outer_iteration,hessian_multiplications,preconditionings,projected_gradient,equality,slip_bound_"
+      "change,precision,open,"
       "slipping\n";
 };
 
@@ -169,7 +173,9 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   std::unique_ptr<friction::Result> solved;
   {
     const auto scope = timers.scope("solve");
-    problem = std::make_unique<feti::DualProblem>(decomposition, directory, interface, constraints, floating, context);
+    auto options = deck.solver.subdomains;
+    if (deck.solver.programme.algorithm == "smalse") options.preconditioner = "none";
+    problem = std::make_unique<feti::DualProblem>(decomposition, directory, interface, constraints, floating, options, context);
     log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(), problem->kernel_dimension());
     solved = std::make_unique<friction::Result>(
         friction::solve(*problem, model.friction_laws(), deck.friction_loop, deck.solver.programme,

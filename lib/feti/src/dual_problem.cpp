@@ -26,13 +26,19 @@ std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bo
 
 DualProblem::DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                          const partition::Interface& interface, const constraint::Constraints& constraints,
-                         const Floating& floating, const Context& context)
+                         const Floating& floating, const Options& options, const Context& context)
     : decomposition_(decomposition), constraints_(constraints), floating_(floating), comm_(context.comm)
 {
   jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints.held, constraints.contacts,
                                          std::span<const SubdomainRow>(), comm_);
   settle_free_motions(directory, interface, context);
   hessian_ = std::make_unique<DualOperator>(*jump_, floating.subdomains, context.timers);
+  if (options.preconditioner != "none")
+    collectively(comm_, [&] {
+      const auto kind = options.preconditioner == "lumped" ? Preconditioner::Kind::lumped : Preconditioner::Kind::dirichlet;
+      preconditioner_ = std::make_unique<Preconditioner>(kind, decomposition, *jump_, floating.subdomains,
+                                                         floating.nodal_stiffness, options.factorization, context.timers);
+    });
   make_set();
 
   std::vector<Eigen::VectorXd> u;

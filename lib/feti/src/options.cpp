@@ -8,6 +8,10 @@ void describe(deck::Description<Options>& d)
   d.key("factorization", &Options::factorization,
         "Direct solver of the subdomains: cholmod (supernodal Cholesky) or klu2 (slow, for comparison).")
       .one_of({"cholmod", "klu2"});
+  d.key("preconditioner", &Options::preconditioner,
+        "Of face_newton: none, lumped (the surface block of the stiffness matrix), or dirichlet (its Schur complement; fewer "
+        "products, a second factorization).")
+      .one_of({"none", "lumped", "dirichlet"});
 }
 
 }  // namespace mortise::feti

@@ -11,6 +11,7 @@
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
 #include "partition/decompose.hpp"
+#include "qp/face_newton.hpp"
 #include "qp/smalse.hpp"
 
 namespace mortise::feti {
@@ -81,7 +82,8 @@ TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
 TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
 {
   const Cube cube(100, true);
-  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.context);
+  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {},
+                            cube.context);
   const auto map = problem.hessian().getDomainMap();
   Vector x(map), y(map), fx(map), fy(map);
   for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) {
@@ -101,14 +103,53 @@ TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
   EXPECT_NEAR(cube.comm.sum(product), problem.jump().apply(u).dot(x), 1e-9 * std::abs(product) + 1e-10);
 }
 
+// Every preconditioner is symmetric and positive, and saves products.
+TEST(DualProblem, PreconditionersAreSymmetricAndApproximateTheInverse)
+{
+  const Cube cube(10, true);
+  int without = std::numeric_limits<int>::max();
+  for (const auto* kind : {"none", "lumped", "dirichlet"}) {
+    Options options;
+    options.preconditioner = kind;
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, options,
+                              cube.context);
+    qp::Hessian hessian(problem.hessian(), 1000);
+    const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
+    const auto solution = qp::FaceNewton(programme, problem.preconditioner()).solve({}, 1e-9, nullptr, {});
+    EXPECT_TRUE(solution.converged);
+    EXPECT_LT(hessian.count(), without) << kind;
+    if (!problem.preconditioner()) {
+      without = hessian.count();
+      continue;
+    }
+    Vector x(problem.linear().getMap()), y(x.getMap()), mx(x.getMap()), my(x.getMap());
+    for (Local i = 0; i < static_cast<Local>(x.getLocalLength()); ++i) {
+      const auto row = static_cast<double>(x.getMap()->getGlobalElement(i));
+      view(x)[i] = std::sin(row);
+      view(y)[i] = std::cos(3 * row);
+    }
+    problem.preconditioner()->apply(x, mx);
+    problem.preconditioner()->apply(y, my);
+    EXPECT_NEAR(x.dot(my), y.dot(mx), 1e-11 * mx.norm2() * y.norm2());
+    EXPECT_GT(x.dot(mx), 0);
+  }
+}
+
 // Against the assembled system solved at once, for equal and for very different subdomains, with few products for both.
-TEST(DualProblem, SolutionIsThatOfTheAssembledSystem)
+class Algorithms : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Both, Algorithms, testing::Values("smalse", "face_newton"));
+
+TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
 {
   for (const double jump : {1.0, 1e6}) {
     Cube cube(jump, true);
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.context);
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {},
+                              cube.context);
     qp::Hessian hessian(problem.hessian(), 1000);
-    const qp::Solution solution = qp::smalse({hessian, problem.linear(), problem.equality(), problem.set()}, {}, 1e-10, {});
+    const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
+    const qp::Solution solution = std::string(GetParam()) == "smalse"
+                                      ? qp::smalse(programme, {}, 1e-10, {})
+                                      : qp::FaceNewton(programme, problem.preconditioner()).solve({}, 1e-10, nullptr, {});
     ASSERT_TRUE(solution.converged);
     EXPECT_LT(hessian.count(), 120);
     const auto u = problem.displacement(solution.x, solution.nu);
@@ -151,7 +192,8 @@ TEST(DualProblem, AFloatingBodyThatIsPulledIsNamed)
 {
   const Cube cube(1, false);
   try {
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.context);
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {},
+                              cube.context);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);
@@ -163,7 +205,8 @@ TEST(DualProblem, AFloatingBodyThatNothingPullsIsGauged)
 {
   Cube cube(1, false);
   for (auto& f : cube.floating.load) f.setZero();
-  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.context);
+  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {},
+                            cube.context);
   EXPECT_EQ(cube.comm.sum(static_cast<long long>(problem.jump().ranges().end - problem.jump().ranges().extra)), 6);
 }
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "base/error.hpp"
+#include "qp/smalse.hpp"
 
 namespace mortise::friction {
 
@@ -54,33 +57,102 @@ std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vec
   return radii;
 }
 
+namespace {
+
+// Renews slip bounds between two faces of face Newton.
+class CoulombBounds {
+ public:
+  CoulombBounds(feti::DualProblem& problem, const std::vector<Law>& laws)
+      : problem_(problem), laws_(laws), now_(slip_bounds(problem, laws, nullptr)), before_(now_)
+  {
+    problem_.set().set_radii(now_);
+  }
+
+  qp::Renewal renewal()
+  {
+    return {[this](const Vector& x, bool apply) { return renew(x, apply); }, [this] { retreat(); }};
+  }
+  const std::vector<double>& now() const { return now_; }
+
+ private:
+  double renew(const Vector& x, bool apply)
+  {
+    auto wanted = slip_bounds(problem_, laws_, &x);
+    double square = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (wanted[i] != now_[i]) square += (wanted[i] - now_[i]) * (wanted[i] - now_[i]);  // infinite while a point sticks anyway
+    if (apply) {
+      before_ = std::exchange(now_, std::move(wanted));
+      problem_.set().set_radii(now_);
+    }
+    return std::sqrt(problem_.communicator().sum(square));
+  }
+  void retreat()
+  {
+    for (std::size_t i = 0; i < now_.size(); ++i) now_[i] = std::isinf(before_[i]) ? 2 * now_[i] : 0.5 * (now_[i] + before_[i]);
+    problem_.set().set_radii(now_);
+  }
+
+  feti::DualProblem& problem_;
+  const std::vector<Law>& laws_;
+  std::vector<double> now_, before_;
+};
+
+}  // namespace
+
 Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Options& options, const qp::Options& solver,
              const Observer& observer)
 {
   const bool coulomb = any_coulomb(laws);
   qp::Hessian hessian(problem.hessian(), solver.max_multiplications);
   const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
-  std::vector<double> bounds = slip_bounds(problem, laws, nullptr), previous_bounds;
+  std::vector<double> bounds = slip_bounds(problem, laws, nullptr), previous_bounds = bounds;
+  std::unique_ptr<qp::FaceNewton> newton;
+  if (solver.algorithm == "face_newton") newton = std::make_unique<qp::FaceNewton>(programme, problem.preconditioner());
   std::optional<qp::Solution> solution;
   double change = 1, previous_change = 1, damping = 1;
-  int step = 0, stalled = 0, infeasible = 0, outer = 0;
+  int step = 0, stalled = 0, infeasible = 0, outer = 0, preconditionings = 0;
   bool settled = false;
-  while (true) {
+  const auto watch = [&](const qp::Progress& progress) {
+    if (observer) observer(step, change, progress);
+  };
+  if (newton && coulomb) {  // all in one loop; the fixed point below goes on from there where that does not settle
+    step = 1;
+    CoulombBounds law(problem, laws);
+    const auto renewal = law.renewal();
+    auto found = newton->solve({}, solver.tolerance, &renewal, watch);
+    outer += found.outer_iterations;
+    preconditionings += found.preconditionings;
+    if (found.feasible) {
+      bounds = slip_bounds(problem, laws, &found.x);
+      change = relative_change(bounds, law.now(), problem.communicator());
+      settled = found.converged && change <= options.tolerance;
+      solution = std::move(found);
+    }
+  }
+  while (!settled) {
     ++step;
     problem.set().set_radii(bounds);
     const double tolerance = coulomb ? std::max(solver.tolerance, std::min(loose, 0.1 * change)) : solver.tolerance;
-    auto next = qp::smalse(programme, solution, tolerance, [&](const qp::Progress& progress) {
-      if (observer) observer(step, change, progress);
-    });
+    auto next = newton ? newton->solve(solution, tolerance, nullptr, watch) : qp::smalse(programme, solution, tolerance, watch);
     if (!next.feasible) {
       // Bounds from inexact normal forces may fall short by as much: go half way back before giving up.
-      if (step == 1 || ++infeasible > 5) no_equilibrium(problem, next.nu);
+      if (!solution || ++infeasible > 5) no_equilibrium(problem, next.nu);
       for (std::size_t i = 0; i < bounds.size(); ++i)
         bounds[i] = std::isinf(previous_bounds[i]) ? 2 * bounds[i] : 0.5 * (bounds[i] + previous_bounds[i]);
       continue;
     }
+    if (newton && !next.converged &&
+        !hessian.exhausted()) {  // it crawls where bodies are soft and slender: the slower, steadier one
+      outer += next.outer_iterations;
+      preconditionings += next.preconditionings;
+      next = qp::smalse(programme, next, tolerance, watch);
+      if (!next.feasible) no_equilibrium(problem, next.nu);
+    }
+    const bool first = !solution;
     solution = std::move(next);
     outer += solution->outer_iterations;
+    preconditionings += solution->preconditionings;
     if (!coulomb) {
       settled = true;
       change = 0;
@@ -88,8 +160,8 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
     }
     auto wanted = slip_bounds(problem, laws, &solution->x);
     previous_change = change;
-    change = step == 1 ? 1.0 : relative_change(wanted, bounds, problem.communicator());
-    settled = step > 1 && change <= options.tolerance && tolerance <= solver.tolerance;
+    change = first ? 1.0 : relative_change(wanted, bounds, problem.communicator());
+    settled = !first && change <= options.tolerance && tolerance <= solver.tolerance;
     if (settled || step >= options.max_steps || hessian.exhausted()) break;
     // A fixed point that twice fails to contract is most often one that swings: meet it half way until it contracts again.
     stalled = step > 2 && change > 0.9 * previous_change ? stalled + 1 : 0;
@@ -103,6 +175,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
   result.change = change;
   result.converged = settled && result.solution.converged;
   result.multiplications = hessian.count();
+  result.preconditionings = preconditionings;
   result.outer_iterations = outer;
   return result;
 }

@@ -56,6 +56,24 @@ void FeasibleSet::set_radii(std::span<const double> radii)
   for (std::size_t i = 0; i < discs_.size(); ++i) discs_[i].radius = radii[i];
 }
 
+std::vector<Local> FeasibleSet::constrained() const
+{
+  std::vector<Local> unknowns;
+  for (const auto& bound : bounds_) unknowns.push_back(bound.index);
+  for (const auto& disc : discs_) unknowns.insert(unknowns.end(), disc.index.begin(), disc.index.begin() + disc.size());
+  return unknowns;
+}
+
+FeasibleSet FeasibleSet::compact() const
+{
+  FeasibleSet result = *this;
+  Local next = 0;
+  for (auto& bound : result.bounds_) bound.index = next++;
+  for (auto& disc : result.discs_)
+    for (int c = 0; c < disc.size(); ++c) disc.index[static_cast<std::size_t>(c)] = next++;
+  return result;
+}
+
 FeasibleSet FeasibleSet::shifted(const Eigen::Ref<const Eigen::VectorXd>& shift) const
 {
   FeasibleSet result = *this;

@@ -18,7 +18,7 @@ double noise(Global index)
 
 }  // namespace
 
-double projected_norm(Hessian& a, const EqualityConstraint& equality, int max_steps)
+double projected_norm(Hessian& a, const EqualityConstraint& equality, double accuracy, int max_steps)
 {
   const auto map = a.map();
   Vector v(map), previous(map), w(map);
@@ -44,7 +44,7 @@ double projected_norm(Hessian& a, const EqualityConstraint& equality, int max_st
     const double largest = ritz.eigenvalues()[k];
     const double bound = next[k] * std::abs(ritz.eigenvectors()(k, k));
     estimate = largest + bound;
-    if (bound <= 0.05 * largest) break;
+    if (bound <= accuracy * largest) break;
     previous.assign(v);
     v.update(1 / next[k], w, 0);
   }

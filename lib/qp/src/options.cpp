@@ -5,14 +5,13 @@ namespace mortise::qp {
 void describe(deck::Description<Options>& d)
 {
   d.help("How the quadratic programme in the multipliers is solved.");
-  d.key("algorithm", &Options::algorithm, "smalse: SMALSE-M with MPGP inside, the paper's.")
-      .one_of({"smalse"})
-      .not_yet({"face_newton"});
+  d.key("algorithm", &Options::algorithm,
+        "face_newton: an active set method on exactly projected points; smalse: SMALSE-M with MPGP inside, the paper's.")
+      .one_of({"face_newton", "smalse"});
   d.key("tolerance", &Options::tolerance, "Relative: the reduced projected gradient and the equality residual over ||P d||.")
       .positive()
       .below(1);
   d.key("max_multiplications", &Options::max_multiplications, "Products with the dual operator in the whole run.").at_least(1);
-  d.unavailable("preconditioner");
 }
 
 }  // namespace mortise::qp

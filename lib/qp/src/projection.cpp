@@ -1,107 +1,157 @@
 #include "qp/projection.hpp"
 
-#include <Eigen/SparseCore>
 #include <cmath>
 
 namespace mortise::qp {
 
 namespace {
 
-// The dual function and its gradient at one nu.
-struct Evaluation {
-  Vector shifted;  // w = y - G' nu
-  Vector point;    // P_Omega(w)
-  double value = 0;
-  Eigen::VectorXd gradient;
-};
+constexpr int max_steps = 100;
+constexpr int max_search = 60;       // of each line search
+constexpr int max_stalled = 3;       // steps without progress, at rounding level
+constexpr double flat = 0.1;         // part of its first slope at which a line search ends
+constexpr double runaway = 1e10;     // of ||G' nu|| over ||e|| and ||y||, at which C counts as empty
+constexpr double target = 1e-13;     // of the residual
+constexpr double acceptable = 1e-9;  // at which a projection that makes no more progress counts as found
 
-Evaluation evaluate(const Vector& y, const Eigen::VectorXd& nu, const EqualityConstraint& equality, const FeasibleSet& set)
+SparseMatrix columns_of(const SparseMatrix& g, std::span<const Local> columns)
 {
-  Evaluation result{Vector(y, Teuchos::Copy), Vector(y.getMap()), 0, {}};
-  equality.add_transpose(-1, nu, result.shifted);
-  result.point.assign(result.shifted);
-  set.project(view(result.point));
-  const auto w = view(std::as_const(result.shifted));
-  const auto x = view(std::as_const(result.point));
-  result.value = equality.communicator().sum(x.dot(w) - 0.5 * x.squaredNorm()) + equality.right_side().dot(nu);
-  result.gradient = equality.right_side() - equality.apply(result.point);
-  return result;
-}
-
-// Sum of c c' over `columns` of G, each with a factor, into `triplets` (lower triangle).
-void add_outer(const SparseMatrix& g, int a, int b, double factor, std::vector<Eigen::Triplet<double>>& triplets)
-{
-  for (SparseMatrix::InnerIterator i(g, a); i; ++i)
-    for (SparseMatrix::InnerIterator j(g, b); j; ++j)
-      if (i.row() >= j.row())
-        triplets.emplace_back(static_cast<int>(i.row()), static_cast<int>(j.row()), factor * i.value() * j.value());
-}
-
-// G (I - D) G' with the derivative D of P_Omega at w: this is what the active constraints take away from G G'.
-SparseMatrix lost(const EqualityConstraint& equality, const FeasibleSet& set, const Vector& shifted)
-{
-  const SparseMatrix& g = equality.local();
-  const auto w = view(shifted);
   std::vector<Eigen::Triplet<double>> triplets;
-  for (const auto& bound : set.bounds())
-    if (w[bound.index] <= bound.lower) add_outer(g, bound.index, bound.index, 1, triplets);
-  for (const auto& disc : set.discs()) {
-    const Eigen::Vector2d y = from_centre(disc, w);
-    const double distance = y.norm();
-    if (distance <= disc.radius) continue;
-    const Eigen::Vector2d n = y / distance;
-    const double ratio = disc.radius / distance;  // D = ratio (I - n n')
-    for (int a = 0; a < disc.size(); ++a)
-      for (int b = 0; b < disc.size(); ++b) {
-        const double d = disc.size() == 1 ? 0.0 : ratio * ((a == b ? 1.0 : 0.0) - n[a] * n[b]);
-        add_outer(g, disc.index[a], disc.index[b], (a == b ? 1.0 : 0.0) - d, triplets);
-      }
-  }
-  SparseMatrix local(equality.size(), equality.size());
-  local.setFromTriplets(triplets.begin(), triplets.end());
-  return sum_over_ranks(local, equality.communicator());
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    for (SparseMatrix::InnerIterator it(g, columns[c]); it; ++it)
+      triplets.emplace_back(static_cast<int>(it.row()), static_cast<int>(c), it.value());
+  SparseMatrix result(g.rows(), static_cast<Eigen::Index>(columns.size()));
+  result.setFromTriplets(triplets.begin(), triplets.end());
+  return result;
 }
 
 }  // namespace
 
-Projection project(const Vector& y, const EqualityConstraint& equality, const FeasibleSet& set)
-{
-  Eigen::VectorXd nu = Eigen::VectorXd::Zero(equality.size());
-  Evaluation now = evaluate(y, nu, equality, set);
-  if (equality.size() == 0) return {now.point, nu, true, 0};
+// The gradient of the dual function at one nu; vectors over the constrained unknowns.
+struct Projector::Evaluation {
+  Eigen::VectorXd nu;
+  Eigen::VectorXd w;  // y - G' nu
+  Eigen::VectorXd gradient;
+  double pull = 0;  // ||G' nu||
+};
 
-  const double scale = equality.norm(equality.right_side()) + y.norm2() + 1e-300;
-  const SparseMatrix& gram = equality.gram();
-  const Eigen::VectorXd diagonal = gram.diagonal();
-  Cholesky factor(gram);
-  double residual = equality.norm(now.gradient) / scale;
+Projector::Projector(const EqualityConstraint& equality, const FeasibleSet& set)
+    : equality_(equality),
+      set_(set),
+      constrained_(set.constrained()),
+      columns_(columns_of(equality.local(), constrained_)),
+      matrix_(equality, constrained_)
+{
+}
+
+Projector::Evaluation Projector::evaluate(const Eigen::VectorXd& y, const Eigen::VectorXd& gy, Eigen::VectorXd nu,
+                                          const FeasibleSet& set) const
+{
+  Evaluation result;
+  result.w = y - columns_.transpose() * nu;
+  Eigen::VectorXd moved = result.w;  // P_Omega(w) - w
+  set.project(moved);
+  moved -= result.w;
+  Eigen::VectorXd sums = columns_ * moved;
+  equality_.communicator().sum_in_place({sums.data(), static_cast<std::size_t>(sums.size())});
+  const Eigen::VectorXd gram_nu = equality_.gram().selfadjointView<Eigen::Lower>() * nu;
+  const Eigen::VectorXd missing = equality_.right_side() - gy;
+  result.gradient = missing + gram_nu - sums;
+  result.pull = std::sqrt(std::max(nu.dot(gram_nu), 0.0));
+  result.nu = std::move(nu);
+  return result;
+}
+
+// I - D with the derivative D of P_Omega at w.
+std::vector<LostBlock> Projector::lost(const Eigen::VectorXd& w) const
+{
+  std::vector<LostBlock> blocks;
+  Local next = 0;  // w is in the order of FeasibleSet::constrained()
+  for (const auto& bound : set_.bounds()) {
+    if (w[next++] > bound.lower) continue;
+    auto& block = blocks.emplace_back();
+    block.index[0] = bound.index;
+    block.matrix(0, 0) = 1;
+  }
+  for (const auto& disc : set_.discs()) {
+    const Eigen::Vector2d y(w[next] - disc.centre[0], disc.size() == 2 ? w[next + 1] - disc.centre[1] : 0.0);
+    next += disc.size();
+    const double distance = y.norm();
+    if (distance <= disc.radius) continue;
+    const Eigen::Vector2d n = y / distance;
+    auto& block = blocks.emplace_back();
+    block.index = disc.index;
+    if (disc.size() == 1)
+      block.matrix(0, 0) = 1;
+    else
+      block.matrix = Eigen::Matrix2d::Identity() - disc.radius / distance * (Eigen::Matrix2d::Identity() - n * n.transpose());
+  }
+  return blocks;
+}
+
+Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
+{
+  Projection result{Vector(y, Teuchos::Copy), Vector(y, Teuchos::Copy), Eigen::VectorXd::Zero(equality_.size())};
+  if (equality_.size() == 0) {
+    set_.project(view(result.point));
+    result.found = true;
+    return result;
+  }
+  const FeasibleSet compact = set_.compact();
+  const Eigen::VectorXd constrained_y = view(y)(constrained_);
+  const Eigen::VectorXd gy = equality_.apply(y);
+  const double scale = equality_.norm(equality_.right_side()) + y.norm2() + 1e-300;
+  const auto size_of = [&](const Evaluation& at) { return equality_.norm(at.gradient) / scale; };
+  Evaluation now = evaluate(constrained_y, gy, start.size() == equality_.size() ? start : result.nu, compact);
+  result.residual = size_of(now);
   double regularisation = 1e-1;
-  for (int step = 0; step < 100 && residual > 1e-13; ++step) {
-    SparseMatrix jacobian = gram - lost(equality, set, now.shifted);
-    const double delta = std::max(regularisation * std::min(residual, 1.0), 1e-14);
-    for (int i = 0; i < jacobian.cols(); ++i) jacobian.coeffRef(i, i) += delta * diagonal[i];
-    if (!factor.factorize(jacobian)) {
+  int stalled = 0;
+  for (int step = 0; step < max_steps && result.residual > target && now.pull < runaway * scale; ++step) {
+    if (!matrix_.factorize(lost(now.w), std::max(regularisation * std::min(result.residual, 1.0), 1e-14))) {
       regularisation *= 10;
       continue;
     }
-    const Eigen::VectorXd direction = -factor.solve(now.gradient);
+    const Eigen::VectorXd direction = -matrix_.solve(now.gradient);
+    // theta is convex: its slope along the direction rises, piecewise linearly, from below 0, and is known more exactly than
+    // theta.
     const double slope = now.gradient.dot(direction);
-    bool accepted = false;
-    for (double t = 1; t > 1e-6 && !accepted; t *= 0.5) {
-      const Eigen::VectorXd trial = nu + t * direction;
-      Evaluation next = evaluate(y, trial, equality, set);
-      const double next_residual = equality.norm(next.gradient) / scale;
-      accepted = next.value <= now.value + 1e-4 * t * slope || next_residual <= 0.5 * residual;
-      if (!accepted) continue;
-      // A residual that does not fall while full steps are taken wants larger steps.
-      if (t == 1) regularisation *= next_residual > 0.5 * residual ? 0.1 : 1.0;
-      nu = trial;
-      now = std::move(next);
-      residual = next_residual;
+    double low = 0, high = 1, slope_low = slope, slope_high = 0, t = 1;
+    Evaluation next = evaluate(constrained_y, gy, now.nu + direction, compact);
+    for (int search = 0; search < max_search; ++search) {
+      const double here = next.gradient.dot(direction);
+      if (size_of(next) <= 0.5 * result.residual) break;
+      if (std::abs(here) <= flat * std::abs(slope) || (t == 1 && here < 0)) break;
+      if (here < 0) {
+        low = t;
+        slope_low = here;
+      } else {
+        high = t;
+        slope_high = here;
+      }
+      // Secant and bisection in turn: the slope is flat as long as no constraint changes, and steep beyond.
+      t = search % 2 == 0 ? low - slope_low * (high - low) / (slope_high - slope_low) : 0.5 * (low + high);
+      next = evaluate(constrained_y, gy, now.nu + t * direction, compact);
     }
-    if (!accepted) break;
+    const double residual = size_of(next);
+    // A residual that does not fall while full steps are taken wants larger steps.
+    if (t == 1 && residual > 0.5 * result.residual) regularisation *= 0.1;
+    stalled = residual < 0.99 * result.residual ? 0 : stalled + 1;
+    now = std::move(next);
+    result.residual = residual;
+    if (stalled > max_stalled && residual <= acceptable) break;
   }
-  return {now.point, nu, residual <= 1e-9, residual};
+  result.nu = now.nu;
+  equality_.add_transpose(-1, result.nu, result.argument);
+  result.point.assign(result.argument);
+  set_.project(view(result.point));
+  result.residual = equality_.norm(equality_.right_side() - equality_.apply(result.point)) / scale;
+  result.found = result.residual <= acceptable;
+  return result;
+}
+
+Projection project(const Vector& y, const EqualityConstraint& equality, const FeasibleSet& set)
+{
+  return Projector(equality, set)(y);
 }
 
 }  // namespace mortise::qp

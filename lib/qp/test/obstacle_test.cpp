@@ -5,6 +5,7 @@
 #include <random>
 
 #include "dense_operator.hpp"
+#include "qp/face_newton.hpp"
 #include "qp/smalse.hpp"
 
 namespace mortise::qp {
@@ -38,7 +39,23 @@ double kkt(const Solution& solution, const Problem& problem)
   return moved.norm2();
 }
 
-TEST(Obstacle, StringIsSolvedToItsKktConditions)
+// Both algorithms under one name.
+using Solver = Solution (*)(const Problem&, const std::optional<Solution>& start, double tolerance);
+
+Solution by_smalse(const Problem& problem, const std::optional<Solution>& start, double tolerance)
+{
+  return smalse(problem, start, tolerance, {});
+}
+
+Solution by_face_newton(const Problem& problem, const std::optional<Solution>& start, double tolerance)
+{
+  return FaceNewton(problem, nullptr).solve(start, tolerance, nullptr, {});
+}
+
+class Obstacle : public testing::TestWithParam<Solver> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, Obstacle, testing::Values(by_smalse, by_face_newton));
+
+TEST_P(Obstacle, StringIsSolvedToItsKktConditions)
 {
   constexpr int n = 60;
   const auto map = even_map(n, world());
@@ -50,7 +67,7 @@ TEST(Obstacle, StringIsSolvedToItsKktConditions)
   const EqualityConstraint none(SparseMatrix(0, static_cast<Eigen::Index>(bounds.size())), {}, world());
   Hessian hessian(a, 2000);
   const Problem problem{hessian, b, none, set};
-  const Solution solution = smalse(problem, {}, 1e-9, {});
+  const Solution solution = GetParam()(problem, {}, 1e-9);
   EXPECT_TRUE(solution.converged);
   EXPECT_LT(kkt(solution, problem), 1e-9);
   const Eigen::VectorXd x = gathered(solution.x, world());
@@ -60,7 +77,7 @@ TEST(Obstacle, StringIsSolvedToItsKktConditions)
   EXPECT_GT((x.array() == -0.4).count(), 10);
 }
 
-TEST(Obstacle, EqualityAndDiscs)
+TEST_P(Obstacle, EqualityAndDiscs)
 {
   constexpr int n = 48;
   std::mt19937 generator(7);
@@ -90,7 +107,7 @@ TEST(Obstacle, EqualityAndDiscs)
   Hessian hessian(a, 20000);
   const Vector b = local_part(linear, map);
   const Problem problem{hessian, b, equality, set};
-  const Solution solution = smalse(problem, {}, 1e-10, {});
+  const Solution solution = GetParam()(problem, {}, 1e-10);
   ASSERT_TRUE(solution.feasible);
   EXPECT_TRUE(solution.converged);
   EXPECT_LT(equality.norm(equality.apply(solution.x) - equality.right_side()), 1e-10);
@@ -98,7 +115,7 @@ TEST(Obstacle, EqualityAndDiscs)
 
   // A warm start from the solution must end at once and at the same point.
   const int before = hessian.count();
-  const Solution again = smalse(problem, solution, 1e-6, {});
+  const Solution again = GetParam()(problem, solution, 1e-6);
   EXPECT_LT(hessian.count() - before, 8);
   EXPECT_LT((gathered(again.x, world()) - gathered(solution.x, world())).norm(), 1e-5);
 }

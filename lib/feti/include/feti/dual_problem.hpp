@@ -15,6 +15,8 @@
 #include "base/context.hpp"
 #include "feti/dual_operator.hpp"
 #include "feti/free_motions.hpp"
+#include "feti/options.hpp"
+#include "feti/preconditioner.hpp"
 #include "qp/problem.hpp"
 
 namespace mortise::feti {
@@ -41,12 +43,13 @@ class DualProblem {
   /// Collective.
   DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
               const partition::Interface& interface, const constraint::Constraints& constraints, const Floating& floating,
-              const Context& context);
+              const Options& options, const Context& context);
   DualProblem(const DualProblem&) = delete;
   DualProblem& operator=(const DualProblem&) = delete;
 
   const JumpOperator& jump() const { return *jump_; }
   const Operator& hessian() const { return *hessian_; }
+  const Operator* preconditioner() const { return preconditioner_.get(); }  ///< null if the options want none
   const Vector& linear() const { return *linear_; }
   const qp::EqualityConstraint& equality() const { return *equality_; }
   qp::FeasibleSet& set() { return set_; }
@@ -78,6 +81,7 @@ class DualProblem {
   const Communicator& comm_;
   std::unique_ptr<JumpOperator> jump_;
   std::unique_ptr<DualOperator> hessian_;
+  std::unique_ptr<Preconditioner> preconditioner_;
   std::unique_ptr<Vector> linear_;
   std::unique_ptr<qp::EqualityConstraint> equality_;
   qp::FeasibleSet set_;

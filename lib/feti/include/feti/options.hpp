@@ -9,6 +9,7 @@ namespace mortise::feti {
 
 struct Options {
   std::string factorization = "cholmod";  ///< cholmod | klu2
+  std::string preconditioner = "lumped";  ///< none | lumped | dirichlet, of face Newton
 };
 
 /// The keywords.

@@ -24,6 +24,8 @@ class SubdomainOperator {
   virtual void apply_inverse(const double* b, double* x, int columns) const = 0;
   /// K u.
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
+  /// The lower triangle of K, for preconditioners.
+  virtual const SparseMatrix& stiffness() const = 0;
   virtual std::size_t factor_bytes() const = 0;
 };
 
@@ -40,6 +42,7 @@ class ElasticSubdomain : public SubdomainOperator {
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
   void apply_inverse(const double* b, double* x, int columns) const override { solver_->solve(b, x, columns); }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override { return stiffness_.selfadjointView<Eigen::Lower>() * u; }
+  const SparseMatrix& stiffness() const override { return stiffness_; }
   std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
 
  private:

@@ -2,8 +2,9 @@
 //
 // Tresca: the bound of a point is a given traction times its area; one quadratic programme gives the answer. Coulomb: the bound
 // is the coefficient times the point's normal force, which is found by repeating Tresca problems, each solved only as exactly as
-// the bounds are known and started from the one before. The first step lets every Coulomb point stick, so that a floating body
-// that is pushed sideways has an equilibrium from the start.
+// the bounds are known and started from the one before. Face Newton renews the bounds at each of its faces instead, and falls
+// back to the fixed point where that does not settle. The first step lets every Coulomb point stick, so that a floating body that
+// is pushed sideways has an equilibrium from the start.
 #pragma once
 
 #include <functional>
@@ -12,8 +13,8 @@
 
 #include "feti/dual_problem.hpp"
 #include "friction/options.hpp"
+#include "qp/face_newton.hpp"
 #include "qp/options.hpp"
-#include "qp/smalse.hpp"
 
 namespace mortise::friction {
 
@@ -33,6 +34,7 @@ struct Result {
   double change = 0;  ///< relative, of the slip bounds in the last step
   bool converged = false;
   int multiplications = 0;
+  int preconditionings = 0;
   int outer_iterations = 0;  ///< of all Tresca problems
 };
 

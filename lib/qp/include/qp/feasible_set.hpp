@@ -44,6 +44,11 @@ class FeasibleSet {
   /// Omega - shift: the set of all x - shift.
   FeasibleSet shifted(const Eigen::Ref<const Eigen::VectorXd>& shift) const;
 
+  /// The unknowns with a constraint: those of the bounds, then those of the discs.
+  std::vector<Local> constrained() const;
+  /// The same set over the constrained unknowns alone, numbered in the order of constrained().
+  FeasibleSet compact() const;
+
   /// x becomes the point of Omega that is nearest to it.
   void project(Eigen::Ref<Eigen::VectorXd> x) const;
 

@@ -6,9 +6,9 @@
 namespace mortise::qp {
 
 /// An estimate of ||P A P|| from Lanczos steps that start at a random vector of Im P: the largest Ritz value plus its residual
-/// bound, once the bound is below 5 % (at most `max_steps` products). A start vector that misses the dominant eigenvector could
-/// still make it too small, so the solver raises it when a direction shows a larger Rayleigh quotient. 0 only for A = 0.
-/// Collective.
-double projected_norm(Hessian& a, const EqualityConstraint& equality, int max_steps = 20);
+/// bound, once the bound is below `accuracy` of it (at most `max_steps` products). A start vector that misses the dominant
+/// eigenvector could still make it too small, so the solver raises it when a direction shows a larger Rayleigh quotient. 0 only
+/// for A = 0. Collective.
+double projected_norm(Hessian& a, const EqualityConstraint& equality, double accuracy = 0.05, int max_steps = 20);
 
 }  // namespace mortise::qp

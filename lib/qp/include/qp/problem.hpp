@@ -42,13 +42,14 @@ struct Problem {
 
 /// Where a solver stands, for the history and the progress line.
 struct Progress {
-  std::string what;  ///< norm, inner or outer: what has just been done
+  std::string what;  ///< norm, inner or outer: what has just been done; of face Newton, outer steps change the face
   int outer = 0;
   int multiplications = 0;
   double projected_gradient = 0;  ///< relative
-  double equality = 0;            ///< relative
+  double equality = 0;            ///< relative; of face Newton, what the slip bounds would change
   double precision = 0;           ///< M of SMALSE-M
   FeasibleSet::Active active{};   ///< on this rank
+  int preconditionings = 0;
 };
 using Observer = std::function<void(const Progress&)>;
 

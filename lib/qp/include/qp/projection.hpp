@@ -1,25 +1,52 @@
 // The exact projection onto C = {x : G x = e} intersected with Omega: everything about feasibility that needs no product with A.
 #pragma once
 
-#include "qp/equality.hpp"
-#include "qp/feasible_set.hpp"
+#include "qp/coarse_matrix.hpp"
 
 namespace mortise::qp {
 
-/// The result of project().
+/// The result of a projection.
 struct Projection {
   Vector point;         ///< in Omega; G point = e to rounding if `found`
+  Vector argument;      ///< w = y - G' nu, of which `point` is the projection onto Omega: it tells the active constraints
   Eigen::VectorXd nu;   ///< multiplier of G x = e, the same on every rank; if C is empty a direction along which it runs away
   bool found = false;   ///< false: C is empty, or so nearly that the iteration did not settle
-  double residual = 0;  ///< ||G point - e|| relative to ||e||, as EqualityConstraint::norm measures it
+  double residual = 0;  ///< ||G point - e|| relative to ||e|| and ||y||, as EqualityConstraint::norm measures it
 };
 
-/// The point of C nearest to y: x = P_Omega(y - G' nu), where nu minimises the convex, once differentiable dual function
+/// Projects onto C: x = P_Omega(w), w = y - G' nu, where nu minimises the convex, once differentiable dual function
 ///
-///     theta(nu) = 1/2 ||w||^2 - 1/2 ||w - P_Omega(w)||^2 + e'nu,   w = y - G' nu,   grad theta = e - G P_Omega(w),
+///     theta(nu) = 1/2 ||w||^2 - 1/2 ||w - P_Omega(w)||^2 + e'nu,   grad theta = e - G P_Omega(w),
 ///
 /// by a semismooth Newton method with line search; the Jacobian G D G' differs from G G' by the active constraints only and is
-/// regularised in proportion to the residual. theta is unbounded below exactly if C is empty. Collective.
+/// regularised in proportion to the residual. theta is unbounded below exactly if C is empty. Only the constrained unknowns are
+/// touched between the first step and the last: on all others P_Omega is the identity, and G G' says what nu does there.
+class Projector {
+ public:
+  /// Both outlive it. Radii of `set` may change from call to call, its unknowns may not. Collective.
+  Projector(const EqualityConstraint& equality, const FeasibleSet& set);
+
+  /// The point of C nearest to y, from the multiplier `start` (0 if empty). Collective.
+  Projection operator()(const Vector& y, const Eigen::VectorXd& start = {});
+
+  /// Its matrix, which a caller may factorize for its own purposes between two projections.
+  CoarseMatrix& matrix() { return matrix_; }
+  const EqualityConstraint& equality() const { return equality_; }
+  const FeasibleSet& set() const { return set_; }
+
+ private:
+  struct Evaluation;
+  Evaluation evaluate(const Eigen::VectorXd& y, const Eigen::VectorXd& gy, Eigen::VectorXd nu, const FeasibleSet& set) const;
+  std::vector<LostBlock> lost(const Eigen::VectorXd& w) const;
+
+  const EqualityConstraint& equality_;
+  const FeasibleSet& set_;
+  std::vector<Local> constrained_;  // unknowns of this rank
+  SparseMatrix columns_;            // G over them
+  CoarseMatrix matrix_;
+};
+
+/// One projection. Collective.
 Projection project(const Vector& y, const EqualityConstraint& equality, const FeasibleSet& set);
 
 }  // namespace mortise::qp

@@ -1,0 +1,92 @@
+#include "feti/preconditioner.hpp"
+
+#include "partition/node_directory.hpp"
+
+namespace mortise::feti {
+
+namespace {
+
+// Entries of the symmetric matrix `lower` with place[row] >= 0 and place_column[column] >= 0, renumbered.
+SparseMatrix extract(const SparseMatrix& lower, const std::vector<int>& row, int rows, const std::vector<int>& column,
+                     int columns, bool only_lower)
+{
+  std::vector<Eigen::Triplet<double>> triplets;
+  const auto add = [&](Eigen::Index i, Eigen::Index j, double value) {
+    const int a = row[static_cast<std::size_t>(i)], b = column[static_cast<std::size_t>(j)];
+    if (a >= 0 && b >= 0 && (!only_lower || a >= b)) triplets.emplace_back(a, b, value);
+  };
+  for (int j = 0; j < lower.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+      add(it.row(), j, it.value());
+      if (!only_lower && it.row() != j) add(j, it.row(), it.value());
+    }
+  SparseMatrix result(rows, columns);
+  result.setFromTriplets(triplets.begin(), triplets.end());
+  return result;
+}
+
+}  // namespace
+
+Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump,
+                               const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
+                               const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization,
+                               Timers& timers)
+    : jump_(jump), timers_(timers)
+{
+  const int dimension = decomposition.catalogue.dimension;
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    const SparseMatrix& stiffness = subdomains[s]->stiffness();
+    Surface surface;
+    std::vector<int> outside(static_cast<std::size_t>(stiffness.rows()), -1), inside(outside);
+    for (const Local node : partition::surface_nodes(decomposition.subdomains[s].mesh))
+      for (int c = 0; c < dimension; ++c) {
+        const int unknown = dimension * node + c;
+        outside[static_cast<std::size_t>(unknown)] = static_cast<int>(surface.unknowns.size());
+        surface.unknowns.push_back(unknown);
+      }
+    const auto size = static_cast<int>(surface.unknowns.size());
+    surface.weight.resize(size);
+    for (int i = 0; i < size; ++i)
+      surface.weight[i] =
+          1 / nodal_stiffness[s][static_cast<std::size_t>(surface.unknowns[static_cast<std::size_t>(i)] / dimension)];
+    surface.lower = extract(stiffness, outside, size, outside, size, true);
+    if (kind == Kind::dirichlet) {
+      int interior = 0;
+      for (std::size_t i = 0; i < inside.size(); ++i)
+        if (outside[i] < 0) inside[i] = interior++;
+      if (interior > 0) {
+        surface.interior =
+            std::make_unique<DirectSolver>(factorization, extract(stiffness, inside, interior, inside, interior, true));
+        surface.coupling = extract(stiffness, inside, interior, outside, size, false);
+      }
+    }
+    surfaces_.push_back(std::move(surface));
+  }
+}
+
+void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
+{
+  const auto scope = timers_.scope("preconditioner");
+  for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
+    const auto in = x.getVector(column);
+    auto forces = jump_.apply_transpose(*in);
+    for (std::size_t s = 0; s < forces.size(); ++s) {
+      const auto& surface = surfaces_[s];
+      const Eigen::VectorXd u = forces[s](surface.unknowns).cwiseProduct(surface.weight);
+      Eigen::VectorXd f = surface.lower.selfadjointView<Eigen::Lower>() * u;
+      if (surface.interior) {
+        Eigen::VectorXd inner = surface.coupling * u;
+        surface.interior->solve(inner.data(), inner.data(), 1);
+        f -= surface.coupling.transpose() * inner;
+      }
+      forces[s].setZero();
+      forces[s](surface.unknowns) = f.cwiseProduct(surface.weight);
+    }
+    Vector result = jump_.apply(forces);
+    const auto extra = jump_.ranges().end - jump_.ranges().extra;
+    view(result).segment(jump_.ranges().extra, extra) = view(*in).segment(jump_.ranges().extra, extra);
+    y.getVectorNonConst(column)->update(alpha, result, beta);
+  }
+}
+
+}  // namespace mortise::feti

@@ -1,0 +1,52 @@
+// The face of Omega that a projection has picked, and the linear algebra on it.
+//
+// Free are all unknowns without a constraint, those of a bound or a disc that the argument w lies inside of, and along a disc
+// that slips (||w - centre|| > radius) the tangent alone. Where w is outside a disc by r - radius after a gradient step of length
+// a, the disc bends the tangent with the curvature sigma = (r - radius) / (a radius): to second order, the quadratic function on
+// the circle is that on the tangent with sigma added to its Hessian.
+#pragma once
+
+#include "qp/projection.hpp"
+
+namespace mortise::qp {
+
+class Face {
+ public:
+  /// The face at `argument`, that of a projection by `projector`, after a gradient step of length `step`; `stiffness`, a tenth of
+  /// ||P A P||, is what curvatures are measured against. Factorizes the coarse matrix, and is of use until somebody else does.
+  /// Collective.
+  Face(Projector& projector, const Vector& argument, double step, double stiffness);
+
+  /// y += Sigma x.
+  void add_curvature(const Vector& x, Vector& y) const;
+  /// x = w Pi x: the free part, slip directions scaled by w = sqrt(stiffness / (stiffness + sigma)) so that bent and straight
+  /// directions are alike to a preconditioner.
+  void scale(Vector& x) const;
+
+  /// x becomes the free direction x - w^2 Pi G'(G w^2 Pi G')^-1 G Pi x, for which G x = 0. Applied twice, against rounding.
+  /// Collective.
+  void project(Vector& x) const { sweep(x, true); }
+  /// The transpose of project(): the part of a gradient that free directions feel. Collective.
+  void project_gradient(Vector& x) const { sweep(x, false); }
+
+  long long active_bounds = 0;  ///< on this rank
+  long long slipping = 0;       ///< on this rank
+  /// Whether bounds and discs are the same ones as on `other`, on this rank.
+  bool same_constraints(const Face& other) const { return fixed_ == other.fixed_ && slipping == other.slipping; }
+
+ private:
+  struct Slip {
+    std::array<Local, 2> index;
+    Eigen::Vector2d tangent;
+    double curvature, weight;
+  };
+  void restrict(Vector& x, int power) const;  // x = w^power Pi x
+  void sweep(Vector& x, bool direction) const;
+
+  const EqualityConstraint& equality_;
+  CoarseMatrix& matrix_;
+  std::vector<Local> fixed_;  // unknowns that are not free
+  std::vector<Slip> slips_;
+};
+
+}  // namespace mortise::qp

@@ -1,0 +1,51 @@
+// Face Newton: an active set method that leaves everything about G to exact projections, which cost no product with A. See
+// lib/qp/README.md.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "qp/face.hpp"
+#include "qp/problem.hpp"
+#include "qp/solution.hpp"
+
+namespace mortise::qp {
+
+/// For friction whose bounds depend on the solution. Both are collective.
+struct Renewal {
+  /// Renews the radii of the problem's set for the point `x` if `apply`; returns the norm of what changes, or would change.
+  std::function<double(const Vector& x, bool apply)> renew;
+  /// Goes half way back to earlier radii, because the renewed ones leave no feasible point.
+  std::function<void()> retreat;
+};
+
+/// A sequence of similar problems, one after the other: what was learnt about A stays. Refers to the problem and to the
+/// preconditioner, which outlive it.
+class FaceNewton {
+ public:
+  /// `preconditioner`: an approximation of the inverse of A, symmetric positive semidefinite, or null. Collective.
+  FaceNewton(const Problem& problem, const Operator* preconditioner);
+
+  /// Solves until the natural residual ||x - P_C(x - a g)|| / a, a = 1 / ||P A P||, is `tolerance` ||P b||, from `start`, or from
+  /// the feasible point nearest to 0. With `renewal` the radii change at every face, and what they would change counts as
+  /// residual too. Not converged if the products run out, or if it makes no more progress. Collective.
+  Solution solve(const std::optional<Solution>& start, double tolerance, const Renewal* renewal, const Observer& observer);
+
+ private:
+  struct Pair {
+    Vector direction, image;  // image: P (A + Sigma) direction
+    double energy;            // direction . image
+  };
+  struct State;
+  void precondition(const Face& face, const Vector& residual, Vector& z) const;
+  bool descend(const Face& face, double goal, const std::function<void()>& report, State& state);
+
+  const Problem& problem_;
+  const Operator* preconditioner_;
+  Projector projector_;
+  std::deque<Pair> recycled_;
+  double norm_ = 0;
+  mutable int preconditionings_ = 0;
+};
+
+}  // namespace mortise::qp

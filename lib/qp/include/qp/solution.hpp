@@ -1,0 +1,31 @@
+// What a solver of quadratic programmes returns.
+#pragma once
+
+#include "qp/problem.hpp"
+
+namespace mortise::qp {
+
+/// What a solve leaves, and what the next one of a sequence may start from.
+struct Solution {
+  Solution(const Vector& point, const Vector& at_point, const Eigen::VectorXd& multipliers)
+      : x(point, Teuchos::Copy), gradient(at_point, Teuchos::Copy), nu(multipliers)
+  {
+  }
+
+  Vector x;            ///< in Omega up to the equality residual
+  Vector gradient;     ///< A x - b
+  Eigen::VectorXd nu;  ///< multipliers of G x = e: A x - b + G' nu lies in the normal cone of -Omega; same on all ranks
+  bool converged = false;
+  bool feasible = true;  ///< false: {G x = e} and Omega do not meet; nu is then a direction that proves it, x is not solved for
+  int outer_iterations = 0;
+  int preconditionings = 0;
+  int safeguards = 0;             ///< steps of face Newton that went up and were taken back
+  double projected_gradient = 0;  ///< relative to ||P b||
+  double equality = 0;            ///< relative, ||Q x - Q x_e|| / ||P b|| in the scaling ||P A P|| = 1
+
+  double hessian_norm = 0;    ///< ||P A P||, kept from solve to solve
+  double precision = 1;       ///< M of SMALSE-M, kept from solve to solve
+  Eigen::VectorXd augmented;  ///< multipliers mu of the augmented Lagrangian of SMALSE-M, kept from solve to solve
+};
+
+}  // namespace mortise::qp

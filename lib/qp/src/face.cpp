@@ -1,0 +1,106 @@
+#include "qp/face.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+constexpr double tiny_disc = 1e-9;  // radii below this, relative to the largest, pin their unknowns
+
+double largest_radius(const FeasibleSet& set, const Communicator& comm)
+{
+  double largest = 0;
+  for (const auto& disc : set.discs())
+    if (std::isfinite(disc.radius)) largest = std::max(largest, disc.radius);
+  return comm.max(largest);
+}
+
+}  // namespace
+
+Face::Face(Projector& projector, const Vector& argument, double step, double stiffness)
+    : equality_(projector.equality()), matrix_(projector.matrix())
+{
+  const auto& set = projector.set();
+  const auto w = view(argument);
+  std::vector<LostBlock> lost;
+  for (const auto& bound : set.bounds())
+    if (w[bound.index] <= bound.lower) {
+      fixed_.push_back(bound.index);
+      ++active_bounds;
+    }
+  const double tiny = tiny_disc * largest_radius(set, equality_.communicator());
+  for (const auto& disc : set.discs()) {
+    const Eigen::Vector2d y = from_centre(disc, w);
+    const double r = y.norm();
+    if (r <= disc.radius && disc.radius > tiny) continue;
+    ++slipping;
+    if (disc.size() == 1 || disc.radius <= tiny) {
+      fixed_.insert(fixed_.end(), disc.index.begin(), disc.index.begin() + disc.size());
+      continue;
+    }
+    const double curvature = (r - disc.radius) / (step * disc.radius);
+    slips_.push_back({disc.index, Eigen::Vector2d(-y[1], y[0]) / r, curvature, std::sqrt(stiffness / (stiffness + curvature))});
+  }
+  for (const Local i : fixed_) {
+    auto& block = lost.emplace_back();
+    block.index[0] = i;
+    block.matrix(0, 0) = 1;
+  }
+  for (const auto& slip : slips_) {
+    auto& block = lost.emplace_back();
+    block.index = slip.index;
+    block.matrix = Eigen::Matrix2d::Identity() - slip.weight * slip.weight * slip.tangent * slip.tangent.transpose();
+  }
+  // Rows of G that no free direction feels make the matrix singular; a trace of G G' does no harm, for sweeps are repeated.
+  for (double regularisation = 1e-13; !matrix_.factorize(lost, regularisation); regularisation *= 100)
+    if (regularisation > 1e-3) throw Error(ExitStatus::not_converged, "the coarse matrix of a face cannot be factorized");
+}
+
+void Face::restrict(Vector& x, int power) const
+{
+  auto values = view(x);
+  for (const Local i : fixed_) values[i] = 0;
+  for (const auto& slip : slips_) {
+    const double along =
+        (values[slip.index[0]] * slip.tangent[0] + values[slip.index[1]] * slip.tangent[1]) * std::pow(slip.weight, power);
+    values[slip.index[0]] = along * slip.tangent[0];
+    values[slip.index[1]] = along * slip.tangent[1];
+  }
+}
+
+void Face::scale(Vector& x) const
+{
+  restrict(x, 1);
+}
+
+void Face::add_curvature(const Vector& x, Vector& y) const
+{
+  const auto in = view(x);
+  auto out = view(y);
+  for (const auto& slip : slips_) {
+    const double along = slip.curvature * (in[slip.index[0]] * slip.tangent[0] + in[slip.index[1]] * slip.tangent[1]);
+    out[slip.index[0]] += along * slip.tangent[0];
+    out[slip.index[1]] += along * slip.tangent[1];
+  }
+}
+
+void Face::sweep(Vector& x, bool direction) const
+{
+  restrict(x, 0);
+  if (equality_.size() == 0) return;
+  Vector part(x.getMap());
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    part.assign(x);
+    if (!direction) restrict(part, 2);
+    const Eigen::VectorXd nu = matrix_.solve(equality_.apply(part));
+    part.putScalar(0);
+    equality_.add_transpose(1, nu, part);
+    restrict(part, direction ? 2 : 0);
+    x.update(-1, part, 1);
+  }
+}
+
+}  // namespace mortise::qp

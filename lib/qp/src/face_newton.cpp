@@ -1,0 +1,226 @@
+#include "qp/face_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "qp/norm.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+constexpr double step_length = 2.0;      // of the gradient step that picks the face, over ||P A P||
+constexpr double safe_length = 1.5;      // of the step that is sure to descend
+constexpr double slip_stiffness = 0.1;   // curvatures of slip directions are measured against this part of ||P A P||
+constexpr double inner_reduction = 0.2;  // of the projected gradient on one face
+constexpr double norm_accuracy = 0.4;    // the step only picks the face, and a descent is checked
+constexpr int max_inner = 60;            // conjugate gradient steps on one face
+constexpr int max_faces = 200;
+constexpr int patience = 20;              // faces without a better residual after which it gives up
+constexpr int renewal_patience = 6;       // the same where slip bounds move, for then there is another way
+constexpr std::size_t max_recycled = 20;  // pairs kept from face to face
+constexpr int max_retreats = 8;           // of slip bounds
+constexpr int max_retreats_to_z = 2;      // quarters of the way back, before the step becomes a gradient projection
+constexpr int max_safeguards = 12;        // after which another algorithm will do better
+
+double projected_size(const Problem& problem)
+{
+  Vector pb(problem.linear, Teuchos::Copy);
+  problem.equality.project(pb);
+  return pb.norm2();
+}
+
+}  // namespace
+
+struct FaceNewton::State {
+  explicit State(const Teuchos::RCP<const Map>& map) : z(map), g(map), y(map), gy(map) {}
+  Vector z, g;   // a point of C and A z - b
+  Vector y, gy;  // the minimiser on its face, which may lie outside Omega, and A y - b
+};
+
+FaceNewton::FaceNewton(const Problem& problem, const Operator* preconditioner)
+    : problem_(problem), preconditioner_(preconditioner), projector_(problem.equality, problem.set)
+{
+}
+
+// z = M residual: the preconditioner between the projectors of the face, improved by all that is known of A from earlier
+// directions [Morales and Nocedal, Automatic preconditioning by limited memory quasi-Newton updating, SIAM J. Optim. 10 (2000)].
+void FaceNewton::precondition(const Face& face, const Vector& residual, Vector& z) const
+{
+  Vector q(residual, Teuchos::Copy);
+  std::vector<double> part(recycled_.size());
+  for (std::size_t i = recycled_.size(); i-- > 0;) {
+    part[i] = recycled_[i].direction.dot(q) / recycled_[i].energy;
+    q.update(-part[i], recycled_[i].image, 1);
+  }
+  if (!recycled_.empty()) face.project_gradient(q);
+  face.scale(q);
+  if (preconditioner_) {
+    preconditioner_->apply(q, z);
+    ++preconditionings_;
+  } else {
+    z.update(step_length / norm_, q, 0);
+  }
+  face.scale(z);
+  if (!recycled_.empty()) face.project(z);
+  for (std::size_t i = 0; i < recycled_.size(); ++i)
+    z.update(part[i] - recycled_[i].image.dot(z) / recycled_[i].energy, recycled_[i].direction, 1);
+  face.project(z);
+}
+
+// Conjugate gradients for min 1/2 d'(A + Sigma) d + g'd over the free directions d of the face; sets y and gy. Returns false if
+// there was nothing to do.
+bool FaceNewton::descend(const Face& face, double goal, const std::function<void()>& report, State& state)
+{
+  auto& [z, g, y, gy] = state;
+  const auto map = z.getMap();
+  y.assign(z);
+  gy.assign(g);
+  Vector r(g, Teuchos::Copy), scaled(map), direction(map), product(map);
+  r.scale(-1);
+  face.project_gradient(r);
+  const auto size = [&] {
+    scaled.assign(r);
+    face.scale(scaled);
+    return scaled.norm2();
+  };
+  const double start = size();
+  if (start <= 1e-2 * goal) return false;
+  goal = std::max(goal, inner_reduction * start);
+  std::deque<Pair> fresh;
+  for (int step = 0; step < max_inner && !problem_.hessian.exhausted(); ++step) {
+    precondition(face, r, direction);
+    for (const auto& pair : fresh) direction.update(-pair.image.dot(direction) / pair.energy, pair.direction, 1);
+    problem_.hessian.apply(direction, product);
+    Vector image(product, Teuchos::Copy);
+    face.add_curvature(direction, image);
+    const double energy = direction.dot(image);
+    if (!(energy > 0)) break;
+    const double length = direction.dot(r) / energy;
+    y.update(length, direction, 1);
+    gy.update(length, product, 1);
+    r.update(-length, image, 1);
+    face.project_gradient(r);
+    problem_.equality.project(image);
+    fresh.push_back({Vector(direction, Teuchos::Copy), std::move(image), energy});
+    if (fresh.size() > max_recycled) fresh.pop_front();
+    report();
+    if (size() <= goal) break;
+  }
+  for (auto& pair : fresh) recycled_.push_back(std::move(pair));
+  while (recycled_.size() > max_recycled) recycled_.pop_front();
+  return true;
+}
+
+Solution FaceNewton::solve(const std::optional<Solution>& start, double tolerance, const Renewal* renewal,
+                           const Observer& observer)
+{
+  auto& [hessian, linear, equality, set] = problem_;
+  const auto map = hessian.map();
+  Projection feasible = projector_(start ? start->x : Vector(map));
+  Solution result(feasible.point, Vector(map), feasible.nu);
+  if (!feasible.found) {
+    result.feasible = false;
+    return result;
+  }
+  preconditionings_ = 0;
+  if (norm_ == 0) {
+    norm_ = start && start->hessian_norm > 0 ? start->hessian_norm : projected_norm(hessian, equality, norm_accuracy);
+    if (observer) observer({"norm", 0, hessian.count()});
+    if (norm_ == 0) norm_ = 1;
+  }
+  double size = projected_size(problem_);
+  if (size == 0) size = 1;
+
+  State state(map);
+  auto& [z, g, y, gy] = state;
+  const auto evaluate = [&](const Vector& at, Vector& gradient) {
+    hessian.apply(at, gradient);
+    gradient.update(-1, linear, 1);
+  };
+  const auto energy_of = [&](const Vector& at, const Vector& gradient) { return 0.5 * (at.dot(gradient) - at.dot(linear)); };
+  z.assign(feasible.point);
+  evaluate(z, g);
+  y.assign(z);
+  gy.assign(g);
+
+  double energy = energy_of(z, g);
+  double residual = 0, mismatch = 0, best = std::numeric_limits<double>::infinity();
+  int since_best = 0;
+  FeasibleSet::Active active{};
+  const auto report = [&](const char* what) {
+    if (observer)
+      observer({what, result.outer_iterations, hessian.count(), residual / size, mismatch / size, 0, active, preconditionings_});
+  };
+  Eigen::VectorXd nu =
+      start && start->nu.size() == equality.size() ? Eigen::VectorXd(start->nu * (step_length / norm_)) : Eigen::VectorXd();
+  bool moved = false;  // y differs from z
+  while (true) {
+    double step = step_length / norm_;
+    Vector trial(y, Teuchos::Copy);
+    trial.update(-step, gy, 1);
+    if (renewal && result.outer_iterations > 0) renewal->renew(y, true);
+    Projection next = projector_(trial, nu);
+    for (int retreat = 0; renewal && !next.found && retreat < max_retreats; ++retreat) {
+      renewal->retreat();
+      next = projector_(trial, nu);
+    }
+    if (!next.found) {  // bounds that leave no feasible point, for a start there was one
+      result.feasible = false;
+      result.nu = next.nu;
+      return result;
+    }
+    Vector gradient(map);
+    evaluate(next.point, gradient);
+    double next_energy = energy_of(next.point, gradient);
+    // Where the face was picked badly the minimiser on it is far away: go back towards z until the function falls.
+    double part = 1;
+    for (int attempt = 0; !renewal && moved && next_energy > energy + 1e-9 * std::abs(energy) && !hessian.exhausted();
+         ++attempt) {
+      part = attempt < max_retreats_to_z ? part * 0.25 : 0;
+      step = part > 0 ? step : safe_length / norm_;
+      trial.update(1 - part, z, part, y, 0);
+      trial.update(-step * (1 - part), g, -step * part, gy, 1);
+      next = projector_(trial, Eigen::VectorXd(nu * (step * norm_ / step_length)));
+      evaluate(next.point, gradient);
+      next_energy = energy_of(next.point, gradient);
+      ++result.safeguards;
+      if (part == 0) break;
+    }
+    z.assign(next.point);
+    g.assign(gradient);
+    energy = next_energy;
+    nu = next.nu * (step_length / norm_ / step);
+    active = set.active(view(std::as_const(z)));
+
+    trial.assign(z);
+    trial.update(-1 / norm_, g, 1);
+    const Projection natural = projector_(trial, Eigen::VectorXd(nu / step_length));
+    trial.update(1, z, -1, natural.point, 0);
+    residual = trial.norm2() * norm_;
+    mismatch = renewal ? renewal->renew(z, false) * norm_ / step_length : 0.0;
+    result.nu = natural.nu * norm_;
+    ++result.outer_iterations;
+    report("outer");
+    const double worst = std::max(residual, mismatch);
+    result.converged = worst <= tolerance * size;
+    since_best = worst < 0.9 * best ? 0 : since_best + 1;
+    best = std::min(best, worst);
+    if (result.converged || hessian.exhausted() || result.outer_iterations >= max_faces ||
+        since_best >= (renewal ? renewal_patience : patience) || result.safeguards > max_safeguards)
+      break;
+
+    const Face face(projector_, next.argument, step, slip_stiffness * norm_);
+    moved = descend(
+        face, 0.1 * tolerance * size, [&] { report("inner"); }, state);
+  }
+  result.x.assign(z);
+  result.gradient.assign(g);
+  result.hessian_norm = norm_;
+  result.preconditionings = preconditionings_;
+  result.projected_gradient = residual / size;
+  result.equality = equality.size() > 0 ? equality.norm(equality.right_side() - equality.apply(z)) * norm_ / size : 0.0;
+  return result;
+}
+
+}  // namespace mortise::qp
