@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
+#include "partition/congruence.hpp"
 
 namespace mortise {
 
@@ -38,11 +39,26 @@ const fem::Material& Model::material(const partition::Subdomain& subdomain) cons
   return deck_.materials.at(deck_.bodies.at(group).material);
 }
 
-std::vector<SparseMatrix> Model::stiffness() const
+std::vector<std::size_t> Model::congruent() const
 {
-  std::vector<SparseMatrix> result;
-  for (const auto& subdomain : decomposition_.subdomains)
-    result.push_back(fem::stiffness(subdomain.mesh, material(subdomain), deck_.kinematics));
+  std::vector<int> kind;  // place of the material among all
+  for (const auto& subdomain : decomposition_.subdomains) {
+    const auto& materials = deck_.materials;
+    const auto found = std::find_if(materials.begin(), materials.end(),
+                                    [&](const auto& entry) { return &entry.second == &material(subdomain); });
+    kind.push_back(static_cast<int>(std::distance(materials.begin(), found)));
+  }
+  return partition::congruent(decomposition_.subdomains, kind);
+}
+
+std::vector<SparseMatrix> Model::stiffness(const std::vector<std::size_t>& original) const
+{
+  std::vector<SparseMatrix> result(original.size());
+  for (std::size_t s = 0; s < original.size(); ++s) {
+    if (original[s] != s) continue;
+    const auto& subdomain = decomposition_.subdomains[s];
+    result[s] = fem::stiffness(subdomain.mesh, material(subdomain), deck_.kinematics);
+  }
   return result;
 }
 

@@ -16,8 +16,10 @@ class Model {
   Model(const Deck& deck, const partition::Decomposition& decomposition) : deck_(deck), decomposition_(decomposition) {}
 
   const fem::Material& material(const partition::Subdomain& subdomain) const;
-  /// Stiffness of every subdomain: its lower triangle.
-  std::vector<SparseMatrix> stiffness() const;
+  /// For each subdomain the first one of this rank with the same shape and material.
+  std::vector<std::size_t> congruent() const;
+  /// Stiffness of every subdomain s with `original`[s] == s: its lower triangle. The others get an empty matrix.
+  std::vector<SparseMatrix> stiffness(const std::vector<std::size_t>& original) const;
   /// Consistent loads of every subdomain. Collective.
   std::vector<Eigen::VectorXd> loads(const Communicator& comm) const;
   /// Nodes of this rank on the boundary of each support.

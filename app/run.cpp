@@ -67,17 +67,22 @@ void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& dec
           deck.contacts[c].name);
 }
 
-// Factorizes every subdomain.
+// Factorizes every subdomain that is not a copy of an earlier one.
 feti::Floating float_subdomains(const Deck& deck, const partition::Decomposition& decomposition,
-                                std::vector<SparseMatrix> stiffness, std::vector<Eigen::VectorXd> load,
-                                std::vector<std::vector<double>> nodal_stiffness, const Communicator& comm)
+                                const std::vector<std::size_t>& original, std::vector<SparseMatrix> stiffness,
+                                std::vector<Eigen::VectorXd> load, std::vector<std::vector<double>> nodal_stiffness,
+                                const Communicator& comm)
 {
   feti::Floating floating{{}, std::move(load), std::move(nodal_stiffness)};
   collectively(comm, [&] {
-    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    for (std::size_t s = 0; s < original.size(); ++s) {
+      if (original[s] != s) {
+        floating.subdomains.push_back(floating.subdomains[original[s]]);
+        continue;
+      }
       const auto& points = decomposition.subdomains[s].mesh.points;
       floating.subdomains.push_back(
-          std::make_unique<feti::ElasticSubdomain>(std::move(stiffness[s]), fem::rigid_motions(points, deck.dimension()), points,
+          std::make_shared<feti::ElasticSubdomain>(std::move(stiffness[s]), fem::rigid_motions(points, deck.dimension()), points,
                                                    deck.dimension(), deck.solver.subdomains.factorization));
     }
   });
@@ -149,24 +154,35 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
     return ExitStatus::solved;
   }
 
+  std::vector<std::size_t> original;
   std::vector<SparseMatrix> stiffness;
   std::vector<Eigen::VectorXd> load;
   {
     const auto scope = timers.scope("assembly");
-    collectively(comm, [&] { stiffness = model.stiffness(); });
+    original = model.congruent();
+    collectively(comm, [&] { stiffness = model.stiffness(original); });
     load = model.loads(comm);
   }
   stage("assembly", "assembly");
   std::vector<std::vector<double>> nodal_stiffness;
-  for (const auto& k : stiffness) nodal_stiffness.push_back(feti::nodal_stiffness(k, deck.dimension()));
+  for (std::size_t s = 0; s < original.size(); ++s)
+    nodal_stiffness.push_back(original[s] == s ? feti::nodal_stiffness(stiffness[s], deck.dimension())
+                                               : nodal_stiffness[original[s]]);
   const partition::NodeDirectory directory(decomposition, nodal_stiffness, comm);
   const auto interface = partition::find_interface(decomposition, directory, comm);
   feti::Floating floating;
   {
     const auto scope = timers.scope("factorization");
-    floating = float_subdomains(deck, decomposition, std::move(stiffness), std::move(load), std::move(nodal_stiffness), comm);
+    floating =
+        float_subdomains(deck, decomposition, original, std::move(stiffness), std::move(load), std::move(nodal_stiffness), comm);
   }
   stage("factorization", "factorization");
+  long long originals = 0;
+  for (std::size_t s = 0; s < original.size(); ++s) originals += original[s] == s ? 1 : 0;
+  originals = comm.sum(originals);
+  if (originals < decomposition.subdomain_count())
+    log.line("  {} subdomains are copies of {} others and share their factors", decomposition.subdomain_count() - originals,
+             originals);
 
   History history(deck, context);
   std::unique_ptr<feti::DualProblem> problem;

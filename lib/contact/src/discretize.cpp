@@ -137,9 +137,10 @@ class Builder {
   {
     const Place& place = places_.all[p];
     const Point x = secondary_.points[static_cast<std::size_t>(place.node)];
-    const Point margin = Point::Constant(2 * std::max(std::abs(mean), reach_));
+    const double length = 2 * std::max(std::abs(mean), reach_);
+    const Point margin = Point::Constant(0.02 * length);  // so that the sweep has few pieces
     double best = std::numeric_limits<double>::infinity();
-    for (const int m : tree_->meeting(Box(x - margin, x + margin))) {
+    for (const int m : tree_->swept(Box(x - margin, x + margin), length * place.normal)) {
       const auto face = static_cast<std::size_t>(m);
       const auto geometry = primary_.geometry(face);
       const auto hit = shoot(x, place.normal, geometry);

@@ -37,11 +37,11 @@ FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, s
   FaceIntegrals result{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), whole_face(own), Eigen::VectorXd::Zero(n), {}};
   Box box;
   for (const auto& p : own.nodes) box.extend(p);
-  const Point margin = Point::Constant(reach);
+  const Point margin = Point::Constant(1e-6 * own.size());
   box.min() -= margin;
   box.max() += margin;
   std::map<Local, Eigen::VectorXd> opposite;
-  for (const int m : tree.meeting(box)) {
+  for (const int m : tree.swept(box, reach * own.normal())) {
     const FaceGeometry other = primary.geometry(static_cast<std::size_t>(m));
     const auto nodes = primary.faces[static_cast<std::size_t>(m)];
     const auto other_normals = corner_normals(primary, primary_places, static_cast<std::size_t>(m));

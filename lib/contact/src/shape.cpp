@@ -28,7 +28,7 @@ Plane locate_in_quad(std::span<const Plane> nodes, const Plane& x)
       value += n[i] * nodes[static_cast<std::size_t>(i)];
       jacobian += nodes[static_cast<std::size_t>(i)] * g.row(i);
     }
-    const Plane change = jacobian.fullPivLu().solve(x - value);
+    const Plane change = jacobian.inverse() * (x - value);
     at += change;
     if (change.squaredNorm() < 1e-30) break;
     at = at.cwiseMax(-3).cwiseMin(3);  // strays only on badly warped faces

@@ -1,6 +1,7 @@
 #include "tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace mortise::contact {
@@ -51,6 +52,24 @@ std::vector<int> Tree::meeting(const Box& box) const
         found.push_back(order_[static_cast<std::size_t>(i)]);
   }
   std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<int> Tree::swept(const Box& box, const Point& direction) const
+{
+  // A slanted sweep in pieces, for its one box would hold much that it does not meet.
+  constexpr double most = 64;
+  const double size = box.sizes().maxCoeff();
+  const auto pieces = static_cast<int>(std::clamp(std::ceil(2 * direction.norm() / std::max(size, 1e-300)), 1.0, most));
+  std::vector<int> found;
+  for (int i = 0; i < pieces; ++i) {
+    Box piece = box.translated(direction * (2.0 * i / pieces - 1));
+    piece.extend(box.translated(direction * (2.0 * (i + 1) / pieces - 1)));
+    const auto part = meeting(piece);
+    found.insert(found.end(), part.begin(), part.end());
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

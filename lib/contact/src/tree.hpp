@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "base/types.hpp"
+
 namespace mortise::contact {
 
 using Box = Eigen::AlignedBox3d;
@@ -14,6 +16,8 @@ class Tree {
   explicit Tree(std::vector<Box> boxes);
   /// Indices of all boxes that meet `box`, ascending.
   std::vector<int> meeting(const Box& box) const;
+  /// The same for what `box` sweeps when it moves by -direction to +direction.
+  std::vector<int> swept(const Box& box, const Point& direction) const;
 
  private:
   struct Branch {

@@ -2,8 +2,8 @@
 
 namespace mortise::feti {
 
-SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const JumpOperator& jump,
-                         const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains, const Communicator& comm)
+SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
+                         const Communicator& comm)
 {
   const KernelNumbering numbering{decomposition.catalogue.dimension == 3 ? 6 : 3};
   std::vector<JumpOperator::Contribution> contributions;
@@ -21,8 +21,7 @@ SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const Ju
   return jump.gather_columns(contributions, numbering.first(decomposition.subdomain_count()), comm);
 }
 
-Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition,
-                                   const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
+Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition, const Subdomains& subdomains,
                                    const std::vector<Eigen::VectorXd>& v, const Communicator& comm)
 {
   const KernelNumbering numbering{decomposition.catalogue.dimension == 3 ? 6 : 3};

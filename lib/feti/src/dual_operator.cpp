@@ -7,7 +7,7 @@ void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp,
   const auto scope = timers_.scope("multiplication");
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     auto forces = jump_.apply_transpose(*x.getVector(column));
-    for (std::size_t s = 0; s < forces.size(); ++s) subdomains_[s]->apply_inverse(forces[s].data(), forces[s].data(), 1);
+    apply_inverse(subdomains_, forces);
     y.getVectorNonConst(column)->update(alpha, jump_.apply(forces), beta);
   }
 }

@@ -41,11 +41,8 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
     });
   make_set();
 
-  std::vector<Eigen::VectorXd> u;
-  for (std::size_t s = 0; s < floating.subdomains.size(); ++s) {
-    u.push_back(floating.load[s]);
-    floating.subdomains[s]->apply_inverse(u[s].data(), u[s].data(), 1);
-  }
+  std::vector<Eigen::VectorXd> u = floating.load;
+  apply_inverse(floating.subdomains, u);
   linear_ = std::make_unique<Vector>(jump_->apply(u), Teuchos::Copy);
   view(*linear_) -= jump_->bound();
 }
@@ -113,11 +110,10 @@ std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, con
 {
   const KernelNumbering numbering{decomposition_.catalogue.dimension == 3 ? 6 : 3};
   auto u = jump_->apply_transpose(lambda);
-  for (std::size_t s = 0; s < u.size(); ++s) {
-    u[s] = floating_.load[s] - u[s];
-    floating_.subdomains[s]->apply_inverse(u[s].data(), u[s].data(), 1);
+  for (std::size_t s = 0; s < u.size(); ++s) u[s] = floating_.load[s] - u[s];
+  apply_inverse(floating_.subdomains, u);
+  for (std::size_t s = 0; s < u.size(); ++s)
     u[s] -= floating_.subdomains[s]->kernel() * nu.segment(numbering.first(decomposition_.subdomains[s].id), numbering.dimension);
-  }
   return u;
 }
 

@@ -54,7 +54,7 @@ struct Bodies {
   Eigen::VectorXd generalised;  // work of the loads on each unit motion
 };
 
-Bodies aggregate(const partition::Decomposition& decomposition, const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
+Bodies aggregate(const partition::Decomposition& decomposition, const Subdomains& subdomains,
                  const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
   Bodies bodies;
@@ -152,9 +152,8 @@ std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition
   return frames;
 }
 
-RigidMotion rigid_part(const partition::Decomposition& decomposition,
-                       const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains, const BodyFrame& frame, int body,
-                       const Eigen::VectorXd& coordinates, const Communicator& comm)
+RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subdomains& subdomains, const BodyFrame& frame,
+                       int body, const Eigen::VectorXd& coordinates, const Communicator& comm)
 {
   const int dimension = decomposition.catalogue.dimension;
   const KernelNumbering numbering{dimension == 3 ? 6 : 3};
@@ -176,9 +175,8 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition,
 }
 
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
-                                          const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
-                                          const SparseMatrix& g, const std::vector<Eigen::VectorXd>& load,
-                                          const Communicator& comm)
+                                          const Subdomains& subdomains, const SparseMatrix& g,
+                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
   const Bodies bodies = aggregate(decomposition, subdomains, load, comm);
   const int modes = bodies.modes;

@@ -1,5 +1,7 @@
 #include "feti/preconditioner.hpp"
 
+#include <map>
+
 #include "partition/node_directory.hpp"
 
 namespace mortise::feti {
@@ -28,13 +30,17 @@ SparseMatrix extract(const SparseMatrix& lower, const std::vector<int>& row, int
 }  // namespace
 
 Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump,
-                               const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
-                               const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization,
-                               Timers& timers)
+                               const Subdomains& subdomains, const std::vector<std::vector<double>>& nodal_stiffness,
+                               const std::string& factorization, Timers& timers)
     : jump_(jump), timers_(timers)
 {
   const int dimension = decomposition.catalogue.dimension;
+  std::map<const SubdomainOperator*, std::shared_ptr<const Surface>> made;
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    if (const auto known = made.find(subdomains[s].get()); known != made.end()) {
+      surfaces_.push_back(known->second);
+      continue;
+    }
     const SparseMatrix& stiffness = subdomains[s]->stiffness();
     Surface surface;
     std::vector<int> outside(static_cast<std::size_t>(stiffness.rows()), -1), inside(outside);
@@ -60,7 +66,8 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
         surface.coupling = extract(stiffness, inside, interior, outside, size, false);
       }
     }
-    surfaces_.push_back(std::move(surface));
+    surfaces_.push_back(std::make_shared<const Surface>(std::move(surface)));
+    made.emplace(subdomains[s].get(), surfaces_.back());
   }
 }
 
@@ -71,7 +78,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
     const auto in = x.getVector(column);
     auto forces = jump_.apply_transpose(*in);
     for (std::size_t s = 0; s < forces.size(); ++s) {
-      const auto& surface = surfaces_[s];
+      const auto& surface = *surfaces_[s];
       const Eigen::VectorXd u = forces[s](surface.unknowns).cwiseProduct(surface.weight);
       Eigen::VectorXd f = surface.lower.selfadjointView<Eigen::Lower>() * u;
       if (surface.interior) {

@@ -49,7 +49,7 @@ struct Cube {
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness.back(), 3));
       floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.back().cols()));
       fem::add_traction(s.mesh, 5, 3, Point(0.1, 0, 1), floating.load.back());
-      floating.subdomains.push_back(std::make_unique<ElasticSubdomain>(stiffness.back(), fem::rigid_motions(s.mesh.points, 3),
+      floating.subdomains.push_back(std::make_shared<ElasticSubdomain>(stiffness.back(), fem::rigid_motions(s.mesh.points, 3),
                                                                        s.mesh.points, 3, "cholmod"));
     }
     directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
@@ -149,8 +149,8 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
     const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
     const qp::Solution solution = std::string(GetParam()) == "smalse"
                                       ? qp::smalse(programme, {}, 1e-10, {})
-                                      : qp::FaceNewton(programme, problem.preconditioner()).solve({}, 1e-10, nullptr, {});
-    ASSERT_TRUE(solution.converged);
+                                      : qp::FaceNewton(programme, problem.preconditioner()).solve({}, 1e-9, nullptr, {});
+    ASSERT_TRUE(solution.converged) << solution.projected_gradient << " after " << hessian.count() << " products";
     EXPECT_LT(hessian.count(), 120);
     const auto u = problem.displacement(solution.x, solution.nu);
 

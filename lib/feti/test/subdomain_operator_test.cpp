@@ -40,6 +40,26 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Inverse,
                                           testing::Values(std::array<double, 3>{1, 1, 1}, std::array<double, 3>{100, 1, 1},
                                                           std::array<double, 3>{50, 50, 1})));
 
+TEST(Inverse, GoesThroughSharedFactorsInBlocks)
+{
+  const auto mesh = block({3, 2, 2}, {1, 1, 1}), other = block({2, 2, 2}, {1, 1, 1});
+  const auto make = [](const mesh::Mesh& m) {
+    return std::make_shared<const ElasticSubdomain>(fem::stiffness(m, {2e5, 0.3, 0, 0}, fem::Kinematics::solid),
+                                                    fem::rigid_motions(m.points, 3), m.points, 3, "cholmod");
+  };
+  const auto a = make(mesh), b = make(other);
+  Subdomains subdomains;
+  std::vector<Eigen::VectorXd> v, expected;
+  for (int s = 0; s < 150; ++s) {  // more than two blocks of copies of a, one b among them
+    subdomains.push_back(s == 70 ? b : a);
+    v.emplace_back(Eigen::VectorXd::LinSpaced(subdomains.back()->size(), s, 2 * s + 1));
+    expected.push_back(v.back());
+    subdomains.back()->apply_inverse(expected.back().data(), expected.back().data(), 1);
+  }
+  apply_inverse(subdomains, v);
+  for (std::size_t s = 0; s < v.size(); ++s) EXPECT_LT((v[s] - expected[s]).norm(), 1e-12 * expected[s].norm()) << s;
+}
+
 TEST(FixingNodes, AreFewForACompactSubdomain)
 {
   const auto mesh = block({6, 6, 6}, {1, 1, 1});

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mesh/topology.hpp"
+#include "partition/congruence.hpp"
 #include "partition/node_directory.hpp"
 
 namespace mortise::partition {
@@ -124,6 +125,27 @@ TEST(NodeDirectory, KnowsEveryCopy)
   for (std::size_t s = 0; s < values.size(); ++s)
     for (std::size_t n = 0; n < d.subdomains[s].mesh.node_count(); ++n)
       EXPECT_EQ(values[s](static_cast<Eigen::Index>(n), 1), static_cast<double>(copies[d.subdomains[s].mesh.node_id[n]]));
+}
+
+TEST(Congruence, CopiesAreFoundAndOthersAreNot)
+{
+  const Communicator alone(MPI_COMM_SELF);
+  Options options;
+  options.method = "grid";
+  options.counts = {{"lower", {3, 2, 2}}, {"upper", {4, 2, 2}}};  // cells 2 x 2 x 2, and 1 or 2 x 2 x 2
+  auto d = make(beams("hex8", {6, 4, 4}), options, alone);
+  std::vector<int> kind(d.subdomains.size(), 0);
+  const auto first = congruent(d.subdomains, kind);
+  std::set<std::size_t> originals(first.begin(), first.end());
+  EXPECT_EQ(originals.size(), 2U);  // of 12 and 16
+  for (std::size_t s = 0; s < first.size(); ++s)
+    EXPECT_EQ(d.subdomains[s].mesh.cells.size(), d.subdomains[first[s]].mesh.cells.size());
+  kind[3] = 1;
+  EXPECT_EQ(congruent(d.subdomains, kind)[3], 3U);
+  d.subdomains[4].mesh.points[5][0] += 1e-7;
+  EXPECT_EQ(congruent(d.subdomains, kind)[4], 4U);
+  d.subdomains[4].mesh.points[5][0] -= 1e-7;
+  EXPECT_EQ(congruent(d.subdomains, kind)[4], 0U);
 }
 
 TEST(BoundarySurface, IsWholeOverAllRanks)

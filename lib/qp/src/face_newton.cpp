@@ -18,7 +18,8 @@ constexpr int max_inner = 60;            // conjugate gradient steps on one face
 constexpr int max_faces = 200;
 constexpr int patience = 20;              // faces without a better residual after which it gives up
 constexpr int renewal_patience = 6;       // the same where slip bounds move, for then there is another way
-constexpr std::size_t max_recycled = 20;  // pairs kept from face to face
+constexpr std::size_t max_recycled = 40;  // pairs kept from face to face
+constexpr double recycled_bytes = 1e9;    // that they may take of each rank; at least 10 are kept
 constexpr int max_retreats = 8;           // of slip bounds
 constexpr int max_retreats_to_z = 2;      // quarters of the way back, before the step becomes a gradient projection
 constexpr int max_safeguards = 12;        // after which another algorithm will do better
@@ -41,6 +42,8 @@ struct FaceNewton::State {
 FaceNewton::FaceNewton(const Problem& problem, const Operator* preconditioner)
     : problem_(problem), preconditioner_(preconditioner), projector_(problem.equality, problem.set)
 {
+  const double pair = 16.0 * static_cast<double>(problem.linear.getGlobalLength()) / problem.equality.communicator().size();
+  kept_ = static_cast<std::size_t>(std::clamp(recycled_bytes / std::max(pair, 1.0), 10.0, static_cast<double>(max_recycled)));
 }
 
 // z = M residual: the preconditioner between the projectors of the face, improved by all that is known of A from earlier
@@ -103,12 +106,12 @@ bool FaceNewton::descend(const Face& face, double goal, const std::function<void
     face.project_gradient(r);
     problem_.equality.project(image);
     fresh.push_back({Vector(direction, Teuchos::Copy), std::move(image), energy});
-    if (fresh.size() > max_recycled) fresh.pop_front();
+    if (fresh.size() > kept_) fresh.pop_front();
     report();
     if (size() <= goal) break;
   }
   for (auto& pair : fresh) recycled_.push_back(std::move(pair));
-  while (recycled_.size() > max_recycled) recycled_.pop_front();
+  while (recycled_.size() > kept_) recycled_.pop_front();
   return true;
 }
 

@@ -19,12 +19,11 @@ struct KernelNumbering {
 };
 
 /// G over the owned rows of this rank: kernels x rows. Collective.
-SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const JumpOperator& jump,
-                         const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains, const Communicator& comm);
+SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
+                         const Communicator& comm);
 
 /// R_s'v_s of every subdomain, on every rank: e for v = f. Collective.
-Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition,
-                                   const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
+Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition, const Subdomains& subdomains,
                                    const std::vector<Eigen::VectorXd>& v, const Communicator& comm);
 
 }  // namespace mortise::feti

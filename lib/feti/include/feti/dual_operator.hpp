@@ -14,7 +14,7 @@ namespace mortise::feti {
 /// Refers to its parts; they outlive it.
 class DualOperator : public Operator {
  public:
-  DualOperator(const JumpOperator& jump, const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains, Timers& timers)
+  DualOperator(const JumpOperator& jump, const Subdomains& subdomains, Timers& timers)
       : jump_(jump), subdomains_(subdomains), timers_(timers)
   {
   }
@@ -25,7 +25,7 @@ class DualOperator : public Operator {
 
  private:
   const JumpOperator& jump_;
-  const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains_;
+  const Subdomains& subdomains_;
   Timers& timers_;
 };
 

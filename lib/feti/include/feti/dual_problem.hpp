@@ -23,7 +23,7 @@ namespace mortise::feti {
 
 /// What is floating: the subdomains of this rank, in the order of Decomposition::subdomains, and what acts on them.
 struct Floating {
-  std::vector<std::unique_ptr<SubdomainOperator>> subdomains;
+  Subdomains subdomains;
   std::vector<Eigen::VectorXd> load;                 ///< f
   std::vector<std::vector<double>> nodal_stiffness;  ///< as given to the NodeDirectory
 };

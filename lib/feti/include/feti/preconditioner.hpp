@@ -22,8 +22,7 @@ class Preconditioner : public Operator {
  public:
   enum class Kind { lumped, dirichlet };
   /// nodal_stiffness[s][n]: D. `factorization`: of K_ii, one of direct_solvers(). Throws as DirectSolver.
-  Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump,
-                 const std::vector<std::unique_ptr<SubdomainOperator>>& subdomains,
+  Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
                  const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization, Timers& timers);
   Teuchos::RCP<const Map> getDomainMap() const override { return jump_.rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return jump_.rows(); }
@@ -39,7 +38,7 @@ class Preconditioner : public Operator {
     std::unique_ptr<DirectSolver> interior;
   };
   const JumpOperator& jump_;
-  std::vector<Surface> surfaces_;
+  std::vector<std::shared_ptr<const Surface>> surfaces_;  // congruent subdomains share one
   Timers& timers_;
 };
 

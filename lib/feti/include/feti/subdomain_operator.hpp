@@ -29,6 +29,13 @@ class SubdomainOperator {
   virtual std::size_t factor_bytes() const = 0;
 };
 
+/// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Congruent subdomains have the same one.
+using Subdomains = std::vector<std::shared_ptr<const SubdomainOperator>>;
+
+/// v_s = K_s^+ v_s for every subdomain. Vectors of the same operator go through its factor together, in blocks that stay in
+/// cache.
+void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v);
+
 /// Finite elements. K^+ = (K + r N)^-1 with N = E R_I (R_I'R_I)^-1 R_I'E', where R_I is the kernel at a few fixing nodes and r
 /// the mean of diag K: multiplied by R' it shows that R_I'u_I = 0 when f is in Im K, so that K u = f exactly for every r > 0.
 class ElasticSubdomain : public SubdomainOperator {

@@ -44,6 +44,7 @@ class FaceNewton {
   const Operator* preconditioner_;
   Projector projector_;
   std::deque<Pair> recycled_;
+  std::size_t kept_ = 0;  // of them, the same on every rank
   double norm_ = 0;
   mutable int preconditionings_ = 0;
 };
