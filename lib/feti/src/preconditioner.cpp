@@ -1,5 +1,6 @@
 #include "feti/preconditioner.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "partition/node_directory.hpp"
@@ -77,18 +78,26 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
     auto forces = jump_.apply_transpose(*in);
-    for (std::size_t s = 0; s < forces.size(); ++s) {
-      const auto& surface = *surfaces_[s];
-      const Eigen::VectorXd u = forces[s](surface.unknowns).cwiseProduct(surface.weight);
-      Eigen::VectorXd f = surface.lower.selfadjointView<Eigen::Lower>() * u;
-      if (surface.interior) {
-        Eigen::VectorXd inner = surface.coupling * u;
-        surface.interior->solve(inner.data(), inner.data(), 1);
-        f -= surface.coupling.transpose() * inner;
+    std::map<const Surface*, std::vector<std::size_t>> members;
+    for (std::size_t s = 0; s < forces.size(); ++s) members[surfaces_[s].get()].push_back(s);
+    for (const auto& [surface, list] : members)
+      for (std::size_t first = 0; first < list.size(); first += block_columns) {
+        const auto count = static_cast<Eigen::Index>(std::min(block_columns, list.size() - first));
+        Eigen::MatrixXd u(surface->weight.size(), count);
+        for (Eigen::Index c = 0; c < count; ++c)
+          u.col(c) = forces[list[first + static_cast<std::size_t>(c)]](surface->unknowns).cwiseProduct(surface->weight);
+        Eigen::MatrixXd f = surface->lower.selfadjointView<Eigen::Lower>() * u;
+        if (surface->interior) {
+          Eigen::MatrixXd inner = surface->coupling * u;
+          surface->interior->solve(inner.data(), inner.data(), static_cast<int>(count));
+          f -= surface->coupling.transpose() * inner;
+        }
+        for (Eigen::Index c = 0; c < count; ++c) {
+          auto& force = forces[list[first + static_cast<std::size_t>(c)]];
+          force.setZero();
+          force(surface->unknowns) = f.col(c).cwiseProduct(surface->weight);
+        }
       }
-      forces[s].setZero();
-      forces[s](surface.unknowns) = f.cwiseProduct(surface.weight);
-    }
     Vector result = jump_.apply(forces);
     const auto extra = jump_.ranges().end - jump_.ranges().extra;
     view(result).segment(jump_.ranges().extra, extra) = view(*in).segment(jump_.ranges().extra, extra);

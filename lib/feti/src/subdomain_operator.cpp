@@ -56,7 +56,6 @@ double quality(const Eigen::MatrixXd& kernel, std::span<const Local> nodes, int 
 
 void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v)
 {
-  constexpr std::size_t block = 64;  // columns
   std::map<const SubdomainOperator*, std::vector<std::size_t>> members;
   for (std::size_t s = 0; s < subdomains.size(); ++s) members[subdomains[s].get()].push_back(s);
   Eigen::MatrixXd columns;
@@ -66,8 +65,8 @@ void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v
       subdomain->apply_inverse(x, x, 1);
       continue;
     }
-    for (std::size_t first = 0; first < list.size(); first += block) {
-      const auto count = std::min(block, list.size() - first);
+    for (std::size_t first = 0; first < list.size(); first += block_columns) {
+      const auto count = std::min(block_columns, list.size() - first);
       columns.resize(subdomain->size(), static_cast<Eigen::Index>(count));
       for (std::size_t i = 0; i < count; ++i) columns.col(static_cast<Eigen::Index>(i)) = v[list[first + i]];
       subdomain->apply_inverse(columns.data(), columns.data(), static_cast<int>(count));

@@ -32,6 +32,9 @@ class SubdomainOperator {
 /// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Congruent subdomains have the same one.
 using Subdomains = std::vector<std::shared_ptr<const SubdomainOperator>>;
 
+/// Right-hand sides that go through one factor together.
+inline constexpr std::size_t block_columns = 64;
+
 /// v_s = K_s^+ v_s for every subdomain. Vectors of the same operator go through its factor together, in blocks that stay in
 /// cache.
 void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v);
