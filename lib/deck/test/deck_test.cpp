@@ -112,11 +112,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "cart.yaml:2: wheels.left: the key \"radius\" is missing: Radius."},
         Mistake{"title: x\n", "cart.yaml:1: the key \"wheels\" is missing: By place."},
         Mistake{"wheels: {only: {radius: 1}}\n", "cart.yaml:1: wheels: one wheel is a unicycle"},
-        Mistake{"", "cart.yaml:1: the deck is empty"},
-        Mistake{"# only a comment\n", "cart.yaml:1: the deck is empty"},
+        Mistake{"", "cart.yaml:1: the deck is empty"}, Mistake{"# only a comment\n", "cart.yaml:1: the deck is empty"},
         Mistake{good + "---\ntitle: two\n",
                 "cart.yaml:5: a second document begins, after `---`; a deck is one document, give each its own file"},
-        Mistake{good + "title: K\xe4" "fig\n", "cart.yaml:4: this line is not UTF-8; save the deck in that encoding"},
+        Mistake{good + "title: K\xe4"
+                       "fig\n",
+                "cart.yaml:4: this line is not UTF-8; save the deck in that encoding"},
         Mistake{"- a\n- b\n", "cart.yaml:1: a deck is a mapping of sections such as `mesh:` and `bodies:`"}));
 
 TEST(Deck, SyntaxErrorsHaveALine)

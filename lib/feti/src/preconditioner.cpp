@@ -2,33 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
+#include "base/submatrix.hpp"
 #include "partition/node_directory.hpp"
 
 namespace mortise::feti {
-
-namespace {
-
-// Entries of the symmetric matrix `lower` with place[row] >= 0 and place_column[column] >= 0, renumbered.
-SparseMatrix extract(const SparseMatrix& lower, const std::vector<int>& row, int rows, const std::vector<int>& column,
-                     int columns, bool only_lower)
-{
-  std::vector<Eigen::Triplet<double>> triplets;
-  const auto add = [&](Eigen::Index i, Eigen::Index j, double value) {
-    const int a = row[static_cast<std::size_t>(i)], b = column[static_cast<std::size_t>(j)];
-    if (a >= 0 && b >= 0 && (!only_lower || a >= b)) triplets.emplace_back(a, b, value);
-  };
-  for (int j = 0; j < lower.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      add(it.row(), j, it.value());
-      if (!only_lower && it.row() != j) add(j, it.row(), it.value());
-    }
-  SparseMatrix result(rows, columns);
-  result.setFromTriplets(triplets.begin(), triplets.end());
-  return result;
-}
-
-}  // namespace
 
 Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump,
                                const Subdomains& subdomains, const std::vector<std::vector<double>>& nodal_stiffness,
@@ -44,27 +23,21 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
     }
     const SparseMatrix& stiffness = subdomains[s]->stiffness();
     Surface surface;
-    std::vector<int> outside(static_cast<std::size_t>(stiffness.rows()), -1), inside(outside);
     for (const Local node : partition::surface_nodes(decomposition.subdomains[s].mesh))
-      for (int c = 0; c < dimension; ++c) {
-        const int unknown = dimension * node + c;
-        outside[static_cast<std::size_t>(unknown)] = static_cast<int>(surface.unknowns.size());
-        surface.unknowns.push_back(unknown);
-      }
+      for (int c = 0; c < dimension; ++c) surface.unknowns.push_back(dimension * node + c);
     const auto size = static_cast<int>(surface.unknowns.size());
     surface.weight.resize(size);
     for (int i = 0; i < size; ++i)
       surface.weight[i] =
           1 / nodal_stiffness[s][static_cast<std::size_t>(surface.unknowns[static_cast<std::size_t>(i)] / dimension)];
-    surface.lower = extract(stiffness, outside, size, outside, size, true);
+    surface.lower = submatrix(stiffness, surface.unknowns, surface.unknowns, true);
     if (kind == Kind::dirichlet) {
-      int interior = 0;
-      for (std::size_t i = 0; i < inside.size(); ++i)
-        if (outside[i] < 0) inside[i] = interior++;
-      if (interior > 0) {
-        surface.interior =
-            std::make_unique<DirectSolver>(factorization, extract(stiffness, inside, interior, inside, interior, true));
-        surface.coupling = extract(stiffness, inside, interior, outside, size, false);
+      std::vector<int> all(static_cast<std::size_t>(stiffness.rows())), inside;
+      std::iota(all.begin(), all.end(), 0);
+      std::set_difference(all.begin(), all.end(), surface.unknowns.begin(), surface.unknowns.end(), std::back_inserter(inside));
+      if (!inside.empty()) {
+        surface.interior = std::make_unique<DirectSolver>(factorization, submatrix(stiffness, inside, inside, true));
+        surface.coupling = submatrix(stiffness, inside, surface.unknowns, false);
       }
     }
     surfaces_.push_back(std::make_shared<const Surface>(std::move(surface)));

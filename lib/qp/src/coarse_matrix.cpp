@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/submatrix.hpp"
 
 namespace mortise::qp {
 
@@ -10,27 +11,6 @@ namespace {
 
 constexpr int largest_dense = 2000;  // above this the sparse factorization of all rows is the faster one
 constexpr int columns_at_once = 64;
-
-// The block of the symmetric matrix with lower triangle `lower` over `rows` and `columns`, both ascending.
-SparseMatrix block(const SparseMatrix& lower, const std::vector<int>& rows, const std::vector<int>& columns, bool only_lower)
-{
-  std::vector<int> row_place(static_cast<std::size_t>(lower.rows()), -1), column_place(row_place);
-  for (std::size_t i = 0; i < rows.size(); ++i) row_place[static_cast<std::size_t>(rows[i])] = static_cast<int>(i);
-  for (std::size_t j = 0; j < columns.size(); ++j) column_place[static_cast<std::size_t>(columns[j])] = static_cast<int>(j);
-  std::vector<Eigen::Triplet<double>> triplets;
-  const auto add = [&](int i, int j, double value) {
-    const int row = row_place[static_cast<std::size_t>(i)], column = column_place[static_cast<std::size_t>(j)];
-    if (row >= 0 && column >= 0 && (!only_lower || row >= column)) triplets.emplace_back(row, column, value);
-  };
-  for (int j = 0; j < lower.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      add(static_cast<int>(it.row()), j, it.value());
-      if (it.row() != j) add(j, static_cast<int>(it.row()), it.value());
-    }
-  SparseMatrix result(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
-  result.setFromTriplets(triplets.begin(), triplets.end());
-  return result;
-}
 
 }  // namespace
 
@@ -58,13 +38,13 @@ CoarseMatrix::CoarseMatrix(const EqualityConstraint& equality, std::span<const L
 void CoarseMatrix::eliminate()
 {
   const SparseMatrix& gram = equality_.gram();
-  schur_ = Eigen::MatrixXd(block(gram, touched_, touched_, true));
+  schur_ = Eigen::MatrixXd(submatrix(gram, touched_, touched_, true));
   if (others_.empty()) return;
-  const SparseMatrix inner = block(gram, others_, others_, true);
+  const SparseMatrix inner = submatrix(gram, others_, others_, true);
   factor_ = std::make_unique<Cholesky>(inner);
   if (!factor_->factorize(inner))
     throw Error(ExitStatus::no_equilibrium, "the coarse problem is singular away from all contacts");
-  coupling_ = block(gram, touched_, others_, false);
+  coupling_ = submatrix(gram, touched_, others_, false);
   const SparseMatrix transpose = coupling_.transpose();
   for (Eigen::Index first = 0; first < transpose.cols(); first += columns_at_once) {
     const auto count = std::min<Eigen::Index>(columns_at_once, transpose.cols() - first);

@@ -31,8 +31,6 @@ class Face {
 
   long long active_bounds = 0;  ///< on this rank
   long long slipping = 0;       ///< on this rank
-  /// Whether bounds and discs are the same ones as on `other`, on this rank.
-  bool same_constraints(const Face& other) const { return fixed_ == other.fixed_ && slipping == other.slipping; }
 
  private:
   struct Slip {
