@@ -16,21 +16,34 @@ namespace {
 // A place covered by less than this part of its surroundings gets no multiplier.
 constexpr double least_cover = 0.05;
 
-using HeldNodes = std::map<Global, std::array<bool, 3>>;
+// The supports at the nodes of a side; null where a component is free.
+class HeldNodes {
+ public:
+  /// Collective.
+  HeldNodes(std::span<const constraint::Held> held, const std::vector<Global>& nodes, const Communicator& comm)
+  {
+    std::vector<constraint::Held> found;
+    for (const auto& h : held)
+      if (std::binary_search(nodes.begin(), nodes.end(), h.node)) found.push_back(h);
+    held_ = comm.all_gather(found);
+    std::sort(held_.begin(), held_.end(), before);
+  }
 
-HeldNodes gather_held(std::span<const constraint::Held> held, const std::vector<Global>& nodes, const Communicator& comm)
-{
-  struct Pin {
-    Global node;
-    int component;
-  };
-  std::vector<Pin> pins;
-  for (const auto& h : held)
-    if (std::binary_search(nodes.begin(), nodes.end(), h.node)) pins.push_back({h.node, h.component});
-  HeldNodes result;
-  for (const auto& pin : comm.all_gather(pins)) result[pin.node][static_cast<std::size_t>(pin.component)] = true;
-  return result;
-}
+  const constraint::Held* find(Global node, int component) const
+  {
+    const constraint::Held wanted{node, component, 0, 0};
+    const auto found = std::lower_bound(held_.begin(), held_.end(), wanted, before);
+    return found != held_.end() && found->node == node && found->component == component ? &*found : nullptr;
+  }
+
+ private:
+  static bool before(const constraint::Held& a, const constraint::Held& b)
+  {
+    return std::tie(a.node, a.component) < std::tie(b.node, b.component);
+  }
+
+  std::vector<constraint::Held> held_;
+};
 
 // The frame of a place: the tangents that supports leave free; nothing if the normal itself is held.
 struct Directions {
@@ -82,7 +95,8 @@ class Builder {
         primary_(gather(pair.primary, comm)),
         places_(find_places(secondary_)),
         primary_places_(find_places(primary_)),
-        held_(gather_held(held, secondary_.node_id, comm)),
+        held_(held, secondary_.node_id, comm),
+        primary_held_(held, primary_.node_id, comm),
         reach_(search_distance(pair, comm))
   {
   }
@@ -173,8 +187,8 @@ class Builder {
 
   std::array<bool, 3> held_at(const Place& place) const
   {
-    const auto found = held_.find(secondary_.node_id[static_cast<std::size_t>(place.node)]);
-    return found == held_.end() ? std::array<bool, 3>{false, false, false} : found->second;
+    const Global node = secondary_.node_id[static_cast<std::size_t>(place.node)];
+    return {held_.find(node, 0) != nullptr, held_.find(node, 1) != nullptr, held_.find(node, 2) != nullptr};
   }
 
   // Terms of this rank's places, ordered by place, side, node and face. Also sums D.
@@ -230,7 +244,10 @@ class Builder {
     const bool bonded = pair_.options.law == Law::bonded;
     constraint::ContactPoint point{
         index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, place.normal, {}, contacts.rows.size()};
-    if (pair_.options.law != Law::frictionless) point.tangents = directions_[p].tangents;
+    if (!moves(terms, d, place.normal)) return;  // both sides are held here
+    if (pair_.options.law != Law::frictionless)
+      for (const auto& tangent : directions_[p].tangents)
+        if (moves(terms, d, tangent)) point.tangents.push_back(tangent);
 
     std::vector<Point> frame{place.normal};
     frame.insert(frame.end(), point.tangents.begin(), point.tangents.end());
@@ -242,23 +259,52 @@ class Builder {
       if (!term.on_primary) weight += term.value / d;
     }
     point.weight = weight;
-    for (std::size_t axis = 0; axis < frame.size(); ++axis) {
-      for (const auto& term : terms) {
-        const Side& side = term.on_primary ? primary_ : secondary_;
-        if (std::abs(term.value) <= 1e-12 * d) continue;
-        for (int c = 0; c < dimension_; ++c)
-          if (std::abs(frame[axis][c]) > 1e-14)
-            contacts.rows.entries.push_back(
-                {side.node_id[static_cast<std::size_t>(term.node)], c, term.value / d * frame[axis][c]});
-      }
-      if (axis == 0 && !bonded)
-        contacts.rows.close(weight * gap_at(p, (frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d) / weight) -
-                            weight * pair_.options.interference);
-      else
-        contacts.rows.close(0.0);
-    }
+    point.gap = bonded ? 0
+                       : weight * (gap_at(p, (frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d) / weight) -
+                                   pair_.options.interference);
+    for (std::size_t axis = 0; axis < frame.size(); ++axis) add_row(terms, d, frame[axis], axis == 0 ? point.gap : 0.0, contacts);
     contacts.points.push_back(std::move(point));
     contacts.bonded.push_back(bonded);
+  }
+
+  static bool counts(const Term& term, double d, const Point& axis, int c)
+  {
+    return std::abs(term.value) > 1e-12 * d && std::abs(axis[c]) > 1e-14;
+  }
+  Global node_of(const Term& term) const
+  {
+    return (term.on_primary ? primary_ : secondary_).node_id[static_cast<std::size_t>(term.node)];
+  }
+  const constraint::Held* support_of(const Term& term, int c) const
+  {
+    return (term.on_primary ? primary_held_ : held_).find(node_of(term), c);
+  }
+
+  // Whether supports leave anything of the row.
+  bool moves(std::span<const Term> terms, double d, const Point& axis) const
+  {
+    return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+      for (int c = 0; c < dimension_; ++c)
+        if (counts(term, d, axis, c) && !support_of(term, c)) return true;
+      return false;
+    });
+  }
+
+  // sum_k value_k / d axis . u(node_k) <= bound, without what supports hold.
+  void add_row(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts) const
+  {
+    for (const auto& term : terms)
+      for (int c = 0; c < dimension_; ++c) {
+        if (!counts(term, d, axis, c)) continue;
+        const double coefficient = term.value / d * axis[c];
+        if (const auto* held = support_of(term, c)) {
+          bound -= coefficient * held->value;
+          contacts.held.push_back({contacts.rows.size(), c, held->support, coefficient});
+        } else {
+          contacts.rows.entries.push_back({node_of(term), c, coefficient});
+        }
+      }
+    contacts.rows.close(bound);
   }
 
   const Pair& pair_;
@@ -267,7 +313,7 @@ class Builder {
   const Communicator& comm_;
   Side secondary_, primary_;
   Places places_, primary_places_;
-  HeldNodes held_;
+  HeldNodes held_, primary_held_;
   double reach_;
   std::unique_ptr<Tree> tree_;            // of the primary faces
   std::vector<FaceIntegrals> integrals_;  // of this rank's faces

@@ -247,11 +247,11 @@ TEST(Mortar, HeldNodesLeaveTheirPressureToTheOthers)
                               surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::tresca);
   std::vector<constraint::Held> held;
   if (comm.root())
-    for (const Global node : {0, 5, 10, 15, 20}) {  // x = 0: held along the normal, and along y
-      held.push_back({node, 2, 0, 0});
-      held.push_back({node, 1, 0, 0});
+    for (const Global node : {0, 5, 10, 15, 20}) {             // x = 0: held along the normal, and along y
+      held.push_back({node, 2, 0.5, static_cast<int>(node)});  // each by a support of its own
+      held.push_back({node, 1, 0, static_cast<int>(node)});
     }
-  if (comm.root()) held.push_back({24, 0, 0, 0});  // one tangential component at a corner
+  if (comm.root()) held.push_back({24, 0, 0, 24});  // one tangential component at a corner
   const auto contacts = discretize(std::vector<Pair>{pair}, held, 3, comm);
   for (const auto& point : contacts.points) {
     EXPECT_NE(point.node % 5, 0);
@@ -266,6 +266,27 @@ TEST(Mortar, HeldNodesLeaveTheirPressureToTheOthers)
     if (row.is_normal)
       for (const auto& e : row.entries)
         force.try_emplace(e.node, Point::Zero()).first->second[e.component] += row.area * e.coefficient;
+  // What acts on held components goes into their supports, and what these move stands in the bounds.
+  std::vector<double> supported(3 * 25, 0.0);
+  double shift = 0, expected_shift = 0;
+  for (const auto& point : contacts.points) {
+    shift += point.gap - contacts.rows.bound[point.row];
+    for (const auto& entry : contacts.held) {
+      if (entry.row != point.row) continue;
+      supported[3 * static_cast<std::size_t>(entry.support) + static_cast<std::size_t>(entry.component)] +=
+          point.area * entry.coefficient;
+      expected_shift += entry.component == 2 ? 0.5 * entry.coefficient : 0.0;
+    }
+    for (const auto& entry : contacts.rows[point.row])
+      EXPECT_FALSE(entry.node < 25 && entry.node % 5 == 0 && entry.component > 0);
+  }
+  EXPECT_NEAR(shift, expected_shift, 1e-12);
+  EXPECT_GT(comm.sum(expected_shift), 0.1);
+  comm.sum_in_place(supported);
+  for (Global node = 0; node < 25; ++node) {
+    auto& sum = force.try_emplace(node, Point::Zero()).first->second;
+    for (std::size_t c = 0; c < 3; ++c) sum[static_cast<Eigen::Index>(c)] += supported[3 * static_cast<std::size_t>(node) + c];
+  }
   for (const auto* side : {&pair.secondary, &pair.primary})
     for (const auto& [node, expected] : consistent(*side, comm))
       EXPECT_LT((force.at(node) - expected).norm(), 1e-11) << "node " << node;

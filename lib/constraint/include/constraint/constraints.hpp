@@ -57,13 +57,24 @@ struct ContactPoint {
   std::vector<Point> tangents;  ///< 0, 1 (2D, or one direction is held) or 2 unit vectors, orthogonal to the normal
   std::size_t row;    ///< its normal row in Contacts::rows; its tangential rows follow, then the next point's normal row
   double weight = 1;  ///< sum of the row's coefficients on the secondary side, above 1 where it stands in for dropped nodes
+  double gap = 0;     ///< that the normal row starts with, interference deducted, before any support moves
+};
+
+/// An entry of a contact row that a support holds: it stands in the row's bound instead, and what the row's multiplier pushes
+/// there goes straight into the support.
+struct HeldEntry {
+  std::size_t row;  ///< of Contacts::rows
+  int component;
+  int support;
+  double coefficient;
 };
 
 /// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the point in length units, with the
 /// coefficient of the secondary node n (normal row) or t (tangential): (u_s - sum_j m_j u_j) . n <= gap. Its multiplier is a
-/// force.
+/// force. Rows have no entries at held components, so they are independent of the supports.
 struct Contacts {
   Rows rows;
+  std::vector<HeldEntry> held;
   std::vector<ContactPoint> points;
   std::vector<bool> bonded;  ///< for each point: all its rows are equalities
 };
