@@ -3,8 +3,12 @@
 #include <cholmod.h>
 
 #include <cstring>
+#include <new>
+#include <optional>
+#include <vector>
 
 #include "base/error.hpp"
+#include "supernodal.hpp"
 
 namespace mortise {
 
@@ -14,11 +18,15 @@ struct Cholesky::Data {
   cholmod_dense* x = nullptr;  // solution and workspaces of cholmod_solve2
   cholmod_dense* y = nullptr;
   cholmod_dense* e = nullptr;
+  std::optional<SupernodalFactor> prepared;
 
   Data()
   {
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
+    // Nested dissection; the default tries minimum degree first, whose factors of solids are half as large again.
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_NESDIS;
     common.print = 0;
     common.error_handler = nullptr;
   }
@@ -60,12 +68,40 @@ cholmod_sparse wrap(const SparseMatrix& lower)
   return a;
 }
 
+// The pattern of the nodes, lower triangle.
+SparseMatrix of_nodes(const SparseMatrix& lower, int block)
+{
+  std::vector<Eigen::Triplet<double>> pairs;
+  for (int column = 0; column < lower.outerSize(); column += block)
+    for (int c = column; c < column + block; ++c)
+      for (SparseMatrix::InnerIterator it(lower, c); it; ++it)
+        if (pairs.empty() || pairs.back().col() != column / block || pairs.back().row() != it.row() / block)
+          pairs.emplace_back(static_cast<int>(it.row()) / block, column / block, 1.0);
+  SparseMatrix result(lower.rows() / block, lower.cols() / block);
+  result.setFromTriplets(pairs.begin(), pairs.end());
+  return result;
+}
+
 }  // namespace
 
-Cholesky::Cholesky(const SparseMatrix& lower) : data_(std::make_unique<Data>())
+Cholesky::Cholesky(const SparseMatrix& lower, int block) : data_(std::make_unique<Data>())
 {
+  auto& common = data_->common;
   cholmod_sparse a = wrap(lower);
-  data_->factor = cholmod_analyze(&a, &data_->common);
+  if (block == 1 || lower.cols() % block != 0) {
+    data_->factor = cholmod_analyze(&a, &common);
+  } else {
+    const SparseMatrix nodes = of_nodes(lower, block);
+    cholmod_sparse graph = wrap(nodes);
+    const auto count = static_cast<std::size_t>(nodes.cols()), times = static_cast<std::size_t>(block);
+    std::vector<int> order(count), parent(count), member(count), permutation(count * times);
+    cholmod_nested_dissection(&graph, nullptr, 0, order.data(), parent.data(), member.data(), &common);
+    data_->check_memory();
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t c = 0; c < times; ++c) permutation[k * times + c] = order[k] * block + static_cast<int>(c);
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    data_->factor = cholmod_analyze_p(&a, permutation.data(), nullptr, 0, &common);
+  }
   data_->check_memory();
 }
 
@@ -77,13 +113,26 @@ bool Cholesky::factorize(const SparseMatrix& lower)
 {
   cholmod_sparse a = wrap(lower);
   data_->common.status = CHOLMOD_OK;
+  data_->prepared.reset();
   cholmod_factorize(&a, data_->factor, &data_->common);
   data_->check_memory();
   return data_->common.status == CHOLMOD_OK && data_->factor->minor == data_->factor->n;
 }
 
+void Cholesky::prepare_for_many_solves()
+{
+  try {
+    data_->prepared.emplace(*data_->factor);
+  } catch (const std::bad_alloc&) {
+    data_->common.status = CHOLMOD_OUT_OF_MEMORY;
+    data_->check_memory();
+  }
+  cholmod_change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, data_->factor, &data_->common);  // frees its numbers
+}
+
 void Cholesky::solve(const double* b, double* x, int columns, int stride) const
 {
+  if (data_->prepared) return data_->prepared->solve(b, x, columns, stride);
   Data& data = *data_;
   cholmod_dense rhs{};
   rhs.nrow = data.factor->n;
@@ -115,7 +164,7 @@ int Cholesky::size() const
 
 std::size_t Cholesky::factor_bytes() const
 {
-  return static_cast<std::size_t>(data_->common.lnz) * sizeof(double);
+  return data_->prepared ? data_->prepared->bytes() : data_->factor->xsize * sizeof(double);
 }
 
 }  // namespace mortise

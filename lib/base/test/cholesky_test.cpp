@@ -34,6 +34,28 @@ TEST(Cholesky, SolvesSeveralRightHandSides)
   EXPECT_GT(factor.factor_bytes(), 400 * sizeof(double));
 }
 
+// All widths of blocks, supernodes wider than one piece, and a new factorization afterwards.
+TEST(Cholesky, PreparedFactorSolvesTheSame)
+{
+  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(70, 70);
+  const SparseMatrix dense = Eigen::MatrixXd(root * root.transpose() + 10 * Eigen::MatrixXd::Identity(70, 70)).sparseView();
+  for (const auto& a : {laplacian(20, 0), laplacian(1, 0), SparseMatrix(dense.triangularView<Eigen::Lower>())}) {
+    const auto n = static_cast<int>(a.rows());
+    Cholesky factor(a, n % 2 == 0 ? 2 : 1);
+    for (const double scale : {1.0, 3.0}) {
+      ASSERT_TRUE(factor.factorize(SparseMatrix(scale * a)));
+      const Eigen::MatrixXd expected = Eigen::MatrixXd::Random(n, 31);  // 3 x 8 + 4 + 3
+      const Eigen::MatrixXd b = a.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd(scale * expected);
+      factor.prepare_for_many_solves();
+      Eigen::MatrixXd x = Eigen::MatrixXd::Constant(n + 2, 31, 7);
+      x.topRows(n) = b;
+      factor.solve(x.data(), x.data(), 31, n + 2);
+      EXPECT_LT((x.topRows(n) - expected).norm(), 1e-11 * expected.norm());
+      EXPECT_EQ(x(n, 30), 7);
+    }
+  }
+}
+
 TEST(Cholesky, TellsAnIndefiniteMatrixAndRecovers)
 {
   Cholesky factor(laplacian(10, 0));

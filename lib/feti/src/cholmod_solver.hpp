@@ -18,13 +18,14 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
  public:
   static const char* name;
 
-  explicit CholmodSolver(Teuchos::RCP<const Matrix> a)
-      : Amesos2::SolverCore<CholmodSolver, Matrix, Vector>(a, Teuchos::null, Teuchos::null)
+  /// `block`: unknowns a node, see Cholesky.
+  explicit CholmodSolver(Teuchos::RCP<const Matrix> a, int block = 1)
+      : Amesos2::SolverCore<CholmodSolver, Matrix, Vector>(a, Teuchos::null, Teuchos::null), block_(block)
   {
   }
 
-  /// The factor itself, for products that want no MultiVector in between; null before the symbolic factorization.
-  const Cholesky* factor() const { return factor_.get(); }
+  /// The factor itself, for products that want neither a MultiVector in between nor the matrix; nothing is left to solve with.
+  std::unique_ptr<Cholesky> release() { return std::move(factor_); }
 
  private:
   int preOrdering_impl() { return 0; }
@@ -45,6 +46,7 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
   // The arrays of the CRS matrix, read as the compressed columns of its transpose.
   SparseMatrix lower() const;
 
+  int block_;
   std::unique_ptr<Cholesky> factor_;
 };
 

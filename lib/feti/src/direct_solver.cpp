@@ -41,7 +41,7 @@ SparseMatrix CholmodSolver<Matrix, Vector>::lower() const
 template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::symbolicFactorization_impl()
 {
-  factor_ = std::make_unique<Cholesky>(lower());
+  factor_ = std::make_unique<Cholesky>(lower(), block_);
   return 0;
 }
 
@@ -49,6 +49,7 @@ template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::numericFactorization_impl()
 {
   if (!factor_->factorize(lower())) throw std::runtime_error("CHOLMOD: the matrix is not positive definite");
+  factor_->prepare_for_many_solves();
   this->setNnzLU(factor_->factor_bytes() / sizeof(double));
   return 0;
 }
@@ -89,18 +90,18 @@ Teuchos::RCP<const CrsMatrix> crs(const SparseMatrix& columns)
   return matrix;
 }
 
-Teuchos::RCP<Amesos2Solver> cholmod(const SparseMatrix& lower)
+Teuchos::RCP<Amesos2Solver> cholmod(const SparseMatrix& lower, int block)
 {
-  return Teuchos::rcp(new CholmodSolver<CrsMatrix, MultiVector>(crs(lower)));
+  return Teuchos::rcp(new CholmodSolver<CrsMatrix, MultiVector>(crs(lower), block));
 }
 
-Teuchos::RCP<Amesos2Solver> klu2(const SparseMatrix& lower)
+Teuchos::RCP<Amesos2Solver> klu2(const SparseMatrix& lower, int)
 {
   return Amesos2::create<CrsMatrix, MultiVector>("KLU2", crs(lower.selfadjointView<Eigen::Lower>()));
 }
 
 // To add a factorization: a function here that makes an Amesos2 solver from a lower triangle, and its name in feti::Options.
-using Maker = Teuchos::RCP<Amesos2Solver> (*)(const SparseMatrix& lower);
+using Maker = Teuchos::RCP<Amesos2Solver> (*)(const SparseMatrix& lower, int block);
 const std::map<std::string, Maker>& makers()
 {
   static const std::map<std::string, Maker> table{{"cholmod", cholmod}, {"klu2", klu2}};
@@ -111,17 +112,17 @@ const std::map<std::string, Maker>& makers()
 
 struct DirectSolver::Data {
   Teuchos::RCP<Amesos2Solver> solver;
-  const Cholesky* cholesky = nullptr;  // of `solver`, where it is ours
+  std::unique_ptr<Cholesky> cholesky;  // in place of `solver`, where it is ours
   int size = 0;
 };
 
-DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower) : data_(std::make_unique<Data>())
+DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower, int block) : data_(std::make_unique<Data>())
 {
   const auto maker = makers().find(name);
   if (maker == makers().end()) throw Error(ExitStatus::bad_input, "there is no factorization called \"" + name + "\"");
   data_->size = static_cast<int>(lower.cols());
   try {
-    data_->solver = maker->second(lower);
+    data_->solver = maker->second(lower, block);
     data_->solver->symbolicFactorization().numericFactorization();
   } catch (const Error&) {
     throw;
@@ -129,8 +130,10 @@ DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower) :
     throw Error(ExitStatus::machine, "the stiffness matrix of a subdomain cannot be factorized (" + std::string(error.what()) +
                                          "); look for cells without volume and for extreme material data");
   }
-  if (const auto* ours = dynamic_cast<const CholmodSolver<CrsMatrix, MultiVector>*>(data_->solver.get()))
-    data_->cholesky = ours->factor();
+  if (auto* ours = dynamic_cast<CholmodSolver<CrsMatrix, MultiVector>*>(data_->solver.get())) {
+    data_->cholesky = ours->release();
+    data_->solver = Teuchos::null;  // and with it the matrix
+  }
 }
 
 DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;

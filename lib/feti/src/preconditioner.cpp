@@ -36,7 +36,7 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
       std::iota(all.begin(), all.end(), 0);
       std::set_difference(all.begin(), all.end(), surface.unknowns.begin(), surface.unknowns.end(), std::back_inserter(inside));
       if (!inside.empty()) {
-        surface.interior = std::make_unique<DirectSolver>(factorization, submatrix(stiffness, inside, inside, true));
+        surface.interior = std::make_unique<DirectSolver>(factorization, submatrix(stiffness, inside, inside, true), dimension);
         surface.coupling = submatrix(stiffness, inside, surface.unknowns, false);
       }
     }

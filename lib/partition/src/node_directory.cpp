@@ -22,7 +22,7 @@ NodeDirectory::NodeDirectory(const Decomposition& decomposition, const std::vect
   std::vector<std::vector<Entry>> send(static_cast<std::size_t>(comm.size()));
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
-    for (const Local n : surface_nodes(subdomain.mesh)) {
+    for (const Local n : surface_.emplace_back(surface_nodes(subdomain.mesh))) {
       const Global id = subdomain.mesh.node_id[static_cast<std::size_t>(n)];
       send[static_cast<std::size_t>(id % comm.size())].push_back({id, {subdomain.id, n, weight[s][static_cast<std::size_t>(n)]}});
     }
@@ -98,20 +98,18 @@ std::vector<Local> surface_nodes(const mesh::Mesh& mesh)
 
 Interface find_interface(const Decomposition& decomposition, const NodeDirectory& directory, const Communicator& comm)
 {
-  std::vector<std::vector<Local>> candidates;
   std::vector<Global> nodes;
-  for (const auto& subdomain : decomposition.subdomains) {
-    candidates.push_back(surface_nodes(subdomain.mesh));
-    for (const Local n : candidates.back()) nodes.push_back(subdomain.mesh.node_id[static_cast<std::size_t>(n)]);
-  }
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
+    for (const Local n : directory.surface(s))
+      nodes.push_back(decomposition.subdomains[s].mesh.node_id[static_cast<std::size_t>(n)]);
   const auto found = directory.find(nodes, comm);
   Interface interface;
   std::size_t next = 0;
-  for (const auto& list : candidates) {
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     auto& shared = interface.nodes.emplace_back();
     auto& copies = interface.copies.emplace_back();
     copies.offset.push_back(0);
-    for (const Local n : list) {
+    for (const Local n : directory.surface(s)) {
       const auto all = found[next++];
       if (all.size() < 2) continue;
       shared.push_back(n);

@@ -44,4 +44,8 @@ class Timers {
 /// Peak resident memory of this process in bytes.
 long long peak_memory();
 
+/// Bytes that this process and others on its machine may still take: what the kernel counts as available, within the limits of
+/// the control group and of the address space (ulimit -v).
+double available_memory();
+
 }  // namespace mortise

@@ -11,9 +11,10 @@ namespace mortise::feti {
 /// A factorization of one symmetric positive definite matrix. Heavy: moves, does not copy. One thread at a time.
 class DirectSolver {
  public:
-  /// Factorizes the matrix with lower triangle `lower` by the solver called `name`, one of direct_solvers(). Throws
-  /// Error(bad_input) for another name, and Error(machine) if the matrix cannot be factorized or memory runs out.
-  DirectSolver(const std::string& name, const SparseMatrix& lower);
+  /// Factorizes the matrix with lower triangle `lower`, of nodes with `block` components each, by the solver called `name`, one
+  /// of direct_solvers(). Throws Error(bad_input) for another name, and Error(machine) if the matrix cannot be factorized or
+  /// memory runs out.
+  DirectSolver(const std::string& name, const SparseMatrix& lower, int block = 1);
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
   ~DirectSolver();

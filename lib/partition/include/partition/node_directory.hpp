@@ -35,8 +35,11 @@ class NodeDirectory {
     }
   };
   Found find(std::span<const Global> nodes, const Communicator& comm) const;
+  /// surface_nodes() of this rank's s-th subdomain.
+  const std::vector<Local>& surface(std::size_t s) const { return surface_[s]; }
 
  private:
+  std::vector<std::vector<Local>> surface_;
   std::vector<Global> nodes_;  ///< ascending
   Found entries_;
 };
