@@ -28,40 +28,58 @@ Peak over_ranks(const Peak& mine, const Communicator& comm)
   return {largest, Point(at[0], at[1], at[2])};
 }
 
+// Stresses averaged at the nodes of each body, and what they differ by from those of the cells.
+struct Recovered {
+  std::vector<Eigen::MatrixXd> nodal_stress;
+  std::vector<Eigen::VectorXd> cell_von_mises;
+  double squared_error = 0;  // in the energy norm, over all ranks
+};
+
+Recovered recover(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                  const partition::Interface& interface, const std::vector<Eigen::VectorXd>& displacement,
+                  const Communicator& comm)
+{
+  Recovered result;
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    auto field = fem::stresses(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s]);
+    result.nodal_stress.push_back(std::move(field.nodal_sums));
+    result.cell_von_mises.push_back(std::move(field.cell_von_mises));
+  }
+  partition::sum_over_copies(decomposition, interface, result.nodal_stress, comm);
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    auto& stress = result.nodal_stress[s];
+    stress = (stress.leftCols(6).array().colwise() / stress.col(6).array()).eval();
+    const auto& subdomain = decomposition.subdomains[s];
+    result.squared_error +=
+        fem::squared_errors(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s], stress).sum();
+  }
+  result.squared_error = comm.sum(result.squared_error);
+  return result;
+}
+
 void recover_stress(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
                     const partition::Interface& interface, const Communicator& comm, Results& results)
 {
-  std::vector<Eigen::MatrixXd> sums;
-  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const auto& subdomain = decomposition.subdomains[s];
-    auto field = fem::stresses(subdomain.mesh, model.material(subdomain), deck.kinematics, results.displacement[s]);
-    sums.push_back(std::move(field.nodal_sums));
-    results.cell_von_mises.push_back(std::move(field.cell_von_mises));
-  }
-  partition::sum_over_copies(decomposition, interface, sums, comm);
+  auto recovered = recover(deck, decomposition, model, interface, results.displacement, comm);
+  results.nodal_stress = std::move(recovered.nodal_stress);
+  results.cell_von_mises = std::move(recovered.cell_von_mises);
   Peak peak;
-  for (std::size_t s = 0; s < sums.size(); ++s) {
-    const auto& points = decomposition.subdomains[s].mesh.points;
-    Eigen::MatrixXd stress(sums[s].rows(), 6);
-    Eigen::VectorXd von_mises(sums[s].rows());
+  for (std::size_t s = 0; s < results.nodal_stress.size(); ++s) {
+    const auto& stress = results.nodal_stress[s];
+    Eigen::VectorXd von_mises(stress.rows());
     for (Eigen::Index n = 0; n < stress.rows(); ++n) {
-      stress.row(n) = sums[s].row(n).head(6) / sums[s](n, 6);
       von_mises[n] = fem::von_mises(stress.row(n).transpose());
-      if (von_mises[n] > peak.value) peak = {von_mises[n], points[static_cast<std::size_t>(n)]};
+      if (von_mises[n] > peak.value) peak = {von_mises[n], decomposition.subdomains[s].mesh.points[static_cast<std::size_t>(n)]};
     }
-    results.nodal_stress.push_back(std::move(stress));
     results.nodal_von_mises.push_back(std::move(von_mises));
   }
-  double squared_error = 0;
-  for (std::size_t s = 0; s < sums.size(); ++s) {
-    const auto& subdomain = decomposition.subdomains[s];
-    squared_error += fem::squared_errors(subdomain.mesh, model.material(subdomain), deck.kinematics, results.displacement[s],
-                                         results.nodal_stress[s])
-                         .sum();
+  auto& estimate = results.summary.error_estimate;
+  const double squared_norm = 2 * results.summary.strain_energy + recovered.squared_error;
+  if (squared_norm > 0) {
+    estimate.discretization = std::sqrt(recovered.squared_error / squared_norm);
+    estimate.algebraic /= std::sqrt(squared_norm);
   }
-  squared_error = comm.sum(squared_error);
-  const double squared_norm = 2 * results.summary.strain_energy + squared_error;
-  if (squared_norm > 0) results.summary.error_estimate.discretization = std::sqrt(squared_error / squared_norm);
   peak = over_ranks(peak, comm);
   results.summary.max_von_mises = peak.value;
   results.max_von_mises_at = peak.at;
@@ -90,6 +108,9 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
     for (Local r = rows.normal; r <= rows.normal + rows.tangents; ++r) {
       multipliers.push_back(lambda[r] * scale[r]);
       row_jumps.push_back(jump[r] / scale[r]);
+      // Of the tangential rows, what moving supports contribute stands in the bound.
+      if (r > rows.normal)
+        row_jumps.back() -= contacts.rows.bound[contacts.points[i].row + static_cast<std::size_t>(r - rows.normal)];
     }
     const double limit =
         rows.disc < 0 ? 0.0 : problem.set().discs()[static_cast<std::size_t>(rows.disc)].radius * scale[rows.normal];
@@ -118,7 +139,7 @@ void warn_of_short_search(const Deck& deck, const std::vector<contact::Pair>& pa
     double widest = 0;
     for (std::size_t i = 0; i < results.points.size(); ++i)
       if (results.points[i].contact == static_cast<int>(c) && results.points[i].status != contact::Status::open)
-        widest = std::max(widest, contacts.rows.bound[contacts.points[i].row] + pairs[c].options.interference);
+        widest = std::max(widest, contacts.points[i].gap + pairs[c].options.interference);
     widest = context.comm.max(widest);
     const double reach = contact::search_distance(pairs[c], context.comm);
     if (widest > 0.7 * reach)
@@ -139,6 +160,12 @@ void reactions(const Deck& deck, const feti::DualProblem& problem, const frictio
     const auto row = problem.jump().ranges().held + static_cast<Local>(i);
     sums[static_cast<std::size_t>(held[i].support) * 3 + static_cast<std::size_t>(held[i].component)] -=
         lambda[row] * problem.jump().scale()[row];
+  }
+  const auto& contacts = problem.constraints().contacts;
+  for (const auto& entry : contacts.held) {  // contact forces that go straight into supports
+    const auto row = problem.jump().ranges().contacts + static_cast<Local>(entry.row);
+    sums[static_cast<std::size_t>(entry.support) * 3 + static_cast<std::size_t>(entry.component)] +=
+        entry.coefficient * lambda[row] * problem.jump().scale()[row];
   }
   problem.communicator().sum_in_place(sums);
   for (std::size_t s = 0; s < deck.supports.size(); ++s) {
@@ -186,6 +213,13 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
 
 }  // namespace
 
+double discretization_error(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                            const partition::Interface& interface, const std::vector<Eigen::VectorXd>& displacement,
+                            const Communicator& comm)
+{
+  return std::sqrt(recover(deck, decomposition, model, interface, displacement, comm).squared_error);
+}
+
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
                  const partition::Interface& interface, const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem,
                  const feti::Floating& floating, const friction::Result& solved, const Context& context)
@@ -194,6 +228,7 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   results.displacement = problem.displacement(solved.solution.x, solved.solution.nu);
   results.summary.version = MORTISE_VERSION;
   results.summary.title = deck.title;
+  results.summary.error_estimate.algebraic = solved.solution.error;
   sum_up(decomposition, problem, floating, solved, results);
   recover_stress(deck, decomposition, model, interface, context.comm, results);
   contact_states(deck, problem, solved, results);
@@ -219,8 +254,8 @@ void print(const Results& results, const Context& context)
            vector(results.reaction), (results.applied + results.reaction).norm() / size);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);
-  log.line("  error of the mesh   about {:.1f} % in the energy norm, by recovered stresses",
-           100 * s.error_estimate.discretization);
+  log.line("  error               of the mesh about {:.2g} %, of the solver about {:.2g} %, in the energy norm",
+           100 * s.error_estimate.discretization, 100 * s.error_estimate.algebraic);
   for (const auto& c : s.contacts)
     log.line(
         "  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g}, area {:.4g}; {} open, {} "

@@ -10,6 +10,7 @@
 #include "feti/dual_problem.hpp"
 #include "friction/friction.hpp"
 #include "io/files.hpp"
+#include "memory.hpp"
 #include "model.hpp"
 #include "partition/decompose.hpp"
 #include "report.hpp"
@@ -17,6 +18,9 @@
 namespace mortise {
 
 namespace {
+
+// Of the estimated discretization error, at which the solver stops where the tolerance is auto.
+constexpr double algebraic_part = 0.1;
 
 void print_header(const Deck& deck, const partition::Decomposition& decomposition, const Context& context)
 {
@@ -30,18 +34,12 @@ void print_header(const Deck& deck, const partition::Decomposition& decompositio
 
 // --check: what would be solved.
 void print_check(const partition::Decomposition& decomposition, const std::vector<constraint::Held>& held,
-                 const constraint::Contacts& contacts, const Deck& deck, const Context& context)
+                 const constraint::Contacts& contacts, const Memory& memory, const Deck& deck, const Context& context)
 {
   const auto& comm = context.comm;
   long long unknowns = 0;
-  double factor_bytes = 0;
-  const int dimension = deck.dimension();
-  for (const auto& subdomain : decomposition.subdomains) {
-    const auto n = static_cast<double>(subdomain.mesh.node_count() * static_cast<std::size_t>(dimension));
-    unknowns += static_cast<long long>(n);
-    factor_bytes += dimension == 3 ? 8 * 5.0 * std::pow(n, 4.0 / 3)
-                                   : 8 * 8.0 * n * std::log2(n + 1);  // nested dissection's growth, a rough factor
-  }
+  for (const auto& subdomain : decomposition.subdomains)
+    unknowns += static_cast<long long>(subdomain.mesh.node_count()) * deck.dimension();
   const auto total = comm.sum(unknowns);
   context.log.line("  {} unknowns in the subdomains, {} held components, {} contact points with {} rows", total,
                    comm.sum(static_cast<long long>(held.size())), comm.sum(static_cast<long long>(contacts.points.size())),
@@ -50,7 +48,8 @@ void print_check(const partition::Decomposition& decomposition, const std::vecto
   for (const auto& point : contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
   comm.sum_in_place(points);
   for (std::size_t c = 0; c < points.size(); ++c) context.log.line("  contact {}: {} points", deck.contacts[c].name, points[c]);
-  context.log.line("  memory expected: about {:.1f} GB", (comm.sum(factor_bytes) + 1500.0 * static_cast<double>(total)) / 1e9);
+  context.log.line("  memory expected: about {:.1f} GB, {:.1f} GB of it for the factors of the subdomains", memory.total / 1e9,
+                   memory.factors / 1e9);
 }
 
 // A contact that finds no partner does nothing: the bodies would pass through each other unnoticed.
@@ -101,9 +100,10 @@ class History {
       const auto measures = options.algorithm == "smalse"
                                 ? fmt::format("gradient {:.1e}, equality {:.1e}", p.projected_gradient, p.equality)
                                 : fmt::format("residual {:.1e}", std::max(p.projected_gradient, p.equality));
-      context_.log.progress("  {}outer {}, {} products, {} (tolerance {:.1e}); {} open, {} slipping on rank 0",
+      context_.log.progress("  {}outer {}, {} products, {} (tolerance {}); {} open, {} slipping on rank 0",
                             step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer, p.multiplications, measures,
-                            options.tolerance, p.active.bounds, p.active.discs);
+                            options.tolerance.value ? fmt::format("{:.1e}", *options.tolerance.value) : "auto", p.active.bounds,
+                            p.active.discs);
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
@@ -149,17 +149,16 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   }
   stage("supports and contact", "contact");
   warn_of_idle_contacts(constraints.contacts, deck, context);
-  if (command_line.check) {
-    print_check(decomposition, constraints.held, constraints.contacts, deck, context);
-    return ExitStatus::solved;
-  }
+  const auto original = model.congruent();
+  const auto memory = foresee_memory(deck, decomposition, model, original, comm);
+  if (command_line.check) print_check(decomposition, constraints.held, constraints.contacts, memory, deck, context);
+  require(memory, deck, decomposition);
+  if (command_line.check) return ExitStatus::solved;
 
-  std::vector<std::size_t> original;
   std::vector<SparseMatrix> stiffness;
   std::vector<Eigen::VectorXd> load;
   {
     const auto scope = timers.scope("assembly");
-    original = model.congruent();
     collectively(comm, [&] { stiffness = model.stiffness(original); });
     load = model.loads(comm);
   }
@@ -193,8 +192,13 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
     if (deck.solver.programme.algorithm == "smalse") options.preconditioner = "none";
     problem = std::make_unique<feti::DualProblem>(decomposition, directory, interface, constraints, floating, options, context);
     log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(), problem->kernel_dimension());
+    const auto allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+      const auto estimating = timers.scope("error estimate");
+      return algebraic_part *
+             discretization_error(deck, decomposition, model, interface, problem->displacement(lambda, nu), comm);
+    };
     solved = std::make_unique<friction::Result>(
-        friction::solve(*problem, model.friction_laws(), deck.friction_loop, deck.solver.programme,
+        friction::solve(*problem, model.friction_laws(), deck.friction_loop, deck.solver.programme, allowed_error,
                         [&](int step, double change, const qp::Progress& p) { history.note(step, change, p); }));
   }
   log.end_progress();

@@ -8,7 +8,8 @@ A deck NAME.yaml has its expectations beside it in NAME.expected.json, or in the
 
     {"quantities": {"strain_energy": {"value": 1.25, "relative": 1e-3}, "contacts.0.force.2": {"value": -50, "absolute": 1e-2}},
      "residuals": {"equilibrium": 1e-6},            limits that replace the default ones below
-     "exit_status": 0, "output": ["text that the terminal must show"]}
+     "exit_status": 0, "output": ["text that the terminal must show"],
+     "address_space": 3000000000}                        bytes that the run may take
 
 Every quantity has a tolerance of its own: without one there is no test. Whatever a deck stores, its KKT residuals are judged as well:
 they hold whichever way the solver went.
@@ -17,6 +18,7 @@ import argparse
 import json
 import os
 import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -41,7 +43,7 @@ def close(found, expected):
     return found is not None and abs(found - expected["value"]) <= allowed
 
 
-def run(arguments, directory):
+def run(arguments, directory, address_space):
     command = [arguments.mortise, str(arguments.deck), "--output", str(directory)]
     for value in arguments.set:
         command += ["--set", value]
@@ -49,7 +51,8 @@ def run(arguments, directory):
         command = [arguments.mpiexec, "--oversubscribe", "-n", str(arguments.ranks)] + command
     environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_THREAD_LIMIT="1", OMPI_ALLOW_RUN_AS_ROOT="1",
                        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600)
+    limit = (lambda: resource.setrlimit(resource.RLIMIT_AS, (address_space, address_space))) if address_space else None
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600, preexec_fn=limit)
 
 
 def judge(summary, expected):
@@ -90,7 +93,7 @@ def main():
     expected = json.loads(store.read_text())
     with tempfile.TemporaryDirectory() as scratch:
         directory = pathlib.Path(scratch) / "results"
-        done = run(arguments, directory)
+        done = run(arguments, directory, expected.get("address_space"))
         text = done.stdout + done.stderr
         complaints = [f"the terminal does not show {wanted!r}" for wanted in expected.get("output", []) if wanted not in text]
         status = expected.get("exit_status", 0)

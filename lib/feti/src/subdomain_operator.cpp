@@ -107,13 +107,14 @@ std::vector<double> nodal_stiffness(const SparseMatrix& lower, int dimension)
   return result;
 }
 
-ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
-                                   const std::string& factorization)
-    : stiffness_(std::move(lower)), kernel_(std::move(kernel))
+namespace {
+
+// K + r N.
+SparseMatrix regularise(const SparseMatrix& lower, const Eigen::MatrixXd& kernel, std::span<const Point> points, int dimension)
 {
-  const auto nodes = fixing_nodes(points, kernel_, dimension);
-  const Eigen::MatrixXd rows = rows_of(kernel_, nodes, dimension);
-  const double r = stiffness_.diagonal().mean();
+  const auto nodes = fixing_nodes(points, kernel, dimension);
+  const Eigen::MatrixXd rows = rows_of(kernel, nodes, dimension);
+  const double r = lower.diagonal().mean();
   const Eigen::MatrixXd fixing = r * rows * (rows.transpose() * rows).ldlt().solve(rows.transpose());
   std::vector<Eigen::Triplet<double>> triplets;
   const auto unknown = [&](Eigen::Index i) {
@@ -121,10 +122,25 @@ ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, s
   };
   for (Eigen::Index i = 0; i < fixing.rows(); ++i)
     for (Eigen::Index j = 0; j <= i; ++j) triplets.emplace_back(unknown(i), unknown(j), fixing(i, j));
-  SparseMatrix regularised(stiffness_.rows(), stiffness_.cols());
+  SparseMatrix regularised(lower.rows(), lower.cols());
   regularised.setFromTriplets(triplets.begin(), triplets.end());
-  regularised = SparseMatrix(regularised + stiffness_);
-  solver_ = std::make_unique<DirectSolver>(factorization, regularised);
+  return regularised + lower;
+}
+
+}  // namespace
+
+ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
+                                   const std::string& factorization)
+    : stiffness_(std::move(lower)),
+      kernel_(std::move(kernel)),
+      solver_(std::make_unique<DirectSolver>(factorization, regularise(stiffness_, kernel_, points, dimension), dimension))
+{
+}
+
+std::size_t ElasticSubdomain::foreseen_factor_bytes(const SparseMatrix& lower, const Eigen::MatrixXd& kernel,
+                                                    std::span<const Point> points, int dimension)
+{
+  return Cholesky(regularise(lower, kernel, points, dimension), dimension).factor_bytes();
 }
 
 }  // namespace mortise::feti

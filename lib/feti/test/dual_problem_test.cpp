@@ -115,7 +115,7 @@ TEST(DualProblem, PreconditionersAreSymmetricAndApproximateTheInverse)
                               cube.context);
     qp::Hessian hessian(problem.hessian(), 1000);
     const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
-    const auto solution = qp::FaceNewton(programme, problem.preconditioner()).solve({}, 1e-9, nullptr, {});
+    const auto solution = qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-9, {}}, nullptr, {});
     EXPECT_TRUE(solution.converged);
     EXPECT_LT(hessian.count(), without) << kind;
     if (!problem.preconditioner()) {
@@ -149,7 +149,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
     const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
     const qp::Solution solution = std::string(GetParam()) == "smalse"
                                       ? qp::smalse(programme, {}, 1e-10, {})
-                                      : qp::FaceNewton(programme, problem.preconditioner()).solve({}, 1e-9, nullptr, {});
+                                      : qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-9, {}}, nullptr, {});
     ASSERT_TRUE(solution.converged) << solution.projected_gradient << " after " << hessian.count() << " products";
     EXPECT_LT(hessian.count(), 120);
     const auto u = problem.displacement(solution.x, solution.nu);

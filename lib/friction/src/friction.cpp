@@ -101,7 +101,7 @@ class CoulombBounds {
 }  // namespace
 
 Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Options& options, const qp::Options& solver,
-             const Observer& observer)
+             const AllowedError& allowed_error, const Observer& observer)
 {
   const bool coulomb = any_coulomb(laws);
   qp::Hessian hessian(problem.hessian(), solver.max_multiplications);
@@ -109,6 +109,11 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
   std::vector<double> bounds = slip_bounds(problem, laws, nullptr), previous_bounds = bounds;
   std::unique_ptr<qp::FaceNewton> newton;
   if (solver.algorithm == "face_newton") newton = std::make_unique<qp::FaceNewton>(programme, problem.preconditioner());
+  qp::Goal goal;
+  if (solver.tolerance.value)
+    goal.residual = *solver.tolerance.value;
+  else
+    goal.allowed_error = allowed_error;
   std::optional<qp::Solution> solution;
   double change = 1, previous_change = 1, damping = 1;
   int step = 0, stalled = 0, infeasible = 0, outer = 0, preconditionings = 0;
@@ -120,21 +125,23 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
     step = 1;
     CoulombBounds law(problem, laws);
     const auto renewal = law.renewal();
-    auto found = newton->solve({}, solver.tolerance, &renewal, watch);
+    auto found = newton->solve({}, goal, &renewal, watch);
     outer += found.outer_iterations;
     preconditionings += found.preconditionings;
     if (found.feasible) {
       bounds = slip_bounds(problem, laws, &found.x);
       change = relative_change(bounds, law.now(), problem.communicator());
-      settled = found.converged && change <= options.tolerance;
+      // Where the error decides, what the bounds would still change counts in it.
+      settled = found.converged && (goal.allowed_error || change <= options.tolerance);
       solution = std::move(found);
     }
   }
   while (!settled) {
     ++step;
     problem.set().set_radii(bounds);
-    const double tolerance = coulomb ? std::max(solver.tolerance, std::min(loose, 0.1 * change)) : solver.tolerance;
-    auto next = newton ? newton->solve(solution, tolerance, nullptr, watch) : qp::smalse(programme, solution, tolerance, watch);
+    qp::Goal now = goal;
+    if (coulomb) now = {std::max(goal.residual, std::min(loose, 0.1 * change)), {}};
+    auto next = newton ? newton->solve(solution, now, nullptr, watch) : qp::smalse(programme, solution, now.residual, watch);
     if (!next.feasible) {
       // Bounds from inexact normal forces may fall short by as much: go half way back before giving up.
       if (!solution || ++infeasible > 5) no_equilibrium(problem, next.nu);
@@ -146,7 +153,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
         !hessian.exhausted()) {  // it crawls where bodies are soft and slender: the slower, steadier one
       outer += next.outer_iterations;
       preconditionings += next.preconditionings;
-      next = qp::smalse(programme, next, tolerance, watch);
+      next = qp::smalse(programme, next, now.residual, watch);
       if (!next.feasible) no_equilibrium(problem, next.nu);
     }
     const bool first = !solution;
@@ -161,7 +168,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
     auto wanted = slip_bounds(problem, laws, &solution->x);
     previous_change = change;
     change = first ? 1.0 : relative_change(wanted, bounds, problem.communicator());
-    settled = !first && change <= options.tolerance && tolerance <= solver.tolerance;
+    settled = !first && change <= options.tolerance && now.residual <= goal.residual;
     if (settled || step >= options.max_steps || hessian.exhausted()) break;
     // A fixed point that twice fails to contract is most often one that swings: meet it half way until it contracts again.
     stalled = step > 2 && change > 0.9 * previous_change ? stalled + 1 : 0;

@@ -23,6 +23,8 @@ constexpr double recycled_bytes = 1e9;    // that they may take of each rank; at
 constexpr int max_retreats = 8;           // of slip bounds
 constexpr int max_retreats_to_z = 2;      // quarters of the way back, before the step becomes a gradient projection
 constexpr int max_safeguards = 12;        // after which another algorithm will do better
+constexpr double finest = 1e-7;           // residual over ||P b|| that is enough where no error is allowed
+constexpr double first_look = 0.1;        // part of the first error at which the allowed one is asked for
 
 double projected_size(const Problem& problem)
 {
@@ -32,6 +34,28 @@ double projected_size(const Problem& problem)
 }
 
 }  // namespace
+
+// ||x - x*||_A from residuals and energies. With M near A^-1 the residual's r'Mr is near its square but for a factor, and that
+// is known of the point before: its squared error is at least twice the energy that has been gained since, and little more where
+// steps gain a lot.
+class ErrorEstimate {
+ public:
+  double operator()(double measure, double energy)
+  {
+    if (measure_ > 0 && energy < energy_) {
+      const double now = 2 * (energy_ - energy) / measure_;
+      factor_ = std::max(now, last_);
+      last_ = now;
+    }
+    measure_ = measure;
+    energy_ = energy;
+    return std::sqrt(factor_ * measure);
+  }
+
+ private:
+  double measure_ = 0, energy_ = 0;  // of the point before
+  double factor_ = 1, last_ = 0;
+};
 
 struct FaceNewton::State {
   explicit State(const Teuchos::RCP<const Map>& map) : z(map), g(map), y(map), gy(map) {}
@@ -69,6 +93,16 @@ void FaceNewton::precondition(const Face& face, const Vector& residual, Vector& 
   for (std::size_t i = 0; i < recycled_.size(); ++i)
     z.update(part[i] - recycled_[i].image.dot(z) / recycled_[i].energy, recycled_[i].direction, 1);
   face.project(z);
+}
+
+// r'Mr, about the square of the error that the residual stands for.
+double FaceNewton::energy_measure(const Vector& residual) const
+{
+  if (!preconditioner_) return residual.dot(residual) / norm_;
+  Vector z(residual.getMap());
+  preconditioner_->apply(residual, z);
+  ++preconditionings_;
+  return residual.dot(z);
 }
 
 // Conjugate gradients for min 1/2 d'(A + Sigma) d + g'd over the free directions d of the face; sets y and gy. Returns false if
@@ -115,7 +149,7 @@ bool FaceNewton::descend(const Face& face, double goal, const std::function<void
   return true;
 }
 
-Solution FaceNewton::solve(const std::optional<Solution>& start, double tolerance, const Renewal* renewal,
+Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const Renewal* renewal,
                            const Observer& observer)
 {
   auto& [hessian, linear, equality, set] = problem_;
@@ -158,6 +192,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, double toleranc
   Eigen::VectorXd nu =
       start && start->nu.size() == equality.size() ? Eigen::VectorXd(start->nu * (step_length / norm_)) : Eigen::VectorXd();
   bool moved = false;  // y differs from z
+  ErrorEstimate estimate;
+  double first_error = 0, allowed = -1;  // negative: not asked for yet
   while (true) {
     double step = step_length / norm_;
     Vector trial(y, Teuchos::Copy);
@@ -206,7 +242,14 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, double toleranc
     ++result.outer_iterations;
     report("outer");
     const double worst = std::max(residual, mismatch);
-    result.converged = worst <= tolerance * size;
+    trial.scale(norm_);
+    result.error = estimate(energy_measure(trial), energy) * (residual > 0 ? worst / residual : 1.0);
+    if (result.outer_iterations == 1) first_error = result.error;
+    result.converged = worst <= (goal.allowed_error ? finest : goal.residual) * size;
+    if (goal.allowed_error && !result.converged && result.error <= (allowed < 0 ? first_look * first_error : allowed)) {
+      allowed = goal.allowed_error(z, result.nu);
+      result.converged = result.error <= allowed;
+    }
     since_best = worst < 0.9 * best ? 0 : since_best + 1;
     best = std::min(best, worst);
     if (result.converged || hessian.exhausted() || result.outer_iterations >= max_faces ||
@@ -215,7 +258,11 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, double toleranc
 
     const Face face(projector_, next.argument, step, slip_stiffness * norm_);
     moved = descend(
-        face, 0.1 * tolerance * size, [&] { report("inner"); }, state);
+        face,
+        !goal.allowed_error ? 0.1 * goal.residual * size
+        : allowed > 0       ? 0.3 * worst * allowed / result.error
+                            : 0.0,
+        [&] { report("inner"); }, state);
   }
   result.x.assign(z);
   result.gradient.assign(g);

@@ -8,7 +8,10 @@ void describe(deck::Description<Options>& d)
   d.key("algorithm", &Options::algorithm,
         "face_newton: an active set method on exactly projected points; smalse: SMALSE-M with MPGP inside, the paper's.")
       .one_of({"face_newton", "smalse"});
-  d.key("tolerance", &Options::tolerance, "Relative: the reduced projected gradient and the equality residual over ||P d||.")
+  d.key("tolerance", &Options::tolerance,
+        "Relative: the reduced projected gradient and the equality residual over ||P d||. auto: stop when the algebraic error is "
+        "a "
+        "tenth of the estimated discretization error, both in the energy norm (smalse: 1e-4).")
       .positive()
       .below(1);
   d.key("max_multiplications", &Options::max_multiplications, "Products with the dual operator in the whole run.").at_least(1);

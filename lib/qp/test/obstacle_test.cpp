@@ -49,7 +49,7 @@ Solution by_smalse(const Problem& problem, const std::optional<Solution>& start,
 
 Solution by_face_newton(const Problem& problem, const std::optional<Solution>& start, double tolerance)
 {
-  return FaceNewton(problem, nullptr).solve(start, tolerance, nullptr, {});
+  return FaceNewton(problem, nullptr).solve(start, {tolerance, {}}, nullptr, {});
 }
 
 class Obstacle : public testing::TestWithParam<Solver> {};
@@ -77,47 +77,88 @@ TEST_P(Obstacle, StringIsSolvedToItsKktConditions)
   EXPECT_GT((x.array() == -0.4).count(), 10);
 }
 
+// A random programme with five equalities, bounds and discs; a point inside makes it feasible.
+struct RandomProgramme {
+  static constexpr int n = 48;
+  std::mt19937 generator{7};
+  std::normal_distribution<double> normal;
+
+  Eigen::MatrixXd random(Eigen::Index rows, Eigen::Index columns)
+  {
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) { return normal(generator); });
+  }
+  static Eigen::MatrixXd definite(const Eigen::MatrixXd& root)
+  {
+    return root * root.transpose() / n + 0.05 * Eigen::MatrixXd::Identity(n, n);
+  }
+  // In blocks of three: a bound and a disc; blocks never straddle two ranks.
+  static Teuchos::RCP<const Map> blocks_of_three()
+  {
+    const Local blocks = n / 3 / world().size() + (world().rank() < n / 3 % world().size() ? 1 : 0);
+    return Teuchos::rcp(new Map(n, static_cast<std::size_t>(3 * blocks), 0, teuchos(world())));
+  }
+  static FeasibleSet bounds_and_discs(Local size)
+  {
+    std::vector<Bound> bounds;
+    std::vector<Disc> discs;
+    for (Local i = 0; i < size; i += 3) {
+      bounds.push_back({i, 0});
+      discs.push_back({{i + 1, i + 2}, 0.6, {0, 0}});
+    }
+    return {bounds, discs};
+  }
+
+  Eigen::MatrixXd dense = definite(random(n, n));
+  Eigen::MatrixXd g = random(5, n);
+  Eigen::VectorXd inside = 0.1 * random(n, 1).cwiseAbs();
+  Teuchos::RCP<const Map> map = blocks_of_three();
+  FeasibleSet set = bounds_and_discs(static_cast<Local>(map->getNodeNumElements()));
+  DenseOperator a{dense, map, world()};
+  EqualityConstraint equality{local_columns(g, *map), g* inside, world()};
+  Hessian hessian{a, 20000};
+  Vector b = local_part(random(n, 1), map);
+  Problem problem{hessian, b, equality, set};
+};
+
 TEST_P(Obstacle, EqualityAndDiscs)
 {
-  constexpr int n = 48;
-  std::mt19937 generator(7);
-  std::normal_distribution<double> normal;
-  const auto random = [&](Eigen::Index rows, Eigen::Index columns) {
-    return Eigen::MatrixXd(
-        Eigen::MatrixXd::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) { return normal(generator); }));
-  };
-  const Eigen::MatrixXd root = random(n, n);
-  const Eigen::MatrixXd dense = root * root.transpose() / n + 0.05 * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd g = random(5, n);
-  const Eigen::VectorXd inside = 0.1 * random(n, 1).cwiseAbs();  // a feasible point: e is made from it
-  const Eigen::VectorXd linear = random(n, 1);
-
-  // In blocks of three: a bound and a disc; blocks never straddle two ranks.
-  const Local blocks = n / 3 / world().size() + (world().rank() < n / 3 % world().size() ? 1 : 0);
-  const auto map = Teuchos::rcp(new Map(n, static_cast<std::size_t>(3 * blocks), 0, teuchos(world())));
-  std::vector<Bound> bounds;
-  std::vector<Disc> discs;
-  for (Local i = 0; i < 3 * blocks; i += 3) {
-    bounds.push_back({i, 0});
-    discs.push_back({{i + 1, i + 2}, 0.6, {0, 0}});
-  }
-  const FeasibleSet set(bounds, discs);
-  const DenseOperator a(dense, map, world());
-  const EqualityConstraint equality(local_columns(g, *map), g * inside, world());
-  Hessian hessian(a, 20000);
-  const Vector b = local_part(linear, map);
-  const Problem problem{hessian, b, equality, set};
-  const Solution solution = GetParam()(problem, {}, 1e-10);
+  RandomProgramme programme;
+  auto& [hessian, b, equality, set] = programme.problem;
+  const Solution solution = GetParam()(programme.problem, {}, 1e-10);
   ASSERT_TRUE(solution.feasible);
   EXPECT_TRUE(solution.converged);
   EXPECT_LT(equality.norm(equality.apply(solution.x) - equality.right_side()), 1e-10);
-  EXPECT_LT(kkt(solution, problem), 1e-7);
+  EXPECT_LT(kkt(solution, programme.problem), 1e-7);
 
   // A warm start from the solution must end at once and at the same point.
   const int before = hessian.count();
-  const Solution again = GetParam()(problem, solution, 1e-6);
+  const Solution again = GetParam()(programme.problem, solution, 1e-6);
   EXPECT_LT(hessian.count() - before, 8);
   EXPECT_LT((gathered(again.x, world()) - gathered(solution.x, world())).norm(), 1e-5);
+}
+
+TEST(FaceNewton, StopsAtTheAllowedError)
+{
+  RandomProgramme programme;
+  const Eigen::VectorXd exact = gathered(FaceNewton(programme.problem, nullptr).solve({}, {1e-12, {}}, nullptr, {}).x, world());
+  const auto norm = [&](const Eigen::VectorXd& x) { return std::sqrt(x.dot(programme.dense * x)); };
+  int products = 0;
+  for (const double part : {1e-1, 1e-2, 1e-4}) {
+    const double allowed = part * norm(exact);
+    int asked = 0;
+    const Goal goal{0, [&](const Vector&, const Eigen::VectorXd&) {
+                      ++asked;
+                      return allowed;
+                    }};
+    const int before = programme.hessian.count();
+    const Solution solution = FaceNewton(programme.problem, nullptr).solve({}, goal, nullptr, {});
+    EXPECT_TRUE(solution.converged);
+    EXPECT_LE(solution.error, allowed);
+    EXPECT_GE(asked, 1);
+    EXPECT_LE(norm(gathered(solution.x, world()) - exact), 2 * allowed);
+    EXPECT_GE(programme.hessian.count() - before, products);  // more of them for more
+    products = programme.hessian.count() - before;
+  }
 }
 
 }  // namespace

@@ -64,6 +64,28 @@ struct Codec<std::optional<V>> {
   static nlohmann::ordered_json schema(const Limits& limits) { return Codec<V>::schema(limits); }
 };
 
+/// A value, or the word auto where the program finds one.
+template <class V>
+struct OrAuto {
+  std::optional<V> value;
+};
+
+template <class V>
+struct Codec<OrAuto<V>> {
+  static void read(OrAuto<V>& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
+  {
+    if (node.IsScalar() && node.Scalar() == "auto")
+      value.value.reset();
+    else
+      Codec<V>::read(value.value.emplace(), node, path, document, limits);
+  }
+  static YAML::Node write(const OrAuto<V>& value) { return value.value ? Codec<V>::write(*value.value) : YAML::Node("auto"); }
+  static nlohmann::ordered_json schema(const Limits& limits)
+  {
+    return {{"anyOf", {{{"const", "auto"}}, Codec<V>::schema(limits)}}};
+  }
+};
+
 /// Vectors in space: two or three entries; what is not given stays as it is.
 template <class V, std::size_t N>
 struct Codec<std::array<V, N>> {

@@ -47,6 +47,9 @@ class ElasticSubdomain : public SubdomainOperator {
   /// DirectSolver.
   ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
                    const std::string& factorization);
+  /// What the factor of such a subdomain will take, from the analysis of its pattern alone.
+  static std::size_t foreseen_factor_bytes(const SparseMatrix& lower, const Eigen::MatrixXd& kernel,
+                                           std::span<const Point> points, int dimension);
 
   int size() const override { return static_cast<int>(stiffness_.cols()); }
   const Eigen::MatrixXd& kernel() const override { return kernel_; }

@@ -41,8 +41,12 @@ struct Result {
 /// One line of progress: the Tresca step, the change of the bounds before it, and where the solver stands.
 using Observer = std::function<void(int step, double change, const qp::Progress&)>;
 
-/// Solves for the multipliers. Throws Error(no_equilibrium) that names the body that moves and how. Collective.
+/// The algebraic error in the energy norm that is good enough at the multipliers lambda and nu, see qp::Goal.
+using AllowedError = std::function<double(const Vector& lambda, const Eigen::VectorXd& nu)>;
+
+/// Solves for the multipliers, to the tolerance of `solver` or, where that is auto, to the allowed error. Throws
+/// Error(no_equilibrium) that names the body that moves and how. Collective.
 Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Options& options, const qp::Options& solver,
-             const Observer& observer);
+             const AllowedError& allowed_error, const Observer& observer);
 
 }  // namespace mortise::friction

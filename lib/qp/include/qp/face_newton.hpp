@@ -26,10 +26,11 @@ class FaceNewton {
   /// `preconditioner`: an approximation of the inverse of A, symmetric positive semidefinite, or null. Collective.
   FaceNewton(const Problem& problem, const Operator* preconditioner);
 
-  /// Solves until the natural residual ||x - P_C(x - a g)|| / a, a = 1 / ||P A P||, is `tolerance` ||P b||, from `start`, or from
-  /// the feasible point nearest to 0. With `renewal` the radii change at every face, and what they would change counts as
-  /// residual too. Not converged if the products run out, or if it makes no more progress. Collective.
-  Solution solve(const std::optional<Solution>& start, double tolerance, const Renewal* renewal, const Observer& observer);
+  /// Solves until the natural residual ||x - P_C(x - a g)|| / a, a = 1 / ||P A P||, is goal.residual ||P b||, or the error is
+  /// what the goal allows, from `start`, or from the feasible point nearest to 0. With `renewal` the radii change at every face,
+  /// and what they would change counts as residual too. Not converged if the products run out, or if it makes no more progress.
+  /// Collective.
+  Solution solve(const std::optional<Solution>& start, const Goal& goal, const Renewal* renewal, const Observer& observer);
 
  private:
   struct Pair {
@@ -38,6 +39,7 @@ class FaceNewton {
   };
   struct State;
   void precondition(const Face& face, const Vector& residual, Vector& z) const;
+  double energy_measure(const Vector& residual) const;
   bool descend(const Face& face, double goal, const std::function<void()>& report, State& state);
 
   const Problem& problem_;

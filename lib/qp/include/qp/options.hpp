@@ -9,7 +9,7 @@ namespace mortise::qp {
 
 struct Options {
   std::string algorithm = "face_newton";
-  double tolerance = 1e-4;          ///< relative: reduced projected gradient and equality residual over ||P d||
+  deck::OrAuto<double> tolerance;   ///< relative: reduced projected gradient and equality residual over ||P d||
   int max_multiplications = 10000;  ///< with F, in the whole run
 };
 

@@ -1,9 +1,19 @@
-// What a solver of quadratic programmes returns.
+// When a solver of quadratic programmes may stop, and what it returns.
 #pragma once
+
+#include <limits>
 
 #include "qp/problem.hpp"
 
 namespace mortise::qp {
+
+/// When a solve may stop.
+struct Goal {
+  double residual = 1e-4;  ///< natural residual over ||P b||
+  /// If given, face Newton stops by this instead: the error, in the norm of A, that is good enough at the present point x with
+  /// the multipliers nu. Asked for only where the error comes near. Collective.
+  std::function<double(const Vector& x, const Eigen::VectorXd& nu)> allowed_error;
+};
 
 /// What a solve leaves, and what the next one of a sequence may start from.
 struct Solution {
@@ -21,7 +31,9 @@ struct Solution {
   int preconditionings = 0;
   int safeguards = 0;             ///< steps of face Newton that went up and were taken back
   double projected_gradient = 0;  ///< relative to ||P b||
-  double equality = 0;            ///< relative, ||Q x - Q x_e|| / ||P b|| in the scaling ||P A P|| = 1
+  /// ||x - x*|| in the norm of A, estimated by face Newton; not a number of SMALSE-M.
+  double error = std::numeric_limits<double>::quiet_NaN();
+  double equality = 0;  ///< relative, ||Q x - Q x_e|| / ||P b|| in the scaling ||P A P|| = 1
 
   double hessian_norm = 0;    ///< ||P A P||, kept from solve to solve
   double precision = 1;       ///< M of SMALSE-M, kept from solve to solve

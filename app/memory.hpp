@@ -1,0 +1,24 @@
+// The memory that a run will need, foreseen before it is spent.
+#pragma once
+
+#include "base/context.hpp"
+#include "model.hpp"
+
+namespace mortise {
+
+/// Bytes, over all ranks.
+struct Memory {
+  double factors = 0;
+  double total = 0;
+  double excess = 0;  ///< of the machine that lacks most, what it will lack; negative if there is enough everywhere
+};
+
+/// From the analysis of the largest subdomain of each rank; the others' factors are scaled from it. `original` as of
+/// Model::congruent. Collective.
+Memory foresee_memory(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                      const std::vector<std::size_t>& original, const Communicator& comm);
+
+/// Throws Error(machine) that says what would fit, if a machine has not enough. Collective.
+void require(const Memory& memory, const Deck& deck, const partition::Decomposition& decomposition);
+
+}  // namespace mortise
