@@ -73,8 +73,9 @@ void append(std::vector<double>& to, const Point& p)
 io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vector<contact::SurfaceState>& states)
 {
   io::Piece piece;
-  io::Field pressure{"contact_pressure", 1, {}}, traction{"contact_traction", 3, {}}, gap{"gap", 1, {}}, slip{"slip", 3, {}},
-      status{"contact_status", 1, {}, true}, index{"contact", 1, {}, true};
+  io::Field pressure{"contact_pressure", 1, {}}, recovered{"contact_pressure_recovered", 1, {}},
+      traction{"contact_traction", 3, {}}, gap{"gap", 1, {}}, slip{"slip", 3, {}}, status{"contact_status", 1, {}, true},
+      index{"contact", 1, {}, true};
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& surface = pairs[c].secondary;
     const auto base = static_cast<Local>(piece.points.size());
@@ -87,13 +88,14 @@ io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vect
     }
     for (std::size_t n = 0; n < surface.points.size(); ++n) {
       pressure.values.push_back(states[c].pressure[n]);
+      recovered.values.push_back(states[c].recovered_pressure[n]);
       append(traction.values, states[c].traction[n]);
       gap.values.push_back(states[c].gap[n]);
       append(slip.values, states[c].slip[n]);
       status.values.push_back(states[c].status[n]);
     }
   }
-  piece.point_fields = {pressure, traction, gap, slip, status};
+  piece.point_fields = {pressure, recovered, traction, gap, slip, status};
   piece.cell_fields = {index};
   return piece;
 }
@@ -175,8 +177,7 @@ void write_fields(const Deck& deck, const partition::Decomposition& decompositio
   tables.push_back(multiplier_table(problem, solved.solution.x));
   if (!pairs.empty()) tables.push_back(contact_table(results, comm));
   io::write_results(directory + "/results.h5", tables, comm);
-  if (!pairs.empty())
-    io::write_vtk(directory, "contact", contact_piece(pairs, contact::surface_states(results.points, pairs, comm)), comm);
+  if (!pairs.empty()) io::write_vtk(directory, "contact", contact_piece(pairs, results.surfaces), comm);
   io::write_vtk(directory, "solution", volume_piece(deck, decomposition, results), comm);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fem/stress.hpp"
@@ -234,10 +235,19 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   contact_states(deck, problem, solved, results);
   warn_of_short_search(deck, pairs, problem, results, context);
   reactions(deck, problem, solved, results);
+  results.surfaces = contact::surface_states(results.points, pairs, context.comm);
   for (std::size_t c = 0; c < deck.contacts.size(); ++c) {
     const auto& r = results.resultants[c];
-    results.summary.contacts.push_back(
-        {deck.contacts[c].name, {r.force[0], r.force[1], r.force[2]}, r.max_pressure, r.area, r.open, r.stick, r.slip});
+    const auto& pressure = results.surfaces[c].recovered_pressure;
+    const double recovered = context.comm.max(pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end()));
+    results.summary.contacts.push_back({deck.contacts[c].name,
+                                        {r.force[0], r.force[1], r.force[2]},
+                                        r.max_pressure,
+                                        r.area,
+                                        r.open,
+                                        r.stick,
+                                        r.slip,
+                                        recovered});
   }
   return results;
 }
@@ -258,9 +268,10 @@ void print(const Results& results, const Context& context)
            100 * s.error_estimate.discretization, 100 * s.error_estimate.algebraic);
   for (const auto& c : s.contacts)
     log.line(
-        "  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g}, area {:.4g}; {} open, {} "
+        "  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g} ({:.5g} at one node), area "
+        "{:.4g}; {} open, {} "
         "stick, {} slip",
-        c.name, c.force[0], c.force[1], c.force[2], c.max_pressure, c.area, c.open, c.stick, c.slip);
+        c.name, c.force[0], c.force[1], c.force[2], c.max_recovered_pressure, c.max_pressure, c.area, c.open, c.stick, c.slip);
   log.line(
       "  residuals           gradient {:.1e}, equality {:.1e}, equilibrium {:.1e}, penetration {:.1e}, complementarity {:.1e}",
       s.residuals.projected_gradient, s.residuals.equality, s.residuals.equilibrium, s.residuals.penetration,

@@ -13,8 +13,9 @@ struct Results {
   std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
   std::vector<Eigen::MatrixXd> nodal_stress;  ///< nodes x 6 of each subdomain, recovered inside the body
   std::vector<Eigen::VectorXd> nodal_von_mises, cell_von_mises;
-  std::vector<contact::PointState> points;     ///< of this rank's contact points
-  std::vector<contact::Resultant> resultants;  ///< of each contact
+  std::vector<contact::PointState> points;      ///< of this rank's contact points
+  std::vector<contact::Resultant> resultants;   ///< of each contact
+  std::vector<contact::SurfaceState> surfaces;  ///< of each contact, its secondary side on this rank
   Point max_von_mises_at = Point::Zero();
   Point applied = Point::Zero(), reaction = Point::Zero();  ///< sums of loads and of support forces
   double dual_jump = 0;

@@ -4,7 +4,7 @@
     render.py OUTPUT_DIRECTORY PICTURE.png [--field von_mises] [--warp 100] [--view iso|x|y|z|-x|-y|-z] [--contact] [--edges] [--max VALUE]
         [--focus X Y Z] [--zoom 1.2]
 
---contact shows the contact surfaces (fields contact_pressure, gap, slip, contact_status) instead of the volume; --warp multiplies the
+--contact shows the contact surfaces (fields contact_pressure, contact_pressure_recovered, gap, slip, contact_status) instead of the volume; --warp multiplies the
 displacements; --max ends the colour scale, since peaks at edges and corners hide the rest.
 """
 import argparse
@@ -35,7 +35,7 @@ def main():
     arguments = parser.parse_args()
 
     mesh = load(arguments.directory, "contact" if arguments.contact else "solution")
-    field = arguments.field or ("contact_pressure" if arguments.contact else "von_mises")
+    field = arguments.field or ("contact_pressure_recovered" if arguments.contact else "von_mises")
     if field not in mesh.point_data:
         parser.error(f"there is no point field {field}; there are {', '.join(mesh.point_data.keys())}")
     if arguments.warp and "displacement" in mesh.point_data:

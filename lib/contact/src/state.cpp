@@ -78,6 +78,58 @@ std::vector<Sent> gather(std::span<const PointState> points, const Communicator&
 
 }  // namespace
 
+namespace {
+
+double size_of(std::span<const Local> face, const std::vector<Point>& points)
+{
+  const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(face[k])]; };
+  if (face.size() == 2) return (at(1) - at(0)).norm();
+  return 0.5 * (face.size() == 3 ? (at(1) - at(0)).cross(at(2) - at(0)) : (at(2) - at(0)).cross(at(3) - at(1))).norm();
+}
+
+// The mean over the faces at each node of the means of their nodes that carry multipliers, those with an area. Collective.
+std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std::vector<double>& pressure,
+                                        const std::vector<double>& area, const Communicator& comm)
+{
+  struct Sums {
+    Global node;
+    double force, area;
+  };
+  std::vector<Sums> mine;
+  for (const Global node : surface.node_id) mine.push_back({node, 0, 0});
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    double sum = 0;
+    int count = 0;
+    for (const Local n : surface.faces[f]) {
+      if (!(area[static_cast<std::size_t>(n)] > 0)) continue;
+      sum += pressure[static_cast<std::size_t>(n)];
+      ++count;
+    }
+    if (count == 0) continue;
+    const double size = size_of(surface.faces[f], surface.points);
+    for (const Local n : surface.faces[f]) {
+      mine[static_cast<std::size_t>(n)].force += size * sum / count;
+      mine[static_cast<std::size_t>(n)].area += size;
+    }
+  }
+  auto all = comm.all_gather(mine);
+  std::stable_sort(all.begin(), all.end(), [](const Sums& a, const Sums& b) { return a.node < b.node; });
+  std::vector<double> result;
+  auto at = all.begin();
+  for (const Global node : surface.node_id) {
+    at = std::lower_bound(at, all.end(), node, [](const Sums& sums, Global wanted) { return sums.node < wanted; });
+    Sums total{node, 0, 0};
+    for (auto part = at; part != all.end() && part->node == node; ++part) {
+      total.force += part->force;
+      total.area += part->area;
+    }
+    result.push_back(total.area > 0 ? total.force / total.area : 0.0);
+  }
+  return result;
+}
+
+}  // namespace
+
 std::vector<SurfaceState> surface_states(std::span<const PointState> points, std::span<const Pair> pairs,
                                          const Communicator& comm)
 {
@@ -87,14 +139,19 @@ std::vector<SurfaceState> surface_states(std::span<const PointState> points, std
   std::vector<SurfaceState> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& nodes = pairs[c].secondary.node_id;
-    SurfaceState state{std::vector<double>(nodes.size(), 0.0), std::vector<double>(nodes.size(), 0.0),
-                       std::vector<Point>(nodes.size(), Point::Zero()), std::vector<Point>(nodes.size(), Point::Zero()),
+    SurfaceState state{std::vector<double>(nodes.size(), 0.0),
+                       std::vector<double>(nodes.size(), 0.0),
+                       {},
+                       std::vector<Point>(nodes.size(), Point::Zero()),
+                       std::vector<Point>(nodes.size(), Point::Zero()),
                        std::vector<int>(nodes.size(), 0)};
+    std::vector<double> areas(nodes.size(), 0.0);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto found = at.find({static_cast<int>(c), nodes[i]});
       if (found == at.end()) continue;
       double area = 0;
       for (const auto* p : found->second) area += p->area;
+      areas[i] = area;
       for (const auto* p : found->second) {
         state.pressure[i] += p->force / area;
         state.traction[i] += Point(p->traction[0], p->traction[1], p->traction[2]) / area;
@@ -103,6 +160,7 @@ std::vector<SurfaceState> surface_states(std::span<const PointState> points, std
         state.status[i] = std::max(state.status[i], p->status);
       }
     }
+    state.recovered_pressure = averaged_over_faces(pairs[c].secondary, state.pressure, areas, comm);
     result.push_back(std::move(state));
   }
   return result;

@@ -358,5 +358,32 @@ TEST(State, SumsAndStatus)
   EXPECT_EQ(sums[0].slip, comm.size());
 }
 
+// Scatter that alternates from node to node goes, a constant stays, and so does a slope inside.
+TEST(State, RecoveredPressureIsSmooth)
+{
+  const Communicator comm;
+  const auto flat = [](double x, double y) { return Point(x, y, 0); };
+  const auto pair = make_pair(surface({4, 4, 0, 1, 0, 1, true}, flat, comm),
+                              surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::frictionless);
+  const auto pressure = [](double x, double scatter) { return 10 + x + scatter; };
+  std::vector<PointState> points;
+  if (comm.root())
+    for (Global node = 0; node < 25; ++node) {
+      const bool edge_x = node % 5 == 0 || node % 5 == 4, edge_y = node / 5 == 0 || node / 5 == 4;
+      PointState point;
+      point.node = node;
+      point.area = (edge_x ? 0.5 : 1.0) * (edge_y ? 0.5 : 1.0);
+      point.force = point.area * pressure(0.25 * static_cast<double>(node % 5), (node % 5 + node / 5) % 2 == 0 ? 1 : -1);
+      points.push_back(point);
+    }
+  const auto state = surface_states(points, std::vector<Pair>{pair}, comm).front();
+  for (std::size_t n = 0; n < pair.secondary.node_id.size(); ++n) {
+    const Point& x = pair.secondary.points[n];
+    const bool inside = x[0] > 0.1 && x[0] < 0.9 && x[1] > 0.1 && x[1] < 0.9;
+    EXPECT_NEAR(state.recovered_pressure[n], pressure(x[0], 0), inside ? 1e-12 : 0.13);
+    EXPECT_NEAR(std::abs(state.pressure[n] - pressure(x[0], 0)), 1, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace mortise::contact

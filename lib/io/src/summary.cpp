@@ -55,7 +55,8 @@ std::string to_json(const Summary& s)
                                 {"area", number(c.area)},
                                 {"open", c.open},
                                 {"stick", c.stick},
-                                {"slip", c.slip}});
+                                {"slip", c.slip},
+                                {"max_recovered_pressure", number(c.max_recovered_pressure)}});
   json["time"] = Json::object();
   for (const char* stage :
        {"total", "mesh", "partition", "assembly", "contact", "factorization", "solve", "multiplication", "output"}) {

@@ -26,7 +26,7 @@ Summary sample()
   s.primal_unknowns = 5'000'000'000;
   s.strain_energy = 0.1;
   s.reactions.push_back({"ground", {1, 2, 3}});
-  s.contacts.push_back({"interface", {4, 5, 6}, 7, 8, 9, 10, 11});
+  s.contacts.push_back({"interface", {4, 5, 6}, 7, 8, 9, 10, 11, 6.5});
   s.time["solve"] = 1.5;
   s.peak_memory_bytes = 3e10;
   return s;
@@ -61,7 +61,8 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
   EXPECT_EQ(keys(json["residuals"]), (Names{"projected_gradient", "equality", "equilibrium", "penetration", "complementarity"}));
   EXPECT_EQ(keys(json["error_estimate"]), (Names{"discretization", "algebraic"}));
   EXPECT_EQ(keys(json["reactions"][0]), (Names{"boundary", "force"}));
-  EXPECT_EQ(keys(json["contacts"][0]), (Names{"name", "force", "max_pressure", "area", "open", "stick", "slip"}));
+  EXPECT_EQ(keys(json["contacts"][0]),
+            (Names{"name", "force", "max_pressure", "area", "open", "stick", "slip", "max_recovered_pressure"}));
   EXPECT_EQ(keys(json["time"]),
             (Names{"total", "mesh", "partition", "assembly", "contact", "factorization", "solve", "multiplication", "output"}));
 }

@@ -15,6 +15,7 @@ constexpr double slip_stiffness = 0.1;   // curvatures of slip directions are me
 constexpr double inner_reduction = 0.2;  // of the projected gradient on one face
 constexpr double norm_accuracy = 0.4;    // the step only picks the face, and a descent is checked
 constexpr int max_inner = 60;            // conjugate gradient steps on one face
+constexpr int max_on_only_face = 1000;   // where there are no others
 constexpr int max_faces = 200;
 constexpr int patience = 20;              // faces without a better residual after which it gives up
 constexpr int renewal_patience = 6;       // the same where slip bounds move, for then there is another way
@@ -66,6 +67,8 @@ struct FaceNewton::State {
 FaceNewton::FaceNewton(const Problem& problem, const Operator* preconditioner)
     : problem_(problem), preconditioner_(preconditioner), projector_(problem.equality, problem.set)
 {
+  const auto constraints = static_cast<long long>(problem.set.bounds().size() + problem.set.discs().size());
+  only_face_ = problem.equality.communicator().sum(constraints) == 0;
   const double pair = 16.0 * static_cast<double>(problem.linear.getGlobalLength()) / problem.equality.communicator().size();
   kept_ = static_cast<std::size_t>(std::clamp(recycled_bytes / std::max(pair, 1.0), 10.0, static_cast<double>(max_recycled)));
 }
@@ -123,9 +126,9 @@ bool FaceNewton::descend(const Face& face, double goal, const std::function<void
   };
   const double start = size();
   if (start <= 1e-2 * goal) return false;
-  goal = std::max(goal, inner_reduction * start);
+  if (!only_face_) goal = std::max(goal, inner_reduction * start);
   std::deque<Pair> fresh;
-  for (int step = 0; step < max_inner && !problem_.hessian.exhausted(); ++step) {
+  for (int step = 0; step < (only_face_ ? max_on_only_face : max_inner) && !problem_.hessian.exhausted(); ++step) {
     precondition(face, r, direction);
     for (const auto& pair : fresh) direction.update(-pair.image.dot(direction) / pair.energy, pair.direction, 1);
     problem_.hessian.apply(direction, product);
@@ -257,12 +260,16 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       break;
 
     const Face face(projector_, next.argument, step, slip_stiffness * norm_);
+    // The residual to come down to on this face, if inner_reduction does not end it before.
+    double enough = 0;
+    if (!goal.allowed_error)
+      enough = (only_face_ ? 0.5 : 0.1) * goal.residual * size;
+    else if (allowed > 0)
+      enough = 0.3 * worst * allowed / result.error;
+    else if (only_face_)
+      enough = inner_reduction * worst;
     moved = descend(
-        face,
-        !goal.allowed_error ? 0.1 * goal.residual * size
-        : allowed > 0       ? 0.3 * worst * allowed / result.error
-                            : 0.0,
-        [&] { report("inner"); }, state);
+        face, enough, [&] { report("inner"); }, state);
   }
   result.x.assign(z);
   result.gradient.assign(g);

@@ -35,6 +35,7 @@ struct Summary {
     std::array<double, 3> force;
     double max_pressure, area;
     long long open, stick, slip;
+    double max_recovered_pressure = 0;  ///< averaged over the faces at a node
   };
   std::vector<Contact> contacts;
   std::map<std::string, double> time;  ///< seconds a stage, the largest over the ranks

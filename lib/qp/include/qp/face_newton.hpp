@@ -46,7 +46,8 @@ class FaceNewton {
   const Operator* preconditioner_;
   Projector projector_;
   std::deque<Pair> recycled_;
-  std::size_t kept_ = 0;  // of them, the same on every rank
+  std::size_t kept_ = 0;    // of them, the same on every rank
+  bool only_face_ = false;  // no bounds, no discs: conjugate gradients to the end
   double norm_ = 0;
   mutable int preconditionings_ = 0;
 };
