@@ -12,19 +12,23 @@ namespace mortise::friction {
 
 namespace {
 
-constexpr double loose = 1e-2;  // tolerance of the first Tresca problem, and the loosest of all
+constexpr double loose = 1e-2;         // tolerance of the first Tresca problem, and the loosest of all
+constexpr double worth_a_look = 0.05;  // change of the slip bounds at which the allowed error is asked for
 
-// ||a - b|| / ||a|| over all ranks; points that stick without limit in either do not count.
+// ||a - b|| over all ranks; points that stick without limit in either do not count.
+double distance(const std::vector<double>& a, const std::vector<double>& b, const Communicator& comm)
+{
+  double square = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!std::isinf(a[i]) && !std::isinf(b[i])) square += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(comm.sum(square));
+}
+
+// ||a - b|| / ||a||.
 double relative_change(const std::vector<double>& next, const std::vector<double>& now, const Communicator& comm)
 {
-  double difference = 0, size = 0;
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    size += std::isinf(next[i]) ? 0 : next[i] * next[i];
-    if (!std::isinf(next[i]) && !std::isinf(now[i])) difference += (next[i] - now[i]) * (next[i] - now[i]);
-  }
-  difference = comm.sum(difference);
-  size = comm.sum(size);
-  return size > 0 ? std::sqrt(difference / size) : 0;
+  const double size = distance(next, std::vector<double>(next.size(), 0.0), comm);
+  return size > 0 ? distance(next, now, comm) / size : 0;
 }
 
 bool any_coulomb(const std::vector<Law>& laws)
@@ -168,7 +172,13 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
     auto wanted = slip_bounds(problem, laws, &solution->x);
     previous_change = change;
     change = first ? 1.0 : relative_change(wanted, bounds, problem.communicator());
-    settled = !first && change <= options.tolerance && now.residual <= goal.residual;
+    if (goal.allowed_error && std::isfinite(solution->error)) {
+      // Bounds that move by so much move the multipliers by about as much, and ||x||_F^2 <= ||F|| ||x||^2.
+      solution->error += std::sqrt(solution->hessian_norm) * distance(wanted, bounds, problem.communicator());
+      settled = !first && change <= worth_a_look && solution->error <= goal.allowed_error(solution->x, solution->nu);
+    } else {
+      settled = !first && change <= options.tolerance && now.residual <= goal.residual;
+    }
     if (settled || step >= options.max_steps || hessian.exhausted()) break;
     // A fixed point that twice fails to contract is most often one that swings: meet it half way until it contracts again.
     stalled = step > 2 && change > 0.9 * previous_change ? stalled + 1 : 0;

@@ -87,12 +87,12 @@ void Face::add_curvature(const Vector& x, Vector& y) const
   }
 }
 
-void Face::sweep(Vector& x, bool direction) const
+void Face::sweep(Vector& x, bool direction, int sweeps) const
 {
   restrict(x, 0);
   if (equality_.size() == 0) return;
   Vector part(x.getMap());
-  for (int repeat = 0; repeat < 2; ++repeat) {
+  for (int repeat = 0; repeat < sweeps; ++repeat) {
     part.assign(x);
     if (!direction) restrict(part, 2);
     const Eigen::VectorXd nu = matrix_.solve(equality_.apply(part));

@@ -83,7 +83,7 @@ void FaceNewton::precondition(const Face& face, const Vector& residual, Vector& 
     part[i] = recycled_[i].direction.dot(q) / recycled_[i].energy;
     q.update(-part[i], recycled_[i].image, 1);
   }
-  if (!recycled_.empty()) face.project_gradient(q);
+  if (!recycled_.empty()) face.project_gradient(q, 1);  // once is enough for what is projected again at the end
   face.scale(q);
   if (preconditioner_) {
     preconditioner_->apply(q, z);
@@ -92,7 +92,7 @@ void FaceNewton::precondition(const Face& face, const Vector& residual, Vector& 
     z.update(step_length / norm_, q, 0);
   }
   face.scale(z);
-  if (!recycled_.empty()) face.project(z);
+  if (!recycled_.empty()) face.project(z, 1);
   for (std::size_t i = 0; i < recycled_.size(); ++i)
     z.update(part[i] - recycled_[i].image.dot(z) / recycled_[i].energy, recycled_[i].direction, 1);
   face.project(z);
@@ -140,7 +140,7 @@ bool FaceNewton::descend(const Face& face, double goal, const std::function<void
     y.update(length, direction, 1);
     gy.update(length, product, 1);
     r.update(-length, image, 1);
-    face.project_gradient(r);
+    face.project_gradient(r, 1);
     problem_.equality.project(image);
     fresh.push_back({Vector(direction, Teuchos::Copy), std::move(image), energy});
     if (fresh.size() > kept_) fresh.pop_front();
@@ -247,9 +247,11 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     const double worst = std::max(residual, mismatch);
     trial.scale(norm_);
     result.error = estimate(energy_measure(trial), energy) * (residual > 0 ? worst / residual : 1.0);
-    if (result.outer_iterations == 1) first_error = result.error;
+    // Infinite while points stick whose bounds are still to come.
+    if (first_error == 0 && std::isfinite(result.error)) first_error = result.error;
     result.converged = worst <= (goal.allowed_error ? finest : goal.residual) * size;
-    if (goal.allowed_error && !result.converged && result.error <= (allowed < 0 ? first_look * first_error : allowed)) {
+    if (goal.allowed_error && !result.converged && std::isfinite(result.error) &&
+        result.error <= (allowed < 0 ? first_look * first_error : allowed)) {
       allowed = goal.allowed_error(z, result.nu);
       result.converged = result.error <= allowed;
     }

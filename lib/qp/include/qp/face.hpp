@@ -23,11 +23,11 @@ class Face {
   /// directions are alike to a preconditioner.
   void scale(Vector& x) const;
 
-  /// x becomes the free direction x - w^2 Pi G'(G w^2 Pi G')^-1 G Pi x, for which G x = 0. Applied twice, against rounding.
-  /// Collective.
-  void project(Vector& x) const { sweep(x, true); }
+  /// x becomes the free direction x - w^2 Pi G'(G w^2 Pi G')^-1 G Pi x, for which G x = 0. Applied twice, against
+  /// rounding, where it is not projected again. Collective.
+  void project(Vector& x, int sweeps = 2) const { sweep(x, true, sweeps); }
   /// The transpose of project(): the part of a gradient that free directions feel. Collective.
-  void project_gradient(Vector& x) const { sweep(x, false); }
+  void project_gradient(Vector& x, int sweeps = 2) const { sweep(x, false, sweeps); }
 
   long long active_bounds = 0;  ///< on this rank
   long long slipping = 0;       ///< on this rank
@@ -39,7 +39,7 @@ class Face {
     double curvature, weight;
   };
   void restrict(Vector& x, int power) const;  // x = w^power Pi x
-  void sweep(Vector& x, bool direction) const;
+  void sweep(Vector& x, bool direction, int sweeps) const;
 
   const EqualityConstraint& equality_;
   CoarseMatrix& matrix_;
