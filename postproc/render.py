@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Renders the fields of a run to a PNG file, off screen.
 
-    render.py OUTPUT_DIRECTORY PICTURE.png [--field von_mises] [--warp 100] [--view iso|x|y|z|-x|-y|-z] [--contact] [--edges] [--max VALUE]
+    render.py OUTPUT_DIRECTORY PICTURE.png [--field von_mises] [--warp 100] [--view=iso|x|y|z|-x|-y|-z] [--contact] [--edges] [--max VALUE]
         [--focus X Y Z] [--zoom 1.2]
 
 --contact shows the contact surfaces (fields contact_pressure, contact_pressure_recovered, gap, slip, contact_status) instead of the volume; --warp multiplies the

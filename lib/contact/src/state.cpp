@@ -87,9 +87,10 @@ double size_of(std::span<const Local> face, const std::vector<Point>& points)
   return 0.5 * (face.size() == 3 ? (at(1) - at(0)).cross(at(2) - at(0)) : (at(2) - at(0)).cross(at(3) - at(1))).norm();
 }
 
-// The mean over the faces at each node of the means of their nodes that carry multipliers, those with an area. Collective.
+// The mean over the faces at each pressed node of the means of their pressed nodes: a contact one cell wide keeps its pressure,
+// and the border of a contact stays where it is. Collective.
 std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std::vector<double>& pressure,
-                                        const std::vector<double>& area, const Communicator& comm)
+                                        const Communicator& comm)
 {
   struct Sums {
     Global node;
@@ -101,12 +102,12 @@ std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std:
     double sum = 0;
     int count = 0;
     for (const Local n : surface.faces[f]) {
-      if (!(area[static_cast<std::size_t>(n)] > 0)) continue;
+      if (!(pressure[static_cast<std::size_t>(n)] > 0)) continue;
       sum += pressure[static_cast<std::size_t>(n)];
       ++count;
     }
     if (count == 0) continue;
-    const double size = size_of(surface.faces[f], surface.points);
+    const double size = size_of(surface.faces[f], surface.points) * count / static_cast<double>(surface.faces[f].size());
     for (const Local n : surface.faces[f]) {
       mine[static_cast<std::size_t>(n)].force += size * sum / count;
       mine[static_cast<std::size_t>(n)].area += size;
@@ -116,14 +117,15 @@ std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std:
   std::stable_sort(all.begin(), all.end(), [](const Sums& a, const Sums& b) { return a.node < b.node; });
   std::vector<double> result;
   auto at = all.begin();
-  for (const Global node : surface.node_id) {
+  for (std::size_t i = 0; i < surface.node_id.size(); ++i) {
+    const Global node = surface.node_id[i];
     at = std::lower_bound(at, all.end(), node, [](const Sums& sums, Global wanted) { return sums.node < wanted; });
     Sums total{node, 0, 0};
     for (auto part = at; part != all.end() && part->node == node; ++part) {
       total.force += part->force;
       total.area += part->area;
     }
-    result.push_back(total.area > 0 ? total.force / total.area : 0.0);
+    result.push_back(pressure[i] > 0 && total.area > 0 ? total.force / total.area : 0.0);
   }
   return result;
 }
@@ -145,13 +147,11 @@ std::vector<SurfaceState> surface_states(std::span<const PointState> points, std
                        std::vector<Point>(nodes.size(), Point::Zero()),
                        std::vector<Point>(nodes.size(), Point::Zero()),
                        std::vector<int>(nodes.size(), 0)};
-    std::vector<double> areas(nodes.size(), 0.0);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto found = at.find({static_cast<int>(c), nodes[i]});
       if (found == at.end()) continue;
       double area = 0;
       for (const auto* p : found->second) area += p->area;
-      areas[i] = area;
       for (const auto* p : found->second) {
         state.pressure[i] += p->force / area;
         state.traction[i] += Point(p->traction[0], p->traction[1], p->traction[2]) / area;
@@ -160,7 +160,7 @@ std::vector<SurfaceState> surface_states(std::span<const PointState> points, std
         state.status[i] = std::max(state.status[i], p->status);
       }
     }
-    state.recovered_pressure = averaged_over_faces(pairs[c].secondary, state.pressure, areas, comm);
+    state.recovered_pressure = averaged_over_faces(pairs[c].secondary, state.pressure, comm);
     result.push_back(std::move(state));
   }
   return result;

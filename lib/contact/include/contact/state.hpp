@@ -42,8 +42,9 @@ std::vector<Resultant> resultants(std::span<const PointState> points, std::size_
 /// by area.
 struct SurfaceState {
   std::vector<double> pressure, gap;
-  /// The pressure averaged over the faces at each node, by their areas. That of single nodes scatters by some per cent on
-  /// unstructured meshes, being the least smooth of all results; the average loses as much only where it bends within a face.
+  /// The pressure averaged over the faces at each node, by their areas, where it presses. That of single nodes scatters by some
+  /// per cent on unstructured meshes, being the least smooth of all results; the average loses as much only where it bends within
+  /// a face.
   std::vector<double> recovered_pressure;
   std::vector<Point> traction, slip;
   std::vector<int> status;
