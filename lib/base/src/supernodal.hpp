@@ -25,7 +25,8 @@ class SupernodalFactor {
   // Columns first .. first+width-1, and `height` rows below them.
   struct Piece {
     int first, width, height;
-    std::size_t row, value;  // of rows_: the rows below; of values_: the triangle by columns, its diagonal inverted, then the panel
+    std::size_t row,
+        value;  // of rows_: the rows below; of values_: the triangle by columns, its diagonal inverted, then the panel
   };
   template <int Width>
   void solve_block(const double* b, double* x, int stride) const;

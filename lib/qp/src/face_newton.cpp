@@ -34,8 +34,6 @@ double projected_size(const Problem& problem)
   return pb.norm2();
 }
 
-}  // namespace
-
 // ||x - x*||_A from residuals and energies. With M near A^-1 the residual's r'Mr is near its square but for a factor, and that
 // is known of the point before: its squared error is at least twice the energy that has been gained since, and little more where
 // steps gain a lot.
@@ -57,6 +55,8 @@ class ErrorEstimate {
   double measure_ = 0, energy_ = 0;  // of the point before
   double factor_ = 1, last_ = 0;
 };
+
+}  // namespace
 
 struct FaceNewton::State {
   explicit State(const Teuchos::RCP<const Map>& map) : z(map), g(map), y(map), gy(map) {}
