@@ -264,8 +264,11 @@ void print(const Results& results, const Context& context)
            vector(results.reaction), (results.applied + results.reaction).norm() / size);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);
-  log.line("  error               of the mesh about {:.2g} %, of the solver about {:.2g} %, in the energy norm",
-           100 * s.error_estimate.discretization, 100 * s.error_estimate.algebraic);
+  const auto percent = [](double part) {
+    return std::isfinite(part) ? fmt::format("about {:.2g} %", 100 * part) : "not estimated";
+  };
+  log.line("  error               of the mesh {}, of the solver {}, in the energy norm", percent(s.error_estimate.discretization),
+           percent(s.error_estimate.algebraic));
   for (const auto& c : s.contacts)
     log.line(
         "  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g} ({:.5g} at one node), area "
