@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "overlap.hpp"
+
 namespace mortise::contact {
 
 PointState state_of(const constraint::ContactPoint& point, bool bonded, std::span<const double> multipliers,
@@ -80,13 +82,6 @@ std::vector<Sent> gather(std::span<const PointState> points, const Communicator&
 
 namespace {
 
-double size_of(std::span<const Local> face, const std::vector<Point>& points)
-{
-  const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(face[k])]; };
-  if (face.size() == 2) return (at(1) - at(0)).norm();
-  return 0.5 * (face.size() == 3 ? (at(1) - at(0)).cross(at(2) - at(0)) : (at(2) - at(0)).cross(at(3) - at(1))).norm();
-}
-
 // The mean over the faces at each pressed node of the means of their pressed nodes: a contact one cell wide keeps its pressure,
 // and the border of a contact stays where it is. Collective.
 std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std::vector<double>& pressure,
@@ -107,7 +102,9 @@ std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std:
       ++count;
     }
     if (count == 0) continue;
-    const double size = size_of(surface.faces[f], surface.points) * count / static_cast<double>(surface.faces[f].size());
+    FaceGeometry face{surface.faces.type[f], {}};
+    for (const Local n : surface.faces[f]) face.nodes.push_back(surface.points[static_cast<std::size_t>(n)]);
+    const double size = face.area() * count / static_cast<double>(face.nodes.size());
     for (const Local n : surface.faces[f]) {
       mine[static_cast<std::size_t>(n)].force += size * sum / count;
       mine[static_cast<std::size_t>(n)].area += size;
