@@ -37,7 +37,7 @@ double sum_on_machine(double x, const Communicator& comm)
 }  // namespace
 
 Memory foresee_memory(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                      const std::vector<std::size_t>& original, const Communicator& comm)
+                      const std::vector<partition::CopyOf>& copies, const Communicator& comm)
 {
   const int dimension = deck.dimension();
   const auto unknowns = [&](std::size_t s) {
@@ -45,17 +45,17 @@ Memory foresee_memory(const Deck& deck, const partition::Decomposition& decompos
   };
   double all = 0, surfaces = 0, scaled = 0, matrices = 0;
   std::size_t largest = 0;
-  for (std::size_t s = 0; s < original.size(); ++s) {
+  for (std::size_t s = 0; s < copies.size(); ++s) {
     all += unknowns(s);
     surfaces += 2 * dimension * std::pow(unknowns(s) / dimension, 1 - 1.0 / dimension) * dimension;
-    if (original[s] != s) continue;
+    if (copies[s].original != s) continue;
     if (unknowns(s) > unknowns(largest)) largest = s;
     scaled += of_nested_dissection(unknowns(s), dimension);
     matrices += unknowns(s);
   }
   double factors = 0, held = bytes_an_unknown * all + 0.5 * bytes_a_multiplier * surfaces;
   collectively(comm, [&] {
-    if (original.empty()) return;
+    if (copies.empty()) return;
     const auto& subdomain = decomposition.subdomains[largest];
     const auto lower = fem::stiffness(subdomain.mesh, model.material(subdomain), deck.kinematics);
     const auto bytes = static_cast<double>(feti::ElasticSubdomain::foreseen_factor_bytes(

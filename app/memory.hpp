@@ -13,10 +13,10 @@ struct Memory {
   double excess = 0;  ///< of the machine that lacks most, what it will lack; negative if there is enough everywhere
 };
 
-/// From the analysis of the largest subdomain of each rank; the others' factors are scaled from it. `original` as of
+/// From the analysis of the largest subdomain of each rank; the others' factors are scaled from it. `copies` as of
 /// Model::congruent. Collective.
 Memory foresee_memory(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                      const std::vector<std::size_t>& original, const Communicator& comm);
+                      const std::vector<partition::CopyOf>& copies, const Communicator& comm);
 
 /// Throws Error(machine) that says what would fit, if a machine has not enough. Collective.
 void require(const Memory& memory, const Deck& deck, const partition::Decomposition& decomposition);

@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
-#include "partition/congruence.hpp"
 
 namespace mortise {
 
@@ -39,7 +38,7 @@ const fem::Material& Model::material(const partition::Subdomain& subdomain) cons
   return deck_.materials.at(deck_.bodies.at(group).material);
 }
 
-std::vector<std::size_t> Model::congruent() const
+std::vector<partition::CopyOf> Model::congruent() const
 {
   std::vector<int> kind;  // place of the material among all
   for (const auto& subdomain : decomposition_.subdomains) {
@@ -51,11 +50,11 @@ std::vector<std::size_t> Model::congruent() const
   return partition::congruent(decomposition_.subdomains, kind);
 }
 
-std::vector<SparseMatrix> Model::stiffness(const std::vector<std::size_t>& original) const
+std::vector<SparseMatrix> Model::stiffness(const std::vector<partition::CopyOf>& copies) const
 {
-  std::vector<SparseMatrix> result(original.size());
-  for (std::size_t s = 0; s < original.size(); ++s) {
-    if (original[s] != s) continue;
+  std::vector<SparseMatrix> result(copies.size());
+  for (std::size_t s = 0; s < copies.size(); ++s) {
+    if (copies[s].original != s) continue;
     const auto& subdomain = decomposition_.subdomains[s];
     result[s] = fem::stiffness(subdomain.mesh, material(subdomain), deck_.kinematics);
   }

@@ -6,7 +6,7 @@
 #include "deck.hpp"
 #include "feti/dual_problem.hpp"
 #include "friction/friction.hpp"
-#include "partition/decomposition.hpp"
+#include "partition/congruence.hpp"
 
 namespace mortise {
 
@@ -17,9 +17,9 @@ class Model {
 
   const fem::Material& material(const partition::Subdomain& subdomain) const;
   /// For each subdomain the first one of this rank with the same shape and material.
-  std::vector<std::size_t> congruent() const;
-  /// Stiffness of every subdomain s with `original`[s] == s: its lower triangle. The others get an empty matrix.
-  std::vector<SparseMatrix> stiffness(const std::vector<std::size_t>& original) const;
+  std::vector<partition::CopyOf> congruent() const;
+  /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.
+  std::vector<SparseMatrix> stiffness(const std::vector<partition::CopyOf>& copies) const;
   /// Consistent loads of every subdomain. Collective.
   std::vector<Eigen::VectorXd> loads(const Communicator& comm) const;
   /// Nodes of this rank on the boundary of each support.

@@ -68,15 +68,18 @@ void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& dec
 
 // Factorizes every subdomain that is not a copy of an earlier one.
 feti::Floating float_subdomains(const Deck& deck, const partition::Decomposition& decomposition,
-                                const std::vector<std::size_t>& original, std::vector<SparseMatrix> stiffness,
+                                const std::vector<partition::CopyOf>& copies, std::vector<SparseMatrix> stiffness,
                                 std::vector<Eigen::VectorXd> load, std::vector<std::vector<double>> nodal_stiffness,
                                 const Communicator& comm)
 {
   feti::Floating floating{{}, std::move(load), std::move(nodal_stiffness)};
   collectively(comm, [&] {
-    for (std::size_t s = 0; s < original.size(); ++s) {
-      if (original[s] != s) {
-        floating.subdomains.push_back(floating.subdomains[original[s]]);
+    for (std::size_t s = 0; s < copies.size(); ++s) {
+      const auto& [original, rotation] = copies[s];
+      if (original != s) {
+        const auto& shared = floating.subdomains[original];
+        floating.subdomains.push_back(rotation ? std::make_shared<feti::TurnedSubdomain>(shared, *rotation, deck.dimension())
+                                               : shared);
         continue;
       }
       const auto& points = decomposition.subdomains[s].mesh.points;
@@ -149,8 +152,8 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   }
   stage("supports and contact", "contact");
   warn_of_idle_contacts(constraints.contacts, deck, context);
-  const auto original = model.congruent();
-  const auto memory = foresee_memory(deck, decomposition, model, original, comm);
+  const auto copies = model.congruent();
+  const auto memory = foresee_memory(deck, decomposition, model, copies, comm);
   if (command_line.check) print_check(decomposition, constraints.held, constraints.contacts, memory, deck, context);
   require(memory, deck, decomposition);
   if (command_line.check) return ExitStatus::solved;
@@ -159,25 +162,25 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   std::vector<Eigen::VectorXd> load;
   {
     const auto scope = timers.scope("assembly");
-    collectively(comm, [&] { stiffness = model.stiffness(original); });
+    collectively(comm, [&] { stiffness = model.stiffness(copies); });
     load = model.loads(comm);
   }
   stage("assembly", "assembly");
   std::vector<std::vector<double>> nodal_stiffness;
-  for (std::size_t s = 0; s < original.size(); ++s)
-    nodal_stiffness.push_back(original[s] == s ? feti::nodal_stiffness(stiffness[s], deck.dimension())
-                                               : nodal_stiffness[original[s]]);
+  for (std::size_t s = 0; s < copies.size(); ++s)
+    nodal_stiffness.push_back(copies[s].original == s ? feti::nodal_stiffness(stiffness[s], deck.dimension())
+                                                      : nodal_stiffness[copies[s].original]);
   const partition::NodeDirectory directory(decomposition, nodal_stiffness, comm);
   const auto interface = partition::find_interface(decomposition, directory, comm);
   feti::Floating floating;
   {
     const auto scope = timers.scope("factorization");
     floating =
-        float_subdomains(deck, decomposition, original, std::move(stiffness), std::move(load), std::move(nodal_stiffness), comm);
+        float_subdomains(deck, decomposition, copies, std::move(stiffness), std::move(load), std::move(nodal_stiffness), comm);
   }
   stage("factorization", "factorization");
   long long originals = 0;
-  for (std::size_t s = 0; s < original.size(); ++s) originals += original[s] == s ? 1 : 0;
+  for (std::size_t s = 0; s < copies.size(); ++s) originals += copies[s].original == s ? 1 : 0;
   originals = comm.sum(originals);
   if (originals < decomposition.subdomain_count())
     log.line("  {} subdomains are copies of {} others and share their factors", decomposition.subdomain_count() - originals,

@@ -132,7 +132,14 @@ void Cholesky::prepare_for_many_solves()
 
 void Cholesky::solve(const double* b, double* x, int columns, int stride) const
 {
-  if (data_->prepared) return data_->prepared->solve(b, x, columns, stride);
+  if (data_->prepared) {
+    std::vector<double*> pointers;
+    for (int c = 0; c < columns; ++c) {
+      pointers.push_back(x + static_cast<std::ptrdiff_t>(c) * stride);
+      if (x != b) std::memcpy(pointers.back(), b + static_cast<std::ptrdiff_t>(c) * stride, data_->factor->n * sizeof(double));
+    }
+    return solve(pointers);
+  }
   Data& data = *data_;
   cholmod_dense rhs{};
   rhs.nrow = data.factor->n;
@@ -148,6 +155,12 @@ void Cholesky::solve(const double* b, double* x, int columns, int stride) const
   for (int c = 0; c < columns; ++c)
     std::memcpy(x + static_cast<std::ptrdiff_t>(c) * stride, solution + static_cast<std::ptrdiff_t>(c) * data.x->d,
                 data.factor->n * sizeof(double));
+}
+
+void Cholesky::solve(std::span<double* const> columns) const
+{
+  if (data_->prepared) return data_->prepared->solve(columns);
+  for (double* column : columns) solve(column, column, 1, size());
 }
 
 Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const

@@ -1,22 +1,264 @@
 #include "supernodal.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <cstdint>
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define MORTISE_AVX512 1
+#else
+#define MORTISE_AVX512 0
+#endif
 
 namespace mortise {
 
 namespace {
 
 constexpr int widest = 32;
+constexpr int tile = SupernodalFactor::tile;
+using Piece = SupernodalFactor::Piece;
 
-// The same row of several right-hand sides.
-template <int Width>
-using Row = Eigen::Array<double, Width, 1>;
+// Of the triangle's block of rows number b: b tiles of 8 columns, then the diagonal one, packed by columns.
+constexpr int diagonal_values = tile * (tile + 1) / 2;
 
-template <int Width>
-Eigen::Map<Row<Width>> row(double* block, int i)
+int blocks(int width)
 {
-  return Eigen::Map<Row<Width>>(block + static_cast<std::ptrdiff_t>(i) * Width);
+  return (width + tile - 1) / tile;
+}
+
+std::size_t triangle_values(int width)
+{
+  std::size_t size = 0;
+  for (int b = 0; b < blocks(width); ++b) size += static_cast<std::size_t>(b * tile * tile + diagonal_values);
+  return size;
+}
+
+std::size_t panel_values(const Piece& piece)
+{
+  return static_cast<std::size_t>(piece.tiles) * static_cast<std::size_t>(piece.width * tile);
+}
+
+// Arithmetic on tiles for Registers x Lanes right-hand sides, whose row i starts at y + i * count. Group rows of a tile at a
+// time: their sums, Group * Registers, must fit in registers. Everything is inlined into functions for one processor.
+template <int Lanes, int Registers, int Group>
+struct Tiles {
+  static constexpr int count = Lanes * Registers;
+  typedef double Lane __attribute__((vector_size(Lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+  [[gnu::always_inline]] static Lane& lane(double* y, std::ptrdiff_t row, int n)
+  {
+    return *reinterpret_cast<Lane*>(y + row * count + n * Lanes);
+  }
+
+  // y[target(r)] -= sum_j values[j][r] x[j] for the 8 rows r.
+  template <class Target>
+  [[gnu::always_inline]] static void subtract(const double* values, int columns, double* x, double* y, const Target& target)
+  {
+#pragma GCC unroll 2
+    for (int g = 0; g < tile; g += Group) {
+      Lane sum[Group][Registers];
+#pragma GCC unroll 8
+      for (int r = 0; r < Group; ++r)
+#pragma GCC unroll 2
+        for (int n = 0; n < Registers; ++n) sum[r][n] = Lane{};
+      const double* value = values + g;
+      for (int j = 0; j < columns; ++j, value += tile) {
+        Lane xj[Registers];
+#pragma GCC unroll 2
+        for (int n = 0; n < Registers; ++n) xj[n] = lane(x, j, n);
+#pragma GCC unroll 8
+        for (int r = 0; r < Group; ++r)
+#pragma GCC unroll 2
+          for (int n = 0; n < Registers; ++n) sum[r][n] += value[r] * xj[n];
+      }
+#pragma GCC unroll 8
+      for (int r = 0; r < Group; ++r)
+#pragma GCC unroll 2
+        for (int n = 0; n < Registers; ++n) lane(y, target(g + r), n) -= sum[r][n];
+    }
+  }
+
+  // x[j] -= sum_r values[j][r] y[source(r)].
+  template <class Source>
+  [[gnu::always_inline]] static void subtract_transpose(const double* values, int columns, double* x, double* y,
+                                                        const Source& source)
+  {
+#pragma GCC unroll 2
+    for (int g = 0; g < tile; g += Group) {
+      Lane z[Group][Registers];
+#pragma GCC unroll 8
+      for (int r = 0; r < Group; ++r)
+#pragma GCC unroll 2
+        for (int n = 0; n < Registers; ++n) z[r][n] = lane(y, source(g + r), n);
+      const double* value = values + g;
+      for (int j = 0; j < columns; ++j, value += tile) {
+        Lane xj[Registers];
+#pragma GCC unroll 2
+        for (int n = 0; n < Registers; ++n) xj[n] = lane(x, j, n);
+#pragma GCC unroll 8
+        for (int r = 0; r < Group; ++r)
+#pragma GCC unroll 2
+          for (int n = 0; n < Registers; ++n) xj[n] -= value[r] * z[r][n];
+#pragma GCC unroll 2
+        for (int n = 0; n < Registers; ++n) lane(x, j, n) = xj[n];
+      }
+    }
+  }
+
+  [[gnu::always_inline]] static void forwards(const double* values, double* x)
+  {
+    for (int j = 0; j < tile; ++j) {
+      Lane xj[Registers];
+      for (int n = 0; n < Registers; ++n) lane(x, j, n) = xj[n] = *values * lane(x, j, n);
+      ++values;
+      for (int i = j + 1; i < tile; ++i, ++values)
+        for (int n = 0; n < Registers; ++n) lane(x, i, n) -= *values * xj[n];
+    }
+  }
+
+  [[gnu::always_inline]] static void backwards(const double* values, double* x)
+  {
+    values += diagonal_values;
+    for (int j = tile - 1; j >= 0; --j) {
+      values -= tile - j;
+      Lane xj[Registers];
+      for (int n = 0; n < Registers; ++n) xj[n] = lane(x, j, n);
+      for (int i = j + 1; i < tile; ++i)
+        for (int n = 0; n < Registers; ++n) xj[n] -= values[i - j] * lane(x, i, n);
+      for (int n = 0; n < Registers; ++n) lane(x, j, n) = *values * xj[n];
+    }
+  }
+
+  [[gnu::always_inline]] static void solve(const SupernodalFactor& factor, double* y)
+  {
+    for (const auto& piece : factor.pieces()) {
+      const double* values = factor.values() + piece.value;
+      double* x = y + static_cast<std::ptrdiff_t>(piece.first) * count;
+      for (int b = 0; b < piece.width; b += tile) {
+        subtract(values, b, x, x, [b](int r) { return b + r; });
+        values += b * tile;
+        forwards(values, x + b * count);
+        values += diagonal_values;
+      }
+      const int* below = factor.rows() + piece.row;
+      for (int t = 0; t < piece.tiles; ++t, values += piece.width * tile, below += tile)
+        subtract(values, piece.width, x, y, [below](int r) { return below[r]; });
+    }
+    for (auto p = factor.pieces().rbegin(); p != factor.pieces().rend(); ++p) {
+      const Piece& piece = *p;
+      double* x = y + static_cast<std::ptrdiff_t>(piece.first) * count;
+      const double* values = factor.values() + piece.value + triangle_values(piece.width) + panel_values(piece);
+      const int* below = factor.rows() + piece.row + static_cast<std::ptrdiff_t>(piece.tiles) * tile;
+      for (int t = 0; t < piece.tiles; ++t) {
+        values -= piece.width * tile;
+        below -= tile;
+        subtract_transpose(values, piece.width, x, y, [below](int r) { return below[r]; });
+      }
+      for (int b = (blocks(piece.width) - 1) * tile; b >= 0; b -= tile) {
+        values -= diagonal_values;
+        backwards(values, x + b * count);
+        values -= b * tile;
+        subtract_transpose(values, b, x, x, [b](int r) { return b + r; });
+      }
+    }
+  }
+};
+
+// A kernel solves with `width` right-hand sides interleaved.
+struct Kernel {
+  int width;
+  void (*solve)(const SupernodalFactor&, double*);
+};
+
+void solve_1(const SupernodalFactor& factor, double* y);
+
+void solve_4(const SupernodalFactor& factor, double* y)
+{
+  Tiles<4, 1, 8>::solve(factor, y);
+}
+void solve_8(const SupernodalFactor& factor, double* y)
+{
+  Tiles<4, 2, 4>::solve(factor, y);
+}
+#if MORTISE_AVX512
+[[gnu::target("avx512f,avx512vl,avx512dq,fma")]] void solve_16_avx512(const SupernodalFactor& factor, double* y)
+{
+  Tiles<8, 2, 8>::solve(factor, y);
+}
+[[gnu::target("avx512f,avx512vl,avx512dq,fma")]] void solve_8_avx512(const SupernodalFactor& factor, double* y)
+{
+  Tiles<8, 1, 8>::solve(factor, y);
+}
+#endif
+
+// One right-hand side, registers along the rows.
+void solve_1(const SupernodalFactor& factor, double* y)
+{
+  typedef double Rows __attribute__((vector_size(tile * sizeof(double)), aligned(sizeof(double)), may_alias));
+  const auto at = [](const double* p) -> const Rows& { return *reinterpret_cast<const Rows*>(p); };
+  const auto add_product = [&](const double* values, int columns, const double* x, Rows& even) {
+    Rows odd{};
+    int j = 0;
+    for (; j + 1 < columns; j += 2) {
+      even += at(values + j * tile) * x[j];
+      odd += at(values + (j + 1) * tile) * x[j + 1];
+    }
+    if (j < columns) even += at(values + j * tile) * x[j];
+    even += odd;
+  };
+  const auto total = [](const Rows& v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); };
+
+  for (const auto& piece : factor.pieces()) {
+    const double* values = factor.values() + piece.value;
+    double* x = y + piece.first;
+    for (int b = 0; b < piece.width; b += tile) {
+      Rows sum{};
+      add_product(values, b, x, sum);
+      *reinterpret_cast<Rows*>(x + b) -= sum;
+      values += b * tile;
+      Tiles<1, 1, 8>::forwards(values, x + b);
+      values += diagonal_values;
+    }
+    const int* below = factor.rows() + piece.row;
+    for (int t = 0; t < piece.tiles; ++t, values += piece.width * tile, below += tile) {
+      Rows sum{};
+      add_product(values, piece.width, x, sum);
+      for (int r = 0; r < tile; ++r) y[below[r]] -= sum[r];
+    }
+  }
+  for (auto p = factor.pieces().rbegin(); p != factor.pieces().rend(); ++p) {
+    const Piece& piece = *p;
+    double* x = y + piece.first;
+    const double* values = factor.values() + piece.value + triangle_values(piece.width) + panel_values(piece);
+    const int* below = factor.rows() + piece.row + static_cast<std::ptrdiff_t>(piece.tiles) * tile;
+    Rows sum[widest] = {};
+    for (int t = 0; t < piece.tiles; ++t) {
+      values -= piece.width * tile;
+      below -= tile;
+      Rows z;
+      for (int r = 0; r < tile; ++r) z[r] = y[below[r]];
+      for (int j = 0; j < piece.width; ++j) sum[j] += at(values + j * tile) * z;
+    }
+    for (int j = 0; j < piece.width; ++j) x[j] -= total(sum[j]);
+    for (int b = (blocks(piece.width) - 1) * tile; b >= 0; b -= tile) {
+      values -= diagonal_values;
+      Tiles<1, 1, 8>::backwards(values, x + b);
+      values -= b * tile;
+      for (int j = 0; j < b; ++j) x[j] -= total(at(values + j * tile) * at(x + b));
+    }
+  }
+}
+
+// From the widest on, for this processor.
+std::span<const Kernel> kernels()
+{
+  static constexpr Kernel any[] = {{8, solve_8}, {4, solve_4}, {1, solve_1}};
+#if MORTISE_AVX512
+  static constexpr Kernel avx512[] = {{16, solve_16_avx512}, {8, solve_8_avx512}, {4, solve_4}, {1, solve_1}};
+  static const bool has_avx512 =
+      __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
+  if (has_avx512) return avx512;
+#endif
+  return any;
 }
 
 }  // namespace
@@ -27,7 +269,7 @@ SupernodalFactor::SupernodalFactor(const cholmod_factor& factor)
   const auto* row_start = static_cast<const int*>(factor.pi);
   const auto* panel_start = static_cast<const int*>(factor.px);
   const auto* rows = static_cast<const int*>(factor.s);
-  const auto* values = static_cast<const double*>(factor.x);
+  const auto* numbers = static_cast<const double*>(factor.x);
   const auto* permutation = static_cast<const int*>(factor.Perm);
   permutation_.assign(permutation, permutation + factor.n);
   std::size_t size = 0;
@@ -35,163 +277,54 @@ SupernodalFactor::SupernodalFactor(const cholmod_factor& factor)
     for (int first = super[s]; first < super[s + 1]; first += widest) {
       const int width = std::min(widest, super[s + 1] - first);
       const int height = row_start[s + 1] - row_start[s] - (first - super[s]) - width;
-      pieces_.push_back({first, width, height, 0, size});
-      size +=
-          static_cast<std::size_t>(width * (width + 1) / 2) + static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-      tallest_ = std::max(tallest_, height);
+      pieces_.push_back({first, width, blocks(height), 0, size});
+      size += triangle_values(width) + panel_values(pieces_.back());
     }
-  values_.reserve(size);
+  values_.assign(size, 0);
   auto piece = pieces_.begin();
   for (std::size_t s = 0; s < factor.nsuper; ++s) {
     const std::ptrdiff_t height = row_start[s + 1] - row_start[s];
     for (int first = super[s]; first < super[s + 1]; first += widest, ++piece) {
       const std::ptrdiff_t above = first - super[s];
-      const double* block = values + panel_start[s] + above * height + above;  // of the piece, its diagonal first
-      for (int j = 0; j < piece->width; ++j) {
-        values_.push_back(1 / block[j * height + j]);
-        values_.insert(values_.end(), block + j * height + j + 1, block + j * height + piece->width);
+      const double* block = numbers + panel_start[s] + above * height + above;  // of the piece, its diagonal first
+      double* value = values_.data() + piece->value;
+      const auto copy = [&](std::ptrdiff_t row, std::ptrdiff_t end, int columns) {
+        for (int j = 0; j < columns; ++j, value += tile)
+          for (std::ptrdiff_t r = row; r < std::min(row + tile, end); ++r) value[r - row] = block[j * height + r];
+      };
+      for (int b = 0; b < piece->width; b += tile) {
+        copy(b, piece->width, b);
+        for (int j = b; j < b + tile; ++j)
+          for (int r = j; r < b + tile; ++r, ++value)
+            *value = r == j ? (j < piece->width ? 1 / block[j * height + j] : 1) : (r < piece->width ? block[j * height + r] : 0);
       }
-      for (int j = 0; j < piece->width; ++j)
-        values_.insert(values_.end(), block + j * height + piece->width, block + j * height + piece->width + piece->height);
+      for (int t = 0; t < piece->tiles; ++t) copy(piece->width + t * tile, height - above, piece->width);
       // Pieces of a supernode share its list of rows, each from further down.
       piece->row = rows_.size() + static_cast<std::size_t>(above + piece->width);
     }
     rows_.insert(rows_.end(), rows + row_start[s], rows + row_start[s + 1]);
+    rows_.insert(rows_.end(), tile - 1, static_cast<int>(factor.n));
   }
 }
 
-void SupernodalFactor::solve(const double* b, double* x, int columns, int stride) const
+void SupernodalFactor::solve(std::span<double* const> columns) const
 {
-  int done = 0;
-  const auto in_blocks = [&](auto width) {
-    for (; columns - done >= width; done += width)
-      solve_block<width>(b + static_cast<std::ptrdiff_t>(done) * stride, x + static_cast<std::ptrdiff_t>(done) * stride, stride);
-  };
-  in_blocks(std::integral_constant<int, 8>());
-  in_blocks(std::integral_constant<int, 4>());
-  if (done < columns)
-    solve_few(b + static_cast<std::ptrdiff_t>(done) * stride, x + static_cast<std::ptrdiff_t>(done) * stride, columns - done,
-              stride);
-}
-
-template <int Width>
-void SupernodalFactor::solve_block(const double* b, double* x, int stride) const
-{
-  constexpr int tile = 4;  // rows or columns of a panel at a time: as many sums as registers hold
-  const auto n = static_cast<std::ptrdiff_t>(permutation_.size());
-  work_.resize(static_cast<std::size_t>((n + tallest_) * Width));
-  double* y = work_.data();
-  double* gathered = y + n * Width;
-  for (std::ptrdiff_t k = 0; k < n; ++k)
-    for (int c = 0; c < Width; ++c)
-      y[k * Width + c] = b[permutation_[static_cast<std::size_t>(k)] + c * static_cast<std::ptrdiff_t>(stride)];
-
-  for (const auto& piece : pieces_) {
-    const double* value = values_.data() + piece.value;
-    const int* below = rows_.data() + piece.row;
-    double* x1 = y + static_cast<std::ptrdiff_t>(piece.first) * Width;
-    for (int j = 0; j < piece.width; ++j) {
-      const Row<Width> xj = *value++ * row<Width>(x1, j);
-      row<Width>(x1, j) = xj;
-      for (int i = j + 1; i < piece.width; ++i) row<Width>(x1, i) -= *value++ * xj;
-    }
-    const auto subtract = [&](int i, auto count) {
-      Row<Width> sum[tile];
-      for (int r = 0; r < count; ++r) sum[r].setZero();
-      const double* p = value + i;
-      for (int j = 0; j < piece.width; ++j, p += piece.height) {
-        const Row<Width> xj = row<Width>(x1, j);
-        for (int r = 0; r < count; ++r) sum[r] += p[r] * xj;
-      }
-      for (int r = 0; r < count; ++r) row<Width>(y, below[i + r]) -= sum[r];
-    };
-    int i = 0;
-    for (; i + tile <= piece.height; i += tile) subtract(i, std::integral_constant<int, tile>());
-    if (i < piece.height) subtract(i, piece.height - i);
-  }
-
-  for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) {
-    const double* panel = values_.data() + piece->value + piece->width * (piece->width + 1) / 2;
-    const int* below = rows_.data() + piece->row;
-    double* x1 = y + static_cast<std::ptrdiff_t>(piece->first) * Width;
-    for (int i = 0; i < piece->height; ++i) row<Width>(gathered, i) = row<Width>(y, below[i]);
-    const auto subtract = [&](int j, auto count) {
-      Row<Width> sum[tile];
-      for (int r = 0; r < count; ++r) sum[r].setZero();
-      const double* p = panel + static_cast<std::ptrdiff_t>(j) * piece->height;
-      for (int i = 0; i < piece->height; ++i) {
-        const Row<Width> zi = row<Width>(gathered, i);
-        for (int r = 0; r < count; ++r) sum[r] += p[static_cast<std::ptrdiff_t>(r) * piece->height + i] * zi;
-      }
-      for (int r = 0; r < count; ++r) row<Width>(x1, j + r) -= sum[r];
-    };
-    int j = 0;
-    for (; j + tile <= piece->width; j += tile) subtract(j, std::integral_constant<int, tile>());
-    if (j < piece->width) subtract(j, piece->width - j);
-    const double* value = panel;
-    for (j = piece->width - 1; j >= 0; --j) {
-      value -= piece->width - j;
-      Row<Width> xj = row<Width>(x1, j);
-      for (int i = j + 1; i < piece->width; ++i) xj -= value[i - j] * row<Width>(x1, i);
-      row<Width>(x1, j) = *value * xj;
+  const std::size_t n = permutation_.size();
+  for (const Kernel& kernel : kernels()) {
+    const auto width = static_cast<std::size_t>(kernel.width);
+    constexpr std::size_t line = 64 / sizeof(double);
+    if (columns.size() < width) continue;
+    work_.assign((n + tile) * width + line, 0);
+    const std::size_t misaligned = reinterpret_cast<std::uintptr_t>(work_.data()) / sizeof(double) % line;
+    double* y = work_.data() + (line - misaligned) % line;
+    for (; columns.size() >= width; columns = columns.subspan(width)) {
+      for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t c = 0; c < width; ++c) y[k * width + c] = columns[c][permutation_[k]];
+      kernel.solve(*this, y);
+      for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t c = 0; c < width; ++c) columns[c][permutation_[k]] = y[k * width + c];
     }
   }
-  for (std::ptrdiff_t k = 0; k < n; ++k)
-    for (int c = 0; c < Width; ++c)
-      x[permutation_[static_cast<std::size_t>(k)] + c * static_cast<std::ptrdiff_t>(stride)] = y[k * Width + c];
-}
-
-// Column after column on each piece, so that it comes from memory once.
-void SupernodalFactor::solve_few(const double* b, double* x, int columns, int stride) const
-{
-  using Column = Eigen::Map<Eigen::VectorXd>;
-  using Part = Eigen::Map<const Eigen::VectorXd>;
-  using Panel = Eigen::Map<const Eigen::MatrixXd>;
-  const auto n = static_cast<std::ptrdiff_t>(permutation_.size());
-  work_.resize(static_cast<std::size_t>(n * columns + tallest_));
-  double* y = work_.data();
-  double* gathered = y + n * columns;
-  for (int c = 0; c < columns; ++c)
-    for (std::ptrdiff_t k = 0; k < n; ++k)
-      y[c * n + k] = b[permutation_[static_cast<std::size_t>(k)] + c * static_cast<std::ptrdiff_t>(stride)];
-  for (const auto& piece : pieces_) {
-    const double* triangle = values_.data() + piece.value;
-    const Panel panel(triangle + piece.width * (piece.width + 1) / 2, piece.height, piece.width);
-    const int* below = rows_.data() + piece.row;
-    for (int c = 0; c < columns; ++c) {
-      double* column = y + c * n;
-      double* x1 = column + piece.first;
-      const double* value = triangle;
-      for (int j = 0; j < piece.width; ++j) {
-        x1[j] *= *value++;
-        const int rest = piece.width - j - 1;
-        Column(x1 + j + 1, rest) -= x1[j] * Part(value, rest);
-        value += rest;
-      }
-      Column product(gathered, piece.height);
-      product.noalias() = panel * Column(x1, piece.width);
-      for (int i = 0; i < piece.height; ++i) column[below[i]] -= product[i];
-    }
-  }
-  for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) {
-    const Panel panel(values_.data() + piece->value + piece->width * (piece->width + 1) / 2, piece->height, piece->width);
-    const int* below = rows_.data() + piece->row;
-    for (int c = 0; c < columns; ++c) {
-      double* column = y + c * n;
-      double* x1 = column + piece->first;
-      for (int i = 0; i < piece->height; ++i) gathered[i] = column[below[i]];
-      Column(x1, piece->width).noalias() -= panel.transpose() * Column(gathered, piece->height);
-      const double* value = panel.data();
-      for (int j = piece->width - 1; j >= 0; --j) {
-        const int rest = piece->width - j - 1;
-        value -= rest + 1;
-        x1[j] = *value * (x1[j] - Part(value + 1, rest).dot(Column(x1 + j + 1, rest)));
-      }
-    }
-  }
-  for (int c = 0; c < columns; ++c)
-    for (std::ptrdiff_t k = 0; k < n; ++k)
-      x[permutation_[static_cast<std::size_t>(k)] + c * static_cast<std::ptrdiff_t>(stride)] = y[c * n + k];
 }
 
 }  // namespace mortise

@@ -1,42 +1,47 @@
-// A supernodal Cholesky factor laid out for many solves with few right-hand sides.
+// A supernodal Cholesky factor laid out for many solves.
 //
-// Each supernode is cut into pieces of at most 32 columns: a packed triangle and a dense panel below it. A panel is read once
-// forwards and once backwards, whatever the number of columns, which is what counts where factors do not fit in the cache; where
-// they do, blocks of right-hand sides, interleaved, keep the arithmetic units busy. CHOLMOD's own solve reads the zeros above
-// the diagonal as well and calls dtrsm and dgemm for each supernode, which for small ones are mostly copying.
+// Each supernode is cut into pieces of at most 32 columns: a triangle, and a panel below it. Both are kept as tiles of 8 rows,
+// column after column, filled up with zeros (ones on the diagonal), and read from the first number to the last forwards, and from
+// the last tile to the first backwards. A tile meets a block of right-hand sides, interleaved, in registers; a factor that does
+// not fit in the cache comes once for each block. CHOLMOD's own solve reads the zeros above the diagonal as well and calls dtrsm
+// and dgemm for each supernode, which for small ones are mostly copying.
 #pragma once
 
 #include <cholmod.h>
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace mortise {
 
 class SupernodalFactor {
  public:
+  static constexpr int tile = 8;
+
+  /// Columns first .. first+width-1, and `tiles` tiles of rows below them.
+  struct Piece {
+    int first, width, tiles;
+    std::size_t row,  ///< of rows(): the rows below, `tile` of them to a tile; filled up with the row size()
+        value;        ///< of values(): blocks of 8 rows of the triangle, then the tiles of the panel
+  };
+
   /// Copies a supernodal LL' factor.
   explicit SupernodalFactor(const cholmod_factor& factor);
 
-  /// x = A^-1 b, column-major with leading dimension `stride`; b may be x. Not for two threads at once.
-  void solve(const double* b, double* x, int columns, int stride) const;
+  /// columns[c] <- A^-1 columns[c]. Not for two threads at once.
+  void solve(std::span<double* const> columns) const;
   std::size_t bytes() const { return values_.size() * sizeof(double) + rows_.size() * sizeof(int); }
 
- private:
-  // Columns first .. first+width-1, and `height` rows below them.
-  struct Piece {
-    int first, width, height;
-    std::size_t row,
-        value;  // of rows_: the rows below; of values_: the triangle by columns, its diagonal inverted, then the panel
-  };
-  template <int Width>
-  void solve_block(const double* b, double* x, int stride) const;
-  void solve_few(const double* b, double* x, int columns, int stride) const;
+  std::span<const Piece> pieces() const { return pieces_; }
+  const int* rows() const { return rows_.data(); }
+  const double* values() const { return values_.data(); }
 
+ private:
   std::vector<Piece> pieces_;
   std::vector<int> rows_;
   std::vector<double> values_;
   std::vector<int> permutation_;  // row k of the factor is row permutation_[k] of the matrix
-  int tallest_ = 0;
   mutable std::vector<double> work_;
 };
 

@@ -6,19 +6,18 @@ SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const Ju
                          const Communicator& comm)
 {
   const KernelNumbering numbering{decomposition.catalogue.dimension == 3 ? 6 : 3};
-  std::vector<JumpOperator::Contribution> contributions;
+  std::vector<Eigen::MatrixXd> parts;
+  std::vector<int> first;
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& block = jump.blocks()[s];
-    const auto& kernel = subdomains[s]->kernel();
-    const int first = numbering.first(decomposition.subdomains[s].id);
-    for (std::size_t r = 0; r < block.row.size(); ++r) {
-      Eigen::RowVectorXd product = Eigen::RowVectorXd::Zero(kernel.cols());
+    const Eigen::MatrixXd kernel = subdomains[s]->kernel().transpose();
+    auto& part = parts.emplace_back(Eigen::MatrixXd::Zero(kernel.rows(), static_cast<Eigen::Index>(block.row.size())));
+    for (std::size_t r = 0; r < block.row.size(); ++r)
       for (std::size_t i = block.offset[r]; i < block.offset[r + 1]; ++i)
-        product += block.coefficient[i] * kernel.row(block.unknown[i]);
-      for (int k = 0; k < product.size(); ++k) contributions.push_back({block.row[r], first + k, product[k]});
-    }
+        part.col(static_cast<Eigen::Index>(r)) += block.coefficient[i] * kernel.col(block.unknown[i]);
+    first.push_back(numbering.first(decomposition.subdomains[s].id));
   }
-  return jump.gather_columns(contributions, numbering.first(decomposition.subdomain_count()), comm);
+  return jump.gather_columns(parts, first, numbering.first(decomposition.subdomain_count()), comm);
 }
 
 Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition, const Subdomains& subdomains,

@@ -140,20 +140,15 @@ DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
 DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
 DirectSolver::~DirectSolver() = default;
 
-void DirectSolver::solve(const double* b, double* x, int columns) const
+void DirectSolver::solve(std::span<double* const> columns) const
 {
-  if (data_->cholesky) return data_->cholesky->solve(b, x, columns, data_->size);
+  if (data_->cholesky) return data_->cholesky->solve(columns);
   const auto map = Teuchos::rcp(
       new Map(static_cast<std::size_t>(data_->size), 0, Teuchos::rcp(new Teuchos::SerialComm<int>), Tpetra::LocallyReplicated));
-  const auto count = static_cast<std::size_t>(data_->size) * static_cast<std::size_t>(columns);
-  const MultiVector right(map, Teuchos::ArrayView<const double>(b, static_cast<Teuchos::Ordinal>(count)),
-                          static_cast<std::size_t>(data_->size), static_cast<std::size_t>(columns));
-  MultiVector left(map, static_cast<std::size_t>(columns));
-  data_->solver->solve(Teuchos::ptr(&left), Teuchos::ptr(&right));
-  for (int c = 0; c < columns; ++c) {
-    const auto values = left.getData(static_cast<std::size_t>(c));
-    std::copy(values.begin(), values.end(), x + static_cast<std::ptrdiff_t>(c) * data_->size);
-  }
+  MultiVector right(map, columns.size()), left(map, columns.size());
+  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(columns[c], data_->size, right.getDataNonConst(c).begin());
+  data_->solver->solve(Teuchos::ptr(&left), Teuchos::ptr<const MultiVector>(&right));
+  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(left.getData(c).begin(), data_->size, columns[c]);
 }
 
 std::size_t DirectSolver::factor_bytes() const

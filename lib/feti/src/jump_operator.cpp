@@ -252,7 +252,7 @@ Vector JumpOperator::apply(const std::vector<Eigen::VectorXd>& u) const
   return jumps;
 }
 
-SparseMatrix JumpOperator::gather_columns(const std::vector<Contribution>& contributions, int height,
+SparseMatrix JumpOperator::gather_columns(const std::vector<Eigen::MatrixXd>& parts, const std::vector<int>& first, int height,
                                           const Communicator& comm) const
 {
   struct Sent {
@@ -263,14 +263,38 @@ SparseMatrix JumpOperator::gather_columns(const std::vector<Contribution>& contr
   const auto touched = overlap_->getNodeElementList();
   std::vector<int> rank(static_cast<std::size_t>(touched.size()));
   rows_->getRemoteIndexList(touched, Teuchos::ArrayView<int>(rank.data(), touched.size()));
+  std::vector<Local> owned(rank.size());  // where row of the overlapping map stands here
+  for (std::size_t r = 0; r < rank.size(); ++r) owned[r] = rows_->getLocalElement(touched[static_cast<Teuchos::Ordinal>(r)]);
   std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
-  for (const auto& c : contributions)
-    send[static_cast<std::size_t>(rank[static_cast<std::size_t>(c.row)])].push_back({touched[c.row], c.index, c.value});
-  std::vector<Eigen::Triplet<double>> triplets;
-  for (const auto& part : comm.exchange(send))
-    for (const auto& entry : part) triplets.emplace_back(entry.index, rows_->getLocalElement(entry.row), entry.value);
-  SparseMatrix result(height, static_cast<Eigen::Index>(rows_->getNodeNumElements()));
-  result.setFromTriplets(triplets.begin(), triplets.end());
+  const auto for_each_part = [&](const auto& visit) {
+    for (std::size_t s = 0; s < blocks_.size(); ++s)
+      for (std::size_t r = 0; r < blocks_[s].row.size(); ++r)
+        visit(static_cast<std::size_t>(blocks_[s].row[r]), first[s], parts[s].col(static_cast<Eigen::Index>(r)));
+  };
+  for_each_part([&](std::size_t row, int start, const auto& column) {
+    if (rank[row] == comm.rank()) return;
+    for (int i = 0; i < column.size(); ++i)
+      send[static_cast<std::size_t>(rank[row])].push_back({touched[static_cast<Teuchos::Ordinal>(row)], start + i, column[i]});
+  });
+  const auto received = comm.exchange(send);
+
+  // Compressed columns, without a list of triplets: G is the largest matrix of the dual space.
+  const auto width = static_cast<Eigen::Index>(rows_->getNodeNumElements());
+  Eigen::VectorXi count = Eigen::VectorXi::Zero(width);
+  for_each_part([&](std::size_t row, int, const auto& column) {
+    if (rank[row] == comm.rank()) count[owned[row]] += static_cast<int>(column.size());
+  });
+  for (const auto& part : received)
+    for (const auto& entry : part) ++count[rows_->getLocalElement(entry.row)];
+  SparseMatrix result(height, width);
+  result.reserve(count);
+  for_each_part([&](std::size_t row, int start, const auto& column) {
+    if (rank[row] != comm.rank()) return;
+    for (int i = 0; i < column.size(); ++i) result.insert(start + i, owned[row]) = column[i];
+  });
+  for (const auto& part : received)
+    for (const auto& entry : part) result.insert(entry.index, rows_->getLocalElement(entry.row)) = entry.value;
+  result.makeCompressed();
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "feti/preconditioner.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 #include "base/submatrix.hpp"
@@ -9,19 +8,21 @@
 
 namespace mortise::feti {
 
+namespace {
+
+constexpr std::size_t block_columns = 64;  // copies that go through one matrix together
+
+}  // namespace
+
 Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump,
                                const Subdomains& subdomains, const std::vector<std::vector<double>>& nodal_stiffness,
                                const std::string& factorization, Timers& timers)
-    : jump_(jump), timers_(timers)
+    : jump_(jump), subdomains_(subdomains), timers_(timers)
 {
   const int dimension = decomposition.catalogue.dimension;
-  std::map<const SubdomainOperator*, std::shared_ptr<const Surface>> made;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    if (const auto known = made.find(subdomains[s].get()); known != made.end()) {
-      surfaces_.push_back(known->second);
-      continue;
-    }
-    const SparseMatrix& stiffness = subdomains[s]->stiffness();
+  for (auto& [original, members] : by_original(subdomains)) {
+    const std::size_t s = members.front();
+    const SparseMatrix& stiffness = original->stiffness();
     Surface surface;
     for (const Local node : partition::surface_nodes(decomposition.subdomains[s].mesh))
       for (int c = 0; c < dimension; ++c) surface.unknowns.push_back(dimension * node + c);
@@ -40,8 +41,7 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
         surface.coupling = submatrix(stiffness, inside, surface.unknowns, false);
       }
     }
-    surfaces_.push_back(std::make_shared<const Surface>(std::move(surface)));
-    made.emplace(subdomains[s].get(), surfaces_.back());
+    groups_.push_back({std::move(surface), members});
   }
 }
 
@@ -51,24 +51,28 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
     auto forces = jump_.apply_transpose(*in);
-    std::map<const Surface*, std::vector<std::size_t>> members;
-    for (std::size_t s = 0; s < forces.size(); ++s) members[surfaces_[s].get()].push_back(s);
-    for (const auto& [surface, list] : members)
-      for (std::size_t first = 0; first < list.size(); first += block_columns) {
-        const auto count = static_cast<Eigen::Index>(std::min(block_columns, list.size() - first));
-        Eigen::MatrixXd u(surface->weight.size(), count);
-        for (Eigen::Index c = 0; c < count; ++c)
-          u.col(c) = forces[list[first + static_cast<std::size_t>(c)]](surface->unknowns).cwiseProduct(surface->weight);
-        Eigen::MatrixXd f = surface->lower.selfadjointView<Eigen::Lower>() * u;
-        if (surface->interior) {
-          Eigen::MatrixXd inner = surface->coupling * u;
-          surface->interior->solve(inner.data(), inner.data(), static_cast<int>(count));
-          f -= surface->coupling.transpose() * inner;
+    for (const auto& [surface, members] : groups_)
+      for (std::size_t first = 0; first < members.size(); first += block_columns) {
+        const auto count = std::min(block_columns, members.size() - first);
+        Eigen::MatrixXd u(surface.weight.size(), static_cast<Eigen::Index>(count));
+        for (std::size_t c = 0; c < count; ++c) {
+          const std::size_t s = members[first + c];
+          subdomains_[s]->turn_back(forces[s]);
+          u.col(static_cast<Eigen::Index>(c)) = forces[s](surface.unknowns).cwiseProduct(surface.weight);
         }
-        for (Eigen::Index c = 0; c < count; ++c) {
-          auto& force = forces[list[first + static_cast<std::size_t>(c)]];
-          force.setZero();
-          force(surface->unknowns) = f.col(c).cwiseProduct(surface->weight);
+        Eigen::MatrixXd f = surface.lower.selfadjointView<Eigen::Lower>() * u;
+        if (surface.interior) {
+          Eigen::MatrixXd inner = surface.coupling * u;
+          std::vector<double*> columns;
+          for (Eigen::Index c = 0; c < inner.cols(); ++c) columns.push_back(inner.col(c).data());
+          surface.interior->solve(columns);
+          f -= surface.coupling.transpose() * inner;
+        }
+        for (std::size_t c = 0; c < count; ++c) {
+          const std::size_t s = members[first + c];
+          forces[s].setZero();
+          forces[s](surface.unknowns) = f.col(static_cast<Eigen::Index>(c)).cwiseProduct(surface.weight);
+          subdomains_[s]->turn(forces[s]);
         }
       }
     Vector result = jump_.apply(forces);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 namespace mortise::feti {
@@ -54,24 +53,24 @@ double quality(const Eigen::MatrixXd& kernel, std::span<const Local> nodes, int 
 
 }  // namespace
 
-void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v)
+std::map<const SubdomainOperator*, std::vector<std::size_t>> by_original(const Subdomains& subdomains)
 {
   std::map<const SubdomainOperator*, std::vector<std::size_t>> members;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) members[subdomains[s].get()].push_back(s);
-  Eigen::MatrixXd columns;
-  for (const auto& [subdomain, list] : members) {
-    if (list.size() == 1) {
-      double* x = v[list.front()].data();
-      subdomain->apply_inverse(x, x, 1);
-      continue;
+  for (std::size_t s = 0; s < subdomains.size(); ++s) members[&subdomains[s]->original()].push_back(s);
+  return members;
+}
+
+void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v)
+{
+  std::vector<double*> columns;
+  for (const auto& [original, list] : by_original(subdomains)) {
+    columns.clear();
+    for (const auto s : list) {
+      subdomains[s]->turn_back(v[s]);
+      columns.push_back(v[s].data());
     }
-    for (std::size_t first = 0; first < list.size(); first += block_columns) {
-      const auto count = std::min(block_columns, list.size() - first);
-      columns.resize(subdomain->size(), static_cast<Eigen::Index>(count));
-      for (std::size_t i = 0; i < count; ++i) columns.col(static_cast<Eigen::Index>(i)) = v[list[first + i]];
-      subdomain->apply_inverse(columns.data(), columns.data(), static_cast<int>(count));
-      for (std::size_t i = 0; i < count; ++i) v[list[first + i]] = columns.col(static_cast<Eigen::Index>(i));
-    }
+    original->apply_inverse(columns);
+    for (const auto s : list) subdomains[s]->turn(v[s]);
   }
 }
 
@@ -141,6 +140,48 @@ std::size_t ElasticSubdomain::foreseen_factor_bytes(const SparseMatrix& lower, c
                                                     std::span<const Point> points, int dimension)
 {
   return Cholesky(regularise(lower, kernel, points, dimension), dimension).factor_bytes();
+}
+
+TurnedSubdomain::TurnedSubdomain(std::shared_ptr<const SubdomainOperator> original, const Eigen::Matrix3d& rotation,
+                                 int dimension)
+    : original_(std::move(original)), rotation_(rotation.topLeftCorner(dimension, dimension)), kernel_(original_->kernel())
+{
+  for (Eigen::Index i = 0; i < kernel_.rows(); i += dimension)
+    kernel_.middleRows(i, dimension) = rotation_ * Eigen::MatrixXd(kernel_.middleRows(i, dimension));
+}
+
+void TurnedSubdomain::turn_back(Eigen::VectorXd& v) const
+{
+  Eigen::Map<Eigen::MatrixXd> nodes(v.data(), rotation_.rows(), v.size() / rotation_.rows());
+  nodes = rotation_.transpose() * nodes;
+}
+
+void TurnedSubdomain::turn(Eigen::VectorXd& v) const
+{
+  Eigen::Map<Eigen::MatrixXd> nodes(v.data(), rotation_.rows(), v.size() / rotation_.rows());
+  nodes = rotation_ * nodes;
+}
+
+void TurnedSubdomain::apply_inverse(std::span<double* const> columns) const
+{
+  for (double* column : columns) {
+    Eigen::Map<Eigen::VectorXd> v(column, size());
+    Eigen::VectorXd x = v;
+    turn_back(x);
+    double* const pointer = x.data();
+    original_->apply_inverse({&pointer, 1});
+    turn(x);
+    v = x;
+  }
+}
+
+Eigen::VectorXd TurnedSubdomain::apply(const Eigen::VectorXd& u) const
+{
+  Eigen::VectorXd v = u;
+  turn_back(v);
+  v = original_->apply(v);
+  turn(v);
+  return v;
 }
 
 }  // namespace mortise::feti

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "base/error.hpp"
 #include "fem/stiffness.hpp"
 #include "mesh/blocks.hpp"
@@ -28,9 +30,11 @@ TEST_P(Inverse, IsAGeneralisedInverse)
   const auto mesh = block({4, 3, 3}, size);
   const auto k = fem::stiffness(mesh, {2e5, 0.3, 0, 0}, fem::Kinematics::solid);
   const ElasticSubdomain subdomain(k, fem::rigid_motions(mesh.points, 3), mesh.points, 3, factorization);
-  Eigen::MatrixXd u = Eigen::MatrixXd::Random(subdomain.size(), 3), f(subdomain.size(), 3), x(subdomain.size(), 3);
+  Eigen::MatrixXd u = Eigen::MatrixXd::Random(subdomain.size(), 3), f(subdomain.size(), 3);
   for (int c = 0; c < 3; ++c) f.col(c) = subdomain.apply(u.col(c));
-  subdomain.apply_inverse(f.data(), x.data(), 3);
+  Eigen::MatrixXd x = f;
+  const std::array<double*, 3> columns{x.col(0).data(), x.col(1).data(), x.col(2).data()};
+  subdomain.apply_inverse(columns);
   for (int c = 0; c < 3; ++c) EXPECT_LT((subdomain.apply(x.col(c)) - f.col(c)).norm(), 1e-9 * f.col(c).norm());
   EXPECT_LT(subdomain.apply(subdomain.kernel().col(5)).norm(), 1e-9 * k.norm());
 }
@@ -54,10 +58,38 @@ TEST(Inverse, GoesThroughSharedFactorsInBlocks)
     subdomains.push_back(s == 70 ? b : a);
     v.emplace_back(Eigen::VectorXd::LinSpaced(subdomains.back()->size(), s, 2 * s + 1));
     expected.push_back(v.back());
-    subdomains.back()->apply_inverse(expected.back().data(), expected.back().data(), 1);
+    double* const column = expected.back().data();
+    subdomains.back()->apply_inverse({&column, 1});
   }
   apply_inverse(subdomains, v);
   for (std::size_t s = 0; s < v.size(); ++s) EXPECT_LT((v[s] - expected[s]).norm(), 1e-12 * expected[s].norm()) << s;
+}
+
+// A turned copy behaves as what its own mesh gives.
+TEST(Inverse, OfATurnedCopyIsItsOwn)
+{
+  const auto mesh = block({3, 2, 2}, {1, 1, 1});
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(2.1, Point(1, -2, 0.5).normalized()).matrix();
+  auto turned_mesh = mesh;
+  for (auto& p : turned_mesh.points) p = rotation * p + Point(3, 1, 4);
+  const auto make = [](const mesh::Mesh& m) {
+    return std::make_shared<const ElasticSubdomain>(fem::stiffness(m, {2e5, 0.3, 0, 0}, fem::Kinematics::solid),
+                                                    fem::rigid_motions(m.points, 3), m.points, 3, "cholmod");
+  };
+  const auto original = make(mesh), own = make(turned_mesh);
+  const auto turned = std::make_shared<const TurnedSubdomain>(original, rotation, 3);
+  const Eigen::VectorXd u = Eigen::VectorXd::Random(own->size());
+  const Eigen::VectorXd f = own->apply(u);
+  EXPECT_LT((turned->apply(u) - f).norm(), 1e-12 * f.norm());
+  EXPECT_LT((turned->kernel() * (turned->kernel().transpose() * own->kernel()) - own->kernel()).norm(), 1e-12);
+  const Subdomains subdomains{original, turned};
+  std::vector<Eigen::VectorXd> v{original->apply(u), f};
+  apply_inverse(subdomains, v);
+  EXPECT_LT((own->apply(v[1]) - f).norm(), 1e-11 * f.norm());
+  Eigen::VectorXd alone = f;
+  double* const column = alone.data();
+  turned->apply_inverse({&column, 1});
+  EXPECT_LT((alone - v[1]).norm(), 1e-12 * alone.norm());
 }
 
 TEST(FixingNodes, AreFewForACompactSubdomain)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <map>
 #include <set>
 
@@ -136,16 +137,40 @@ TEST(Congruence, CopiesAreFoundAndOthersAreNot)
   auto d = make(beams("hex8", {6, 4, 4}), options, alone);
   std::vector<int> kind(d.subdomains.size(), 0);
   const auto first = congruent(d.subdomains, kind);
-  std::set<std::size_t> originals(first.begin(), first.end());
+  std::set<std::size_t> originals;
+  for (const auto& copy : first) originals.insert(copy.original);
   EXPECT_EQ(originals.size(), 2U);  // of 12 and 16
-  for (std::size_t s = 0; s < first.size(); ++s)
-    EXPECT_EQ(d.subdomains[s].mesh.cells.size(), d.subdomains[first[s]].mesh.cells.size());
+  for (std::size_t s = 0; s < first.size(); ++s) {
+    EXPECT_EQ(d.subdomains[s].mesh.cells.size(), d.subdomains[first[s].original].mesh.cells.size());
+    EXPECT_FALSE(first[s].rotation);
+  }
   kind[3] = 1;
-  EXPECT_EQ(congruent(d.subdomains, kind)[3], 3U);
+  EXPECT_EQ(congruent(d.subdomains, kind)[3].original, 3U);
   d.subdomains[4].mesh.points[5][0] += 1e-7;
-  EXPECT_EQ(congruent(d.subdomains, kind)[4], 4U);
+  EXPECT_EQ(congruent(d.subdomains, kind)[4].original, 4U);
   d.subdomains[4].mesh.points[5][0] -= 1e-7;
-  EXPECT_EQ(congruent(d.subdomains, kind)[4], 0U);
+  EXPECT_EQ(congruent(d.subdomains, kind)[4].original, 0U);
+}
+
+TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
+{
+  const Communicator alone(MPI_COMM_SELF);
+  Options options;
+  options.method = "grid";
+  options.counts = {{"lower", {2, 1, 1}}, {"upper", {1, 1, 1}}};
+  auto d = make(beams("hex8", {6, 4, 4}), options, alone);
+  d.subdomains.resize(2);
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).matrix();
+  auto& turned = d.subdomains[1].mesh.points;
+  for (auto& p : turned) p = rotation * p + Point(5, 0, -2);
+  const std::vector<int> kind(2, 0);
+  const auto copies = congruent(d.subdomains, kind);
+  EXPECT_EQ(copies[1].original, 0U);
+  ASSERT_TRUE(copies[1].rotation);
+  EXPECT_LT((*copies[1].rotation - rotation).norm(), 1e-10);
+  EXPECT_EQ(congruent(d.subdomains, kind, false)[1].original, 1U);
+  for (auto& p : turned) p[1] = -p[1];
+  EXPECT_EQ(congruent(d.subdomains, kind)[1].original, 1U);
 }
 
 TEST(BoundarySurface, IsWholeOverAllRanks)

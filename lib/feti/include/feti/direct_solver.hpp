@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "base/cholesky.hpp"
@@ -19,8 +20,8 @@ class DirectSolver {
   DirectSolver& operator=(DirectSolver&&) noexcept;
   ~DirectSolver();
 
-  /// x = A^-1 b for `columns` right-hand sides, column-major and dense.
-  void solve(const double* b, double* x, int columns) const;
+  /// columns[c] <- A^-1 columns[c], each of the size of the matrix.
+  void solve(std::span<double* const> columns) const;
   /// Bytes of the factor; 0 if the solver does not tell.
   std::size_t factor_bytes() const;
 

@@ -60,14 +60,10 @@ class JumpOperator {
   const std::vector<Block>& blocks() const { return blocks_; }
   const Import& import() const { return *import_; }  ///< from rows() to the rows that this rank's subdomains take part in
 
-  /// `values`[k]: for entries (row of the overlapping map, index, value), added up where the row is owned, as a sparse matrix
-  /// `height` x owned rows. Collective.
-  struct Contribution {
-    Local row;
-    int index;
-    double value;
-  };
-  SparseMatrix gather_columns(const std::vector<Contribution>& contributions, int height, const Communicator& comm) const;
+  /// Brings dense parts of columns to where their row of B is owned: column r of `parts`[s] (any x rows of blocks()[s]) belongs
+  /// to row blocks()[s].row[r], and starts at `first`[s] there. No two parts overlap. Returns `height` x owned rows. Collective.
+  SparseMatrix gather_columns(const std::vector<Eigen::MatrixXd>& parts, const std::vector<int>& first, int height,
+                              const Communicator& comm) const;
 
  private:
   Teuchos::RCP<const Map> rows_;

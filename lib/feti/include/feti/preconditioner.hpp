@@ -17,7 +17,7 @@
 
 namespace mortise::feti {
 
-/// Refers to `jump`, which outlives it.
+/// Refers to `jump` and `subdomains`, which outlive it.
 class Preconditioner : public Operator {
  public:
   enum class Kind { lumped, dirichlet };
@@ -38,7 +38,12 @@ class Preconditioner : public Operator {
     std::unique_ptr<DirectSolver> interior;
   };
   const JumpOperator& jump_;
-  std::vector<std::shared_ptr<const Surface>> surfaces_;  // congruent subdomains share one
+  const Subdomains& subdomains_;
+  struct Group {
+    Surface surface;
+    std::vector<std::size_t> members;  // the subdomains that are copies of one
+  };
+  std::vector<Group> groups_;
   Timers& timers_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,23 +21,28 @@ class SubdomainOperator {
   virtual int size() const = 0;
   /// R, size() x dim Ker K, orthonormal columns.
   virtual const Eigen::MatrixXd& kernel() const = 0;
-  /// x = K^+ b with a generalised inverse: K x = b for every b in Im K. Column-major, dense.
-  virtual void apply_inverse(const double* b, double* x, int columns) const = 0;
+  /// columns[c] <- K^+ columns[c] with a generalised inverse: K K^+ b = b for every b in Im K.
+  virtual void apply_inverse(std::span<double* const> columns) const = 0;
   /// K u.
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
-  /// The lower triangle of K, for preconditioners.
+  /// The lower triangle of K, for preconditioners; of a turned copy, that of its original.
   virtual const SparseMatrix& stiffness() const = 0;
   virtual std::size_t factor_bytes() const = 0;
+
+  /// What a turned copy is a copy of: K = T K_original T', T a rotation of every node. Itself for others.
+  virtual const SubdomainOperator& original() const { return *this; }
+  /// T' v and T v in place; nothing where there is no T.
+  virtual void turn_back(Eigen::VectorXd&) const {}
+  virtual void turn(Eigen::VectorXd&) const {}
 };
 
-/// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Congruent subdomains have the same one.
+/// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Copies by translation have the same one.
 using Subdomains = std::vector<std::shared_ptr<const SubdomainOperator>>;
 
-/// Right-hand sides that go through one factor together.
-inline constexpr std::size_t block_columns = 64;
+/// This rank's subdomains, by what they are copies of.
+std::map<const SubdomainOperator*, std::vector<std::size_t>> by_original(const Subdomains& subdomains);
 
-/// v_s = K_s^+ v_s for every subdomain. Vectors of the same operator go through its factor together, in blocks that stay in
-/// cache.
+/// v_s = K_s^+ v_s for every subdomain. Vectors of the same original go through its factor together.
 void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v);
 
 /// Finite elements. K^+ = (K + r N)^-1 with N = E R_I (R_I'R_I)^-1 R_I'E', where R_I is the kernel at a few fixing nodes and r
@@ -53,7 +59,7 @@ class ElasticSubdomain : public SubdomainOperator {
 
   int size() const override { return static_cast<int>(stiffness_.cols()); }
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
-  void apply_inverse(const double* b, double* x, int columns) const override { solver_->solve(b, x, columns); }
+  void apply_inverse(std::span<double* const> columns) const override { solver_->solve(columns); }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override { return stiffness_.selfadjointView<Eigen::Lower>() * u; }
   const SparseMatrix& stiffness() const override { return stiffness_; }
   std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
@@ -62,6 +68,28 @@ class ElasticSubdomain : public SubdomainOperator {
   SparseMatrix stiffness_;
   Eigen::MatrixXd kernel_;
   std::unique_ptr<DirectSolver> solver_;
+};
+
+/// A copy of another subdomain, turned by a rotation of space: its vectors are turned back, go through the original's factor and
+/// are turned again.
+class TurnedSubdomain : public SubdomainOperator {
+ public:
+  TurnedSubdomain(std::shared_ptr<const SubdomainOperator> original, const Eigen::Matrix3d& rotation, int dimension);
+
+  int size() const override { return original_->size(); }
+  const Eigen::MatrixXd& kernel() const override { return kernel_; }
+  void apply_inverse(std::span<double* const> columns) const override;
+  Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
+  const SparseMatrix& stiffness() const override { return original_->stiffness(); }
+  std::size_t factor_bytes() const override { return 0; }
+  const SubdomainOperator& original() const override { return *original_; }
+  void turn_back(Eigen::VectorXd& v) const override;
+  void turn(Eigen::VectorXd& v) const override;
+
+ private:
+  std::shared_ptr<const SubdomainOperator> original_;
+  Eigen::MatrixXd rotation_;  // dimension x dimension
+  Eigen::MatrixXd kernel_;
 };
 
 /// A few nodes, spread over the subdomain, whose rows of the kernel have full column rank with a good condition.

@@ -1,15 +1,23 @@
 // Subdomains that are copies of each other, found by comparison: they can share a stiffness matrix and its factorization.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "partition/decomposition.hpp"
 
 namespace mortise::partition {
 
+/// Points of the copy = rotation * points of the original + a translation.
+struct CopyOf {
+  std::size_t original;                     ///< itself, if there is none before it
+  std::optional<Eigen::Matrix3d> rotation;  ///< none for a translation alone
+};
+
 /// For each subdomain of this rank the first one of this rank with the same cells (in the same local numbering), the same points
-/// up to a translation, to 1e-10 of its size, and the same `kind` (one number a subdomain: whatever else must agree, such as the
-/// material); its own index if there is none before it.
-std::vector<std::size_t> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind);
+/// up to a rigid motion, to 1e-10 of its size, and the same `kind` (one number a subdomain: whatever else must agree, such as the
+/// material). With `turned` false only translations count, which is right where an axis is fixed in space.
+std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind, bool turned = true);
 
 }  // namespace mortise::partition
