@@ -5,6 +5,9 @@
 # TESTS make one GoogleTest program, test_NAME, run on one rank; PARALLEL_TESTS make mpi_test_NAME, run on 1, 2 and 3.
 add_library(mortise_options INTERFACE)
 target_compile_options(mortise_options INTERFACE -Wall -Wextra)
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+  target_link_options(mortise_options INTERFACE -Wl,--version-script=${CMAKE_CURRENT_LIST_DIR}/hide_eigen.map)
+endif()
 if(MORTISE_ARCH)
   target_compile_options(mortise_options INTERFACE -march=${MORTISE_ARCH})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13 AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")

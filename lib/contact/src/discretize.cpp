@@ -124,16 +124,16 @@ class Builder {
   {
     return places_.all.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm_.size());
   }
-  std::span<const Local> corner_places(std::size_t face) const
+  std::span<const Local> node_places(std::size_t face) const
   {
-    return std::span(places_.of_corner)
+    return std::span(places_.of_node)
         .subspan(static_cast<std::size_t>(secondary_.faces.offset[face]), secondary_.faces[face].size());
   }
 
   void integrate_faces()
   {
     std::vector<Box> boxes;
-    for (std::size_t f = 0; f < primary_.faces.size(); ++f) {
+    for (std::size_t f = 0; f < primary_.facets.size(); ++f) {
       const auto face = primary_.geometry(f);
       Box box;
       for (const auto& p : face.nodes) box.extend(p);
@@ -142,16 +142,40 @@ class Builder {
     tree_ = std::make_unique<Tree>(std::move(boxes));
     for (std::size_t f = first_face(comm_.rank()); f < first_face(comm_.rank() + 1); ++f)
       integrals_.push_back(integrate(secondary_, places_, f, primary_, primary_places_, *tree_, reach_));
+    face_of_middle_.assign(places_.all.size(), {-1, -1});
+    for (std::size_t f = 0; f < secondary_.faces.size(); ++f)
+      for (std::size_t k = static_cast<std::size_t>(mesh::corner_count(secondary_.faces.type[f])); k < secondary_.faces[f].size();
+           ++k)
+        face_of_middle_[static_cast<std::size_t>(node_places(f)[k])] = {static_cast<Local>(f), static_cast<Local>(k)};
   }
 
-  // The gap between the smooth surfaces at the node itself, along its normal. Its mean over the dual basis, which has negative
-  // parts, would see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch; that mean is
-  // left for nodes which look past the border of the primary side.
+  // The gap between the smooth surfaces at the node itself, along its normal, as the rows see it: in the middle of edges and
+  // faces as a control value. Its mean over the dual basis, which has negative parts, would see an overlap of a twelfth of
+  // curvature times cell size squared between surfaces that only touch; that mean is left for nodes which look past the border of
+  // the primary side.
   double gap_at(std::size_t p, double mean) const
+  {
+    const double length = 2 * std::max(std::abs(mean), reach_);
+    const auto [face, node] = face_of_middle_[p];
+    double gap = 0;
+    if (face < 0) {
+      gap = ray(p, length);
+    } else {
+      const Eigen::MatrixXd basis = multiplier_basis(secondary_.faces.type[static_cast<std::size_t>(face)]);
+      const Eigen::VectorXd control = basis.transpose().partialPivLu().inverse().row(node);
+      for (Eigen::Index k = 0; k < control.size(); ++k)
+        if (control[k] != 0)
+          gap += control[k] *
+                 ray(static_cast<std::size_t>(node_places(static_cast<std::size_t>(face))[static_cast<std::size_t>(k)]), length);
+    }
+    return std::isfinite(gap) ? gap : mean;
+  }
+
+  // Along the normal of a place to the primary side; not finite if it meets nothing within `length`.
+  double ray(std::size_t p, double length) const
   {
     const Place& place = places_.all[p];
     const Point x = secondary_.points[static_cast<std::size_t>(place.node)];
-    const double length = 2 * std::max(std::abs(mean), reach_);
     const Point margin = Point::Constant(0.02 * length);  // so that the sweep has few pieces
     double best = std::numeric_limits<double>::infinity();
     for (const int m : tree_->swept(Box(x - margin, x + margin), length * place.normal)) {
@@ -162,7 +186,7 @@ class Builder {
       const double gap = hit.distance - bulge(geometry, corner_normals(primary_, primary_places_, face), hit.shape);
       if (std::abs(gap) < std::abs(best)) best = gap;
     }
-    return std::isfinite(best) ? best : mean;
+    return best;
   }
 
   // Which places carry a multiplier: covered enough, and not held along their normal.
@@ -171,7 +195,7 @@ class Builder {
     const auto count = static_cast<Eigen::Index>(places_.all.size());
     Eigen::MatrixXd cover = Eigen::MatrixXd::Zero(count, 2);
     for (std::size_t i = 0; i < integrals_.size(); ++i) {
-      const auto places = corner_places(first_face(comm_.rank()) + i);
+      const auto places = node_places(first_face(comm_.rank()) + i);
       for (std::size_t k = 0; k < places.size(); ++k) {
         cover(places[k], 0) += integrals_[i].covered[static_cast<Eigen::Index>(k)];
         cover(places[k], 1) += integrals_[i].whole[static_cast<Eigen::Index>(k)];
@@ -203,7 +227,7 @@ class Builder {
     rise_ = d_;
     for (std::size_t i = 0; i < integrals_.size(); ++i) {
       const std::size_t face = first_face(comm_.rank()) + i;
-      const auto places = corner_places(face);
+      const auto places = node_places(face);
       std::vector<bool> kept;
       for (const Local p : places) kept.push_back(kept_[static_cast<std::size_t>(p)]);
       const auto rows = dual_rows(integrals_[i], kept, secondary_.faces[face], places);
@@ -315,9 +339,10 @@ class Builder {
   Places places_, primary_places_;
   HeldNodes held_, primary_held_;
   double reach_;
-  std::unique_ptr<Tree> tree_;            // of the primary faces
-  std::vector<FaceIntegrals> integrals_;  // of this rank's faces
-  std::vector<Directions> directions_;    // of each place
+  std::unique_ptr<Tree> tree_;                           // of the primary facets
+  std::vector<FaceIntegrals> integrals_;                 // of this rank's faces
+  std::vector<std::pair<Local, Local>> face_of_middle_;  // of each place: a face and the node in it, if that is no corner
+  std::vector<Directions> directions_;                   // of each place
   std::vector<bool> kept_;
   Eigen::VectorXd d_, rise_;  // of each place: integral psi_i, and of psi_i times the bulge
 };
@@ -342,9 +367,7 @@ double largest_face(const mesh::Surface& side, const Communicator& comm)
 {
   double size = 0;
   for (std::size_t f = 0; f < side.faces.size(); ++f) {
-    FaceGeometry face{side.faces.type[f], {}};
-    for (const Local n : side.faces[f]) face.nodes.push_back(side.points[static_cast<std::size_t>(n)]);
-    size = std::max(size, face.size());
+    size = std::max(size, corners_of(side, f).size());
   }
   return comm.max(size);
 }

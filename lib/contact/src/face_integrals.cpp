@@ -2,57 +2,96 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 namespace mortise::contact {
 
 namespace {
 
-Eigen::VectorXd whole_face(const FaceGeometry& face)
+// Integrals of the face's shape functions over one of its facets.
+Eigen::VectorXd whole_facet(const Side& side, std::size_t facet)
 {
-  FaceGeometry mirror = face;
+  const FaceGeometry geometry = side.geometry(facet);
+  FaceGeometry mirror = geometry;
   std::reverse(mirror.nodes.begin(), mirror.nodes.end());
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(face.nodes.size()));
-  for (const auto& point : overlap(face, mirror, face.size())) result += point.weight * point.secondary.head(result.size());
+  const auto face = static_cast<std::size_t>(side.face_of[facet]);
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(side.faces[face].size()));
+  const auto all = overlap(geometry, mirror, geometry.size(), side.second_order(face));
+  for (const auto& point : all.points) result += point.weight * side.shape_in_face(facet, point.secondary, all.frame, point.at);
   return result;
 }
 
 }  // namespace
 
-std::vector<Point> corner_normals(const Side& side, const Places& places, std::size_t face)
+Eigen::MatrixXd multiplier_basis(mesh::CellType type)
+{
+  const auto n = static_cast<Eigen::Index>(mesh::node_count(type)), corners = static_cast<Eigen::Index>(mesh::corner_count(type));
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n);
+  if (n == corners) return basis;
+  const auto& middles = mesh::middles(type);
+  const auto along = [&](Eigen::Index m, int c) {
+    const auto& ends = middles[static_cast<std::size_t>(m - corners)];
+    return std::find(ends.begin(), ends.end(), c) != ends.end();
+  };
+  for (Eigen::Index m = corners; m < n; ++m) {
+    const auto ends = middles[static_cast<std::size_t>(m - corners)].size();
+    basis(m, m) = ends == 2 ? 0.5 : 0.25;
+    for (int c = 0; c < static_cast<int>(corners); ++c)
+      if (along(m, c)) basis(c, m) = ends == 2 ? 0.25 : 1.0 / 16;
+    if (ends == 2) continue;
+    for (Eigen::Index e = corners; e < m; ++e) basis(e, m) = 0.125;  // the centre of a quadrilateral, and its four edges
+  }
+  return basis;
+}
+
+std::vector<Point> corner_normals(const Side& side, const Places& places, std::size_t facet)
 {
   std::vector<Point> normals;
-  for (std::size_t k = 0; k < side.faces[face].size(); ++k)
+  for (std::size_t k = 0; k < side.facets[facet].size(); ++k)
     normals.push_back(
-        places.all[static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.faces.offset[face]) + k])].normal);
+        places.all[static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.facets.offset[facet]) + k])].normal);
   return normals;
 }
 
 FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, std::size_t face, const Side& primary,
                         const Places& primary_places, const Tree& tree, double reach)
 {
-  const auto own_normals = corner_normals(secondary, secondary_places, face);
-  const FaceGeometry own = secondary.geometry(face);
-  const auto n = static_cast<Eigen::Index>(own.nodes.size());
-  FaceIntegrals result{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), whole_face(own), Eigen::VectorXd::Zero(n), {}};
-  Box box;
-  for (const auto& p : own.nodes) box.extend(p);
-  const Point margin = Point::Constant(1e-6 * own.size());
-  box.min() -= margin;
-  box.max() += margin;
+  const Eigen::MatrixXd basis = multiplier_basis(secondary.faces.type[face]);
+  const auto n = basis.rows();
+  FaceIntegrals result{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n),
+                       Eigen::VectorXd::Zero(n),    Eigen::VectorXd::Zero(n),    {}};
   std::map<Local, Eigen::VectorXd> opposite;
-  for (const int m : tree.swept(box, reach * own.normal())) {
-    const FaceGeometry other = primary.geometry(static_cast<std::size_t>(m));
-    const auto nodes = primary.faces[static_cast<std::size_t>(m)];
-    const auto other_normals = corner_normals(primary, primary_places, static_cast<std::size_t>(m));
-    for (const auto& point : overlap(own, other, reach)) {
-      const Eigen::VectorXd phi = point.secondary.head(n);
-      result.mass += point.weight * phi * phi.transpose();
-      result.covered += point.weight * phi;
-      result.rise += point.weight * (bulge(own, own_normals, point.secondary) + bulge(other, other_normals, point.primary)) * phi;
-      for (std::size_t k = 0; k < nodes.size(); ++k)
-        opposite.try_emplace(nodes[k], Eigen::VectorXd::Zero(n)).first->second +=
-            point.weight * point.primary[static_cast<Eigen::Index>(k)] * phi;
+  for (auto facet = static_cast<std::size_t>(secondary.first_facet[face]);
+       facet < static_cast<std::size_t>(secondary.first_facet[face + 1]); ++facet) {
+    const auto own_normals = corner_normals(secondary, secondary_places, facet);
+    const FaceGeometry own = secondary.geometry(facet);
+    result.whole += basis * whole_facet(secondary, facet);
+    Box box;
+    for (const auto& p : own.nodes) box.extend(p);
+    const Point margin = Point::Constant(1e-6 * own.size());
+    box.min() -= margin;
+    box.max() += margin;
+    for (const int met : tree.swept(box, reach * own.normal())) {
+      const auto m = static_cast<std::size_t>(met), other_face = static_cast<std::size_t>(primary.face_of[m]);
+      const FaceGeometry other = primary.geometry(m);
+      const auto nodes = primary.faces[other_face];
+      const auto other_normals = corner_normals(primary, primary_places, m);
+      const auto common = overlap(own, other, reach, secondary.second_order(face) || primary.second_order(other_face));
+      for (const auto& point : common.points) {
+        const FaceShape phi = secondary.shape_in_face(facet, point.secondary, common.frame, point.at);
+        const FaceShape theta = basis * phi;
+        const FaceShape phi_primary = primary.shape_in_face(m, point.primary, common.frame, point.at);
+        result.mass += point.weight * theta * phi.transpose();
+        result.gram += point.weight * theta * theta.transpose();
+        result.covered += point.weight * theta;
+        result.rise +=
+            point.weight * (bulge(own, own_normals, point.secondary) + bulge(other, other_normals, point.primary)) * theta;
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          opposite.try_emplace(nodes[k], Eigen::VectorXd::Zero(n)).first->second +=
+              point.weight * phi_primary[static_cast<Eigen::Index>(k)] * theta;
+      }
     }
   }
   result.opposite.assign(opposite.begin(), opposite.end());
@@ -68,22 +107,23 @@ FaceRows dual_rows(const FaceIntegrals& integrals, const std::vector<bool>& kept
   FaceRows rows{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), {}};
   if (keep.empty() || integrals.covered.sum() <= 0) return rows;
 
-  // phi~ = T phi.
+  // theta~ = T theta.
   const auto count = static_cast<Eigen::Index>(keep.size());
   Eigen::MatrixXd t = Eigen::MatrixXd::Zero(count, n);
   for (Eigen::Index k = 0; k < count; ++k) {
     t(k, keep[static_cast<std::size_t>(k)]) = 1;
     for (const auto d : drop) t(k, d) = 1.0 / static_cast<double>(count);
   }
-  const Eigen::MatrixXd all = t * integrals.mass;  // integral phi~_k phi_j over all j
+  const Eigen::MatrixXd all = t * integrals.mass, products = t * integrals.gram;  // integral theta~_k phi_j, theta~_k theta_j
   Eigen::MatrixXd gram(count, count);
-  Eigen::VectorXd d(count);
+  Eigen::VectorXd d(count), scale(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    gram.col(k) = all.col(keep[static_cast<std::size_t>(k)]);
-    d[k] = integrals.covered[keep[static_cast<std::size_t>(k)]];
+    const auto corner = keep[static_cast<std::size_t>(k)];
+    gram.col(k) = products.col(corner);
+    d[k] = integrals.covered[corner];
+    // A sliver makes the functions nearly dependent on it; scaled to one size what remains is their true dependence.
+    scale[k] = 1 / std::sqrt(std::max(integrals.gram(corner, corner), std::numeric_limits<double>::min()));
   }
-  // A sliver makes the shape functions nearly dependent on it; scaled by D what remains is their true dependence.
-  const Eigen::VectorXd scale = d.cwiseSqrt().cwiseInverse();
   const Eigen::FullPivLU<Eigen::MatrixXd> factor(scale.asDiagonal() * gram * scale.asDiagonal());
   Eigen::MatrixXd a;
   if (factor.rcond() > 1e-9)
@@ -102,7 +142,8 @@ FaceRows dual_rows(const FaceIntegrals& integrals, const std::vector<bool>& kept
     rows.d[corner] = d[k];
     rows.rise[corner] = rise[k];
     for (Eigen::Index j = 0; j < n; ++j)
-      if (j == corner || std::abs(own(k, j)) > 1e-12 * d[k]) put(k, nodes[static_cast<std::size_t>(j)], false, own(k, j));
+      if (j == corner || std::abs(own(k, j)) > 1e-12 * std::abs(d[k]))
+        put(k, nodes[static_cast<std::size_t>(j)], false, own(k, j));
   }
   for (const auto& [node, integral] : integrals.opposite) {
     const Eigen::VectorXd values = a * (t * integral);

@@ -16,12 +16,6 @@ namespace {
 constexpr double opposed = -0.35;
 constexpr double negligible = 1e-10;  // part of the face's area below which an overlap is rounding
 
-struct Frame {
-  Point origin, first, second, normal;
-  Plane project(const Point& x) const { return {(x - origin).dot(first), (x - origin).dot(second)}; }
-  double height(const Point& x) const { return (x - origin).dot(normal); }
-};
-
 Frame frame_of(const FaceGeometry& face)
 {
   Frame frame{face.centre(), (face.nodes[1] - face.nodes[0]).normalized(), Point::Zero(), face.normal()};
@@ -90,12 +84,12 @@ struct Sample {
   double weight;
 };
 
-// Products of bilinear functions of two parallelograms have degree 4 in the plane; other quads make them rational, and only many
-// points keep the patch test at rounding.
-std::vector<Sample> samples(const std::vector<Plane>& polygon, bool polynomial)
+// Products of bilinear functions of two parallelograms have degree 4 in the plane, of biquadratic ones 8; other quads make them
+// rational, and only many points keep the patch test at rounding.
+std::vector<Sample> samples(const std::vector<Plane>& polygon, bool polynomial, bool second_order)
 {
-  static const Rule low = gauss(4), high = gauss(9);
-  const Rule& rule = polynomial ? low : high;
+  static const Rule low = gauss(4), middle = gauss(6), high = gauss(9);
+  const Rule& rule = !polynomial ? high : second_order ? middle : low;
   Plane centre = Plane::Zero();
   for (const auto& p : polygon) centre += p / static_cast<double>(polygon.size());
   std::vector<Sample> result;
@@ -158,7 +152,16 @@ double FaceGeometry::area() const
   return 0.5 * (nodes[2] - nodes[0]).cross(nodes[3] - nodes[1]).norm();
 }
 
-std::vector<OverlapPoint> overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach)
+FaceGeometry corners_of(const mesh::Surface& surface, std::size_t face)
+{
+  const CellType type = mesh::first_order(surface.faces.type[face]);
+  FaceGeometry result{type, {}};
+  for (const Local n : surface.faces[face].first(static_cast<std::size_t>(mesh::node_count(type))))
+    result.nodes.push_back(surface.points[static_cast<std::size_t>(n)]);
+  return result;
+}
+
+Overlap overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach, bool second_order)
 {
   const Frame frame = frame_of(secondary);
   if (frame.normal.dot(primary.normal()) > opposed) return {};
@@ -179,16 +182,16 @@ std::vector<OverlapPoint> overlap(const FaceGeometry& secondary, const FaceGeome
     if (area_of(subject) < 0) return {};
     const auto common = clip_polygon(subject, own);
     if (common.size() < 3 || area_of(common) <= negligible * secondary.area()) return {};
-    points = samples(common, parallelogram(secondary) && parallelogram(primary));
+    points = samples(common, parallelogram(secondary) && parallelogram(primary), second_order);
     for (const auto& p : common) middle += p / static_cast<double>(common.size());
   }
   const double distance = height_at(primary, frame, shape(primary.type, locate(primary.type, other, middle))) -
                           height_at(secondary, frame, shape(secondary.type, locate(secondary.type, own, middle)));
   if (std::abs(distance) > reach) return {};
-  std::vector<OverlapPoint> result;
+  Overlap result{frame, {}};
   for (const auto& sample : points)
-    result.push_back({sample.weight, shape(secondary.type, locate(secondary.type, own, sample.at)),
-                      shape(primary.type, locate(primary.type, other, sample.at))});
+    result.points.push_back({sample.weight, sample.at, shape(secondary.type, locate(secondary.type, own, sample.at)),
+                             shape(primary.type, locate(primary.type, other, sample.at))});
   return result;
 }
 

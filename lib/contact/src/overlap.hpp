@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "mesh/mesh.hpp"
 #include "shape.hpp"
 
 namespace mortise::contact {
 
-/// A face with its nodes in space.
+/// A facet, that is a face of first order, with its nodes in space.
 struct FaceGeometry {
   mesh::CellType type;
   std::vector<Point> nodes;
@@ -19,16 +20,33 @@ struct FaceGeometry {
   double area() const;   ///< in the plane of the centre
 };
 
-/// An integration point: its weight in the auxiliary plane (2D: line) and both faces' shape functions there.
+/// The corners of a face of a surface.
+FaceGeometry corners_of(const mesh::Surface& surface, std::size_t face);
+
+/// An auxiliary plane; in 2D `first` runs along the line and `second` is zero.
+struct Frame {
+  Point origin, first, second, normal;
+  Plane project(const Point& x) const { return {(x - origin).dot(first), (x - origin).dot(second)}; }
+  double height(const Point& x) const { return (x - origin).dot(normal); }
+};
+
+/// An integration point: its weight and place in the auxiliary plane (2D: line) and both facets' shape functions there.
 struct OverlapPoint {
   double weight;
+  Plane at;
   Eigen::Vector4d secondary, primary;
 };
 
-/// The secondary face's auxiliary plane through its centre is where both are projected along its normal and clipped [Puso and
+struct Overlap {
+  Frame frame;
+  std::vector<OverlapPoint> points;
+};
+
+/// The secondary facet's auxiliary plane through its centre is where both are projected along its normal and clipped [Puso and
 /// Laursen, CMAME 193 (2004); Popp et al., IJNME 83 (2010)]. Empty if the faces do not look at each other, or lie farther apart
-/// than `reach` (the distance is taken at the centre of the common part).
-std::vector<OverlapPoint> overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach);
+/// than `reach` (the distance is taken at the centre of the common part). The rule is exact for products of the shape functions
+/// of parallelograms, or of faces of second order if `second_order`.
+Overlap overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach, bool second_order = false);
 
 /// Where the line through `from` along the unit vector `direction` meets a face: the distance along it and the face's shape
 /// functions there.

@@ -1,10 +1,13 @@
 #include "side.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+
+#include "mesh/shape_functions.hpp"
 
 namespace mortise::contact {
 
@@ -26,8 +29,8 @@ void continue_curvature(const Side& side, Places& places)
 {
   // Edges from place to place and how many faces have them.
   std::map<std::pair<Local, Local>, int> edges;
-  for (std::size_t f = 0; f < side.faces.size(); ++f) {
-    const auto begin = static_cast<std::size_t>(side.faces.offset[f]), n = side.faces[f].size();
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto begin = static_cast<std::size_t>(side.facets.offset[f]), n = side.facets[f].size();
     for (std::size_t k = 0; k < n; ++k) {
       const Local a = places.of_corner[begin + k], b = places.of_corner[begin + (k + 1) % n];
       if (n == 2 && k == 1) continue;
@@ -35,7 +38,7 @@ void continue_curvature(const Side& side, Places& places)
       ++edges[{b, a}];
     }
   }
-  const bool plane = side.faces.size() > 0 && side.faces.type[0] == mesh::CellType::line2;
+  const bool plane = side.facets.size() > 0 && side.facets.type[0] == mesh::CellType::line2;
   std::vector<int> degree(places.all.size(), 0);
   std::vector<bool> border(places.all.size(), false);
   for (const auto& [edge, count] : edges) {
@@ -65,6 +68,62 @@ void continue_curvature(const Side& side, Places& places)
   }
 }
 
+// How a face is cut into facets between its nodes.
+struct Facet {
+  mesh::CellType type;
+  std::array<int, 4> nodes;
+};
+
+const std::vector<Facet>& facets_of_face(mesh::CellType type)
+{
+  using enum mesh::CellType;
+  static const std::map<mesh::CellType, std::vector<Facet>> table{
+      {line2, {{line2, {0, 1}}}},
+      {tri3, {{tri3, {0, 1, 2}}}},
+      {quad4, {{quad4, {0, 1, 2, 3}}}},
+      {line3, {{line2, {0, 2}}, {line2, {2, 1}}}},
+      {tri6, {{tri3, {0, 3, 5}}, {tri3, {3, 1, 4}}, {tri3, {5, 4, 2}}, {tri3, {3, 4, 5}}}},
+      {quad8, {{tri3, {0, 4, 7}}, {tri3, {4, 1, 5}}, {tri3, {5, 2, 6}}, {tri3, {6, 3, 7}}, {quad4, {4, 5, 6, 7}}}},
+      {quad9, {{quad4, {0, 4, 8, 7}}, {quad4, {4, 1, 5, 8}}, {quad4, {8, 5, 2, 6}}, {quad4, {7, 8, 6, 3}}}},
+  };
+  return table.at(type);
+}
+
+// Whether all nodes lie where an affine map of the reference face puts them.
+bool is_affine(mesh::CellType type, const std::vector<Point>& nodes)
+{
+  double size = 0, error = 0;
+  for (const auto& p : nodes) size = std::max(size, (p - nodes[0]).norm());
+  const auto corners = static_cast<std::size_t>(mesh::corner_count(type));
+  if (corners == 4) error = (nodes[0] - nodes[1] + nodes[2] - nodes[3]).norm();
+  for (std::size_t m = 0; m < mesh::middles(type).size(); ++m) {
+    Point sum = Point::Zero();
+    for (const int c : mesh::middles(type)[m]) sum += nodes[static_cast<std::size_t>(c)];
+    error = std::max(error, (nodes[corners + m] - sum / static_cast<double>(mesh::middles(type)[m].size())).norm());
+  }
+  return error <= 1e-9 * size;
+}
+
+void cut_into_facets(Side& side)
+{
+  side.first_facet.push_back(0);
+  for (std::size_t f = 0; f < side.faces.size(); ++f) {
+    const auto nodes = side.faces[f];
+    std::vector<Point> points;
+    for (const Local n : nodes) points.push_back(side.points[static_cast<std::size_t>(n)]);
+    side.affine.push_back(is_affine(side.faces.type[f], points));
+    for (const auto& facet : facets_of_face(side.faces.type[f])) {
+      std::vector<Local> corners;
+      for (int k = 0; k < mesh::node_count(facet.type); ++k)
+        corners.push_back(nodes[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(k)])]);
+      side.facets.add(facet.type, corners);
+      side.face_of.push_back(static_cast<Local>(f));
+      side.corners.push_back(facet.nodes);
+    }
+    side.first_facet.push_back(static_cast<Local>(side.facets.size()));
+  }
+}
+
 }  // namespace
 
 double bulge(const FaceGeometry& face, std::span<const Point> normals, const Eigen::Vector4d& shape)
@@ -88,11 +147,43 @@ double bulge(const FaceGeometry& face, std::span<const Point> normals, const Eig
   return result;
 }
 
-FaceGeometry Side::geometry(std::size_t face) const
+FaceGeometry Side::geometry(std::size_t facet) const
 {
-  FaceGeometry result{faces.type[face], {}};
-  for (const Local n : faces[face]) result.nodes.push_back(points[static_cast<std::size_t>(n)]);
+  FaceGeometry result{facets.type[facet], {}};
+  for (const Local n : facets[facet]) result.nodes.push_back(points[static_cast<std::size_t>(n)]);
   return result;
+}
+
+FaceShape Side::shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, const Frame& frame, const Plane& at) const
+{
+  const auto face = static_cast<std::size_t>(face_of[facet]);
+  const auto nodes = faces[face];
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  if (!second_order(face)) return shape.head(n);
+  const auto& functions = mesh::shape_functions(faces.type[face]);
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < facets[facet].size(); ++k)
+    place += shape[static_cast<Eigen::Index>(k)] * functions.nodes()[static_cast<std::size_t>(corners[facet][k])];
+  Eigen::VectorXd value(n);
+  if (affine[face]) {
+    functions.evaluate(place, value);
+    return value;
+  }
+  // Newton's method in the auxiliary plane, from the place in the facet.
+  const Eigen::Index d = mesh::dimension(faces.type[face]);
+  Eigen::MatrixXd gradient, plane(2, n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    plane.col(i) = frame.project(points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)])]);
+  for (int step = 0; step < 20; ++step) {
+    functions.evaluate(place, value, &gradient);
+    const Eigen::MatrixXd jacobian = (plane * gradient).topRows(d);
+    const Eigen::VectorXd change = jacobian.partialPivLu().solve((at - plane * value).head(d));
+    if (!(change.norm() < 1)) break;  // a face that hides behind itself; the facet's place must do
+    place.head(d) += change;
+    if (change.squaredNorm() < 1e-28) break;
+  }
+  functions.evaluate(place, value);
+  return value;
 }
 
 Side gather(const mesh::Surface& surface, const Communicator& comm)
@@ -103,7 +194,7 @@ Side gather(const mesh::Surface& surface, const Communicator& comm)
   };
   struct Face {
     Global id;
-    Global nodes[4];
+    Global nodes[9];
     mesh::CellType type;
   };
   std::vector<Node> nodes;
@@ -111,7 +202,7 @@ Side gather(const mesh::Surface& surface, const Communicator& comm)
     nodes.push_back({surface.node_id[i], {surface.points[i][0], surface.points[i][1], surface.points[i][2]}});
   std::vector<Face> faces;
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    Face face{surface.face_id[f], {-1, -1, -1, -1}, surface.faces.type[f]};
+    Face face{surface.face_id[f], {-1, -1, -1, -1, -1, -1, -1, -1, -1}, surface.faces.type[f]};
     const auto local = surface.faces[f];
     for (std::size_t k = 0; k < local.size(); ++k) face.nodes[k] = surface.node_id[static_cast<std::size_t>(local[k])];
     faces.push_back(face);
@@ -135,6 +226,7 @@ Side gather(const mesh::Surface& surface, const Communicator& comm)
             static_cast<Local>(std::lower_bound(side.node_id.begin(), side.node_id.end(), id) - side.node_id.begin()));
     side.faces.add(face.type, local);
   }
+  cut_into_facets(side);
   return side;
 }
 
@@ -145,12 +237,12 @@ Places find_places(const Side& side)
     std::size_t k;
   };
   std::vector<std::vector<Corner>> round(side.points.size());
-  for (std::size_t f = 0; f < side.faces.size(); ++f)
-    for (std::size_t k = 0; k < side.faces[f].size(); ++k)
-      round[static_cast<std::size_t>(side.faces[f][k])].push_back({static_cast<Local>(f), k});
+  for (std::size_t f = 0; f < side.facets.size(); ++f)
+    for (std::size_t k = 0; k < side.facets[f].size(); ++k)
+      round[static_cast<std::size_t>(side.facets[f][k])].push_back({static_cast<Local>(f), k});
 
   Places places;
-  places.of_corner.resize(side.faces.nodes.size());
+  places.of_corner.resize(side.facets.nodes.size());
   for (std::size_t n = 0; n < round.size(); ++n) {
     const auto& corners = round[n];
     std::vector<FaceGeometry> faces;
@@ -175,13 +267,19 @@ Places find_places(const Side& side)
       for (std::size_t a = 0; a < corners.size(); ++a) {
         if (group[a] != g) continue;
         normal += corner_normal(faces[a], corners[a].k);
-        places.of_corner[static_cast<std::size_t>(side.faces.offset[static_cast<std::size_t>(corners[a].face)]) + corners[a].k] =
+        places.of_corner[static_cast<std::size_t>(side.facets.offset[static_cast<std::size_t>(corners[a].face)]) + corners[a].k] =
             static_cast<Local>(places.all.size());
       }
       if (normal.squaredNorm() > 0) places.all.push_back({static_cast<Local>(n), normal.normalized()});
     }
   }
   continue_curvature(side, places);
+  places.of_node.resize(side.faces.nodes.size());
+  for (std::size_t f = 0; f < side.facets.size(); ++f)
+    for (std::size_t k = 0; k < side.facets[f].size(); ++k)
+      places
+          .of_node[static_cast<std::size_t>(side.faces.offset[static_cast<std::size_t>(side.face_of[f])] + side.corners[f][k])] =
+          places.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k];
   return places;
 }
 

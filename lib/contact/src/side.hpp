@@ -2,6 +2,7 @@
 // beside the bodies; the work on them is shared out face by face.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -10,11 +11,26 @@
 
 namespace mortise::contact {
 
+/// Shape functions of a face of first or second order.
+using FaceShape = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1>;
+
+/// Geometry is done with facets of first order: a face of second order is cut into facets between its nodes, one of first order
+/// is its own facet. Displacements and multipliers belong to the faces.
 struct Side {
   std::vector<Global> node_id;  ///< ascending
   std::vector<Point> points;
-  mesh::Cells faces;  ///< ordered by face_id
-  FaceGeometry geometry(std::size_t face) const;
+  mesh::Cells faces;                        ///< ordered by face_id
+  mesh::Cells facets;                       ///< face by face
+  std::vector<Local> face_of;               ///< of each facet
+  std::vector<Local> first_facet;           ///< of each face, and the number of all facets
+  std::vector<std::array<int, 4>> corners;  ///< of each facet: its nodes' places in the face
+  std::vector<bool> affine;                 ///< of each face: facets give the place in it exactly
+
+  FaceGeometry geometry(std::size_t facet) const;
+  bool second_order(std::size_t face) const { return facets_of(face) > 1; }
+  std::size_t facets_of(std::size_t face) const { return static_cast<std::size_t>(first_facet[face + 1] - first_facet[face]); }
+  /// Shape functions of the face of `facet` at the place `at` of an auxiliary plane, where those of the facet are `shape`.
+  FaceShape shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, const Frame& frame, const Plane& at) const;
 };
 
 /// Collective.
@@ -26,11 +42,12 @@ struct Place {
   Point normal;  ///< unit; exact where the faces inscribe a sphere or cylinder [weights of Max, J. Graph. Tools 4 (1999)]
 };
 
-/// The places of a side and the place that each face corner belongs to (at faces.offset[f] + corner). Faces round a node belong
-/// together if a chain of them turns by less than about 40 degrees from one to the next.
+/// The places of a side, and the place that each corner of a facet (at facets.offset[f] + corner) and each node of a face (at
+/// faces.offset[f] + node) belongs to. Facets round a node belong together if a chain of them turns by less than about 40 degrees
+/// from one to the next.
 struct Places {
   std::vector<Place> all;
-  std::vector<Local> of_corner;
+  std::vector<Local> of_corner, of_node;
 };
 ///
 /// At the border of a surface, where faces lie on one side only, normals continue the curvature of the edges that lead inside: an

@@ -102,9 +102,7 @@ std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std:
       ++count;
     }
     if (count == 0) continue;
-    FaceGeometry face{surface.faces.type[f], {}};
-    for (const Local n : surface.faces[f]) face.nodes.push_back(surface.points[static_cast<std::size_t>(n)]);
-    const double size = face.area() * count / static_cast<double>(face.nodes.size());
+    const double size = corners_of(surface, f).area() * count / static_cast<double>(surface.faces[f].size());
     for (const Local n : surface.faces[f]) {
       mine[static_cast<std::size_t>(n)].force += size * sum / count;
       mine[static_cast<std::size_t>(n)].area += size;

@@ -2,68 +2,64 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <cmath>
 
-#include "elements/elements.hpp"
+#include "kernels.hpp"
+#include "mesh/shape_functions.hpp"
+#include "rules.hpp"
 
 namespace mortise::fem {
 
-const Element& element(mesh::CellType type)
+namespace {
+
+// Fits the shape functions of the first-order cell of that shape to the values at the integration points: of a cell of second
+// order the stresses are one order more exact where this linear part of them is taken [Barlow, IJNME 10 (1976)].
+Eigen::MatrixXd extrapolation(mesh::CellType type, const std::vector<IntegrationPoint>& points)
 {
-  static const std::array<Element, 6> table{line2(), tri3(), quad4(), tet4(), hex8(), prism6()};  // in the order of CellType
-  return table[static_cast<std::size_t>(type)];
+  const auto& linear = mesh::shape_functions(mesh::first_order(type));
+  const auto& nodes = mesh::shape_functions(type).nodes();
+  const auto q = static_cast<Eigen::Index>(points.size()), n = static_cast<Eigen::Index>(nodes.size());
+  if (q < linear.count()) return Eigen::MatrixXd::Constant(n, q, 1.0 / static_cast<double>(q));
+  Eigen::MatrixXd at_points(linear.count(), q), at_nodes(linear.count(), n);
+  Eigen::VectorXd weight(q);
+  for (Eigen::Index i = 0; i < q; ++i) {
+    linear.evaluate(points[static_cast<std::size_t>(i)].at, at_points.col(i));
+    weight[i] = points[static_cast<std::size_t>(i)].weight;
+  }
+  for (Eigen::Index i = 0; i < n; ++i) linear.evaluate(nodes[static_cast<std::size_t>(i)], at_nodes.col(i));
+  const Eigen::MatrixXd weighted = at_points * weight.asDiagonal();
+  return at_nodes.transpose() * (weighted * at_points.transpose()).ldlt().solve(weighted);
 }
 
-Element tabulate(int dimension, int nodes, const std::vector<IntegrationPoint>& points, const Shape& shape)
+template <int n, int d>
+Element make(mesh::CellType type)
 {
   Element result;
-  result.dimension = dimension;
-  result.nodes = nodes;
-  const auto q = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd values(q, nodes);
-  for (Eigen::Index i = 0; i < q; ++i) {
-    const auto& point = points[static_cast<std::size_t>(i)];
-    Eigen::VectorXd value(nodes);
-    Eigen::MatrixXd gradient(nodes, dimension);
-    shape(point.at, value, gradient);
-    values.row(i) = value.transpose();
+  result.dimension = d;
+  result.nodes = n;
+  const auto points = integration_rule(type);
+  const auto& functions = mesh::shape_functions(type);
+  for (const auto& point : points) {
     result.weight.push_back(point.weight);
-    result.shape.push_back(value);
-    result.gradient.push_back(gradient);
+    functions.evaluate(point.at, result.shape.emplace_back(n), &result.gradient.emplace_back());
   }
-  if (q >= nodes)
-    result.extrapolation = (values.transpose() * values).ldlt().solve(values.transpose());
-  else
-    result.extrapolation = Eigen::MatrixXd::Constant(nodes, q, 1.0 / static_cast<double>(q));
+  result.extrapolation = extrapolation(type, points);
+  if constexpr (d > 1) {  // a line is a face only
+    result.gradients_in_space = gradients_in_space<n, d>;
+    result.stiffness = stiffness_of_cell<n, d>;
+  }
   return result;
 }
 
-std::vector<IntegrationPoint> gauss2(int dimension)
-{
-  const double g = 1 / std::sqrt(3.0);
-  std::vector<IntegrationPoint> points;
-  for (int i = 0; i < 1 << dimension; ++i) {
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    for (int c = 0; c < dimension; ++c) at[c] = (i >> c & 1) != 0 ? g : -g;
-    points.push_back({at, 1});
-  }
-  return points;
-}
+}  // namespace
 
-Shape multilinear(int dimension, const std::vector<Eigen::Vector3d>& corners)
+const Element& element(mesh::CellType type)
 {
-  return [=](const Eigen::Vector3d& x, Eigen::VectorXd& value, Eigen::MatrixXd& gradient) {
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      value[row] = 1;
-      gradient.row(row).setOnes();
-      for (int c = 0; c < dimension; ++c) {
-        const double factor = 0.5 * (1 + corners[i][c] * x[c]);
-        value[row] *= factor;
-        for (int d = 0; d < dimension; ++d) gradient(row, d) *= c == d ? 0.5 * corners[i][c] : factor;
-      }
-    }
-  };
+  using enum mesh::CellType;
+  static const std::array<Element, mesh::cell_types> table{
+      make<2, 1>(line2),  make<3, 2>(tri3),   make<4, 2>(quad4),  make<4, 3>(tet4),     make<8, 3>(hex8),
+      make<6, 3>(prism6), make<3, 1>(line3),  make<6, 2>(tri6),   make<8, 2>(quad8),    make<9, 2>(quad9),
+      make<10, 3>(tet10), make<20, 3>(hex20), make<27, 3>(hex27), make<15, 3>(prism15), make<18, 3>(prism18)};
+  return table[static_cast<std::size_t>(type)];  // in the order of CellType
 }
 
 }  // namespace mortise::fem

@@ -95,7 +95,8 @@ TEST(Loads, WeightActsAtTheCentreOfMass)
 {
   for (const auto& [name, kinematics] : all_cases()) {
     Block block(name, {3, 3, 2}, {1, 2, 3});
-    block.distort(0.07);  // inside, where it does not change the block
+    const auto type = block.mesh.cells.type[0];
+    if (type == mesh::first_order(type)) block.distort(0.07);  // inside, where it does not change the block
     const int d = block.dimension;
     auto f = no_load(block);
     const Point acceleration(0.3, -9.81, d == 3 ? 2 : 0);

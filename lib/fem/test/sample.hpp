@@ -25,7 +25,7 @@ struct Block {
       : element(element_name),
         cells(cell_counts),
         size(lengths),
-        dimension(element_name == "tri3" || element_name == "quad4" ? 2 : 3)
+        dimension(mesh::dimension(mesh::cell_type(element_name).value()))
   {
     if (dimension == 2) cells[2] = 0, size[2] = 0;
     mesh::Options options;
@@ -48,9 +48,11 @@ struct Block {
         return true;
     return false;
   }
-  /// Moves the nodes inside (or all) by up to `amount`, irregularly but always alike.
+  /// Moves the nodes inside (or all) by up to `amount` (a third of it in cells of second order), irregularly but always alike.
   Block& distort(double amount, bool all = false)
   {
+    const auto type = mesh.cells.type[0];
+    if (type != mesh::first_order(type)) amount /= 3;
     std::vector<bool> fixed;
     for (std::size_t n = 0; n < mesh.node_count(); ++n) fixed.push_back(!all && on_surface(n));
     for (std::size_t n = 0; n < mesh.node_count(); ++n)
@@ -103,8 +105,10 @@ struct Case {
 inline std::vector<Case> all_cases()
 {
   using enum Kinematics;
-  return {{"tet4", solid},        {"hex8", solid},         {"prism6", solid},      {"tri3", plane_strain},
-          {"tri3", plane_stress}, {"quad4", plane_strain}, {"quad4", plane_stress}};
+  return {{"tet4", solid},        {"hex8", solid},         {"prism6", solid},       {"tri3", plane_strain},
+          {"tri3", plane_stress}, {"quad4", plane_strain}, {"quad4", plane_stress}, {"tet10", solid},
+          {"hex20", solid},       {"hex27", solid},        {"prism15", solid},      {"prism18", solid},
+          {"tri6", plane_strain}, {"quad8", plane_stress}, {"quad9", plane_strain}};
 }
 
 inline Material steel()

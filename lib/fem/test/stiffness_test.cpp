@@ -46,7 +46,7 @@ TEST(Stiffness, OfOneCellHasTheRankOfTheElement)
     const auto& values = solver.eigenvalues();
     const int rigid = block.dimension == 3 ? 6 : 3;
     EXPECT_LT(values.head(rigid).cwiseAbs().maxCoeff(), 1e-12 * values.maxCoeff()) << name;
-    EXPECT_GT(values[rigid], 1e-3 * values.maxCoeff()) << name;
+    EXPECT_GT(values[rigid], 1e-4 * values.maxCoeff()) << name;
   }
 }
 
@@ -69,7 +69,7 @@ TEST(Stiffness, PassesThePatchTest)
       EXPECT_LT(force.segment(static_cast<Eigen::Index>(n) * block.dimension, block.dimension).norm(), 1e-12 * force.norm())
           << name;
     }
-    EXPECT_EQ(inside, block.dimension == 3 ? 8u : 4u);
+    EXPECT_GE(inside, block.dimension == 3 ? 8u : 4u);
   }
 }
 
@@ -116,35 +116,46 @@ TEST(Stiffness, CellInsideOutIsNamed)
   for (const auto& [name, kinematics] : all_cases()) {
     Block block(name, {2, 2, 2});
     block.mesh.cell_id.back() = 4711;
-    const auto nodes = block.mesh.cells[block.mesh.cells.size() - 1];
-    // Its first edge runs the other way.
-    std::swap(block.mesh.cells.nodes[block.mesh.cells.nodes.size() - nodes.size()],
-              block.mesh.cells.nodes[block.mesh.cells.nodes.size() - nodes.size() + 1]);
+    // Its first edge runs the other way; one in the middle of a curved one lies beyond its end.
+    const auto nodes =
+        block.mesh.cells.nodes.end() - static_cast<std::ptrdiff_t>(block.mesh.cells[block.mesh.cells.size() - 1].size());
+    std::swap(nodes[0], nodes[1]);
+    const auto type = block.mesh.cells.type[0];
+    if (type != mesh::first_order(type)) {
+      auto& middle = block.mesh.points[static_cast<std::size_t>(nodes[mesh::corner_count(type)])];
+      middle += 3 * (block.mesh.points[static_cast<std::size_t>(nodes[0])] - middle);
+    }
     try {
       stiffness(block.mesh, steel(), kinematics);
       FAIL() << "no error for " << name;
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::bad_input);
-      EXPECT_NE(std::string(error.what()).find("cell 4711 "), std::string::npos) << error.what();
+      const char* named = type == mesh::first_order(type) ? "cell 4711 " : "turned inside out";  // neighbours share the middle
+      EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what();
     }
   }
 }
 
 // Timoshenko's cantilever, Poisson's ratio 0: F L^3 / 3 E I + F L / (5/6 G A). Linear cells are too stiff: multilinear ones
 // by 1 + (dx / 4 dy)^2 / 2 = 1 + 1 / 32 with four layers of squares, those of triangles, also extruded ones, and tetrahedra by
-// more.
+// more. Those of second order need a quarter of the layers.
 TEST(Stiffness, CantileverBendsAsBeamTheorySays)
 {
   struct Expectation {
     Case kind;
     double least;
+    bool coarse = false;
   };
-  for (const auto& [kind, least] :
+  for (const auto& [kind, least, coarse] :
        {Expectation{{"hex8", Kinematics::solid}, 0.965}, Expectation{{"prism6", Kinematics::solid}, 0.8},
         Expectation{{"tet4", Kinematics::solid}, 0.7}, Expectation{{"quad4", Kinematics::plane_stress}, 0.965},
-        Expectation{{"tri3", Kinematics::plane_stress}, 0.8}}) {
+        Expectation{{"tri3", Kinematics::plane_stress}, 0.8}, Expectation{{"hex20", Kinematics::solid}, 0.99, true},
+        Expectation{{"hex27", Kinematics::solid}, 0.99, true}, Expectation{{"tet10", Kinematics::solid}, 0.98, true},
+        Expectation{{"prism15", Kinematics::solid}, 0.98, true}, Expectation{{"quad8", Kinematics::plane_stress}, 0.99, true},
+        Expectation{{"quad9", Kinematics::plane_stress}, 0.99, true},
+        Expectation{{"tri6", Kinematics::plane_stress}, 0.98, true}}) {
     const double length = 8, e = 1000;
-    Block block(kind.element, {32, 4, 2}, {length, 1, 0.5});
+    Block block(kind.element, coarse ? std::array{8, 1, 1} : std::array{32, 4, 2}, {length, 1, 0.5});
     const int d = block.dimension;
     const double width = d == 3 ? 0.5 : 1.0, force = 0.01;
     auto k = stiffness(block.mesh, {e, 0.0, 0, 0}, kind.kinematics);

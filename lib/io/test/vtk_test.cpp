@@ -12,6 +12,7 @@
 #include <map>
 #include <regex>
 
+#include "mesh/shape_functions.hpp"
 #include "scratch.hpp"
 
 namespace mortise::io {
@@ -20,46 +21,32 @@ namespace {
 using namespace test;
 using mesh::CellType;
 
-// The corners of the reference cell of each type, counter-clockwise, bottom before top.
-std::vector<Point> corners(CellType type)
-{
-  switch (type) {
-    case CellType::line2:
-      return {{0, 0, 0}, {1, 0, 0}};
-    case CellType::tri3:
-      return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    case CellType::quad4:
-      return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-    case CellType::tet4:
-      return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    case CellType::hex8:
-      return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    case CellType::prism6:
-      return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-  }
-  return {};
-}
+constexpr int types = static_cast<int>(mesh::cell_types);
 
-const std::vector<CellType> all_types{CellType::line2, CellType::tri3, CellType::quad4,
-                                      CellType::tet4,  CellType::hex8, CellType::prism6};
+std::vector<Point> reference_nodes(CellType type)
+{
+  const auto& nodes = mesh::shape_functions(type).nodes();
+  return {nodes.begin(), nodes.end()};
+}
 
 double pressure_at(const Point& x)
 {
   return 0.1 * x[0] + 7 * x[1] - x[2];
 }
 
-// Cell i, of the type i modulo 6, stands at x = 2 i; rank r has the cells 4 r .. 4 r + 3, and the last of several ranks has none.
+// Cell i, of the type i modulo their number, stands at x = 3 i; rank r has the cells 8 r .. 8 r + 7, and the last of several
+// ranks has none.
 Piece row_of_cells(const Communicator& comm)
 {
   Piece piece;
   Field pressure{"pressure", 1, {}}, position{"position", 3, {}}, number{"number", 1, {}, true};
   const bool empty = comm.size() > 1 && comm.rank() == comm.size() - 1;
-  for (int i = 4 * comm.rank(); !empty && i < 4 * comm.rank() + 4; ++i) {
-    const auto type = all_types[static_cast<std::size_t>(i % 6)];
+  for (int i = 8 * comm.rank(); !empty && i < 8 * comm.rank() + 8; ++i) {
+    const auto type = static_cast<CellType>(i % types);
     std::vector<Local> nodes;
-    for (const auto& corner : corners(type)) {
+    for (const auto& corner : reference_nodes(type)) {
       nodes.push_back(static_cast<Local>(piece.points.size()));
-      piece.points.push_back(corner + Point(2 * i, 0, 0));
+      piece.points.push_back(corner + Point(3 * i, 0, 0));
       pressure.values.push_back(pressure_at(piece.points.back()));
       for (int c = 0; c < 3; ++c) position.values.push_back(piece.points.back()[c]);
     }
@@ -113,7 +100,7 @@ TEST(Vtk, EveryRanksCellsComeBackWithTheirFields)
   if (!comm.root()) return;
 
   const auto grid = open(scratch.path(), "solution");
-  const int cells = comm.size() > 1 ? 4 * (comm.size() - 1) : 4;
+  const int cells = comm.size() > 1 ? 8 * (comm.size() - 1) : 8;
   ASSERT_EQ(grid->GetNumberOfCells(), cells);
   auto* number = grid->GetCellData()->GetArray("number");
   auto* pressure = grid->GetPointData()->GetArray("pressure");
@@ -125,10 +112,12 @@ TEST(Vtk, EveryRanksCellsComeBackWithTheirFields)
   for (vtkIdType c = 0; c < cells; ++c) {
     const auto i = static_cast<int>(number->GetTuple1(c));
     seen.insert(i);
-    const auto reference = corners(all_types[static_cast<std::size_t>(i % 6)]);
+    const auto reference = reference_nodes(static_cast<CellType>(i % types));
     auto* cell = grid->GetCell(c);
     ASSERT_EQ(cell->GetNumberOfPoints(), static_cast<vtkIdType>(reference.size()));
-    EXPECT_NEAR(cell->GetBounds()[0], 2 * i, 1e-12);
+    double lowest = 1;
+    for (const auto& x : reference) lowest = std::min(lowest, x[0]);
+    EXPECT_NEAR(cell->GetBounds()[0], 3 * i + lowest, 1e-12);
     for (vtkIdType n = 0; n < cell->GetNumberOfPoints(); ++n) {
       const Point x(cell->GetPoints()->GetPoint(n));
       EXPECT_EQ(pressure->GetTuple1(cell->GetPointId(n)), pressure_at(x));
@@ -146,7 +135,7 @@ TEST(Vtk, FacesOfSolidsLookOutwards)
   Piece piece;
   for (const auto type : {CellType::tet4, CellType::hex8, CellType::prism6}) {
     std::vector<Local> nodes;
-    for (const auto& corner : corners(type)) {
+    for (const auto& corner : reference_nodes(type)) {
       nodes.push_back(static_cast<Local>(piece.points.size()));
       piece.points.push_back(corner);
     }
@@ -166,6 +155,38 @@ TEST(Vtk, FacesOfSolidsLookOutwards)
       sum += area;
     }
     EXPECT_LT(sum.norm(), 1e-14);
+  }
+}
+
+// The cells are affine images of VTK's: each node must lie where its coordinates in VTK's reference cell say.
+TEST(Vtk, NodesOfSecondOrderStandWhereVtkExpectsThem)
+{
+  const Communicator comm;
+  const Scratch scratch(comm);
+  Piece piece;
+  for (int t = 0; t < types; ++t) {
+    std::vector<Local> nodes;
+    for (const auto& x : reference_nodes(static_cast<CellType>(t))) {
+      nodes.push_back(static_cast<Local>(piece.points.size()));
+      piece.points.push_back(x);
+    }
+    piece.cells.add(static_cast<CellType>(t), nodes);
+  }
+  write_vtk(scratch.path(), "solution", piece, comm);
+  if (!comm.root()) return;
+  const auto grid = open(scratch.path(), "solution");
+  for (vtkIdType c = 0; c < types; ++c) {
+    auto* cell = grid->GetCell(c);
+    const double* at = cell->GetParametricCoords();
+    const auto place = [&](vtkIdType n) { return Point(at[3 * n], at[3 * n + 1], at[3 * n + 2]); };
+    const auto position = [&](vtkIdType n) { return Point(cell->GetPoints()->GetPoint(n)); };
+    Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+    for (vtkIdType n = 1; n < cell->GetNumberOfPoints(); ++n)
+      for (int axis = 0; axis < 3; ++axis)
+        if (place(n) == Point::Unit(axis)) jacobian.col(axis) = position(n) - position(0);
+    for (vtkIdType n = 0; n < cell->GetNumberOfPoints(); ++n)
+      EXPECT_LT((position(0) + jacobian * place(n) - position(n)).norm(), 1e-12)
+          << mesh::name(static_cast<CellType>(c)) << " node " << n;
   }
 }
 

@@ -1,5 +1,7 @@
 #include "mesh/options.hpp"
 
+#include "mesh/cell.hpp"
+
 namespace mortise::mesh {
 
 void describe(deck::Description<BlockOptions>& d)
@@ -8,11 +10,15 @@ void describe(deck::Description<BlockOptions>& d)
   d.key("origin", &BlockOptions::origin, "Lowest corner.");
   d.key("size", &BlockOptions::size, "Edge lengths.").required().at_least(0);
   d.key("cells", &BlockOptions::cells, "Grid cells along each edge.").required().at_least(0);
-  d.key("element", &BlockOptions::element, "hex8, tet4, prism6; plane models: quad4, tri3.")
-      .one_of({"hex8", "tet4", "prism6", "quad4", "tri3"})
-      .not_yet({"tri6", "quad8", "quad9", "tet10", "hex20", "hex27", "prism15"});
+  d.key("element", &BlockOptions::element,
+        "hex8, tet4, prism6, of second order hex20, hex27, tet10, prism15, prism18; plane models: quad4, tri3, quad8, quad9, "
+        "tri6.")
+      .one_of(
+          {"hex8", "tet4", "prism6", "quad4", "tri3", "hex20", "hex27", "tet10", "prism15", "prism18", "quad8", "quad9", "tri6"});
   d.check([](const BlockOptions& block, const std::string& path, deck::Document& document) {
-    const bool plane = block.element == "quad4" || block.element == "tri3";
+    const auto type = cell_type(block.element);
+    if (!type) return;
+    const bool plane = dimension(*type) == 2;
     for (std::size_t axis = 0; axis < (plane ? 2U : 3U); ++axis)
       if (block.cells[axis] < 1 || !(block.size[axis] > 0))
         document.error(path + (block.cells[axis] < 1 ? ".cells" : ".size"), "expected a positive entry for each axis");

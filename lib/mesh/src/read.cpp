@@ -173,16 +173,19 @@ std::vector<Group> groups(int dimension)
 CellType cell_type(const std::string& file, int gmsh_type)
 {
   using enum CellType;
-  static const std::map<int, CellType> table{{1, line2}, {2, tri3}, {3, quad4}, {4, tet4}, {5, hex8}, {6, prism6}};
+  static const std::map<int, CellType> table{{1, line2},  {2, tri3},     {3, quad4},  {4, tet4},   {5, hex8},
+                                             {6, prism6}, {8, line3},    {9, tri6},   {10, quad9}, {11, tet10},
+                                             {12, hex27}, {13, prism18}, {16, quad8}, {17, hex20}, {18, prism15}};
   const auto found = table.find(gmsh_type);
   if (found != table.end()) return found->second;
   std::string name;
   int dimension = 0, order = 0, nodes = 0, primary = 0;
   std::vector<double> coordinates;
   gmsh::model::mesh::getElementProperties(gmsh_type, name, dimension, order, nodes, coordinates, primary);
-  fail(file, fmt::format("has cells of type \"{}\"; this version knows first-order line2, tri3, quad4, tet4, hex8 and prism6: "
-                         "mesh with order 1{}",
-                         name, order == 1 ? " and without pyramids" : ""));
+  fail(file,
+       fmt::format("has cells of type \"{}\"; known are lines, triangles, quadrilaterals, tetrahedra, hexahedra and prisms of "
+                   "first and second order: mesh {}",
+                   name, order > 2 ? "with order 2" : "without pyramids"));
 }
 
 // Calls visit(type, element tag, node tags) for each element of an entity.
@@ -237,14 +240,15 @@ double orientation(CellType type, std::span<const Local> nodes, const std::vecto
   const auto p = [&](std::size_t i) { return points[static_cast<std::size_t>(nodes[i])]; };
   if (dimension(type) == 2) {
     double area = 0;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const Point a = p(i) - p(0), b = p((i + 1) % nodes.size()) - p(0);
+    const auto corners = static_cast<std::size_t>(corner_count(type));
+    for (std::size_t i = 0; i < corners; ++i) {
+      const Point a = p(i) - p(0), b = p((i + 1) % corners) - p(0);
       area += a[0] * b[1] - a[1] * b[0];
     }
     return area;
   }
   double volume = 0;  // divergence theorem over the faces, each fanned from its first node
-  for (const auto& face : faces(type))
+  for (const auto& face : faces(first_order(type)))
     for (std::size_t i = 1; i + 1 < face.nodes.size(); ++i) {
       const auto at = [&](std::size_t k) { return Point(p(static_cast<std::size_t>(face.nodes[k])) - p(0)); };
       volume += at(0).dot(at(i).cross(at(i + 1)));
@@ -252,24 +256,38 @@ double orientation(CellType type, std::span<const Local> nodes, const std::vecto
   return volume;
 }
 
-// The same cell, turned inside out.
-std::vector<Local> turned(CellType type, std::span<const Local> n)
+// The corners of a cell turned inside out, as corners of the cell as it is.
+std::vector<int> turned_corners(CellType first_order)
 {
   using enum CellType;
-  switch (type) {
+  switch (first_order) {
     case tri3:
-      return {n[0], n[2], n[1]};
+      return {0, 2, 1};
     case quad4:
-      return {n[0], n[3], n[2], n[1]};
+      return {0, 3, 2, 1};
     case tet4:
-      return {n[0], n[2], n[1], n[3]};
+      return {0, 2, 1, 3};
     case hex8:
-      return {n[4], n[5], n[6], n[7], n[0], n[1], n[2], n[3]};
+      return {4, 5, 6, 7, 0, 1, 2, 3};
     case prism6:
-      return {n[3], n[4], n[5], n[0], n[1], n[2]};
+      return {3, 4, 5, 0, 1, 2};
     default:
-      return {n.begin(), n.end()};
+      return {0, 1};
   }
+}
+
+// The same cell, turned inside out.
+std::vector<Local> turned(CellType type, std::span<const Local> nodes)
+{
+  const auto corner = turned_corners(first_order(type));
+  std::vector<Local> result;
+  for (const int c : corner) result.push_back(nodes[static_cast<std::size_t>(c)]);
+  for (const auto& amid : middles(type)) {
+    std::vector<int> old;
+    for (const int c : amid) old.push_back(corner[static_cast<std::size_t>(c)]);
+    result.push_back(nodes[static_cast<std::size_t>(node_amid(type, old))]);
+  }
+  return result;
 }
 
 // Cells in the nodes of the file, with the group of each.
@@ -316,6 +334,24 @@ RawCells read_cells(const Options& options, int dimension, const std::vector<Gro
   }
   if (raw.group.empty()) fail(options.file, "its physical groups hold no cells of the model's dimension");
   return raw;
+}
+
+// Two cells of one body must meet with the same kind of face: a node in the middle that only one of them has would tear them.
+void require_conforming(const std::string& file, const RawCells& raw, const std::vector<Group>& bodies)
+{
+  const auto all = sorted_faces(raw.cells);
+  const auto type_of = [&](const CellFace& face) {
+    return faces(raw.cells.type[static_cast<std::size_t>(face.cell)])[static_cast<std::size_t>(face.face)].type;
+  };
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (all[i].corners != all[i + 1].corners || type_of(all[i]) == type_of(all[i + 1])) continue;
+    const int a = raw.group[static_cast<std::size_t>(all[i].cell)], b = raw.group[static_cast<std::size_t>(all[i + 1].cell)];
+    if (a == b)
+      fail(file,
+           fmt::format("in body \"{}\" a face is a {} of one cell and a {} of its neighbour; mesh the whole body with one order "
+                       "and one kind of elements (Mesh.SecondOrderIncomplete)",
+                       bodies[static_cast<std::size_t>(a)].name, name(type_of(all[i])), name(type_of(all[i + 1]))));
+  }
 }
 
 // Cells ordered by body, with nodes of its own for each body.
@@ -381,12 +417,12 @@ void attach_boundaries(const Options& options, int dimension, const Nodes& nodes
     std::size_t lost = 0;
     std::set<std::pair<Local, int>> taken;  // files of version 2.2 repeat a face for each group that it is in
     for (const int entity : group.entities)
-      for_each_element(options.file, dimension - 1, entity, [&](CellType, std::size_t, std::span<const std::size_t> tags) {
+      for_each_element(options.file, dimension - 1, entity, [&](CellType type, std::size_t, std::span<const std::size_t> tags) {
         std::vector<Local> on;
-        for (const std::size_t tag : tags) on.push_back(nodes.local.at(tag));
+        for (const std::size_t tag : tags.first(static_cast<std::size_t>(corner_count(type)))) on.push_back(nodes.local.at(tag));
         const CellFace wanted{face_key(on)};
         const auto range = std::equal_range(all.begin(), all.end(), wanted,
-                                            [](const CellFace& a, const CellFace& b) { return a.nodes < b.nodes; });
+                                            [](const CellFace& a, const CellFace& b) { return a.corners < b.corners; });
         if (range.first == range.second) {
           ++lost;
           return;
@@ -425,6 +461,7 @@ Assembly read(const Options& options, int dimension)
   const auto bodies = groups(dimension);
   const Nodes nodes = read_nodes(options, dimension);
   const RawCells raw = read_cells(options, dimension, bodies, nodes);
+  require_conforming(options.file, raw, bodies);
   std::vector<Local> original;
   Assembly assembly = separate(raw, bodies, nodes, dimension, original);
   attach_boundaries(options, dimension, nodes, original, assembly);

@@ -5,13 +5,13 @@
 
 namespace mortise::mesh {
 
-std::array<Local, 4> face_key(std::span<const Local> nodes)
+std::array<Local, 4> face_key(std::span<const Local> corners)
 {
   std::array<Local, 4> key{-1, -1, -1, -1};
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
     std::size_t at = i;
-    for (; at > 0 && key[at - 1] > nodes[i]; --at) key[at] = key[at - 1];
-    key[at] = nodes[i];
+    for (; at > 0 && key[at - 1] > corners[i]; --at) key[at] = key[at - 1];
+    key[at] = corners[i];
   }
   return key;
 }
@@ -26,13 +26,14 @@ std::vector<CellFace> sorted_faces(const Cells& cells)
     const auto nodes = cells[c];
     const auto& table = faces(cells.type[c]);
     for (std::size_t f = 0; f < table.size(); ++f) {
-      std::vector<Local> on;
-      for (const int i : table[f].nodes) on.push_back(nodes[static_cast<std::size_t>(i)]);
-      result.push_back({face_key(on), static_cast<Local>(c), static_cast<int>(f)});
+      std::array<Local, 4> corners;
+      const auto count = static_cast<std::size_t>(corner_count(table[f].type));
+      for (std::size_t i = 0; i < count; ++i) corners[i] = nodes[static_cast<std::size_t>(table[f].nodes[i])];
+      result.push_back({face_key(std::span(corners).first(count)), static_cast<Local>(c), static_cast<int>(f)});
     }
   }
   std::sort(result.begin(), result.end(),
-            [](const CellFace& a, const CellFace& b) { return std::tie(a.nodes, a.cell) < std::tie(b.nodes, b.cell); });
+            [](const CellFace& a, const CellFace& b) { return std::tie(a.corners, a.cell) < std::tie(b.corners, b.cell); });
   return result;
 }
 
@@ -41,7 +42,7 @@ Neighbours face_neighbours(const Cells& cells)
   const auto all = sorted_faces(cells);
   std::vector<std::pair<Local, Local>> pairs;
   for (std::size_t i = 0; i + 1 < all.size(); ++i)
-    if (all[i].nodes == all[i + 1].nodes) {
+    if (all[i].corners == all[i + 1].corners) {
       pairs.emplace_back(all[i].cell, all[i + 1].cell);
       pairs.emplace_back(all[i + 1].cell, all[i].cell);
     }

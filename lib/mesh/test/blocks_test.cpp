@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "mesh/topology.hpp"
 
 namespace mortise::mesh {
@@ -24,8 +26,9 @@ Point area(const Mesh& mesh, std::size_t f)
 {
   const auto n = mesh.facets.cells[f];
   const auto p = [&](std::size_t i) { return mesh.points[static_cast<std::size_t>(n[i])]; };
-  if (n.size() == 2) return Point(p(1)[1] - p(0)[1], p(0)[0] - p(1)[0], 0);
-  if (n.size() == 3) return 0.5 * (p(1) - p(0)).cross(p(2) - p(0));
+  const int corners = corner_count(mesh.facets.cells.type[f]);
+  if (corners == 2) return Point(p(1)[1] - p(0)[1], p(0)[0] - p(1)[0], 0);
+  if (corners == 3) return 0.5 * (p(1) - p(0)).cross(p(2) - p(0));
   return 0.5 * (p(2) - p(0)).cross(p(3) - p(1));
 }
 
@@ -51,6 +54,20 @@ TEST_P(Blocks, HaveTheirCellsAndOutwardFacetsOnAllSides)
     expected[side / 2] = (side % 2 == 0 ? -1 : 1) * sizes[0] * sizes[1] * sizes[2] / sizes[side / 2];
     EXPECT_LT((sum - expected).norm(), 1e-12) << "side " << side;
   }
+  // Every node of a cell after the corners lies amid its corners, and every node belongs to a cell.
+  std::set<Local> used;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto type = mesh.cells.type[c];
+    const auto nodes = mesh.cells[c];
+    used.insert(nodes.begin(), nodes.end());
+    for (std::size_t m = 0; m < middles(type).size(); ++m) {
+      Point sum = Point::Zero();
+      for (const int k : middles(type)[m]) sum += mesh.points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])];
+      const auto node = nodes[static_cast<std::size_t>(corner_count(type)) + m];
+      EXPECT_LT((mesh.points[static_cast<std::size_t>(node)] - sum / static_cast<double>(middles(type)[m].size())).norm(), 1e-14);
+    }
+  }
+  EXPECT_EQ(used.size(), mesh.node_count());
   // One connected body.
   const auto parts = connected_parts(face_neighbours(mesh.cells), std::vector<int>(mesh.cells.size(), 0));
   EXPECT_EQ(*std::max_element(parts.begin(), parts.end()), 0);
@@ -58,11 +75,17 @@ TEST_P(Blocks, HaveTheirCellsAndOutwardFacetsOnAllSides)
 
 INSTANTIATE_TEST_SUITE_P(Elements, Blocks,
                          testing::Values(std::tuple("hex8", 3, 1), std::tuple("tet4", 3, 6), std::tuple("prism6", 3, 2),
-                                         std::tuple("quad4", 2, 1), std::tuple("tri3", 2, 2)));
+                                         std::tuple("quad4", 2, 1), std::tuple("tri3", 2, 2), std::tuple("hex20", 3, 1),
+                                         std::tuple("hex27", 3, 1), std::tuple("tet10", 3, 6), std::tuple("prism15", 3, 2),
+                                         std::tuple("prism18", 3, 2), std::tuple("quad8", 2, 1), std::tuple("quad9", 2, 1),
+                                         std::tuple("tri6", 2, 2)));
 
-TEST(Blocks, PiecesAgreeWithTheWholeToTheLastBit)
+class Pieces : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Elements, Pieces, testing::Values("tet4", "hex20", "hex27", "tet10", "prism15", "prism18"));
+
+TEST_P(Pieces, AgreeWithTheWholeToTheLastBit)
 {
-  const auto options = one_block("tet4", {4, 3, 5});
+  const auto options = one_block(GetParam(), {4, 3, 5});
   const auto whole = generate(options, 3, 0, {0, 0, 0}, {4, 3, 5});
   const auto piece = generate(options, 3, 0, {1, 0, 2}, {3, 3, 5});
   for (std::size_t n = 0; n < piece.node_count(); ++n)

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "mesh/shape_functions.hpp"
 
 namespace mortise::mesh {
 namespace {
@@ -119,6 +120,42 @@ TEST(Read, GeometryWithConstants)
   expect_two_cubes(read_file(geo("cubes.geo", two_cubes), 3, {{"n", 3}}), 3);
 }
 
+// Cells of second order, turned inside out in the file, are turned back with all their nodes.
+TEST(Read, SecondOrderCells)
+{
+  const std::string volumes = "Transfinite Volume {:};", text = two_cubes;
+  const auto at = text.find(volumes);
+  for (const int incomplete : {0, 1})
+    for (const std::string hexahedra : {"", "Recombine Surface {:}; "}) {
+      SCOPED_TRACE(hexahedra + std::to_string(incomplete));
+      const auto file =
+          geo("second.geo", text.substr(0, at) + hexahedra + text.substr(at) +
+                                "\nMesh.ElementOrder = 2;\nMesh.SecondOrderIncomplete = " + std::to_string(incomplete) + ";\n");
+      const auto assembly = read_file(file);
+      const auto& mesh = assembly.mesh;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        const auto type = mesh.cells.type[c];
+        EXPECT_NE(type, first_order(type));
+        Eigen::VectorXd value(node_count(type));
+        Eigen::MatrixXd gradient;
+        shape_functions(type).evaluate({0.1, 0.2, 0.3}, value, &gradient);
+        Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
+        for (std::size_t i = 0; i < mesh.cells[c].size(); ++i)
+          jacobian += mesh.points[static_cast<std::size_t>(mesh.cells[c][i])] * gradient.row(static_cast<Eigen::Index>(i));
+        EXPECT_GT(jacobian.determinant(), 0);
+        for (std::size_t m = 0; m < middles(type).size(); ++m) {  // straight cells: nodes are amid their corners
+          Point sum = Point::Zero();
+          for (const int k : middles(type)[m])
+            sum += mesh.points[static_cast<std::size_t>(mesh.cells[c][static_cast<std::size_t>(k)])] /
+                   static_cast<double>(middles(type)[m].size());
+          EXPECT_LT((mesh.points[static_cast<std::size_t>(mesh.cells[c][static_cast<std::size_t>(corner_count(type)) + m])] - sum)
+                        .norm(),
+                    1e-12);
+        }
+      }
+    }
+}
+
 void expect_error(const std::string& file, int dimension, const std::string& text)
 {
   try {
@@ -145,7 +182,7 @@ TEST(Read, MistakesAreExplained)
                2, "gmsh");
   expect_error(geo("syntax.geo", "Point(1) = {0, 0"), 3, "gmsh");
   expect_error(geo("nameless.geo", square), 2, "Physical Surface");
-  expect_error(geo("second.geo", square + "Mesh.ElementOrder = 2;\nPhysical Surface(\"a\") = {1, 2};\n"), 2, "order 1");
+  expect_error(geo("third.geo", square + "Mesh.ElementOrder = 3;\nPhysical Surface(\"a\") = {1, 2};\n"), 2, "order 2");
   expect_error(geo("forgotten.geo", square + "Physical Surface(\"a\") = {1};\nMesh.SaveAll = 1;\n"), 2,
                "belongs to no physical surface");
   expect_error(geo("twice.geo", square + "Physical Surface(\"a\") = {1, 2};\nPhysical Surface(\"b\") = {2};\n"), 2, "two bodies");

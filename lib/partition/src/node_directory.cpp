@@ -84,10 +84,12 @@ std::vector<Local> surface_nodes(const mesh::Mesh& mesh)
   const auto faces = mesh::sorted_faces(mesh.cells);
   for (std::size_t i = 0; i < faces.size();) {
     std::size_t end = i + 1;
-    while (end < faces.size() && faces[end].nodes == faces[i].nodes) ++end;
-    if (end == i + 1)
-      for (const Local n : faces[i].nodes)
-        if (n >= 0) on[static_cast<std::size_t>(n)] = true;
+    while (end < faces.size() && faces[end].corners == faces[i].corners) ++end;
+    if (end == i + 1) {
+      const auto cell = static_cast<std::size_t>(faces[i].cell);
+      for (const int n : mesh::faces(mesh.cells.type[cell])[static_cast<std::size_t>(faces[i].face)].nodes)
+        on[static_cast<std::size_t>(mesh.cells[cell][static_cast<std::size_t>(n)])] = true;
+    }
     i = end;
   }
   std::vector<Local> nodes;

@@ -1,6 +1,6 @@
 // Reference elements: shape functions tabulated at integration points, and the two kernels in which a program that assembles
-// stiffnesses spends its time, compiled for the size of each element. To add one: a file in src/elements, its declaration there
-// and a row in element.cpp.
+// stiffnesses spends its time, compiled for the size of each element. To add one: its rule in rules.cpp and a row
+// in element.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ struct Element {
   std::vector<double> weight;             ///< q
   std::vector<Eigen::VectorXd> shape;     ///< q times n
   std::vector<Eigen::MatrixXd> gradient;  ///< q times n x d, by the reference coordinates
-  Eigen::MatrixXd extrapolation;          ///< n x q: from integration points to nodes, by least squares in the shape functions
+  Eigen::MatrixXd extrapolation;          ///< n x q: from integration points to nodes, by least squares in first-order shape functions
 
   /// Gradients by the space coordinates, q times n x d, and the volumes that the points stand for, of the cell with the nodes at
   /// x, n x d. All matrices column-major. A volume that is not positive means that the cell is inside out there; its gradients

@@ -13,8 +13,8 @@ namespace mortise::mesh {
 Catalogue block_catalogue(const Options& options, int dimension);
 
 /// The cells with indices first .. last - 1 an axis of the `block`-th block (in 2D the third entries are 0 and 1). Numbers and
-/// coordinates of nodes depend on their place in the block alone, so neighbouring pieces agree to the last bit. hex8 and quad4
-/// are whole grid cells; tet4 makes six of one, around its diagonal; prism6 and tri3 two.
+/// coordinates of nodes depend on their place in the block alone, so neighbouring pieces agree to the last bit. hexahedra and
+/// quadrilaterals are whole grid cells; tetrahedra make six of one, around its diagonal; prisms and triangles two.
 Mesh generate(const Options& options, int dimension, int block, std::array<int, 3> first, std::array<int, 3> last);
 
 /// Grid cells an axis of the `block`-th block; the third is 1 in 2D.

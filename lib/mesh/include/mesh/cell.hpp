@@ -1,7 +1,9 @@
-// The shapes of cells and of their faces: first-order Lagrange cells, their nodes in gmsh's (= VTK's) order.
+// The shapes of cells and of their faces: Lagrange and serendipity cells of first and second order, their nodes in gmsh's order:
+// corners, then the middles of edges, of faces and of the cell.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,19 +12,45 @@
 
 namespace mortise::mesh {
 
-enum class CellType : std::uint8_t { line2, tri3, quad4, tet4, hex8, prism6 };
+enum class CellType : std::uint8_t {
+  line2,
+  tri3,
+  quad4,
+  tet4,
+  hex8,
+  prism6,
+  line3,
+  tri6,
+  quad8,
+  quad9,
+  tet10,
+  hex20,
+  hex27,
+  prism15,
+  prism18
+};
+inline constexpr std::size_t cell_types = 15;
 
 /// A face (3D) or edge (2D) of a cell: its own shape and the cell's local nodes, in the order that makes its normal point out
-/// of the cell (2D: the outward normal of the edge a -> b is (b_y - a_y, a_x - b_x), so cells run counter-clockwise).
+/// of the cell (2D: the outward normal of the edge a -> b is (b_y - a_y, a_x - b_x), so cells run counter-clockwise). Corners
+/// come first.
 struct Face {
   CellType type;
   std::vector<int> nodes;
 };
 
-int dimension(CellType type);          ///< 1 line2; 2 tri3, quad4; 3 tet4, hex8, prism6
+int dimension(CellType type);          ///< 1 for lines, 2 for triangles and quadrilaterals, 3
 int node_count(CellType type);         ///< nodes a cell
+int corner_count(CellType type);       ///< nodes of the first-order cell of that shape
+CellType first_order(CellType type);   ///< hex8 for hex27
 std::string_view name(CellType type);  ///< "hex8", as the deck spells it
+std::optional<CellType> cell_type(std::string_view name);
 const std::vector<Face>& faces(CellType type);
+
+/// For each node after the corners the corners that it lies amid: two for an edge, four for a face, eight for a cell. Ascending.
+const std::vector<std::vector<int>>& middles(CellType type);
+/// The node amid these corners (ascending), or the corner itself if there is one; -1 if there is none.
+int node_amid(CellType type, std::span<const int> corners);
 
 /// Many cells of mixed types in compressed rows: cell i has the local node indices nodes[offset[i] .. offset[i+1]).
 struct Cells {

@@ -14,7 +14,7 @@ struct BlockOptions {
   std::array<double, 3> origin{0, 0, 0};
   std::array<double, 3> size{1, 1, 1};
   std::array<int, 3> cells{1, 1, 1};
-  std::string element = "hex8";  ///< hex8, tet4, prism6; 2D: quad4, tri3
+  std::string element = "hex8";  ///< a cell by name, of the deck's dimension
 };
 
 struct Options {

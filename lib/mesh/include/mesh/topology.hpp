@@ -8,17 +8,17 @@
 
 namespace mortise::mesh {
 
-/// A face of a cell, identified by its sorted nodes (unused places -1).
+/// A face of a cell, identified by its sorted corners (unused places -1).
 struct CellFace {
-  std::array<Local, 4> nodes{-1, -1, -1, -1};
+  std::array<Local, 4> corners{-1, -1, -1, -1};
   Local cell = 0;
   int face = 0;
 };
 
-/// The sorted nodes of a face of up to four.
-std::array<Local, 4> face_key(std::span<const Local> nodes);
+/// The sorted corners of a face of up to four.
+std::array<Local, 4> face_key(std::span<const Local> corners);
 
-/// All faces of all cells, ordered by nodes and then by cell, so that faces shared by two cells stand side by side.
+/// All faces of all cells, ordered by corners and then by cell, so that faces shared by two cells stand side by side.
 std::vector<CellFace> sorted_faces(const Cells& cells);
 
 /// For each cell the cells that share a face with it, ascending, in compressed rows.
