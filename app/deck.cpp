@@ -68,12 +68,13 @@ void check_bodies(const Deck& deck, deck::Document& document)
       document.error("bodies." + name + ".material", fmt::format("there is no material \"{}\"{}", body.material,
                                                                  deck::suggestion(body.material, names_of(deck.materials))));
   for (const auto& [name, block] : deck.mesh.blocks) {
-    const bool plane = block.element == "quad4" || block.element == "tri3";
-    if (plane != (deck.dimension() == 2))
-      document.error(
-          "mesh.blocks." + name + ".element",
-          fmt::format("\"{}\" does not fit a model of dimension {}; expected {}", block.element,
-                      deck.dimension() == 2 ? "2" : "3", deck.dimension() == 2 ? "quad4 or tri3" : "hex8, tet4 or prism6"));
+    const auto type = mesh::cell_type(block.element);
+    if (type && mesh::dimension(*type) != deck.dimension())
+      document.error("mesh.blocks." + name + ".element",
+                     fmt::format("\"{}\" does not fit a model of dimension {}; expected {}", block.element,
+                                 deck.dimension() == 2 ? "2" : "3",
+                                 deck.dimension() == 2 ? "quad4, tri3, quad8, quad9 or tri6"
+                                                       : "hex8, tet4, prism6, hex20, hex27, tet10, prism15 or prism18"));
   }
 }
 

@@ -259,8 +259,9 @@ void print(const Results& results, const Context& context)
   const auto vector = [](const Point& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p[0], p[1], p[2]); };
   log.line("");
   log.line("{}", s.converged ? "Solved." : "NOT CONVERGED within the limits: the results are written, but do not trust them.");
-  const double size = std::max({results.applied.norm(), results.reaction.norm(), 1e-300});
-  log.line("  balance of forces   applied {}, supports {}, difference {:.1e} of it", vector(results.applied),
+  double size = std::max({results.applied.norm(), results.reaction.norm(), 1e-300});
+  for (const auto& contact : s.contacts) size = std::max(size, Point(contact.force[0], contact.force[1], contact.force[2]).norm());
+  log.line("  balance of forces   applied {}, supports {}, difference {:.1e} of the largest force", vector(results.applied),
            vector(results.reaction), (results.applied + results.reaction).norm() / size);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);

@@ -2,7 +2,8 @@
 // the upper ears and two C-shaped yokes that pull the bar against the lower ears. Sections are meshed with quadrangles and swept along z.
 DefineConstant[ h = 5 ];                            // cell size
 DefineConstant[ L = 300, overlap = 200, clamp = 40 ]; // length of a profile, of the overlap, of a clamp along z
-Mesh.ElementOrder = 1;
+DefineConstant[ order = 1 ];   // 2: cells of second order
+Mesh.ElementOrder = order;
 Mesh.Algorithm = 6;
 Geometry.OldNewReg = 0;
 rise = 29;                                          // the upper profile stands so much higher: ear on ear

@@ -16,7 +16,8 @@ Curve Loop(11) = {-11, -16, -15, -14, -13, -12}; Plane Surface(11) = {11};
 
 Transfinite Curve {1} = Ceil(d / h) + 1;
 Transfinite Curve {11} = Ceil(0.8 * d / h) + 1;
-Mesh.ElementOrder = 1;
+DefineConstant[ order = 1 ];   // 2: cells of second order
+Mesh.ElementOrder = order;
 Mesh.Algorithm = 6;
 Recombine Surface {1, 11};
 

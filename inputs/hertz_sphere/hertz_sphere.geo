@@ -11,7 +11,8 @@ Mesh.CharacteristicLengthExtendFromBoundary = 0; Mesh.CharacteristicLengthFromPo
 Field[1] = MathEval;
 Field[1].F = Sprintf("%g + %g * 0.5 * (abs(sqrt(x*x+y*y+z*z) - %g) + sqrt(x*x+y*y+z*z) - %g)", h, growth, fine, fine);
 Background Field = 1;
-Mesh.ElementOrder = 1;
+DefineConstant[ order = 1 ];   // 2: cells of second order
+Mesh.ElementOrder = order;
 Mesh.Optimize = 1;
 
 e = 1e-3;

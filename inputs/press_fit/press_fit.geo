@@ -15,7 +15,8 @@ Curve Loop(11) = {11, 12, 13, 14}; Plane Surface(11) = {11};
 Transfinite Curve {1, 3} = n + 1; Transfinite Curve {2, 4} = ns + 1;
 Transfinite Curve {11, 13} = n + 3; Transfinite Curve {12, 14} = nh + 1;
 Transfinite Surface {1, 11}; Recombine Surface {1, 11};
-Mesh.ElementOrder = 1;
+DefineConstant[ order = 1 ];   // 2: cells of second order
+Mesh.ElementOrder = order;
 
 Physical Surface("shaft") = {1};
 Physical Surface("hub") = {11};

@@ -7,7 +7,8 @@ DefineConstant[ nr = 6, nz = 6, na = 10, nl = 4 ]; // cells through a ring, alon
 
 R = (D - F) / 2; pitch = (D + F) / 2; sector = 2 * Pi / Z;
 Geometry.OldNewReg = 0;
-Mesh.ElementOrder = 1;
+DefineConstant[ order = 1 ];   // 2: cells of second order
+Mesh.ElementOrder = order;
 
 c = newp; Point(c) = {0, 0, 0};
 

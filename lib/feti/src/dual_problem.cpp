@@ -33,12 +33,14 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
                                          std::span<const SubdomainRow>(), comm_);
   settle_free_motions(directory, interface, context);
   hessian_ = std::make_unique<DualOperator>(*jump_, floating.subdomains, context.timers);
-  if (options.preconditioner != "none")
+  if (options.preconditioner != "none") {
     collectively(comm_, [&] {
       const auto kind = options.preconditioner == "lumped" ? Preconditioner::Kind::lumped : Preconditioner::Kind::dirichlet;
       preconditioner_ = std::make_unique<Preconditioner>(kind, decomposition, *jump_, floating.subdomains,
-                                                         floating.nodal_stiffness, options.factorization, context.timers);
+                                                         floating.nodal_stiffness, options.factorization, context.timers, comm_);
     });
+    preconditioner_->invert_gram(floating.nodal_stiffness, decomposition.catalogue.dimension);
+  }
   make_set();
 
   std::vector<Eigen::VectorXd> u = floating.load;

@@ -119,6 +119,7 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   const Numbering contact_numbers = number(contacts.rows.size(), comm);
   const Global held_base = glued_total, contact_base = held_base + held_numbers.total,
                extra_base = contact_base + contact_numbers.total;
+  contact_rows_ = {contact_base, extra_base};
 
   // Owned rows: their numbers, scales and bounds.
   std::vector<Global> owned;

@@ -1,6 +1,7 @@
 #include "feti/preconditioner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/submatrix.hpp"
@@ -16,8 +17,8 @@ constexpr std::size_t block_columns = 64;  // copies that go through one matrix 
 
 Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump,
                                const Subdomains& subdomains, const std::vector<std::vector<double>>& nodal_stiffness,
-                               const std::string& factorization, Timers& timers)
-    : jump_(jump), subdomains_(subdomains), timers_(timers)
+                               const std::string& factorization, Timers& timers, const Communicator& comm)
+    : jump_(jump), subdomains_(subdomains), comm_(comm), timers_(timers)
 {
   const int dimension = decomposition.catalogue.dimension;
   for (auto& [original, members] : by_original(subdomains)) {
@@ -45,12 +46,103 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
   }
 }
 
+void Preconditioner::invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension)
+{
+  struct Entry {
+    int row, column;
+    double value;
+  };
+  const auto [first, end] = jump_.contact_rows();
+  const auto touched = jump_.touched_rows()->getNodeElementList();
+  std::vector<Eigen::Triplet<double>> products;
+  for (std::size_t s = 0; s < jump_.blocks().size(); ++s) {
+    const auto& block = jump_.blocks()[s];
+    std::vector<Eigen::Triplet<double>> rows;
+    for (std::size_t r = 0; r < block.row.size(); ++r)
+      if (const Global row = touched[block.row[r]]; row >= first && row < end)
+        for (std::size_t i = block.offset[r]; i < block.offset[r + 1]; ++i)
+          rows.emplace_back(
+              static_cast<int>(row - first), block.unknown[i],
+              block.coefficient[i] / std::sqrt(nodal_stiffness[s][static_cast<std::size_t>(block.unknown[i] / dimension)]));
+    if (rows.empty()) continue;
+    SparseMatrix b(static_cast<int>(end - first), block.size);
+    b.setFromTriplets(rows.begin(), rows.end());
+    const SparseMatrix product = SparseMatrix(b * SparseMatrix(b.transpose())).triangularView<Eigen::Lower>();
+    for (int c = 0; c < product.outerSize(); ++c)
+      for (SparseMatrix::InnerIterator it(product, c); it; ++it) products.emplace_back(static_cast<int>(it.row()), c, it.value());
+  }
+  SparseMatrix part(static_cast<int>(end - first), static_cast<int>(end - first));
+  part.setFromTriplets(products.begin(), products.end());
+  std::vector<Entry> entries;
+  for (int c = 0; c < part.outerSize(); ++c)
+    for (SparseMatrix::InnerIterator it(part, c); it; ++it) entries.push_back({static_cast<int>(it.row()), c, it.value()});
+  products.clear();
+  for (const auto& entry : comm_.all_gather(entries)) products.emplace_back(entry.row, entry.column, entry.value);
+  gram_.resize(part.rows(), part.cols());
+  gram_.setFromTriplets(products.begin(), products.end());
+  gram_.prune([](int row, int column, double value) { return row == column || std::abs(value) > 1e-10; });
+  if (gram_.nonZeros() == gram_.rows()) {
+    gram_.resize(0, 0);
+    return;
+  }
+  factor_.emplace(gram_);
+  fixed_.assign(static_cast<std::size_t>(gram_.rows()), false);
+  factorize_gram();
+}
+
+void Preconditioner::fix(std::span<const Local> fixed)
+{
+  if (gram_.rows() == 0) return;
+  const auto& ranges = jump_.ranges();
+  std::vector<double> flags(fixed_.size(), 0);
+  for (const Local i : fixed)
+    if (i >= ranges.contacts && i < ranges.extra) flags[first_contact_row() + static_cast<std::size_t>(i - ranges.contacts)] = 1;
+  comm_.sum_in_place(flags);
+  std::vector<bool> now;
+  for (const double flag : flags) now.push_back(flag > 0);
+  if (now == fixed_) return;
+  fixed_ = std::move(now);
+  factorize_gram();
+}
+
+void Preconditioner::factorize_gram()
+{
+  SparseMatrix free = gram_;
+  for (int c = 0; c < free.outerSize(); ++c)
+    for (SparseMatrix::InnerIterator it(free, c); it; ++it)
+      if (fixed_[static_cast<std::size_t>(it.row())] || fixed_[static_cast<std::size_t>(c)])
+        it.valueRef() = it.row() == c ? 1 : 0;
+  usable_ = factor_->factorize(free);  // not where rows depend on each other
+}
+
+// Place of this rank's first contact row among all.
+std::size_t Preconditioner::first_contact_row() const
+{
+  const auto& ranges = jump_.ranges();
+  if (ranges.extra == ranges.contacts) return 0;
+  return static_cast<std::size_t>(jump_.rows()->getGlobalElement(ranges.contacts) - jump_.contact_rows().first);
+}
+
+void Preconditioner::apply_gram_inverse(Vector& x) const
+{
+  if (gram_.rows() == 0 || !usable_) return;
+  const auto& ranges = jump_.ranges();
+  const auto count = static_cast<Eigen::Index>(ranges.extra - ranges.contacts),
+             start = static_cast<Eigen::Index>(first_contact_row());
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(gram_.rows());
+  all.segment(start, count) = view(std::as_const(x)).segment(ranges.contacts, count);
+  comm_.sum_in_place({all.data(), static_cast<std::size_t>(all.size())});
+  view(x).segment(ranges.contacts, count) = factor_->solve(all).segment(start, count);
+}
+
 void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
 {
   const auto scope = timers_.scope("preconditioner");
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
-    auto forces = jump_.apply_transpose(*in);
+    Vector right(*in, Teuchos::Copy);
+    apply_gram_inverse(right);
+    auto forces = jump_.apply_transpose(right);
     for (const auto& [surface, members] : groups_)
       for (std::size_t first = 0; first < members.size(); first += block_columns) {
         const auto count = std::min(block_columns, members.size() - first);
@@ -76,6 +168,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
         }
       }
     Vector result = jump_.apply(forces);
+    apply_gram_inverse(result);
     const auto extra = jump_.ranges().end - jump_.ranges().extra;
     view(result).segment(jump_.ranges().extra, extra) = view(*in).segment(jump_.ranges().extra, extra);
     y.getVectorNonConst(column)->update(alpha, result, beta);

@@ -18,7 +18,7 @@ constexpr int max_inner = 60;            // conjugate gradient steps on one face
 constexpr int max_on_only_face = 1000;   // where there are no others
 constexpr int max_faces = 200;
 constexpr int patience = 20;              // faces without a better residual after which it gives up
-constexpr int renewal_patience = 6;       // the same where slip bounds move, for then there is another way
+constexpr int renewal_patience = 4;       // the same where slip bounds move, for then there is another way
 constexpr std::size_t max_recycled = 40;  // pairs kept from face to face
 constexpr double recycled_bytes = 1e9;    // that they may take of each rank; at least 10 are kept
 constexpr int max_retreats = 8;           // of slip bounds
@@ -64,7 +64,7 @@ struct FaceNewton::State {
   Vector y, gy;  // the minimiser on its face, which may lie outside Omega, and A y - b
 };
 
-FaceNewton::FaceNewton(const Problem& problem, const Operator* preconditioner)
+FaceNewton::FaceNewton(const Problem& problem, FacePreconditioner* preconditioner)
     : problem_(problem), preconditioner_(preconditioner), projector_(problem.equality, problem.set)
 {
   const auto constraints = static_cast<long long>(problem.set.bounds().size() + problem.set.discs().size());
@@ -262,6 +262,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       break;
 
     const Face face(projector_, next.argument, step, slip_stiffness * norm_);
+    if (preconditioner_) preconditioner_->fix(face.fixed());
     // The residual to come down to on this face, if inner_reduction does not end it before.
     double enough = 0;
     if (!goal.allowed_error)

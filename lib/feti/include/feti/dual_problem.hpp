@@ -49,7 +49,7 @@ class DualProblem {
 
   const JumpOperator& jump() const { return *jump_; }
   const Operator& hessian() const { return *hessian_; }
-  const Operator* preconditioner() const { return preconditioner_.get(); }  ///< null if the options want none
+  qp::FacePreconditioner* preconditioner() const { return preconditioner_.get(); }  ///< null if the options want none
   const Vector& linear() const { return *linear_; }
   const qp::EqualityConstraint& equality() const { return *equality_; }
   qp::FeasibleSet& set() { return set_; }

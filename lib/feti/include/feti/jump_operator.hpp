@@ -39,6 +39,8 @@ class JumpOperator {
     Local gluing = 0, held = 0, contacts = 0, extra = 0, end = 0;
   };
   const Ranges& ranges() const { return ranges_; }
+  /// Global numbers of the contact rows of all ranks: first, and one past the last.
+  std::pair<Global, Global> contact_rows() const { return contact_rows_; }
   /// Row = scale * row of the mesh; a multiplier of the row times `scale` is a force. One entry for each owned row; 1 for gluing.
   const Eigen::VectorXd& scale() const { return scale_; }
   /// c, scaled, of the owned rows: B u = c, B u <= c.
@@ -58,6 +60,7 @@ class JumpOperator {
     std::vector<double> coefficient;
   };
   const std::vector<Block>& blocks() const { return blocks_; }
+  Teuchos::RCP<const Map> touched_rows() const { return overlap_; }  ///< the overlapping map
   const Import& import() const { return *import_; }  ///< from rows() to the rows that this rank's subdomains take part in
 
   /// Brings dense parts of columns to where their row of B is owned: column r of `parts`[s] (any x rows of blocks()[s]) belongs
@@ -70,6 +73,7 @@ class JumpOperator {
   Teuchos::RCP<const Map> overlap_;
   Teuchos::RCP<const Import> import_;
   Ranges ranges_;
+  std::pair<Global, Global> contact_rows_;
   Eigen::VectorXd scale_, bound_;
   std::vector<Block> blocks_;
 };

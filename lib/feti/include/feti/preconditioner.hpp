@@ -1,35 +1,48 @@
 // Preconditioners of the dual operator: approximations of its inverse that are sums over subdomains,
 //
-//     M = B D^-1 S D^-1 B',
+//     M = C B D^-1 S D^-1 B' C,   C = (B D^-1 B')^-1,
 //
-// where D is the stiffness of the nodes (B is orthonormal in D^-1 but for contact rows that share nodes) and S acts on the
-// surface of each subdomain: its block K_bb of the stiffness matrix (lumped) or the Schur complement K_bb - K_bi K_ii^-1 K_ib
-// (Dirichlet) [Farhat and Roux, Int. J. Numer. Methods Eng. 32 (1991); Farhat, Mandel and Roux, Comput. Methods Appl. Mech. Eng.
-// 115 (1994)].
+// where D is the stiffness of the nodes, so that M F is near the identity (B is orthonormal in D^-1, and C the identity, but for
+// contact rows that share nodes; of these only those that are free on the face at hand count) [Klawonn and Widlund, Comm. Pure
+// Appl. Math. 54 (2001)], and S acts on the surface of each subdomain: its block K_bb of the stiffness matrix (lumped) or the
+// Schur complement K_bb - K_bi K_ii^-1 K_ib (Dirichlet) [Farhat and Roux, Int. J. Numer. Methods Eng. 32 (1991); Farhat, Mandel
+// and Roux, Comput. Methods Appl. Mech. Eng. 115 (1994)].
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/timer.hpp"
 #include "feti/jump_operator.hpp"
 #include "feti/subdomain_operator.hpp"
+#include "qp/problem.hpp"
 
 namespace mortise::feti {
 
 /// Refers to `jump` and `subdomains`, which outlive it.
-class Preconditioner : public Operator {
+class Preconditioner : public qp::FacePreconditioner {
  public:
   enum class Kind { lumped, dirichlet };
   /// nodal_stiffness[s][n]: D. `factorization`: of K_ii, one of direct_solvers(). Throws as DirectSolver.
   Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
-                 const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization, Timers& timers);
+                 const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization, Timers& timers,
+                 const Communicator& comm);
+  /// Computes B D^-1 B' on the contact rows, which it takes for the identity until then; it stands whole on every rank.
+  /// Collective.
+  void invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension);
+
+  void fix(std::span<const Local> fixed) override;
   Teuchos::RCP<const Map> getDomainMap() const override { return jump_.rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return jump_.rows(); }
   /// y = alpha M x + beta y. Rows that are neither gluing nor support nor contact keep their entry. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
 
  private:
+  void factorize_gram();
+  std::size_t first_contact_row() const;
+  void apply_gram_inverse(Vector& x) const;
+
   struct Surface {
     std::vector<int> unknowns;
     Eigen::VectorXd weight;  // 1 / D
@@ -44,6 +57,11 @@ class Preconditioner : public Operator {
     std::vector<std::size_t> members;  // the subdomains that are copies of one
   };
   std::vector<Group> groups_;
+  SparseMatrix gram_;               // B D^-1 B' of the contact rows of all ranks, lower triangle; empty if it is the identity
+  std::vector<bool> fixed_;         // of these rows
+  std::optional<Cholesky> factor_;  // of its part that is not fixed
+  bool usable_ = false;
+  const Communicator& comm_;
   Timers& timers_;
 };
 

@@ -29,6 +29,9 @@ class Face {
   /// The transpose of project(): the part of a gradient that free directions feel. Collective.
   void project_gradient(Vector& x, int sweeps = 2) const { sweep(x, false, sweeps); }
 
+  /// Unknowns of this rank that are not free at all.
+  const std::vector<Local>& fixed() const { return fixed_; }
+
   long long active_bounds = 0;  ///< on this rank
   long long slipping = 0;       ///< on this rank
 
@@ -43,7 +46,7 @@ class Face {
 
   const EqualityConstraint& equality_;
   CoarseMatrix& matrix_;
-  std::vector<Local> fixed_;  // unknowns that are not free
+  std::vector<Local> fixed_;
   std::vector<Slip> slips_;
 };
 

@@ -23,8 +23,8 @@ struct Renewal {
 /// preconditioner, which outlive it.
 class FaceNewton {
  public:
-  /// `preconditioner`: an approximation of the inverse of A, symmetric positive semidefinite, or null. Collective.
-  FaceNewton(const Problem& problem, const Operator* preconditioner);
+  /// `preconditioner` may be null. Collective.
+  FaceNewton(const Problem& problem, FacePreconditioner* preconditioner);
 
   /// Solves until the natural residual ||x - P_C(x - a g)|| / a, a = 1 / ||P A P||, is goal.residual ||P b||, or the error is
   /// what the goal allows, from `start`, or from the feasible point nearest to 0. With `renewal` the radii change at every face,
@@ -43,7 +43,7 @@ class FaceNewton {
   bool descend(const Face& face, double goal, const std::function<void()>& report, State& state);
 
   const Problem& problem_;
-  const Operator* preconditioner_;
+  FacePreconditioner* preconditioner_;
   Projector projector_;
   std::deque<Pair> recycled_;
   std::size_t kept_ = 0;    // of them, the same on every rank

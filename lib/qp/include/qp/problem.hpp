@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 
 #include "base/tpetra.hpp"
@@ -30,6 +31,13 @@ class Hessian {
   const Operator* a_;
   int limit_;
   int count_ = 0;
+};
+
+/// An approximation of A^-1, symmetric positive semidefinite, that may adapt to the face it serves.
+class FacePreconditioner : public Operator {
+ public:
+  /// From now on the unknowns `fixed` of this rank are 0 in what it is applied to, and in what is used of the result. Collective.
+  virtual void fix(std::span<const Local> fixed) = 0;
 };
 
 /// Refers to its parts; they outlive it.
