@@ -38,14 +38,36 @@ const fem::Material& Model::material(const partition::Subdomain& subdomain) cons
   return deck_.materials.at(deck_.bodies.at(group).material);
 }
 
+fem::Formulation Model::formulation(const partition::Subdomain& subdomain) const
+{
+  return deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group).formulation;
+}
+
+void Model::require_formulations(const Communicator& comm) const
+{
+  collectively(comm, [&] {
+    for (const auto& subdomain : decomposition_.subdomains)
+      for (const auto type : subdomain.mesh.cells.type)
+        if (!fem::applies(formulation(subdomain), type)) {
+          const auto& group = decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group;
+          throw Error(ExitStatus::bad_input,
+                      "bodies." + group + ".formulation: there is none of that name for the body's cells of type " +
+                          std::string(mesh::name(type)) +
+                          "; bbar is for hex8, quad4 and prism6, incompatible for hex8 and quad4, standard for all");
+        }
+  });
+}
+
 std::vector<partition::CopyOf> Model::congruent() const
 {
-  std::vector<int> kind;  // place of the material among all
+  std::vector<int> kind;  // place of the material among all, and the formulation
   for (const auto& subdomain : decomposition_.subdomains) {
     const auto& materials = deck_.materials;
     const auto found = std::find_if(materials.begin(), materials.end(),
                                     [&](const auto& entry) { return &entry.second == &material(subdomain); });
-    kind.push_back(static_cast<int>(std::distance(materials.begin(), found)));
+    constexpr int formulations = 3;
+    kind.push_back(static_cast<int>(std::distance(materials.begin(), found)) * formulations +
+                   static_cast<int>(formulation(subdomain)));
   }
   return partition::congruent(decomposition_.subdomains, kind);
 }
@@ -56,7 +78,7 @@ std::vector<SparseMatrix> Model::stiffness(const std::vector<partition::CopyOf>&
   for (std::size_t s = 0; s < copies.size(); ++s) {
     if (copies[s].original != s) continue;
     const auto& subdomain = decomposition_.subdomains[s];
-    result[s] = fem::stiffness(subdomain.mesh, material(subdomain), deck_.kinematics);
+    result[s] = fem::stiffness(subdomain.mesh, material(subdomain), deck_.kinematics, formulation(subdomain));
   }
   return result;
 }

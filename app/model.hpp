@@ -16,6 +16,9 @@ class Model {
   Model(const Deck& deck, const partition::Decomposition& decomposition) : deck_(deck), decomposition_(decomposition) {}
 
   const fem::Material& material(const partition::Subdomain& subdomain) const;
+  fem::Formulation formulation(const partition::Subdomain& subdomain) const;
+  /// Throws Error(bad_input) if a body has cells that there is no such formulation for. Collective.
+  void require_formulations(const Communicator& comm) const;
   /// For each subdomain the first one of this rank with the same shape and material.
   std::vector<partition::CopyOf> congruent() const;
   /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.

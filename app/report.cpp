@@ -43,7 +43,8 @@ Recovered recover(const Deck& deck, const partition::Decomposition& decompositio
   Recovered result;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
-    auto field = fem::stresses(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s]);
+    auto field =
+        fem::stresses(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s], model.formulation(subdomain));
     result.nodal_stress.push_back(std::move(field.nodal_sums));
     result.cell_von_mises.push_back(std::move(field.cell_von_mises));
   }
@@ -52,8 +53,9 @@ Recovered recover(const Deck& deck, const partition::Decomposition& decompositio
     auto& stress = result.nodal_stress[s];
     stress = (stress.leftCols(6).array().colwise() / stress.col(6).array()).eval();
     const auto& subdomain = decomposition.subdomains[s];
-    result.squared_error +=
-        fem::squared_errors(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s], stress).sum();
+    result.squared_error += fem::squared_errors(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s],
+                                                stress, model.formulation(subdomain))
+                                .sum();
   }
   result.squared_error = comm.sum(result.squared_error);
   return result;
@@ -260,7 +262,8 @@ void print(const Results& results, const Context& context)
   log.line("");
   log.line("{}", s.converged ? "Solved." : "NOT CONVERGED within the limits: the results are written, but do not trust them.");
   double size = std::max({results.applied.norm(), results.reaction.norm(), 1e-300});
-  for (const auto& contact : s.contacts) size = std::max(size, Point(contact.force[0], contact.force[1], contact.force[2]).norm());
+  for (const auto& contact : s.contacts)
+    size = std::max(size, Point(contact.force[0], contact.force[1], contact.force[2]).norm());
   log.line("  balance of forces   applied {}, supports {}, difference {:.1e} of the largest force", vector(results.applied),
            vector(results.reaction), (results.applied + results.reaction).norm() / size);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));

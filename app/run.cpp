@@ -142,6 +142,7 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   if (!command_line.check) io::prepare_directory(deck.output.directory, comm);
 
   const Model model(deck, decomposition);
+  model.require_formulations(comm);
   constraint::Constraints constraints;
   std::vector<contact::Pair> pairs;
   {

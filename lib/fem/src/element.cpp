@@ -40,12 +40,18 @@ Element make(mesh::CellType type)
   const auto& functions = mesh::shape_functions(type);
   for (const auto& point : points) {
     result.weight.push_back(point.weight);
+    result.place.push_back(point.at);
     functions.evaluate(point.at, result.shape.emplace_back(n), &result.gradient.emplace_back());
   }
   result.extrapolation = extrapolation(type, points);
+  Eigen::VectorXd at_centre(n);
+  functions.evaluate(Eigen::Vector3d::Zero(), at_centre, &result.centre_gradient);
   if constexpr (d > 1) {  // a line is a face only
     result.gradients_in_space = gradients_in_space<n, d>;
     result.stiffness = stiffness_of_cell<n, d>;
+    if constexpr (n == 1 << d && (d == 2 || d == 3))
+      if (type == mesh::CellType::quad4 || type == mesh::CellType::hex8)
+        result.stiffness_with_modes = stiffness_of_cell<n + d, d>;
   }
   return result;
 }

@@ -2,7 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 namespace mortise::fem {
+
+namespace {
+
+const std::map<std::string, Formulation>& formulations()
+{
+  static const std::map<std::string, Formulation> table{
+      {"standard", Formulation::standard}, {"bbar", Formulation::bbar}, {"incompatible", Formulation::incompatible}};
+  return table;
+}
+
+}  // namespace
+
+bool applies(Formulation formulation, mesh::CellType type)
+{
+  using enum mesh::CellType;
+  if (formulation == Formulation::standard) return true;
+  return type == hex8 || type == quad4 || (type == prism6 && formulation == Formulation::bbar);
+}
 
 void describe(deck::Description<Material>& d)
 {
@@ -19,15 +39,23 @@ void describe(deck::Description<BodyOptions>& d)
   d.help("What a body is made of.");
   d.key("material", &BodyOptions::material, "Name of a material.").required();
   d.custom(
-       "formulation", "standard: full integration.",
-       [](BodyOptions&, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits& limits) {
+       "formulation",
+       "standard: full integration; bbar: nearly incompressible materials (hex8, quad4, prism6); incompatible: bending (hex8, "
+       "quad4).",
+       [](BodyOptions& body, const YAML::Node& node, const std::string& path, deck::Document& document,
+          const deck::Limits& limits) {
          std::string name;
          deck::Codec<std::string>::read(name, node, path, document, limits);
+         const auto found = formulations().find(name);
+         if (found != formulations().end()) body.formulation = found->second;
        },
-       [](const BodyOptions&) { return YAML::Node("standard"); },
+       [](const BodyOptions& body) {
+         for (const auto& [name, formulation] : formulations())
+           if (formulation == body.formulation) return YAML::Node(name);
+         return YAML::Node();
+       },
        [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); })
-      .one_of({"standard"})
-      .not_yet({"bbar", "incompatible"});
+      .one_of({"standard", "bbar", "incompatible"});
   d.unavailable("instances");
 }
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
-#include "geometry.hpp"
+#include "formulation.hpp"
 
 namespace mortise::fem {
 
@@ -140,10 +140,10 @@ Lame lame(const Material& material, Kinematics kinematics)
   return {lambda, mu};
 }
 
-Sparse stiffness(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics)
+Sparse stiffness(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, Formulation formulation)
 {
   const int d = dimension(kinematics);
-  const Lame constants = lame(material, kinematics);
+  CellFormulation cell_formulation(formulation, lame(material, kinematics), d);
   const Adjacency graph = adjacency(mesh);
   Sparse k = pattern(graph, d);
   // Cells that are translates of the one before, as in every structured mesh, share its matrix.
@@ -157,9 +157,7 @@ Sparse stiffness(const mesh::Mesh& mesh, const Material& material, Kinematics ki
       require_positive(cell, mesh.cell_id[c]);
       computed_with = &cell.element();
       computed_for = cell.coordinates();
-      local.resize(computed_for.size() * computed_for.size());
-      cell.element().stiffness(cell.element(), cell.gradients().data(), cell.volumes().data(), constants.lambda, constants.mu,
-                               local.data());
+      cell_formulation.stiffness(cell, local);
     }
     scatter(local, mesh.cells[c], graph, d, k);
   }

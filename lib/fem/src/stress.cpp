@@ -3,20 +3,16 @@
 #include <cmath>
 
 #include "fem/stiffness.hpp"
-#include "geometry.hpp"
+#include "formulation.hpp"
 
 namespace mortise::fem {
 
 namespace {
 
-// Small matrices of run-time size, on the stack.
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 3, 3>;
-
-// Stress from the displacement gradient H = du_i/dx_j, d x d.
-Stress stress_of(const Square& h, const Lame& constants, Kinematics kinematics)
+// Stress from the displacement gradient H = du_i/dx_j.
+Stress stress_of(const Eigen::Matrix3d& h, const Lame& constants, Kinematics kinematics)
 {
-  Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
-  strain.topLeftCorner(h.rows(), h.cols()) = 0.5 * (h + h.transpose());
+  const Eigen::Matrix3d strain = 0.5 * (h + h.transpose());
   Eigen::Matrix3d s = constants.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2 * constants.mu * strain;
   if (kinematics == Kinematics::plane_stress) s(2, 2) = 0;
   return (Stress() << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)).finished();
@@ -31,11 +27,12 @@ double complementary_energy(const Stress& s, const Material& material)
 
 // Calls visit(c, cell, stress) for every cell c; stress is q x 6.
 template <class Visit>
-void for_each_cell(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                   const Visit& visit)
+void for_each_cell(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, Formulation formulation,
+                   const Eigen::VectorXd& u, const Visit& visit)
 {
   const int d = dimension(kinematics);
   const Lame constants = lame(material, kinematics);
+  CellFormulation cell_formulation(formulation, constants, d);
   CellGeometry cell(d);
   Eigen::MatrixXd displacement, stress;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -45,9 +42,9 @@ void for_each_cell(const mesh::Mesh& mesh, const Material& material, Kinematics 
     displacement.resize(d, cell.element().nodes);
     for (int i = 0; i < cell.element().nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
     stress.resize(static_cast<Eigen::Index>(cell.volumes().size()), 6);
-    for (std::size_t q = 0; q < cell.volumes().size(); ++q)
-      stress.row(static_cast<Eigen::Index>(q)) =
-          stress_of(displacement.lazyProduct(cell.gradient(q)), constants, kinematics).transpose();
+    const auto& gradients = cell_formulation.gradients(cell, displacement);
+    for (std::size_t q = 0; q < gradients.size(); ++q)
+      stress.row(static_cast<Eigen::Index>(q)) = stress_of(gradients[q], constants, kinematics).transpose();
     visit(c, cell, stress);
   }
 }
@@ -60,40 +57,43 @@ double von_mises(const Stress& s)
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u)
+StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
+                     Formulation formulation)
 {
   StressField field;
   field.nodal_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), 7);
   field.cell_von_mises.resize(static_cast<Eigen::Index>(mesh.cells.size()));
-  for_each_cell(mesh, material, kinematics, u, [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
-    Stress sum = Stress::Zero();
-    double volume = 0;
-    for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
-      sum += cell.volumes()[q] * stress.row(static_cast<Eigen::Index>(q)).transpose();
-      volume += cell.volumes()[q];
-    }
-    field.cell_von_mises[static_cast<Eigen::Index>(c)] = von_mises(sum / volume);
-    for (int i = 0; i < cell.element().nodes; ++i) {
-      auto row = field.nodal_sums.row(mesh.cells[c][static_cast<std::size_t>(i)]);
-      row.head(6) += volume * cell.element().extrapolation.row(i).lazyProduct(stress);
-      row[6] += volume;
-    }
-  });
+  for_each_cell(mesh, material, kinematics, formulation, u,
+                [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
+                  Stress sum = Stress::Zero();
+                  double volume = 0;
+                  for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+                    sum += cell.volumes()[q] * stress.row(static_cast<Eigen::Index>(q)).transpose();
+                    volume += cell.volumes()[q];
+                  }
+                  field.cell_von_mises[static_cast<Eigen::Index>(c)] = von_mises(sum / volume);
+                  for (int i = 0; i < cell.element().nodes; ++i) {
+                    auto row = field.nodal_sums.row(mesh.cells[c][static_cast<std::size_t>(i)]);
+                    row.head(6) += volume * cell.element().extrapolation.row(i).lazyProduct(stress);
+                    row[6] += volume;
+                  }
+                });
   return field;
 }
 
 Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                               const Eigen::MatrixXd& recovered)
+                               const Eigen::MatrixXd& recovered, Formulation formulation)
 {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
-  for_each_cell(mesh, material, kinematics, u, [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
-    for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
-      Stress difference = -stress.row(static_cast<Eigen::Index>(q)).transpose();
-      for (int i = 0; i < cell.element().nodes; ++i)
-        difference += cell.element().shape[q][i] * recovered.row(mesh.cells[c][static_cast<std::size_t>(i)]).transpose();
-      result[static_cast<Eigen::Index>(c)] += cell.volumes()[q] * complementary_energy(difference, material);
-    }
-  });
+  for_each_cell(
+      mesh, material, kinematics, formulation, u, [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
+        for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+          Stress difference = -stress.row(static_cast<Eigen::Index>(q)).transpose();
+          for (int i = 0; i < cell.element().nodes; ++i)
+            difference += cell.element().shape[q][i] * recovered.row(mesh.cells[c][static_cast<std::size_t>(i)]).transpose();
+          result[static_cast<Eigen::Index>(c)] += cell.volumes()[q] * complementary_energy(difference, material);
+        }
+      });
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseCholesky>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "fem/loads.hpp"
@@ -71,6 +72,96 @@ TEST(Stiffness, PassesThePatchTest)
     }
     EXPECT_GE(inside, block.dimension == 3 ? 8u : 4u);
   }
+}
+
+class Formulations : public testing::TestWithParam<std::tuple<Formulation, Case>> {};
+INSTANTIATE_TEST_SUITE_P(Cells, Formulations,
+                         testing::Values(std::tuple(Formulation::bbar, Case{"hex8", Kinematics::solid}),
+                                         std::tuple(Formulation::bbar, Case{"prism6", Kinematics::solid}),
+                                         std::tuple(Formulation::bbar, Case{"quad4", Kinematics::plane_strain}),
+                                         std::tuple(Formulation::incompatible, Case{"hex8", Kinematics::solid}),
+                                         std::tuple(Formulation::incompatible, Case{"quad4", Kinematics::plane_strain}),
+                                         std::tuple(Formulation::incompatible, Case{"quad4", Kinematics::plane_stress})));
+
+// On a distorted mesh: rigid motions have no energy, nothing else has none, and linear displacements have theirs.
+TEST_P(Formulations, KeepKernelRankAndPatchTest)
+{
+  const auto& [formulation, kind] = GetParam();
+  Block block(kind.element, {3, 3, 3}, {1, 2, 1.5});
+  block.distort(0.07);
+  const int d = block.dimension;
+  const auto k = dense(stiffness(block.mesh, steel(), kind.kinematics, formulation));
+  const auto r = rigid_motions(block.mesh.points, d);
+  EXPECT_LT((k * r).norm(), 1e-11 * k.norm());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(k);
+  EXPECT_GT(eigen.eigenvalues()[r.cols()], 1e-5 * eigen.eigenvalues().maxCoeff());
+  const auto gradient = some_gradient(d);
+  const auto u = sample(block.mesh, d, [&](const Point& x) { return Point(gradient * x); });
+  const double density = (hooke(gradient, steel(), kind.kinematics).array() * gradient.array()).sum();
+  EXPECT_NEAR(u.dot(k * u), density * block.measure(), 1e-11 * density);
+  const Eigen::VectorXd force = k * u;
+  for (std::size_t n = 0; n < block.mesh.node_count(); ++n) {
+    if (block.on_surface(n)) continue;
+    EXPECT_LT(force.segment(static_cast<Eigen::Index>(n) * d, d).norm(), 1e-12 * force.norm());
+  }
+}
+
+// One layer of cells bends as beam theory says.
+TEST(Formulations, IncompatibleModesBend)
+{
+  for (const auto& [name, kinematics] : {Case{"hex8", Kinematics::solid}, Case{"quad4", Kinematics::plane_stress}}) {
+    const double length = 8, e = 1000, force = 0.01;
+    Block block(name, {16, 1, 1}, {length, 1, 0.5});
+    const int d = block.dimension;
+    const double width = d == 3 ? 0.5 : 1.0;
+    auto k = stiffness(block.mesh, {e, 0.0, 0, 0}, kinematics, Formulation::incompatible);
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(k.rows());
+    add_traction(block.mesh, block.boundary("xmax"), d, Point(0, force / width, 0), f);
+    for (std::size_t n = 0; n < block.mesh.node_count(); ++n)
+      if (block.mesh.points[n][0] < 1e-9)
+        for (int c = 0; c < d; ++c) k.coeffRef(static_cast<int>(n) * d + c, static_cast<int>(n) * d + c) += 1e9 * e;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double, Eigen::ColMajor, int>> solver(k);
+    const Eigen::VectorXd u = solver.solve(f);
+    const double beam = force * std::pow(length, 3) / (3 * e * width / 12) + force * length / (5.0 / 6 * 0.5 * e * width);
+    EXPECT_NEAR(f.dot(u) / force / beam, 1, 0.01) << name;
+  }
+}
+
+// A thick ring of nearly incompressible material under pressure inside: Lame's displacement, which full integration misses by
+// far.
+TEST(Formulations, BbarDoesNotLock)
+{
+  const Material rubber{1000, 0.4999, 0, 0};
+  const double inner = 1, outer = 2, pressure = 10;
+  const double e = rubber.young_modulus, nu = rubber.poisson_ratio;
+  const double exact =
+      (1 + nu) * pressure * inner / e * ((1 - 2 * nu) * inner * inner + outer * outer) / (outer * outer - inner * inner);
+  const auto expansion = [&](Formulation formulation) {
+    Block block("quad4", {8, 8, 0});
+    for (auto& p : block.mesh.points) {  // x: radius, y: angle
+      const double radius = inner + (outer - inner) * p[0], angle = std::acos(-1.0) / 2 * p[1];
+      p = Point(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+    auto k = stiffness(block.mesh, rubber, Kinematics::plane_strain, formulation);
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(k.rows());
+    add_pressure(block.mesh, block.boundary("xmin"), 2, pressure, f);
+    for (std::size_t n = 0; n < block.mesh.node_count(); ++n)
+      for (int c = 0; c < 2; ++c)
+        if (std::abs(block.mesh.points[n][c]) < 1e-9)
+          k.coeffRef(static_cast<int>(n) * 2 + c, static_cast<int>(n) * 2 + c) += 1e9 * e;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double, Eigen::ColMajor, int>> solver(k);
+    const Eigen::VectorXd u = solver.solve(f);
+    double sum = 0;
+    int count = 0;
+    for (std::size_t n = 0; n < block.mesh.node_count(); ++n)
+      if (std::abs(block.mesh.points[n].norm() - inner) < 1e-9) {
+        sum += u.segment<2>(static_cast<Eigen::Index>(n) * 2).norm();
+        ++count;
+      }
+    return sum / count;
+  };
+  EXPECT_NEAR(expansion(Formulation::bbar) / exact, 1, 0.01);
+  EXPECT_LT(expansion(Formulation::standard) / exact, 0.9);
 }
 
 // Turned with its mesh, the stiffness turns with it: K' = T K T'.

@@ -46,6 +46,36 @@ TEST(Stress, LinearDisplacementHasItsConstantStressEverywhere)
   }
 }
 
+TEST(Stress, FormulationsFindTheSameConstantStress)
+{
+  for (const auto formulation : {Formulation::bbar, Formulation::incompatible})
+    for (const auto& [name, kinematics] : {Case{"hex8", Kinematics::solid}, Case{"quad4", Kinematics::plane_strain}}) {
+      Block block(name, {3, 3, 3}, {1, 2, 1.5});
+      block.distort(0.07, true);
+      const auto gradient = some_gradient(block.dimension);
+      const auto u = sample(block.mesh, block.dimension, [&](const Point& x) { return Point(gradient * x); });
+      const Stress expected = components(hooke(gradient, steel(), kinematics));
+      const auto nodal = recovered(stresses(block.mesh, steel(), kinematics, u, formulation));
+      EXPECT_LT((nodal.rowwise() - expected.transpose()).cwiseAbs().maxCoeff(), 1e-10 * expected.norm()) << name;
+      EXPECT_LT(squared_errors(block.mesh, steel(), kinematics, u, nodal, formulation).sum(), 1e-18 * expected.norm()) << name;
+    }
+}
+
+// Pure bending, u = (x y, -x^2 / 2): one layer with incompatible modes has the stress E y.
+TEST(Stress, IncompatibleModesHaveTheStressOfBending)
+{
+  const Block block("quad4", {4, 1, 0}, {4, 1, 0});
+  const Material m{1000, 0, 0, 0};
+  const auto u = sample(block.mesh, 2, [](const Point& x) { return Point(x[0] * (x[1] - 0.5), -x[0] * x[0] / 2, 0); });
+  const auto field = stresses(block.mesh, m, Kinematics::plane_stress, u, Formulation::incompatible);
+  const auto nodal = recovered(field);
+  for (std::size_t n = 0; n < block.mesh.node_count(); ++n)
+    EXPECT_LT((nodal.row(static_cast<Eigen::Index>(n)).transpose() -
+               (Stress() << 1000 * (block.mesh.points[n][1] - 0.5), 0, 0, 0, 0, 0).finished())
+                  .norm(),
+              1e-9);
+}
+
 // Stretched by 1 with free sides: E in plane stress; E / (1 - nu^2) and nu times that across the plane in plane strain.
 TEST(Stress, PlaneStatesUnderTension)
 {

@@ -15,9 +15,10 @@ struct Element {
   int dimension = 0;
   int nodes = 0;
   std::vector<double> weight;             ///< q
+  std::vector<Eigen::Vector3d> place;     ///< q, in reference coordinates
   std::vector<Eigen::VectorXd> shape;     ///< q times n
   std::vector<Eigen::MatrixXd> gradient;  ///< q times n x d, by the reference coordinates
-  Eigen::MatrixXd extrapolation;          ///< n x q: from integration points to nodes, by least squares in first-order shape functions
+  Eigen::MatrixXd extrapolation;  ///< n x q: from integration points to nodes, by least squares in first-order shape functions
 
   /// Gradients by the space coordinates, q times n x d, and the volumes that the points stand for, of the cell with the nodes at
   /// x, n x d. All matrices column-major. A volume that is not positive means that the cell is inside out there; its gradients
@@ -28,6 +29,11 @@ struct Element {
   /// block ij is the sum over the points of volume * (lambda g_i g_j' + mu g_j g_i' + mu (g_i . g_j) I).
   void (*stiffness)(const Element& element, const double* gradients, const double* volumes, double lambda, double mu,
                     double* k) = nullptr;
+
+  Eigen::MatrixXd centre_gradient;  ///< n x d at the origin of the reference cell
+  /// As `stiffness`, for gradients of n nodes and d modes, (n + d) x d. Null for cells without incompatible modes.
+  void (*stiffness_with_modes)(const Element& element, const double* gradients, const double* volumes, double lambda, double mu,
+                               double* k) = nullptr;
 
   std::size_t points() const { return weight.size(); }
 };

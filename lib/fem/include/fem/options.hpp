@@ -6,6 +6,7 @@
 #include <string>
 
 #include "deck/description.hpp"
+#include "mesh/cell.hpp"
 
 namespace mortise::fem {
 
@@ -19,7 +20,11 @@ struct Material {
 
 enum class Kinematics { solid, plane_strain, plane_stress };
 
-enum class Formulation { standard };
+/// See formulation.hpp.
+enum class Formulation { standard, bbar, incompatible };
+
+/// Whether there is a formulation for a cell.
+bool applies(Formulation formulation, mesh::CellType type);
 
 /// What a physical body is made of.
 struct BodyOptions {

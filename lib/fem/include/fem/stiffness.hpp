@@ -19,10 +19,11 @@ struct Lame {
 Lame lame(const Material& material, Kinematics kinematics);
 
 /// Lower triangle of K, K_ij = integral of lambda div v_i div v_j + 2 mu e(v_i):e(v_j), full integration, for a mesh of one
-/// material. Unknown d * node + component, d = dimension(kinematics); plane states have thickness 1. Throws Error(bad_input) that
-/// names the cell if its Jacobian is not positive at an integration point.
+/// material; other formulations as they have it. Unknown d * node + component, d = dimension(kinematics); plane states have
+/// thickness 1. Throws Error(bad_input) that names the cell if its Jacobian is not positive at an integration point.
 Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness(const mesh::Mesh& mesh, const Material& material,
-                                                            Kinematics kinematics);
+                                                            Kinematics kinematics,
+                                                            Formulation formulation = Formulation::standard);
 
 /// Orthonormal basis of the rigid motions of the points: (d points) x 6, in 2D x 3; translations first, then rotations about the
 /// centroid.

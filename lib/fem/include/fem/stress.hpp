@@ -22,13 +22,14 @@ struct StressField {
   /// Of each cell, from the volume mean of its stress.
   Eigen::VectorXd cell_von_mises;
 };
-StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u);
+StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
+                     Formulation formulation = Formulation::standard);
 
 /// For each cell the squared energy norm of s* - s: the integral of (s* - s) : C^-1 : (s* - s), where s is the stress of the
 /// finite elements and s* interpolates `recovered`, nodes x 6, by the shape functions [Zienkiewicz and Zhu, A simple error
 /// estimator and adaptive procedure for practical engineering analysis, IJNME 24 (1987)]. The sum over all cells estimates ||u -
 /// u_h||^2 in the energy norm; in the same norm ||u_h||^2 is twice the strain energy.
 Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                               const Eigen::MatrixXd& recovered);
+                               const Eigen::MatrixXd& recovered, Formulation formulation = Formulation::standard);
 
 }  // namespace mortise::fem

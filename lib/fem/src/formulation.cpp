@@ -1,0 +1,94 @@
+#include "formulation.hpp"
+
+#include <Eigen/Dense>
+
+namespace mortise::fem {
+
+namespace {
+
+// Mean of the gradients of the shape functions over the cell, unknown d * node + component, and its volume.
+std::pair<Eigen::VectorXd, double> mean_gradient(const CellGeometry& cell, int d)
+{
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cell.element().nodes) * d);
+  double volume = 0;
+  for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+    volume += cell.volumes()[q];
+    for (int i = 0; i < cell.element().nodes; ++i)
+      for (int a = 0; a < d; ++a) mean[i * d + a] += cell.volumes()[q] * cell.gradient(q)(i, a);
+  }
+  return {mean / volume, volume};
+}
+
+}  // namespace
+
+// The stiffness of nodes and modes together, from `enriched_`, which it fills.
+Eigen::MatrixXd CellFormulation::enriched_stiffness(const CellGeometry& cell)
+{
+  const Element& element = cell.element();
+  const Eigen::Index n = element.nodes, d = dimension_;
+  const Eigen::Map<const Eigen::MatrixXd> x(cell.coordinates().data(), n, d);
+  const Eigen::MatrixXd centre = x.transpose() * element.centre_gradient;  // dx / dxi there
+  const Eigen::MatrixXd inverse = centre.inverse();
+  enriched_.resize(element.points() * static_cast<std::size_t>((n + d) * d));
+  for (std::size_t q = 0; q < element.points(); ++q) {
+    Eigen::Map<Eigen::MatrixXd> all(enriched_.data() + q * static_cast<std::size_t>((n + d) * d), n + d, d);
+    all.topRows(n) = cell.gradient(q);
+    const double ratio = centre.determinant() * element.weight[q] / cell.volumes()[q];
+    for (Eigen::Index k = 0; k < d; ++k) all.row(n + k) = -2 * element.place[q][k] * ratio * inverse.row(k);
+  }
+  Eigen::MatrixXd k((n + d) * d, (n + d) * d);
+  element.stiffness_with_modes(element, enriched_.data(), cell.volumes().data(), constants_.lambda, constants_.mu, k.data());
+  return k;
+}
+
+void CellFormulation::stiffness(const CellGeometry& cell, std::vector<double>& k)
+{
+  const Element& element = cell.element();
+  const Eigen::Index size = static_cast<Eigen::Index>(element.nodes) * dimension_;
+  k.resize(static_cast<std::size_t>(size * size));
+  Eigen::Map<Eigen::MatrixXd> matrix(k.data(), size, size);
+  const auto& [lambda, mu] = constants_;
+  switch (formulation_) {
+    case Formulation::standard:
+      element.stiffness(element, cell.gradients().data(), cell.volumes().data(), lambda, mu, k.data());
+      return;
+    case Formulation::bbar: {
+      element.stiffness(element, cell.gradients().data(), cell.volumes().data(), -2 * mu / 3, mu, k.data());
+      const auto [mean, volume] = mean_gradient(cell, dimension_);
+      matrix += (lambda + 2 * mu / 3) * volume * mean * mean.transpose();
+      return;
+    }
+    case Formulation::incompatible: {
+      const Eigen::MatrixXd all = enriched_stiffness(cell);
+      const Eigen::Index modes = all.rows() - size;
+      matrix = all.topLeftCorner(size, size) -
+               all.topRightCorner(size, modes) *
+                   all.bottomRightCorner(modes, modes).ldlt().solve(Eigen::MatrixXd(all.bottomLeftCorner(modes, size)));
+      matrix = (0.5 * (matrix + matrix.transpose())).eval();
+      return;
+    }
+  }
+}
+
+const std::vector<Eigen::Matrix3d>& CellFormulation::gradients(const CellGeometry& cell, const Eigen::MatrixXd& displacement)
+{
+  const Eigen::Index n = cell.element().nodes, d = dimension_;
+  result_.assign(cell.volumes().size(), Eigen::Matrix3d::Zero());
+  for (std::size_t q = 0; q < result_.size(); ++q) result_[q].topLeftCorner(d, d) = displacement.lazyProduct(cell.gradient(q));
+  if (formulation_ == Formulation::bbar) {
+    const double mean = mean_gradient(cell, dimension_).first.dot(displacement.reshaped());
+    for (auto& h : result_) h.diagonal().array() += (mean - h.trace()) / 3;
+  } else if (formulation_ == Formulation::incompatible) {
+    const Eigen::MatrixXd all = enriched_stiffness(cell);
+    const Eigen::Index modes = d * d;
+    const Eigen::VectorXd amplitudes =
+        -all.bottomRightCorner(modes, modes).ldlt().solve(all.bottomLeftCorner(modes, n * d) * displacement.reshaped());
+    for (std::size_t q = 0; q < result_.size(); ++q) {
+      const Eigen::Map<const Eigen::MatrixXd> gradient(enriched_.data() + q * static_cast<std::size_t>((n + d) * d), n + d, d);
+      result_[q].topLeftCorner(d, d) += amplitudes.reshaped(d, d) * gradient.bottomRows(d);
+    }
+  }
+  return result_;
+}
+
+}  // namespace mortise::fem

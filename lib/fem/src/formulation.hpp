@@ -1,0 +1,40 @@
+// What a formulation makes of one cell: its stiffness, and its displacement gradients from nodal displacements.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fem/stiffness.hpp"
+#include "geometry.hpp"
+
+namespace mortise::fem {
+
+/// standard: full integration.
+/// bbar: the change of volume is that of the whole cell, div u -> mean of div u [Hughes, IJNME 15 (1980)].
+/// incompatible: u gains a_k (1 - xi_k^2) for each direction k of the reference cell, eliminated cell by cell; their gradients
+/// are taken with the Jacobian of the centre, which keeps the patch test [Wilson et al. (1973); Taylor, Beresford and Wilson,
+/// IJNME 10 (1976)].
+class CellFormulation {
+ public:
+  CellFormulation(Formulation formulation, const Lame& constants, int dimension)
+      : formulation_(formulation), constants_(constants), dimension_(dimension)
+  {
+  }
+
+  /// K of the cell, (d n) x (d n), column-major, unknown d * node + component.
+  void stiffness(const CellGeometry& cell, std::vector<double>& k);
+  /// du_i/dx_j at each integration point from nodal displacements, d x n; their symmetric parts are the strains. Across a plane
+  /// bbar gives a strain that only its volume knows.
+  const std::vector<Eigen::Matrix3d>& gradients(const CellGeometry& cell, const Eigen::MatrixXd& displacement);
+
+ private:
+  Eigen::MatrixXd enriched_stiffness(const CellGeometry& cell);
+
+  Formulation formulation_;
+  Lame constants_;
+  int dimension_;
+  std::vector<double> enriched_;  // gradients, (n + d) x d a point
+  std::vector<Eigen::Matrix3d> result_;
+};
+
+}  // namespace mortise::fem
