@@ -79,6 +79,17 @@ bool parallelogram(const FaceGeometry& face)
   return (face.nodes[0] - face.nodes[1] + face.nodes[2] - face.nodes[3]).norm() < 1e-9 * face.size();
 }
 
+// Whether two facets lie in parallel planes, as in patch tests. Between curved surfaces exact integrals of facets are no gain.
+bool flat(const FaceGeometry& a, const FaceGeometry& b)
+{
+  const Point normal = a.normal();
+  const auto planar = [&](const FaceGeometry& face) {
+    return std::all_of(face.nodes.begin(), face.nodes.end(),
+                       [&](const Point& p) { return std::abs((p - face.nodes[0]).dot(normal)) < 1e-6 * face.size(); });
+  };
+  return planar(a) && planar(b);
+}
+
 struct Sample {
   Plane at;
   double weight;
@@ -182,7 +193,8 @@ Overlap overlap(const FaceGeometry& secondary, const FaceGeometry& primary, doub
     if (area_of(subject) < 0) return {};
     const auto common = clip_polygon(subject, own);
     if (common.size() < 3 || area_of(common) <= negligible * secondary.area()) return {};
-    points = samples(common, parallelogram(secondary) && parallelogram(primary), second_order);
+    const bool polynomial = (parallelogram(secondary) && parallelogram(primary)) || !flat(secondary, primary);
+    points = samples(common, polynomial, second_order);
     for (const auto& p : common) middle += p / static_cast<double>(common.size());
   }
   const double distance = height_at(primary, frame, shape(primary.type, locate(primary.type, other, middle))) -
