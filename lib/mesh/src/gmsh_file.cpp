@@ -1,0 +1,139 @@
+#include "gmsh_file.hpp"
+
+#include <fmt/format.h>
+#include <gmsh.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace mortise::mesh {
+
+void fail(const std::string& file, const std::string& what)
+{
+  throw Error(ExitStatus::bad_input, file + ": " + what);
+}
+
+GmshSession::GmshSession(const std::map<std::string, double>& constants)
+{
+  std::vector<std::string> words{"mortise", "-nopopup", "-v", "0"};
+  for (const auto& [name, value] : constants) {
+    words.insert(words.end(), {"-setnumber", name, fmt::format("{:.17g}", value)});
+  }
+  std::vector<char*> arguments;
+  for (auto& word : words) arguments.push_back(word.data());
+  gmsh::initialize(static_cast<int>(arguments.size()), arguments.data(), false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.NumThreads", 1);
+  gmsh::option::setNumber("Mesh.SaveAll", 1);  // what is in no group is to be seen, and refused
+  gmsh::logger::start();
+}
+
+GmshSession::~GmshSession()
+{
+  gmsh::finalize();
+}
+
+namespace {
+
+// The last error that gmsh logged, if any.
+std::string logged_error()
+{
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  const auto found = std::find_if(log.rbegin(), log.rend(), [](const std::string& line) { return line.rfind("Error", 0) == 0; });
+  return found == log.rend() ? std::string() : *found;
+}
+
+bool is_geometry(const std::string& file)
+{
+  const auto extension = std::filesystem::path(file).extension();
+  return extension == ".geo" || extension == ".step" || extension == ".stp" || extension == ".brep";
+}
+
+}  // namespace
+
+std::string GmshSession::load(const std::string& file, int dimension) const
+{
+  try {
+    gmsh::open(file);
+    if (is_geometry(file) && logged_error().empty()) {
+      std::vector<std::size_t> tags;
+      std::vector<double> coordinates, parameters;
+      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+      if (tags.empty()) gmsh::model::mesh::generate(dimension);
+    }
+  } catch (...) {
+    const std::string logged = logged_error();
+    return logged.empty() ? "gmsh cannot read it" : logged;
+  }
+  return logged_error();
+}
+
+namespace {
+
+// Meshes a geometry in a process of its own and leaves the mesh in the file `target`, for gmsh's meshers crash on some faulty
+// geometries.
+void mesh_apart(const Options& options, int dimension, const std::string& target)
+{
+  int pipe_ends[2];
+  if (pipe(pipe_ends) != 0) throw Error(ExitStatus::machine, "cannot open a pipe");
+  const pid_t child = fork();
+  if (child < 0) throw Error(ExitStatus::machine, "cannot start a process for gmsh");
+  if (child == 0) {
+    for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE}) std::signal(signal_number, SIG_DFL);
+    const GmshSession gmsh_session(options.constants);
+    std::string error = gmsh_session.load(options.file, dimension);
+    if (error.empty()) {
+      try {
+        gmsh::option::setNumber("Mesh.Binary", 1);
+        gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
+        gmsh::write(target);
+      } catch (...) {
+        error = "gmsh cannot write " + target;
+      }
+    }
+    if (!error.empty() && write(pipe_ends[1], error.data(), error.size()) < 0) _exit(2);
+    _exit(0);
+  }
+  close(pipe_ends[1]);
+  std::string error;
+  char buffer[512];
+  for (ssize_t n = 0; (n = ::read(pipe_ends[0], buffer, sizeof buffer)) > 0;) error.append(buffer, static_cast<std::size_t>(n));
+  close(pipe_ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    error = "gmsh crashed while it meshed this geometry; try it in gmsh itself, with another mesh algorithm or size";
+  if (!error.empty()) fail(options.file, "gmsh: " + error);
+}
+
+}  // namespace
+
+MeshFile::MeshFile(const Options& options, int dimension)
+{
+  if (!std::filesystem::exists(options.file)) fail(options.file, "there is no such file");
+  path_ = options.file;
+  if (!is_geometry(options.file)) return;
+  path_ = (std::filesystem::temp_directory_path() / fmt::format("mortise_{}.msh", getpid())).string();
+  temporary_ = true;
+  try {
+    mesh_apart(options, dimension, path_);
+  } catch (...) {
+    remove();
+    throw;
+  }
+}
+
+void MeshFile::remove() const
+{
+  std::error_code ignored;
+  if (temporary_) std::filesystem::remove(path_, ignored);
+}
+
+}  // namespace mortise::mesh
