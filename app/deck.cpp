@@ -92,10 +92,6 @@ void check_decomposition(const Deck& deck, deck::Document& document)
     document.error("decomposition.method", "\"grid\" is for blocks only; use metis for a mesh from a file");
     return;
   }
-  for (const auto& [name, body] : deck.bodies)
-    if (body.formulation == fem::Formulation::bbar && deck.kinematics == fem::Kinematics::plane_stress)
-      document.error("bodies." + name + ".formulation",
-                     "nothing locks in plane stress, where the thickness is free; expected standard");
   for (const auto& [name, block] : deck.mesh.blocks) {
     const auto counts = deck.decomposition.counts.find(name);
     if (counts == deck.decomposition.counts.end()) {

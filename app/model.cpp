@@ -1,6 +1,7 @@
 #include "model.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "base/error.hpp"
 #include "fem/loads.hpp"
@@ -43,18 +44,19 @@ fem::Formulation Model::formulation(const partition::Subdomain& subdomain) const
   return deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group).formulation;
 }
 
-void Model::require_formulations(const Communicator& comm) const
+void Model::require_formulations(deck::Document& document, const Communicator& comm) const
 {
   collectively(comm, [&] {
+    std::map<std::string, mesh::CellType> wrong;  // body of the deck, a cell of it
     for (const auto& subdomain : decomposition_.subdomains)
       for (const auto type : subdomain.mesh.cells.type)
-        if (!fem::applies(formulation(subdomain), type)) {
-          const auto& group = decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group;
-          throw Error(ExitStatus::bad_input,
-                      "bodies." + group + ".formulation: there is none of that name for the body's cells of type " +
-                          std::string(mesh::name(type)) +
-                          "; bbar is for hex8, quad4 and prism6, incompatible for hex8 and quad4, standard for all");
-        }
+        if (!fem::applies(formulation(subdomain), type))
+          wrong.emplace(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group, type);
+    for (const auto& [body, type] : wrong)
+      document.error("bodies." + body + ".formulation",
+                     "this is not for the body's cells of type " + std::string(mesh::name(type)) +
+                         "; bbar is for hex8, quad4 and prism6, incompatible for hex8 and quad4, standard for all");
+    document.check();
   });
 }
 

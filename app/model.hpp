@@ -17,8 +17,8 @@ class Model {
 
   const fem::Material& material(const partition::Subdomain& subdomain) const;
   fem::Formulation formulation(const partition::Subdomain& subdomain) const;
-  /// Throws Error(bad_input) if a body has cells that there is no such formulation for. Collective.
-  void require_formulations(const Communicator& comm) const;
+  /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for. Collective.
+  void require_formulations(deck::Document& document, const Communicator& comm) const;
   /// For each subdomain the first one of this rank with the same shape and material.
   std::vector<partition::CopyOf> congruent() const;
   /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.

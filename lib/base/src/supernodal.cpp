@@ -169,8 +169,6 @@ struct Kernel {
   void (*solve)(const SupernodalFactor&, double*);
 };
 
-void solve_1(const SupernodalFactor& factor, double* y);
-
 void solve_4(const SupernodalFactor& factor, double* y)
 {
   Tiles<4, 1, 8>::solve(factor, y);

@@ -48,10 +48,6 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
 
 void Preconditioner::invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension)
 {
-  struct Entry {
-    int row, column;
-    double value;
-  };
   const auto [first, end] = jump_.contact_rows();
   const auto touched = jump_.touched_rows()->getNodeElementList();
   std::vector<Eigen::Triplet<double>> products;
@@ -73,13 +69,7 @@ void Preconditioner::invert_gram(const std::vector<std::vector<double>>& nodal_s
   }
   SparseMatrix part(static_cast<int>(end - first), static_cast<int>(end - first));
   part.setFromTriplets(products.begin(), products.end());
-  std::vector<Entry> entries;
-  for (int c = 0; c < part.outerSize(); ++c)
-    for (SparseMatrix::InnerIterator it(part, c); it; ++it) entries.push_back({static_cast<int>(it.row()), c, it.value()});
-  products.clear();
-  for (const auto& entry : comm_.all_gather(entries)) products.emplace_back(entry.row, entry.column, entry.value);
-  gram_.resize(part.rows(), part.cols());
-  gram_.setFromTriplets(products.begin(), products.end());
+  gram_ = qp::sum_over_ranks(part, comm_);
   gram_.prune([](int row, int column, double value) { return row == column || std::abs(value) > 1e-10; });
   if (gram_.nonZeros() == gram_.rows()) {
     gram_.resize(0, 0);
