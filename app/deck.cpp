@@ -17,7 +17,8 @@ const std::map<std::string, fem::Kinematics>& dimensions()
 {
   static const std::map<std::string, fem::Kinematics> table{{"3", fem::Kinematics::solid},
                                                             {"plane_strain", fem::Kinematics::plane_strain},
-                                                            {"plane_stress", fem::Kinematics::plane_stress}};
+                                                            {"plane_stress", fem::Kinematics::plane_stress},
+                                                            {"axisymmetric", fem::Kinematics::axisymmetric}};
   return table;
 }
 
@@ -71,6 +72,10 @@ void check_bodies(const Deck& deck, deck::Document& document)
     if (body.formulation == fem::Formulation::bbar && deck.kinematics == fem::Kinematics::plane_stress)
       document.error("bodies." + name + ".formulation",
                      "nothing locks in plane stress, where the thickness is free; expected standard");
+  for (const auto& [name, body] : deck.bodies)
+    if (body.formulation == fem::Formulation::incompatible && deck.axisymmetric())
+      document.error("bodies." + name + ".formulation",
+                     "the incompatible modes are for boxes, not for rings; expected standard or bbar, or cells of second order");
   for (const auto& [name, block] : deck.mesh.blocks) {
     const auto type = mesh::cell_type(block.element);
     if (type && mesh::dimension(*type) != deck.dimension())
@@ -133,6 +138,8 @@ void check_vectors(const Deck& deck, deck::Document& document)
     flat(deck.loads[i].traction, path + "traction");
     flat(deck.loads[i].force, path + "force");
     flat(deck.loads[i].acceleration, path + "acceleration");
+    if (deck.axisymmetric() && deck.loads[i].acceleration && (*deck.loads[i].acceleration)[0] != 0)
+      document.error(path + "acceleration", "an axisymmetric body is accelerated along its axis, y, alone; expected 0 for x");
   }
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
     if (deck.supports[i].displacement[2])
@@ -191,9 +198,9 @@ void describe(deck::Description<Deck>& d)
 {
   d.help("A Mortise deck: one contact problem of linear elasticity. Any consistent set of units.");
   d.key("title", &Deck::title, "One line that says what is solved.");
-  d.custom("dimension", "3, plane_strain or plane_stress (meshes in x, y).", read_dimension, write_dimension, dimension_schema)
-      .one_of({"3", "plane_strain", "plane_stress"})
-      .not_yet({"axisymmetric"});
+  d.custom("dimension", "3, plane_strain, plane_stress or axisymmetric: meshes in x, y; x is the radius, y the axis of revolution.",
+           read_dimension, write_dimension, dimension_schema)
+      .one_of({"3", "plane_strain", "plane_stress", "axisymmetric"});
   d.key("mesh", &Deck::mesh, "The mesh.").required();
   d.key("materials", &Deck::materials, "Materials by name.").required();
   d.key("bodies", &Deck::bodies, "One entry for each physical volume (plane models: surface) of the mesh, by its name.")

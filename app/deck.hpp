@@ -39,7 +39,8 @@ struct Deck {
   friction::Options friction_loop;
   io::Options output;
 
-  int dimension() const { return kinematics == fem::Kinematics::solid ? 3 : 2; }
+  int dimension() const { return fem::dimension(kinematics); }
+  bool axisymmetric() const { return kinematics == fem::Kinematics::axisymmetric; }
 };
 
 /// Reads the deck from `document`: all sections and the checks between them. Paths in the result are absolute. `output` replaces

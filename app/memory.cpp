@@ -59,7 +59,7 @@ Memory foresee_memory(const Deck& deck, const partition::Decomposition& decompos
     const auto& subdomain = decomposition.subdomains[largest];
     const auto lower = fem::stiffness(subdomain.mesh, model.material(subdomain), deck.kinematics, model.formulation(subdomain));
     const auto bytes = static_cast<double>(feti::ElasticSubdomain::foreseen_factor_bytes(
-        lower, fem::rigid_motions(subdomain.mesh.points, dimension), subdomain.mesh.points, dimension));
+        lower, fem::rigid_motions(subdomain.mesh.points, deck.kinematics), subdomain.mesh.points, dimension));
     const double once = scaled / of_nested_dissection(unknowns(largest), dimension);
     factors = bytes * once * (deck.solver.subdomains.preconditioner == "dirichlet" ? 1 + dirichlet_part : 1.0);
     // While the largest is factorized there are two copies of it.

@@ -1,6 +1,9 @@
 #include "model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/error.hpp"
@@ -10,6 +13,9 @@
 namespace mortise {
 
 namespace {
+
+// A node nearer to the axis than this part of the radius of the model lies on it.
+constexpr double on_the_axis = 1e-9;
 
 Point point(const std::array<double, 3>& x)
 {
@@ -44,8 +50,18 @@ fem::Formulation Model::formulation(const partition::Subdomain& subdomain) const
   return deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group).formulation;
 }
 
-void Model::require_formulations(deck::Document& document, const Communicator& comm) const
+// The largest |x| of all bodies.
+double Model::radius(const Communicator& comm) const
 {
+  double largest = 0;
+  for (const auto& subdomain : decomposition_.subdomains)
+    for (const auto& p : subdomain.mesh.points) largest = std::max(largest, std::abs(p[0]));
+  return comm.max(largest);
+}
+
+void Model::require_cells(deck::Document& document, const Communicator& comm) const
+{
+  const double rounding = on_the_axis * radius(comm);
   collectively(comm, [&] {
     std::map<std::string, mesh::CellType> wrong;  // body of the deck, a cell of it
     for (const auto& subdomain : decomposition_.subdomains)
@@ -56,6 +72,17 @@ void Model::require_formulations(deck::Document& document, const Communicator& c
       document.error("bodies." + body + ".formulation",
                      "this is not for the body's cells of type " + std::string(mesh::name(type)) +
                          "; bbar is for hex8, quad4 and prism6, incompatible for hex8 and quad4, standard for all");
+    if (deck_.axisymmetric())
+      for (const auto& subdomain : decomposition_.subdomains) {
+        const auto& points = subdomain.mesh.points;
+        const auto leftmost =
+            std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
+        if (leftmost == points.end() || (*leftmost)[0] >= -rounding) continue;
+        document.error("dimension",
+                       fmt::format("body \"{}\" reaches to x = {:.4g}, beyond the axis of revolution x = 0; draw the half with x >= 0",
+                                   decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].name, (*leftmost)[0]));
+        break;
+      }
     document.check();
   });
 }
@@ -71,7 +98,8 @@ std::vector<partition::CopyOf> Model::congruent() const
     kind.push_back(static_cast<int>(std::distance(materials.begin(), found)) * formulations +
                    static_cast<int>(formulation(subdomain)));
   }
-  return partition::congruent(decomposition_.subdomains, kind);
+  return partition::congruent(decomposition_.subdomains, kind,
+                              deck_.axisymmetric() ? partition::Motions::along_y : partition::Motions::rigid);
 }
 
 std::vector<SparseMatrix> Model::stiffness(const std::vector<partition::CopyOf>& copies) const
@@ -96,33 +124,49 @@ std::vector<Eigen::VectorXd> Model::loads(const Communicator& comm) const
       const auto on_body = bodies_called(load.body);
       for (std::size_t s = 0; s < f.size(); ++s)
         if (const auto& subdomain = decomposition_.subdomains[s]; on_body[static_cast<std::size_t>(subdomain.body)])
-          fem::add_acceleration(subdomain.mesh, dimension, material(subdomain).density, point(*load.acceleration), f[s]);
+          fem::add_acceleration(subdomain.mesh, deck_.kinematics, material(subdomain).density, point(*load.acceleration), f[s]);
       continue;
     }
     const auto [boundary, on_body] = select(load.boundary);
     double area = 0;
     for (const auto& subdomain : decomposition_.subdomains)
-      if (on_body[static_cast<std::size_t>(subdomain.body)]) area += fem::area(subdomain.mesh, boundary, dimension);
+      if (on_body[static_cast<std::size_t>(subdomain.body)]) area += fem::area(subdomain.mesh, boundary, deck_.kinematics);
     area = comm.sum(area);
     if (area == 0) throw Error(ExitStatus::bad_input, "the loaded boundary \"" + load.boundary + "\" has no area");
     for (std::size_t s = 0; s < f.size(); ++s) {
       const auto& subdomain = decomposition_.subdomains[s];
       if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
-      if (load.pressure) fem::add_pressure(subdomain.mesh, boundary, dimension, *load.pressure, f[s]);
-      if (load.traction) fem::add_traction(subdomain.mesh, boundary, dimension, point(*load.traction), f[s]);
-      if (load.force) fem::add_traction(subdomain.mesh, boundary, dimension, point(*load.force) / area, f[s]);
+      if (load.pressure) fem::add_pressure(subdomain.mesh, boundary, deck_.kinematics, *load.pressure, f[s]);
+      if (load.traction) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, point(*load.traction), f[s]);
+      if (load.force) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, point(*load.force) / area, f[s]);
     }
   }
   return f;
 }
 
-std::vector<std::vector<Global>> Model::support_nodes() const
+std::vector<constraint::SupportOptions> Model::supports() const
+{
+  auto supports = deck_.supports;
+  if (deck_.axisymmetric()) {
+    supports.emplace_back().boundary = "the axis of revolution";
+    supports.back().displacement[0] = 0.0;
+  }
+  return supports;
+}
+
+std::vector<std::vector<Global>> Model::support_nodes(const Communicator& comm) const
 {
   std::vector<std::vector<Global>> nodes;
   for (const auto& support : deck_.supports) {
     const auto [boundary, on_body] = select(support.boundary);
     nodes.push_back(partition::boundary_surface(decomposition_, boundary, on_body).node_id);
   }
+  if (!deck_.axisymmetric()) return nodes;
+  nodes.emplace_back();
+  const double rounding = on_the_axis * radius(comm);
+  for (const auto& subdomain : decomposition_.subdomains)
+    for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
+      if (std::abs(subdomain.mesh.points[n][0]) <= rounding) nodes.back().push_back(subdomain.mesh.node_id[n]);
   return nodes;
 }
 

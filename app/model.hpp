@@ -17,16 +17,19 @@ class Model {
 
   const fem::Material& material(const partition::Subdomain& subdomain) const;
   fem::Formulation formulation(const partition::Subdomain& subdomain) const;
-  /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for. Collective.
-  void require_formulations(deck::Document& document, const Communicator& comm) const;
+  /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for, or reaches beyond the
+  /// axis of revolution. Collective.
+  void require_cells(deck::Document& document, const Communicator& comm) const;
   /// For each subdomain the first one of this rank with the same shape and material.
   std::vector<partition::CopyOf> congruent() const;
   /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.
   std::vector<SparseMatrix> stiffness(const std::vector<partition::CopyOf>& copies) const;
   /// Consistent loads of every subdomain. Collective.
   std::vector<Eigen::VectorXd> loads(const Communicator& comm) const;
-  /// Nodes of this rank on the boundary of each support.
-  std::vector<std::vector<Global>> support_nodes() const;
+  /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways.
+  std::vector<constraint::SupportOptions> supports() const;
+  /// Nodes of this rank that each of supports() holds. Collective.
+  std::vector<std::vector<Global>> support_nodes(const Communicator& comm) const;
   std::vector<contact::Pair> contact_pairs() const;
   std::vector<friction::Law> friction_laws() const;
 
@@ -37,6 +40,7 @@ class Model {
   };
   Selection select(const std::string& name) const;
   std::vector<bool> bodies_called(const std::string& name) const;
+  double radius(const Communicator& comm) const;
 
   const Deck& deck_;
   const partition::Decomposition& decomposition_;

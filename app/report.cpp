@@ -156,7 +156,7 @@ void warn_of_short_search(const Deck& deck, const std::vector<contact::Pair>& pa
 // Forces of the supports on the bodies, by boundary.
 void reactions(const Deck& deck, const feti::DualProblem& problem, const friction::Result& solved, Results& results)
 {
-  std::vector<double> sums(deck.supports.size() * 3, 0.0);
+  std::vector<double> sums((deck.supports.size() + 1) * 3, 0.0);  // the last for an axis of revolution
   const auto lambda = view(solved.solution.x);
   const auto& held = problem.constraints().held;
   for (std::size_t i = 0; i < held.size(); ++i) {
@@ -173,7 +173,7 @@ void reactions(const Deck& deck, const feti::DualProblem& problem, const frictio
   problem.communicator().sum_in_place(sums);
   for (std::size_t s = 0; s < deck.supports.size(); ++s) {
     const std::array<double, 3> force{sums[3 * s], sums[3 * s + 1], sums[3 * s + 2]};
-    results.reaction += Point(force[0], force[1], force[2]);
+    results.reaction += Point(deck.axisymmetric() ? 0 : force[0], force[1], force[2]);
     results.summary.reactions.push_back({deck.supports[s].boundary, force});
   }
 }
@@ -194,7 +194,8 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
     for (Eigen::Index i = 0; i < u.size(); ++i) applied[static_cast<std::size_t>(i % dimension)] += floating.load[s][i];
   }
   comm.sum_in_place(applied);
-  results.applied = Point(applied[0], applied[1], applied[2]);
+  // What pushes a ring outwards needs no support.
+  results.applied = Point(floating.kinematics == fem::Kinematics::axisymmetric ? 0 : applied[0], applied[1], applied[2]);
   auto& summary = results.summary;
   summary.primal_unknowns = comm.sum(unknowns);
   summary.dual_unknowns = problem.dual_unknowns();

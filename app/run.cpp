@@ -72,7 +72,7 @@ feti::Floating float_subdomains(const Deck& deck, const partition::Decomposition
                                 std::vector<Eigen::VectorXd> load, std::vector<std::vector<double>> nodal_stiffness,
                                 const Communicator& comm)
 {
-  feti::Floating floating{{}, std::move(load), std::move(nodal_stiffness)};
+  feti::Floating floating{{}, std::move(load), std::move(nodal_stiffness), deck.kinematics};
   collectively(comm, [&] {
     for (std::size_t s = 0; s < copies.size(); ++s) {
       const auto& [original, rotation] = copies[s];
@@ -84,7 +84,7 @@ feti::Floating float_subdomains(const Deck& deck, const partition::Decomposition
       }
       const auto& points = decomposition.subdomains[s].mesh.points;
       floating.subdomains.push_back(
-          std::make_shared<feti::ElasticSubdomain>(std::move(stiffness[s]), fem::rigid_motions(points, deck.dimension()), points,
+          std::make_shared<feti::ElasticSubdomain>(std::move(stiffness[s]), fem::rigid_motions(points, deck.kinematics), points,
                                                    deck.dimension(), deck.solver.subdomains.factorization));
     }
   });
@@ -142,14 +142,14 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   if (!command_line.check) io::prepare_directory(deck.output.directory, comm);
 
   const Model model(deck, decomposition);
-  model.require_formulations(document, comm);
+  model.require_cells(document, comm);
   constraint::Constraints constraints;
   std::vector<contact::Pair> pairs;
   {
     const auto scope = timers.scope("contact");
-    constraints.held = constraint::hold(deck.supports, model.support_nodes(), deck.dimension(), comm);
+    constraints.held = constraint::hold(model.supports(), model.support_nodes(comm), deck.dimension(), comm);
     pairs = model.contact_pairs();
-    constraints.contacts = contact::discretize(pairs, constraints.held, deck.dimension(), comm);
+    constraints.contacts = contact::discretize(pairs, constraints.held, deck.kinematics, comm);
   }
   stage("supports and contact", "contact");
   warn_of_idle_contacts(constraints.contacts, deck, context);

@@ -19,7 +19,9 @@ Eigen::VectorXd whole_facet(const Side& side, std::size_t facet)
   const auto face = static_cast<std::size_t>(side.face_of[facet]);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(side.faces[face].size()));
   const auto all = overlap(geometry, mirror, geometry.size(), side.second_order(face));
-  for (const auto& point : all.points) result += point.weight * side.shape_in_face(facet, point.secondary, all.frame, point.at);
+  for (const auto& point : all.points)
+    result += point.weight * side.thickness(facet, point.secondary) *
+              side.shape_in_face(facet, point.secondary, all.frame, point.at);
   return result;
 }
 
@@ -80,17 +82,18 @@ FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, s
       const auto other_normals = corner_normals(primary, primary_places, m);
       const auto common = overlap(own, other, reach, secondary.second_order(face) || primary.second_order(other_face));
       for (const auto& point : common.points) {
+        const double weight = point.weight * secondary.thickness(facet, point.secondary);
         const FaceShape phi = secondary.shape_in_face(facet, point.secondary, common.frame, point.at);
         const FaceShape theta = basis * phi;
         const FaceShape phi_primary = primary.shape_in_face(m, point.primary, common.frame, point.at);
-        result.mass += point.weight * theta * phi.transpose();
-        result.gram += point.weight * theta * theta.transpose();
-        result.covered += point.weight * theta;
+        result.mass += weight * theta * phi.transpose();
+        result.gram += weight * theta * theta.transpose();
+        result.covered += weight * theta;
         result.rise +=
-            point.weight * (bulge(own, own_normals, point.secondary) + bulge(other, other_normals, point.primary)) * theta;
+            weight * (bulge(own, own_normals, point.secondary) + bulge(other, other_normals, point.primary)) * theta;
         for (std::size_t k = 0; k < nodes.size(); ++k)
           opposite.try_emplace(nodes[k], Eigen::VectorXd::Zero(n)).first->second +=
-              point.weight * phi_primary[static_cast<Eigen::Index>(k)] * theta;
+              weight * phi_primary[static_cast<Eigen::Index>(k)] * theta;
       }
     }
   }

@@ -154,6 +154,14 @@ FaceGeometry Side::geometry(std::size_t facet) const
   return result;
 }
 
+double Side::thickness(std::size_t facet, const Eigen::Vector4d& shape) const
+{
+  double x = 0;
+  for (std::size_t k = 0; k < facets[facet].size(); ++k)
+    x += shape[static_cast<Eigen::Index>(k)] * points[static_cast<std::size_t>(facets[facet][k])][0];
+  return fem::thickness(kinematics, x);
+}
+
 FaceShape Side::shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, const Frame& frame, const Plane& at) const
 {
   const auto face = static_cast<std::size_t>(face_of[facet]);
@@ -186,7 +194,7 @@ FaceShape Side::shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, c
   return value;
 }
 
-Side gather(const mesh::Surface& surface, const Communicator& comm)
+Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Communicator& comm)
 {
   struct Node {
     Global id;
@@ -214,6 +222,7 @@ Side gather(const mesh::Surface& surface, const Communicator& comm)
   std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.id < b.id; });
 
   Side side;
+  side.kinematics = kinematics;
   for (const auto& node : nodes) {
     side.node_id.push_back(node.id);
     side.points.emplace_back(node.x[0], node.x[1], node.x[2]);

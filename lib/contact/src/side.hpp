@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "fem/options.hpp"
 #include "mesh/mesh.hpp"
 #include "overlap.hpp"
 
@@ -17,6 +18,7 @@ using FaceShape = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1>;
 /// Geometry is done with facets of first order: a face of second order is cut into facets between its nodes, one of first order
 /// is its own facet. Displacements and multipliers belong to the faces.
 struct Side {
+  fem::Kinematics kinematics = fem::Kinematics::solid;
   std::vector<Global> node_id;  ///< ascending
   std::vector<Point> points;
   mesh::Cells faces;                        ///< ordered by face_id
@@ -29,12 +31,14 @@ struct Side {
   FaceGeometry geometry(std::size_t facet) const;
   bool second_order(std::size_t face) const { return facets_of(face) > 1; }
   std::size_t facets_of(std::size_t face) const { return static_cast<std::size_t>(first_facet[face + 1] - first_facet[face]); }
+  /// fem::thickness() where the shape functions of a facet are `shape`.
+  double thickness(std::size_t facet, const Eigen::Vector4d& shape) const;
   /// Shape functions of the face of `facet` at the place `at` of an auxiliary plane, where those of the facet are `shape`.
   FaceShape shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, const Frame& frame, const Plane& at) const;
 };
 
 /// Collective.
-Side gather(const mesh::Surface& surface, const Communicator& comm);
+Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Communicator& comm);
 
 /// A place that may carry a multiplier: a node and the faces on one side of a kink there.
 struct Place {

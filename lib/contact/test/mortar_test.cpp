@@ -194,7 +194,7 @@ TEST_P(Patch, ConstantPressureIsConsistentOnBothSidesAndLinearFieldsPass)
   const auto plane = [](double x, double y) { return Point(x, y, 0.3 * x - 0.2 * y); };
   const auto pair = make_pair(surface({5, 4, 0, 1, 0, 1, true, secondary_triangles, 0, 0.2}, plane, comm),
                               surface({3, 7, 0, 1, 0, 1, false, primary_triangles, primary_ids, 0.2}, plane, comm), Law::bonded);
-  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, 3, comm), comm);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
   ASSERT_EQ(rows.rows.size(), 3U * 30U);
 
   Eigen::Matrix3d gradient;
@@ -226,7 +226,7 @@ TEST(Mortar, MatchingMeshesGiveNodePairsAlsoAtTheBorderOfTheOverlap)
   const auto flat = [](double x, double y) { return Point(x, y, 0); };
   const auto pair = make_pair(surface({8, 2, 0, 2, 0, 0.5, true}, flat, comm),
                               surface({8, 2, 0.5, 2.5, 0, 0.5, false, false, primary_ids}, flat, comm), Law::tresca);
-  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, 3, comm), comm);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
   EXPECT_EQ(rows.rows.size(), 3U * 7U * 3U);  // x = 0.5 .. 2, three nodes across, three rows each
   const auto nodes = nodes_of(pair, comm);
   for (const auto& row : rows.rows) {
@@ -252,7 +252,7 @@ TEST(Mortar, HeldNodesLeaveTheirPressureToTheOthers)
       held.push_back({node, 1, 0, static_cast<int>(node)});
     }
   if (comm.root()) held.push_back({24, 0, 0, 24});  // one tangential component at a corner
-  const auto contacts = discretize(std::vector<Pair>{pair}, held, 3, comm);
+  const auto contacts = discretize(std::vector<Pair>{pair}, held, fem::Kinematics::solid, comm);
   for (const auto& point : contacts.points) {
     EXPECT_NE(point.node % 5, 0);
     if (point.node == 24) {
@@ -298,7 +298,7 @@ TEST(Mortar, KinksHaveAPointForEachSide)
   const auto roof = [](double x, double y) { return Point(x, y, -std::abs(x)); };
   const auto pair = make_pair(surface({4, 2, -1, 1, 0, 1, true}, roof, comm),
                               surface({6, 3, -1, 1, 0, 1, false, false, primary_ids}, roof, comm), Law::frictionless);
-  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, 3, comm), comm);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
   EXPECT_EQ(rows.rows.size(), 15U + 3U);
   for (const auto& row : rows.rows) EXPECT_NEAR(std::abs(row.normal[0]), std::sqrt(0.5), 1e-12);
 }
@@ -313,7 +313,7 @@ TEST(Mortar, FacetedCylindersHaveTheGapOfTheirCircles)
   auto pair = make_pair(surface({8, 2, -0.6, 0.6, 0, 1, true}, arc(10), comm),
                         surface({11, 3, -0.6, 0.6, 0, 1, false, false, primary_ids}, arc(10.03), comm), Law::frictionless);
   pair.options.interference = 0.02;
-  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, 3, comm), comm);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
   EXPECT_EQ(rows.rows.size(), 27U);
   const auto nodes = nodes_of(pair, comm);
   for (const auto& row : rows.rows) {
@@ -328,7 +328,7 @@ TEST(Mortar, FarAndFacingAwayNeverMeet)
   const Communicator comm;
   const auto at = [](double z) { return [z](double x, double y) { return Point(x, y, z); }; };
   const auto count = [&](const Pair& pair) {
-    return comm.sum(static_cast<long long>(discretize(std::vector<Pair>{pair}, {}, 3, comm).points.size()));
+    return comm.sum(static_cast<long long>(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm).points.size()));
   };
   const auto below = surface({4, 4, 0, 1, 0, 1, true}, at(0), comm);
   EXPECT_EQ(count(make_pair(below, surface({4, 4, 0, 1, 0, 1, false, false, primary_ids}, at(0.2), comm), Law::frictionless)),

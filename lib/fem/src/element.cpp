@@ -31,12 +31,11 @@ Eigen::MatrixXd extrapolation(mesh::CellType type, const std::vector<Integration
 }
 
 template <int n, int d>
-Element make(mesh::CellType type)
+Element make(mesh::CellType type, const std::vector<IntegrationPoint>& points)
 {
   Element result;
   result.dimension = d;
   result.nodes = n;
-  const auto points = integration_rule(type);
   const auto& functions = mesh::shape_functions(type);
   for (const auto& point : points) {
     result.weight.push_back(point.weight);
@@ -56,11 +55,19 @@ Element make(mesh::CellType type)
   return result;
 }
 
+template <int n, int d>
+Element make(mesh::CellType type)
+{
+  return make<n, d>(type, integration_rule(type));
+}
+
 }  // namespace
 
-const Element& element(mesh::CellType type)
+const Element& element(mesh::CellType type, Kinematics kinematics)
 {
   using enum mesh::CellType;
+  static const Element ring_of_tri3 = make<3, 2>(tri3, integration_rule(tri6));
+  if (type == tri3 && kinematics == Kinematics::axisymmetric) return ring_of_tri3;
   static const std::array<Element, mesh::cell_types> table{
       make<2, 1>(line2),  make<3, 2>(tri3),   make<4, 2>(quad4),  make<4, 3>(tet4),     make<8, 3>(hex8),
       make<6, 3>(prism6), make<3, 1>(line3),  make<6, 2>(tri6),   make<8, 2>(quad8),    make<9, 2>(quad9),

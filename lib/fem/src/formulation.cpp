@@ -14,9 +14,29 @@ std::pair<Eigen::VectorXd, double> mean_gradient(const CellGeometry& cell, int d
   for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
     volume += cell.volumes()[q];
     for (int i = 0; i < cell.element().nodes; ++i)
-      for (int a = 0; a < d; ++a) mean[i * d + a] += cell.volumes()[q] * cell.gradient(q)(i, a);
+      for (int a = 0; a < d; ++a)
+        mean[i * d + a] += cell.volumes()[q] * (cell.gradient(q)(i, a) + (a == 0 && cell.axisymmetric() ? cell.hoop(q)[i] : 0));
   }
   return {mean / volume, volume};
+}
+
+// Adds what the hoop strain h_i u_i contributes to the stiffness of a cell: with the gradients g_i, of radial components,
+// integral of lambda (h_i g_j + g_i h_j) + (lambda + 2 mu) h_i h_j.
+void add_hoop(const CellGeometry& cell, const Lame& constants, Eigen::Map<Eigen::MatrixXd>& k)
+{
+  const int n = cell.element().nodes;
+  const auto& [lambda, mu] = constants;
+  for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+    const auto g = cell.gradient(q);
+    const auto h = cell.hoop(q);
+    const double volume = cell.volumes()[q];
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        k(2 * i, 2 * j) += volume * (lambda * (h[i] * g(j, 0) + g(i, 0) * h[j]) + (lambda + 2 * mu) * h[i] * h[j]);
+        k(2 * i, 2 * j + 1) += volume * lambda * h[i] * g(j, 1);
+        k(2 * i + 1, 2 * j) += volume * lambda * g(i, 1) * h[j];
+      }
+  }
 }
 
 }  // namespace
@@ -51,9 +71,11 @@ void CellFormulation::stiffness(const CellGeometry& cell, std::vector<double>& k
   switch (formulation_) {
     case Formulation::standard:
       element.stiffness(element, cell.gradients().data(), cell.volumes().data(), lambda, mu, k.data());
+      if (cell.axisymmetric()) add_hoop(cell, constants_, matrix);
       return;
     case Formulation::bbar: {
       element.stiffness(element, cell.gradients().data(), cell.volumes().data(), -2 * mu / 3, mu, k.data());
+      if (cell.axisymmetric()) add_hoop(cell, {-2 * mu / 3, mu}, matrix);
       const auto [mean, volume] = mean_gradient(cell, dimension_);
       matrix += (lambda + 2 * mu / 3) * volume * mean * mean.transpose();
       return;
@@ -74,7 +96,10 @@ const std::vector<Eigen::Matrix3d>& CellFormulation::gradients(const CellGeometr
 {
   const Eigen::Index n = cell.element().nodes, d = dimension_;
   result_.assign(cell.volumes().size(), Eigen::Matrix3d::Zero());
-  for (std::size_t q = 0; q < result_.size(); ++q) result_[q].topLeftCorner(d, d) = displacement.lazyProduct(cell.gradient(q));
+  for (std::size_t q = 0; q < result_.size(); ++q) {
+    result_[q].topLeftCorner(d, d) = displacement.lazyProduct(cell.gradient(q));
+    if (cell.axisymmetric()) result_[q](2, 2) = displacement.row(0).dot(cell.hoop(q));
+  }
   if (formulation_ == Formulation::bbar) {
     const double mean = mean_gradient(cell, dimension_).first.dot(displacement.reshaped());
     for (auto& h : result_) h.diagonal().array() += (mean - h.trace()) / 3;

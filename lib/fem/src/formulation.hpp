@@ -16,15 +16,15 @@ namespace mortise::fem {
 /// IJNME 10 (1976)].
 class CellFormulation {
  public:
-  CellFormulation(Formulation formulation, const Lame& constants, int dimension)
-      : formulation_(formulation), constants_(constants), dimension_(dimension)
+  CellFormulation(Formulation formulation, const Lame& constants, Kinematics kinematics)
+      : formulation_(formulation), constants_(constants), dimension_(dimension(kinematics))
   {
   }
 
   /// K of the cell, (d n) x (d n), column-major, unknown d * node + component.
   void stiffness(const CellGeometry& cell, std::vector<double>& k);
   /// du_i/dx_j at each integration point from nodal displacements, d x n; their symmetric parts are the strains. Across a plane
-  /// bbar gives a strain that only its volume knows.
+  /// bbar gives a strain that only its volume knows; in axisymmetry u_r / r stands there.
   const std::vector<Eigen::Matrix3d>& gradients(const CellGeometry& cell, const Eigen::MatrixXd& displacement);
 
  private:

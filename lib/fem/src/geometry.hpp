@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/element.hpp"
+#include "fem/options.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise::fem {
@@ -13,12 +14,14 @@ namespace mortise::fem {
 /// in which it stops allocating after the first of each size.
 class CellGeometry {
  public:
-  explicit CellGeometry(int dimension) : dimension_(dimension) {}
+  explicit CellGeometry(Kinematics kinematics) : dimension_(dimension(kinematics)), axisymmetric_(kinematics == Kinematics::axisymmetric)
+  {
+  }
 
   /// Takes the coordinates of cell c. Its own gradients follow from evaluate().
   void gather(const mesh::Mesh& mesh, std::size_t c)
   {
-    element_ = &fem::element(mesh.cells.type[c]);
+    element_ = &fem::element(mesh.cells.type[c], axisymmetric_ ? Kinematics::axisymmetric : Kinematics::solid);
     const auto nodes = mesh.cells[c];
     x_.resize(nodes.size() * static_cast<std::size_t>(dimension_));
     for (int a = 0; a < dimension_; ++a)
@@ -31,6 +34,7 @@ class CellGeometry {
     gradients_.resize(element_->points() * x_.size());
     volumes_.resize(element_->points());
     element_->gradients_in_space(*element_, x_.data(), gradients_.data(), volumes_.data());
+    if (axisymmetric_) turn();
   }
 
   const Element& element() const { return *element_; }
@@ -44,10 +48,31 @@ class CellGeometry {
     return {gradients_.data() + q * x_.size(), element_->nodes, dimension_};
   }
 
+  bool axisymmetric() const { return axisymmetric_; }
+  /// N_i / r at point q: the hoop strain of a unit radial displacement of node i.
+  Eigen::Map<const Eigen::VectorXd> hoop(std::size_t q) const
+  {
+    return {hoop_.data() + q * static_cast<std::size_t>(element_->nodes), element_->nodes};
+  }
+
  private:
+  // Volumes and hoop strains of the whole turn.
+  void turn()
+  {
+    const auto n = static_cast<std::size_t>(element_->nodes);
+    hoop_.resize(element_->points() * n);
+    const Eigen::Map<const Eigen::VectorXd> r(x_.data(), element_->nodes);
+    for (std::size_t q = 0; q < element_->points(); ++q) {
+      const double radius = element_->shape[q].dot(r);
+      volumes_[q] *= thickness(Kinematics::axisymmetric, radius);
+      Eigen::Map<Eigen::VectorXd>(hoop_.data() + q * n, element_->nodes) = element_->shape[q] / radius;
+    }
+  }
+
   int dimension_;
+  bool axisymmetric_;
   const Element* element_ = nullptr;
-  std::vector<double> x_, gradients_, volumes_;
+  std::vector<double> x_, gradients_, volumes_, hoop_;
 };
 
 }  // namespace mortise::fem

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <numbers>
 
 namespace mortise::fem {
 
@@ -16,6 +17,16 @@ const std::map<std::string, Formulation>& formulations()
 }
 
 }  // namespace
+
+int dimension(Kinematics kinematics)
+{
+  return kinematics == Kinematics::solid ? 3 : 2;
+}
+
+double thickness(Kinematics kinematics, double x)
+{
+  return kinematics == Kinematics::axisymmetric ? 2 * std::numbers::pi * x : 1;
+}
 
 bool applies(Formulation formulation, mesh::CellType type)
 {
@@ -66,7 +77,7 @@ void describe(deck::Description<LoadOptions>& d)
   d.key("body", &LoadOptions::body, "Body that is accelerated.");
   d.key("pressure", &LoadOptions::pressure, "Force an area, positive into the body.");
   d.key("traction", &LoadOptions::traction, "Force an area, as a vector.");
-  d.key("force", &LoadOptions::force, "Resultant, spread evenly over the boundary (plane models: a thickness).");
+  d.key("force", &LoadOptions::force, "Resultant, spread evenly over the boundary (plane models: a thickness; axisymmetric: of the whole turn).");
   d.key("acceleration", &LoadOptions::acceleration, "Body force is density times this.");
   d.unavailable("temperature_change");
   d.check([](const LoadOptions& load, const std::string& path, deck::Document& document) {

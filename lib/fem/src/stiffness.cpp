@@ -91,14 +91,16 @@ void require_positive(const CellGeometry& cell, Global cell_id)
 }
 
 // Whether the nodes at x are those at `other` moved as a whole, as far as the rounding of the coordinates lets one tell.
-bool is_translate(const std::vector<double>& x, const std::vector<double>& other, int d)
+// In axisymmetry they must be as far from the axis.
+bool is_translate(const std::vector<double>& x, const std::vector<double>& other, Kinematics kinematics)
 {
-  const auto n = x.size() / static_cast<std::size_t>(d);
+  const auto n = x.size() / static_cast<std::size_t>(dimension(kinematics));
   double size = 0, difference = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const auto first = i - i % n;
     size = std::max({size, std::abs(x[i]), std::abs(other[i])});
-    difference = std::max(difference, std::abs((x[i] - x[first]) - (other[i] - other[first])));
+    const double moved = kinematics == Kinematics::axisymmetric && first == 0 ? 0 : x[first] - other[first];
+    difference = std::max(difference, std::abs(x[i] - other[i] - moved));
   }
   return difference <= 4 * std::numeric_limits<double>::epsilon() * size;
 }
@@ -127,11 +129,6 @@ void scatter(const std::vector<double>& local, std::span<const Local> nodes, con
 
 }  // namespace
 
-int dimension(Kinematics kinematics)
-{
-  return kinematics == Kinematics::solid ? 3 : 2;
-}
-
 Lame lame(const Material& material, Kinematics kinematics)
 {
   const double e = material.young_modulus, nu = material.poisson_ratio;
@@ -143,16 +140,16 @@ Lame lame(const Material& material, Kinematics kinematics)
 Sparse stiffness(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, Formulation formulation)
 {
   const int d = dimension(kinematics);
-  CellFormulation cell_formulation(formulation, lame(material, kinematics), d);
+  CellFormulation cell_formulation(formulation, lame(material, kinematics), kinematics);
   const Adjacency graph = adjacency(mesh);
   Sparse k = pattern(graph, d);
   // Cells that are translates of the one before, as in every structured mesh, share its matrix.
-  CellGeometry cell(d);
+  CellGeometry cell(kinematics);
   std::vector<double> local, computed_for;
   const Element* computed_with = nullptr;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     cell.gather(mesh, c);
-    if (computed_with != &cell.element() || !is_translate(cell.coordinates(), computed_for, d)) {
+    if (computed_with != &cell.element() || !is_translate(cell.coordinates(), computed_for, kinematics)) {
       cell.evaluate();
       require_positive(cell, mesh.cell_id[c]);
       computed_with = &cell.element();
@@ -164,8 +161,14 @@ Sparse stiffness(const mesh::Mesh& mesh, const Material& material, Kinematics ki
   return k;
 }
 
-Eigen::MatrixXd rigid_motions(std::span<const Point> points, int dimension)
+int rigid_motion_count(Kinematics kinematics)
 {
+  return kinematics == Kinematics::solid ? 6 : kinematics == Kinematics::axisymmetric ? 1 : 3;
+}
+
+Eigen::MatrixXd rigid_motions(std::span<const Point> points, Kinematics kinematics)
+{
+  const int d = dimension(kinematics), modes = rigid_motion_count(kinematics);
   const auto n = static_cast<Eigen::Index>(points.size());
   Point centre = Point::Zero();
   for (const auto& p : points) centre += p;
@@ -173,12 +176,15 @@ Eigen::MatrixXd rigid_motions(std::span<const Point> points, int dimension)
   double radius = 0;
   for (const auto& p : points) radius += (p - centre).squaredNorm();
   radius = std::sqrt(radius / static_cast<double>(std::max<Eigen::Index>(n, 1)));
-  const int modes = dimension == 3 ? 6 : 3;
-  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(n * dimension, modes);
+  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(n * d, modes);
+  if (kinematics == Kinematics::axisymmetric) {
+    for (Eigen::Index i = 0; i < n; ++i) r(2 * i + 1, 0) = 1 / std::sqrt(static_cast<double>(n));
+    return r;
+  }
   for (Eigen::Index i = 0; i < n; ++i) {
     const Point x = (points[static_cast<std::size_t>(i)] - centre) / radius;
-    r.block(i * dimension, 0, dimension, dimension).setIdentity();
-    if (dimension == 3)
+    r.block(i * d, 0, d, d).setIdentity();
+    if (d == 3)
       for (int axis = 0; axis < 3; ++axis) r.block(i * 3, 3 + axis, 3, 1) = Point::Unit(axis).cross(x);
     else
       r.block(i * 2, 2, 2, 1) = Eigen::Vector2d(-x[1], x[0]);

@@ -32,8 +32,8 @@ void for_each_cell(const mesh::Mesh& mesh, const Material& material, Kinematics 
 {
   const int d = dimension(kinematics);
   const Lame constants = lame(material, kinematics);
-  CellFormulation cell_formulation(formulation, constants, d);
-  CellGeometry cell(d);
+  CellFormulation cell_formulation(formulation, constants, kinematics);
+  CellGeometry cell(kinematics);
   Eigen::MatrixXd displacement, stress;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto nodes = mesh.cells[c];

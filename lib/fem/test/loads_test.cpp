@@ -47,17 +47,17 @@ TEST(Loads, PressureAndTractionOnOneSideHaveTheirResultantAndMoment)
     const double width = d == 3 ? 3 : 1;
     const int side = block.boundary("xmax");
     const Point centre(1, 1, d == 3 ? 1.5 : 0);
-    EXPECT_NEAR(area(block.mesh, side, d), 2 * width, 1e-12);
+    EXPECT_NEAR(area(block.mesh, side, kinematics), 2 * width, 1e-12);
 
     auto f = no_load(block);
-    add_pressure(block.mesh, side, d, 5, f);
+    add_pressure(block.mesh, side, kinematics, 5, f);
     const Point push(-5 * 2 * width, 0, 0);
     EXPECT_LT((resultant(f, d) - push).norm(), 1e-12) << name;
     EXPECT_LT((moment(block.mesh, f, d) - centre.cross(push)).norm(), 1e-11) << name;
 
     f = no_load(block);
     const Point traction(1, -2, d == 3 ? 4 : 0);
-    add_traction(block.mesh, side, d, traction, f);
+    add_traction(block.mesh, side, kinematics, traction, f);
     const Point force = 2 * width * traction;
     EXPECT_LT((resultant(f, d) - force).norm(), 1e-12) << name;
     EXPECT_LT((moment(block.mesh, f, d) - centre.cross(force)).norm(), 1e-11) << name;
@@ -77,13 +77,13 @@ TEST(Loads, PressureAllAroundIsInBalance)
     block.distort(0.06, true);
     const int d = block.dimension;
     auto f = no_load(block);
-    for (const auto& side : sides_of(block)) add_pressure(block.mesh, block.boundary(side), d, 2.5, f);
+    for (const auto& side : sides_of(block)) add_pressure(block.mesh, block.boundary(side), kinematics, 2.5, f);
     EXPECT_GT(f.norm(), 0.1);
     EXPECT_LT(resultant(f, d).norm(), 1e-13) << name;
     EXPECT_LT(moment(block.mesh, f, d).norm(), 1e-13) << name;
     // The volume from the weight of the block.
     auto weight = no_load(block);
-    add_acceleration(block.mesh, d, 1, Point(1, 0, 0), weight);
+    add_acceleration(block.mesh, kinematics, 1, Point(1, 0, 0), weight);
     const double volume = resultant(weight, d)[0];
     const auto gradient = some_gradient(d);
     const auto u = sample(block.mesh, d, [&](const Point& x) { return Point(gradient * x); });
@@ -100,7 +100,7 @@ TEST(Loads, WeightActsAtTheCentreOfMass)
     const int d = block.dimension;
     auto f = no_load(block);
     const Point acceleration(0.3, -9.81, d == 3 ? 2 : 0);
-    add_acceleration(block.mesh, d, 7.5, acceleration, f);
+    add_acceleration(block.mesh, kinematics, 7.5, acceleration, f);
     const Point force = 7.5 * block.measure() * acceleration;
     EXPECT_LT((resultant(f, d) - force).norm(), 1e-12 * force.norm()) << name;
     const Point centre(0.5, 1, d == 3 ? 1.5 : 0);
@@ -120,7 +120,7 @@ TEST(Loads, TractionsBalanceTheStiffnessOfALinearField)
     auto f = no_load(block);
     for (int axis = 0; axis < d; ++axis)
       for (int side = 0; side < 2; ++side)
-        add_traction(block.mesh, block.boundary(sides[static_cast<std::size_t>(2 * axis + side)]), d,
+        add_traction(block.mesh, block.boundary(sides[static_cast<std::size_t>(2 * axis + side)]), kinematics,
                      (side == 0 ? -1 : 1) * stress.col(axis), f);
     const auto u = sample(block.mesh, d, [&](const Point& x) { return Point(gradient * x); });
     EXPECT_LT((dense(stiffness(block.mesh, steel(), kinematics)) * u - f).norm(), 1e-12 * f.norm()) << name;

@@ -3,9 +3,8 @@
 namespace mortise::feti {
 
 SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
-                         const Communicator& comm)
+                         const KernelNumbering& numbering, const Communicator& comm)
 {
-  const KernelNumbering numbering{decomposition.catalogue.dimension == 3 ? 6 : 3};
   std::vector<Eigen::MatrixXd> parts;
   std::vector<int> first;
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
@@ -21,9 +20,9 @@ SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const Ju
 }
 
 Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition, const Subdomains& subdomains,
-                                   const std::vector<Eigen::VectorXd>& v, const Communicator& comm)
+                                   const std::vector<Eigen::VectorXd>& v, const KernelNumbering& numbering,
+                                   const Communicator& comm)
 {
-  const KernelNumbering numbering{decomposition.catalogue.dimension == 3 ? 6 : 3};
   Eigen::VectorXd result = Eigen::VectorXd::Zero(numbering.first(decomposition.subdomain_count()));
   for (std::size_t s = 0; s < subdomains.size(); ++s)
     result.segment(numbering.first(decomposition.subdomains[s].id), numbering.dimension) =

@@ -52,8 +52,8 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
 void DualProblem::settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
                                       const Context& context)
 {
-  SparseMatrix g = coarse_rows(decomposition_, *jump_, floating_.subdomains, comm_);
-  const auto motions = find_free_motions(decomposition_, *jump_, floating_.subdomains, g, floating_.load, comm_);
+  SparseMatrix g = coarse_rows(decomposition_, *jump_, floating_.subdomains, numbering(), comm_);
+  const auto motions = find_free_motions(decomposition_, *jump_, floating_.subdomains, floating_.kinematics, g, floating_.load, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;
@@ -81,10 +81,10 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
   if (!gauges.empty()) {
     jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.held, constraints_.contacts, gauges,
                                            comm_);
-    g = coarse_rows(decomposition_, *jump_, floating_.subdomains, comm_);
+    g = coarse_rows(decomposition_, *jump_, floating_.subdomains, numbering(), comm_);
   }
   equality_ = std::make_unique<qp::EqualityConstraint>(
-      std::move(g), kernel_coordinates(decomposition_, floating_.subdomains, floating_.load, comm_), comm_);
+      std::move(g), kernel_coordinates(decomposition_, floating_.subdomains, floating_.load, numbering(), comm_), comm_);
 }
 
 void DualProblem::make_set()
@@ -110,12 +110,12 @@ void DualProblem::make_set()
 
 std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const
 {
-  const KernelNumbering numbering{decomposition_.catalogue.dimension == 3 ? 6 : 3};
+  const auto kernels = numbering();
   auto u = jump_->apply_transpose(lambda);
   for (std::size_t s = 0; s < u.size(); ++s) u[s] = floating_.load[s] - u[s];
   apply_inverse(floating_.subdomains, u);
   for (std::size_t s = 0; s < u.size(); ++s)
-    u[s] -= floating_.subdomains[s]->kernel() * nu.segment(numbering.first(decomposition_.subdomains[s].id), numbering.dimension);
+    u[s] -= floating_.subdomains[s]->kernel() * nu.segment(kernels.first(decomposition_.subdomains[s].id), kernels.dimension);
   return u;
 }
 
@@ -125,7 +125,7 @@ std::string DualProblem::runaway(const Eigen::VectorXd& nu) const
   RigidMotion fastest;
   double speed = -1;
   for (std::size_t b = 0; b < frames.size(); ++b) {
-    const auto motion = rigid_part(decomposition_, floating_.subdomains, frames[b], static_cast<int>(b), -nu, comm_);
+    const auto motion = rigid_part(decomposition_, floating_.subdomains, floating_.kinematics, frames[b], static_cast<int>(b), -nu, comm_);
     const double v = motion.translation.norm() + motion.rotation.norm() * frames[b].radius;
     if (v <= speed) continue;
     fastest = motion;

@@ -14,11 +14,15 @@ namespace {
 constexpr double nearly = 0.02;
 constexpr double exactly = 1e-7;
 
-// v of the rigid motions of one body, scaled so that |v| is about 1 at its radius: 3 translations and 3 rotations, or 2 and 1.
-RigidMotion unit_motion(int body, const BodyFrame& frame, int index, int dimension)
+// v of the rigid motions of one body, scaled so that |v| is about 1 at its radius: 3 translations and 3 rotations, or 2 and 1, or
+// 1 along the axis.
+RigidMotion unit_motion(int body, const BodyFrame& frame, int index, fem::Kinematics kinematics)
 {
   RigidMotion motion{body, frame.centre};
-  if (index < dimension)
+  const int dimension = fem::dimension(kinematics);
+  if (kinematics == fem::Kinematics::axisymmetric)
+    motion.translation[1] = 1;
+  else if (index < dimension)
     motion.translation[index] = 1;
   else
     motion.rotation[dimension == 2 ? 2 : index - dimension] = 1 / frame.radius;
@@ -33,11 +37,12 @@ Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& poin
   return v;
 }
 
-RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eigen::VectorXd>& amplitudes, int dimension)
+RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eigen::VectorXd>& amplitudes,
+                    fem::Kinematics kinematics)
 {
   RigidMotion motion{body, frame.centre};
   for (int k = 0; k < amplitudes.size(); ++k) {
-    const auto unit = unit_motion(body, frame, k, dimension);
+    const auto unit = unit_motion(body, frame, k, kinematics);
     motion.translation += amplitudes[k] * unit.translation;
     motion.rotation += amplitudes[k] * unit.rotation;
   }
@@ -46,23 +51,24 @@ RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eig
 
 // Everything body-wise: A maps the amplitudes of the bodies' motions to kernel coordinates of the subdomains.
 struct Bodies {
-  int dimension;
-  int modes;  // 6, or 3 in two dimensions
+  fem::Kinematics kinematics;
+  int modes;  // of each body
   std::vector<BodyFrame> frames;
   SparseMatrix aggregate;       // A: kernels x (bodies * modes)
   Eigen::VectorXd force;        // sum of |nodal forces| of each body
   Eigen::VectorXd generalised;  // work of the loads on each unit motion
 };
 
-Bodies aggregate(const partition::Decomposition& decomposition, const Subdomains& subdomains,
+Bodies aggregate(const partition::Decomposition& decomposition, const Subdomains& subdomains, fem::Kinematics kinematics,
                  const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
   Bodies bodies;
-  bodies.dimension = decomposition.catalogue.dimension;
-  bodies.modes = bodies.dimension == 3 ? 6 : 3;
+  const int dimension = fem::dimension(kinematics);
+  bodies.kinematics = kinematics;
+  bodies.modes = fem::rigid_motion_count(kinematics);
   bodies.frames = body_frames(decomposition, comm);
   const auto body_count = static_cast<Eigen::Index>(bodies.frames.size());
-  const KernelNumbering numbering{bodies.modes};
+  const KernelNumbering numbering(kinematics);
   struct Entry {
     int row, column;
     double value;
@@ -73,15 +79,15 @@ Bodies aggregate(const partition::Decomposition& decomposition, const Subdomains
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     for (int k = 0; k < bodies.modes; ++k) {
-      const auto v = sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, bodies.dimension),
-                            subdomain.mesh.points, bodies.dimension);
+      const auto v = sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, kinematics),
+                            subdomain.mesh.points, dimension);
       const Eigen::VectorXd coordinates = subdomains[s]->kernel().transpose() * v;
       for (int i = 0; i < coordinates.size(); ++i)
         entries.push_back({numbering.first(subdomain.id) + i, subdomain.body * bodies.modes + k, coordinates[i]});
       bodies.generalised[subdomain.body * bodies.modes + k] += load[s].dot(v);
     }
-    for (Eigen::Index n = 0; n < load[s].size() / bodies.dimension; ++n)
-      bodies.force[subdomain.body] += load[s].segment(n * bodies.dimension, bodies.dimension).norm();
+    for (Eigen::Index n = 0; n < load[s].size() / dimension; ++n)
+      bodies.force[subdomain.body] += load[s].segment(n * dimension, dimension).norm();
   }
   comm.sum_in_place({bodies.force.data(), static_cast<std::size_t>(bodies.force.size())});
   comm.sum_in_place({bodies.generalised.data(), static_cast<std::size_t>(bodies.generalised.size())});
@@ -152,11 +158,11 @@ std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition
   return frames;
 }
 
-RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subdomains& subdomains, const BodyFrame& frame,
-                       int body, const Eigen::VectorXd& coordinates, const Communicator& comm)
+RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subdomains& subdomains, fem::Kinematics kinematics,
+                       const BodyFrame& frame, int body, const Eigen::VectorXd& coordinates, const Communicator& comm)
 {
-  const int dimension = decomposition.catalogue.dimension;
-  const KernelNumbering numbering{dimension == 3 ? 6 : 3};
+  const int dimension = fem::dimension(kinematics);
+  const KernelNumbering numbering(kinematics);
   const int modes = numbering.dimension;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(modes, modes + 1);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
@@ -165,20 +171,20 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subd
     Eigen::MatrixXd a(modes, modes);
     for (int k = 0; k < modes; ++k)
       a.col(k) =
-          subdomains[s]->kernel().transpose() * sample(unit_motion(body, frame, k, dimension), subdomain.mesh.points, dimension);
+          subdomains[s]->kernel().transpose() * sample(unit_motion(body, frame, k, kinematics), subdomain.mesh.points, dimension);
     normal.leftCols(modes) += a.transpose() * a;
     normal.rightCols(1) += a.transpose() * coordinates.segment(numbering.first(subdomain.id), modes);
   }
   comm.sum_in_place({normal.data(), static_cast<std::size_t>(normal.size())});
   const Eigen::VectorXd amplitudes = normal.leftCols(modes).ldlt().solve(normal.rightCols(1));
-  return combine(body, frame, amplitudes, dimension);
+  return combine(body, frame, amplitudes, kinematics);
 }
 
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
-                                          const Subdomains& subdomains, const SparseMatrix& g,
+                                          const Subdomains& subdomains, fem::Kinematics kinematics, const SparseMatrix& g,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
-  const Bodies bodies = aggregate(decomposition, subdomains, load, comm);
+  const Bodies bodies = aggregate(decomposition, subdomains, kinematics, load, comm);
   const int modes = bodies.modes;
   // Rows x amplitudes, in length units again: the support and contact rows that this rank owns.
   const Local first = jump.ranges().held, count = jump.ranges().extra - first;
@@ -194,7 +200,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
       FreeMotion motion;
       motion.felt = largest(rows * v, comm);
       if (motion.felt > 3 * nearly) continue;
-      motion.motions.push_back(combine(b, bodies.frames[b], v, bodies.dimension));
+      motion.motions.push_back(combine(b, bodies.frames[b], v, kinematics));
       motion.work = bodies.force[b] > 0 ? std::abs(bodies.generalised.segment(b * modes, modes).dot(v)) / bodies.force[b] : 0;
       amplitudes.emplace_back(Eigen::VectorXd::Zero(body_count * modes));
       amplitudes.back().segment(b * modes, modes) = v;
@@ -218,7 +224,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
     double force = 0;
     for (int b = 0; b < body_count; ++b) {
       if (v.segment(b * modes, modes).norm() < 1e-6) continue;
-      motion.motions.push_back(combine(b, bodies.frames[b], v.segment(b * modes, modes), bodies.dimension));
+      motion.motions.push_back(combine(b, bodies.frames[b], v.segment(b * modes, modes), kinematics));
       force += bodies.force[b];
     }
     motion.work = force > 0 ? std::abs(bodies.generalised.dot(v)) / force : 0;

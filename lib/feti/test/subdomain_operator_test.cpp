@@ -29,7 +29,7 @@ TEST_P(Inverse, IsAGeneralisedInverse)
   const auto& [factorization, size] = GetParam();
   const auto mesh = block({4, 3, 3}, size);
   const auto k = fem::stiffness(mesh, {2e5, 0.3, 0, 0}, fem::Kinematics::solid);
-  const ElasticSubdomain subdomain(k, fem::rigid_motions(mesh.points, 3), mesh.points, 3, factorization);
+  const ElasticSubdomain subdomain(k, fem::rigid_motions(mesh.points, fem::Kinematics::solid), mesh.points, 3, factorization);
   Eigen::MatrixXd u = Eigen::MatrixXd::Random(subdomain.size(), 3), f(subdomain.size(), 3);
   for (int c = 0; c < 3; ++c) f.col(c) = subdomain.apply(u.col(c));
   Eigen::MatrixXd x = f;
@@ -49,7 +49,7 @@ TEST(Inverse, GoesThroughSharedFactorsInBlocks)
   const auto mesh = block({3, 2, 2}, {1, 1, 1}), other = block({2, 2, 2}, {1, 1, 1});
   const auto make = [](const mesh::Mesh& m) {
     return std::make_shared<const ElasticSubdomain>(fem::stiffness(m, {2e5, 0.3, 0, 0}, fem::Kinematics::solid),
-                                                    fem::rigid_motions(m.points, 3), m.points, 3, "cholmod");
+                                                    fem::rigid_motions(m.points, fem::Kinematics::solid), m.points, 3, "cholmod");
   };
   const auto a = make(mesh), b = make(other);
   Subdomains subdomains;
@@ -74,7 +74,7 @@ TEST(Inverse, OfATurnedCopyIsItsOwn)
   for (auto& p : turned_mesh.points) p = rotation * p + Point(3, 1, 4);
   const auto make = [](const mesh::Mesh& m) {
     return std::make_shared<const ElasticSubdomain>(fem::stiffness(m, {2e5, 0.3, 0, 0}, fem::Kinematics::solid),
-                                                    fem::rigid_motions(m.points, 3), m.points, 3, "cholmod");
+                                                    fem::rigid_motions(m.points, fem::Kinematics::solid), m.points, 3, "cholmod");
   };
   const auto original = make(mesh), own = make(turned_mesh);
   const auto turned = std::make_shared<const TurnedSubdomain>(original, rotation, 3);
@@ -95,7 +95,7 @@ TEST(Inverse, OfATurnedCopyIsItsOwn)
 TEST(FixingNodes, AreFewForACompactSubdomain)
 {
   const auto mesh = block({6, 6, 6}, {1, 1, 1});
-  const auto nodes = fixing_nodes(mesh.points, fem::rigid_motions(mesh.points, 3), 3);
+  const auto nodes = fixing_nodes(mesh.points, fem::rigid_motions(mesh.points, fem::Kinematics::solid), 3);
   EXPECT_GE(nodes.size(), 3U);
   EXPECT_LE(nodes.size(), 8U);
 }

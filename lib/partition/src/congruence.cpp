@@ -65,11 +65,12 @@ Eigen::Matrix3d best_rotation(const Shape& a, const Shape& b)
 }
 
 // Whether b is a copy of a, and how it is turned.
-std::optional<CopyOf> compare(std::size_t index, const Shape& a, const Shape& b, bool turned)
+std::optional<CopyOf> compare(std::size_t index, const Shape& a, const Shape& b, Motions motions)
 {
+  if (motions == Motions::along_y && std::abs(a.centre[0] - b.centre[0]) > tolerance * a.size) return {};
   if (a.mesh->points.size() != b.mesh->points.size() || !same_cells(a.mesh->cells, b.mesh->cells)) return {};
   if (coincide(a, b, Eigen::Matrix3d::Identity())) return CopyOf{index, {}};
-  if (!turned || !equally_far(a, b)) return {};
+  if (motions != Motions::rigid || !equally_far(a, b)) return {};
   const Eigen::Matrix3d rotation = best_rotation(a, b);
   if (!coincide(a, b, rotation)) return {};
   return CopyOf{index, rotation};
@@ -77,7 +78,7 @@ std::optional<CopyOf> compare(std::size_t index, const Shape& a, const Shape& b,
 
 }  // namespace
 
-std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind, bool turned)
+std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind, Motions motions)
 {
   std::vector<CopyOf> result;
   std::vector<Shape> shapes;
@@ -89,7 +90,7 @@ std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const st
     std::optional<CopyOf> found;
     const auto [begin, end] = originals.equal_range(key);
     for (auto it = begin; it != end && !found; ++it)
-      if (kind[it->second] == kind[s]) found = compare(it->second, shapes[it->second], shapes[s], turned);
+      if (kind[it->second] == kind[s]) found = compare(it->second, shapes[it->second], shapes[s], motions);
     if (!found) originals.emplace(key, s);
     result.push_back(found.value_or(CopyOf{s, {}}));
   }

@@ -18,7 +18,14 @@ struct Material {
   double thermal_expansion = 0;  ///< strain a degree
 };
 
-enum class Kinematics { solid, plane_strain, plane_stress };
+/// Plane states have thickness 1. Axisymmetric bodies lie in x >= 0, r = x, and go once round the y axis: forces are those of the
+/// whole turn; the stress ZZ is the hoop stress.
+enum class Kinematics { solid, plane_strain, plane_stress, axisymmetric };
+
+/// 3 for solids, else 2.
+int dimension(Kinematics kinematics);
+/// What a point at x stands for across the plane: 2 pi x in axisymmetry, else 1.
+double thickness(Kinematics kinematics, double x);
 
 /// See formulation.hpp.
 enum class Formulation { standard, bbar, incompatible };
@@ -38,7 +45,7 @@ struct LoadOptions {
   std::string body;
   std::optional<double> pressure;                     ///< force an area, positive into the body
   std::optional<std::array<double, 3>> traction;      ///< force an area
-  std::optional<std::array<double, 3>> force;         ///< resultant, spread evenly over the boundary (2D: force a thickness)
+  std::optional<std::array<double, 3>> force;         ///< resultant, spread evenly over the boundary (plane: a thickness)
   std::optional<std::array<double, 3>> acceleration;  ///< body force is density times this
 };
 

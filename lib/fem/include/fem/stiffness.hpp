@@ -9,9 +9,6 @@
 
 namespace mortise::fem {
 
-/// 3 for solids, 2 for plane states.
-int dimension(Kinematics kinematics);
-
 /// Lame's constants as the kinematics sees them: in plane stress lambda is 2 lambda mu / (lambda + 2 mu).
 struct Lame {
   double lambda, mu;
@@ -19,14 +16,17 @@ struct Lame {
 Lame lame(const Material& material, Kinematics kinematics);
 
 /// Lower triangle of K, K_ij = integral of lambda div v_i div v_j + 2 mu e(v_i):e(v_j), full integration, for a mesh of one
-/// material; other formulations as they have it. Unknown d * node + component, d = dimension(kinematics); plane states have
-/// thickness 1. Throws Error(bad_input) that names the cell if its Jacobian is not positive at an integration point.
+/// material; other formulations as they have it. Unknown d * node + component, d = dimension(kinematics). In axisymmetry the hoop
+/// strain u_r / r counts as well. Throws Error(bad_input) that names the cell if its Jacobian is not positive at an integration point.
 Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness(const mesh::Mesh& mesh, const Material& material,
                                                             Kinematics kinematics,
                                                             Formulation formulation = Formulation::standard);
 
-/// Orthonormal basis of the rigid motions of the points: (d points) x 6, in 2D x 3; translations first, then rotations about the
-/// centroid.
-Eigen::MatrixXd rigid_motions(std::span<const Point> points, int dimension);
+/// How many rigid motions there are: 6 in space, 3 in a plane, in axisymmetry 1, along the axis.
+int rigid_motion_count(Kinematics kinematics);
+
+/// Orthonormal basis of the rigid motions of the points, (d points) x rigid_motion_count(); translations first, then rotations
+/// about the centroid.
+Eigen::MatrixXd rigid_motions(std::span<const Point> points, Kinematics kinematics);
 
 }  // namespace mortise::fem

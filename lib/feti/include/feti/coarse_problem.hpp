@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/stiffness.hpp"
 #include "feti/jump_operator.hpp"
 #include "feti/subdomain_operator.hpp"
 #include "partition/decomposition.hpp"
@@ -14,16 +15,19 @@ namespace mortise::feti {
 /// Where the kernel of each subdomain stands among all: subdomain s (global number) has the coordinates first(s) ..
 /// first(s)+dim-1.
 struct KernelNumbering {
-  int dimension = 6;  ///< of each kernel: 6, or 3 in two dimensions
+  explicit KernelNumbering(fem::Kinematics kinematics) : dimension(fem::rigid_motion_count(kinematics)) {}
+
+  int dimension;  ///< of each kernel
   int first(Global subdomain) const { return static_cast<int>(subdomain) * dimension; }
 };
 
 /// G over the owned rows of this rank: kernels x rows. Collective.
 SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
-                         const Communicator& comm);
+                         const KernelNumbering& numbering, const Communicator& comm);
 
 /// R_s'v_s of every subdomain, on every rank: e for v = f. Collective.
 Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition, const Subdomains& subdomains,
-                                   const std::vector<Eigen::VectorXd>& v, const Communicator& comm);
+                                   const std::vector<Eigen::VectorXd>& v, const KernelNumbering& numbering,
+                                   const Communicator& comm);
 
 }  // namespace mortise::feti

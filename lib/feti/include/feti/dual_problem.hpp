@@ -26,6 +26,7 @@ struct Floating {
   Subdomains subdomains;
   std::vector<Eigen::VectorXd> load;                 ///< f
   std::vector<std::vector<double>> nodal_stiffness;  ///< as given to the NodeDirectory
+  fem::Kinematics kinematics = fem::Kinematics::solid;
 };
 
 /// Where the multipliers of a contact point stand in the dual vector of this rank.
@@ -74,6 +75,7 @@ class DualProblem {
   void settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
                            const Context& context);
   void make_set();
+  KernelNumbering numbering() const { return KernelNumbering(floating_.kinematics); }
 
   const partition::Decomposition& decomposition_;
   const constraint::Constraints& constraints_;

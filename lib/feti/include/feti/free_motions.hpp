@@ -30,8 +30,8 @@ struct BodyFrame {
 std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition, const Communicator& comm);
 
 /// Part of `coordinates` (kernels of all subdomains) that is a rigid motion of the body, by least squares.
-RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subdomains& subdomains, const BodyFrame& frame,
-                       int body, const Eigen::VectorXd& coordinates, const Communicator& comm);
+RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subdomains& subdomains, fem::Kinematics kinematics,
+                       const BodyFrame& frame, int body, const Eigen::VectorXd& coordinates, const Communicator& comm);
 
 /// A set of bodies that move together; |v| is at most about 1 on each.
 struct FreeMotion {
@@ -44,7 +44,7 @@ struct FreeMotion {
 /// also motions count that facets of a curved surface make nearly free (every row feels less than a few per cent of them); then
 /// those of several bodies together, which must be exactly free. Collective.
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
-                                          const Subdomains& subdomains, const SparseMatrix& g,
+                                          const Subdomains& subdomains, fem::Kinematics kinematics, const SparseMatrix& g,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
 
 /// The equality row that says that the mean of the motion, weighted with the stiffness of the nodes, is zero.

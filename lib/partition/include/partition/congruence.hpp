@@ -15,9 +15,14 @@ struct CopyOf {
   std::optional<Eigen::Matrix3d> rotation;  ///< none for a translation alone
 };
 
+/// What may tell a copy from its original: a rotation and a translation, or, where the y axis is an axis of revolution, a
+/// translation along it.
+enum class Motions { rigid, along_y };
+
 /// For each subdomain of this rank the first one of this rank with the same cells (in the same local numbering), the same points
-/// up to a rigid motion, to 1e-10 of its size, and the same `kind` (one number a subdomain: whatever else must agree, such as the
-/// material). With `turned` false only translations count, which is right where an axis is fixed in space.
-std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind, bool turned = true);
+/// up to one of the `motions`, to 1e-10 of its size, and the same `kind` (one number a subdomain: whatever else must agree, such as the
+/// material).
+std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind,
+                              Motions motions = Motions::rigid);
 
 }  // namespace mortise::partition
