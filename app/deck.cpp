@@ -198,7 +198,8 @@ void describe(deck::Description<Deck>& d)
 {
   d.help("A Mortise deck: one contact problem of linear elasticity. Any consistent set of units.");
   d.key("title", &Deck::title, "One line that says what is solved.");
-  d.custom("dimension", "3, plane_strain, plane_stress or axisymmetric: meshes in x, y; x is the radius, y the axis of revolution.",
+  d.custom("dimension",
+           "3, plane_strain, plane_stress or axisymmetric: meshes in x, y; x is the radius, y the axis of revolution.",
            read_dimension, write_dimension, dimension_schema)
       .one_of({"3", "plane_strain", "plane_stress", "axisymmetric"});
   d.key("mesh", &Deck::mesh, "The mesh.").required();
@@ -230,7 +231,7 @@ Deck read_deck(deck::Document& document, const std::string& output)
   check_contact_names(deck, document);
   auto& decomposition = deck.decomposition;
   if (decomposition.method == "metis" && !decomposition.subdomains && !decomposition.unknowns_per_subdomain)
-    decomposition.unknowns_per_subdomain = partition::usual_size;
+    decomposition.unknowns_per_subdomain = deck.axisymmetric() ? partition::usual_size_of_rings : partition::usual_size;
 
   const auto file = fs::absolute(document.file()).lexically_normal();
   if (!deck.mesh.file.empty()) deck.mesh.file = (file.parent_path() / deck.mesh.file).lexically_normal().string();

@@ -78,9 +78,10 @@ void Model::require_cells(deck::Document& document, const Communicator& comm) co
         const auto leftmost =
             std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
         if (leftmost == points.end() || (*leftmost)[0] >= -rounding) continue;
-        document.error("dimension",
-                       fmt::format("body \"{}\" reaches to x = {:.4g}, beyond the axis of revolution x = 0; draw the half with x >= 0",
-                                   decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].name, (*leftmost)[0]));
+        document.error(
+            "dimension",
+            fmt::format("body \"{}\" reaches to x = {:.4g}, beyond the axis of revolution x = 0; draw the half with x >= 0",
+                        decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].name, (*leftmost)[0]));
         break;
       }
     document.check();

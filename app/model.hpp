@@ -17,8 +17,8 @@ class Model {
 
   const fem::Material& material(const partition::Subdomain& subdomain) const;
   fem::Formulation formulation(const partition::Subdomain& subdomain) const;
-  /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for, or reaches beyond the
-  /// axis of revolution. Collective.
+  /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for, or reaches beyond
+  /// the axis of revolution. Collective.
   void require_cells(deck::Document& document, const Communicator& comm) const;
   /// For each subdomain the first one of this rank with the same shape and material.
   std::vector<partition::CopyOf> congruent() const;

@@ -90,7 +90,7 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
                    "two contacts are called");
   expect_complaint("contacts: [{secondary: a.zmax, primary: b.zmin, friction: {coulomb: -1}}]\n", "expected a number >= 0");
   expect_complaint("dimension: plane_strain\n", "does not fit a model of dimension 2");
-  expect_complaint("dimension: axisymmetric\n", "not available in this version");
+  expect_complaint("dimension: axisymmetric\nloads: [{body: a, acceleration: [1, 0]}]\n", "along its axis, y, alone");
   expect_complaint("steps: []\n", "not available in this version");
 }
 

@@ -86,7 +86,8 @@ Directions directions(const Point& normal, const std::array<bool, 3>& held, int 
 // One contact on its way from faces to rows.
 class Builder {
  public:
-  Builder(const Pair& pair, int index, std::span<const constraint::Held> held, fem::Kinematics kinematics, const Communicator& comm)
+  Builder(const Pair& pair, int index, std::span<const constraint::Held> held, fem::Kinematics kinematics,
+          const Communicator& comm)
       : pair_(pair),
         index_(index),
         dimension_(fem::dimension(kinematics)),
@@ -381,11 +382,12 @@ double search_distance(const Pair& pair, const Communicator& comm)
   return std::max({tenth, largest_face(pair.secondary, comm), largest_face(pair.primary, comm)});
 }
 
-constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held,
-                                fem::Kinematics kinematics, const Communicator& comm)
+constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
+                                const Communicator& comm)
 {
   constraint::Contacts contacts;
-  for (std::size_t c = 0; c < pairs.size(); ++c) Builder(pairs[c], static_cast<int>(c), held, kinematics, comm).add_rows(contacts);
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    Builder(pairs[c], static_cast<int>(c), held, kinematics, comm).add_rows(contacts);
   return contacts;
 }
 

@@ -20,8 +20,8 @@ Eigen::VectorXd whole_facet(const Side& side, std::size_t facet)
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(side.faces[face].size()));
   const auto all = overlap(geometry, mirror, geometry.size(), side.second_order(face));
   for (const auto& point : all.points)
-    result += point.weight * side.thickness(facet, point.secondary) *
-              side.shape_in_face(facet, point.secondary, all.frame, point.at);
+    result +=
+        point.weight * side.thickness(facet, point.secondary) * side.shape_in_face(facet, point.secondary, all.frame, point.at);
   return result;
 }
 
@@ -89,8 +89,7 @@ FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, s
         result.mass += weight * theta * phi.transpose();
         result.gram += weight * theta * theta.transpose();
         result.covered += weight * theta;
-        result.rise +=
-            weight * (bulge(own, own_normals, point.secondary) + bulge(other, other_normals, point.primary)) * theta;
+        result.rise += weight * (bulge(own, own_normals, point.secondary) + bulge(other, other_normals, point.primary)) * theta;
         for (std::size_t k = 0; k < nodes.size(); ++k)
           opposite.try_emplace(nodes[k], Eigen::VectorXd::Zero(n)).first->second +=
               weight * phi_primary[static_cast<Eigen::Index>(k)] * theta;

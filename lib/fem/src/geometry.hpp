@@ -14,7 +14,8 @@ namespace mortise::fem {
 /// in which it stops allocating after the first of each size.
 class CellGeometry {
  public:
-  explicit CellGeometry(Kinematics kinematics) : dimension_(dimension(kinematics)), axisymmetric_(kinematics == Kinematics::axisymmetric)
+  explicit CellGeometry(Kinematics kinematics)
+      : dimension_(dimension(kinematics)), axisymmetric_(kinematics == Kinematics::axisymmetric)
   {
   }
 

@@ -53,19 +53,22 @@ double area(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
 
 void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, double pressure, Eigen::VectorXd& f)
 {
-  for_each_point(mesh, boundary, kinematics, [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
-    add(shape, -pressure * normal, nodes, dimension(kinematics), f);
-  });
+  for_each_point(mesh, boundary, kinematics,
+                 [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
+                   add(shape, -pressure * normal, nodes, dimension(kinematics), f);
+                 });
 }
 
 void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& traction, Eigen::VectorXd& f)
 {
-  for_each_point(mesh, boundary, kinematics, [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
-    add(shape, normal.norm() * traction, nodes, dimension(kinematics), f);
-  });
+  for_each_point(mesh, boundary, kinematics,
+                 [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
+                   add(shape, normal.norm() * traction, nodes, dimension(kinematics), f);
+                 });
 }
 
-void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double density, const Point& acceleration, Eigen::VectorXd& f)
+void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double density, const Point& acceleration,
+                      Eigen::VectorXd& f)
 {
   CellGeometry cell(kinematics);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {

@@ -77,7 +77,8 @@ void describe(deck::Description<LoadOptions>& d)
   d.key("body", &LoadOptions::body, "Body that is accelerated.");
   d.key("pressure", &LoadOptions::pressure, "Force an area, positive into the body.");
   d.key("traction", &LoadOptions::traction, "Force an area, as a vector.");
-  d.key("force", &LoadOptions::force, "Resultant, spread evenly over the boundary (plane models: a thickness; axisymmetric: of the whole turn).");
+  d.key("force", &LoadOptions::force,
+        "Resultant, spread evenly over the boundary (plane models: a thickness; axisymmetric: of the whole turn).");
   d.key("acceleration", &LoadOptions::acceleration, "Body force is density times this.");
   d.unavailable("temperature_change");
   d.check([](const LoadOptions& load, const std::string& path, deck::Document& document) {

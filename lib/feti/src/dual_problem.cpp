@@ -53,7 +53,8 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
                                       const Context& context)
 {
   SparseMatrix g = coarse_rows(decomposition_, *jump_, floating_.subdomains, numbering(), comm_);
-  const auto motions = find_free_motions(decomposition_, *jump_, floating_.subdomains, floating_.kinematics, g, floating_.load, comm_);
+  const auto motions =
+      find_free_motions(decomposition_, *jump_, floating_.subdomains, floating_.kinematics, g, floating_.load, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;
@@ -125,7 +126,8 @@ std::string DualProblem::runaway(const Eigen::VectorXd& nu) const
   RigidMotion fastest;
   double speed = -1;
   for (std::size_t b = 0; b < frames.size(); ++b) {
-    const auto motion = rigid_part(decomposition_, floating_.subdomains, floating_.kinematics, frames[b], static_cast<int>(b), -nu, comm_);
+    const auto motion =
+        rigid_part(decomposition_, floating_.subdomains, floating_.kinematics, frames[b], static_cast<int>(b), -nu, comm_);
     const double v = motion.translation.norm() + motion.rotation.norm() * frames[b].radius;
     if (v <= speed) continue;
     fastest = motion;

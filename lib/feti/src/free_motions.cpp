@@ -79,8 +79,8 @@ Bodies aggregate(const partition::Decomposition& decomposition, const Subdomains
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     for (int k = 0; k < bodies.modes; ++k) {
-      const auto v = sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, kinematics),
-                            subdomain.mesh.points, dimension);
+      const auto v =
+          sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, kinematics), subdomain.mesh.points, dimension);
       const Eigen::VectorXd coordinates = subdomains[s]->kernel().transpose() * v;
       for (int i = 0; i < coordinates.size(); ++i)
         entries.push_back({numbering.first(subdomain.id) + i, subdomain.body * bodies.modes + k, coordinates[i]});

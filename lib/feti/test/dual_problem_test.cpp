@@ -49,8 +49,8 @@ struct Cube {
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness.back(), 3));
       floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.back().cols()));
       fem::add_traction(s.mesh, 5, fem::Kinematics::solid, Point(0.1, 0, 1), floating.load.back());
-      floating.subdomains.push_back(std::make_shared<ElasticSubdomain>(stiffness.back(), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid),
-                                                                       s.mesh.points, 3, "cholmod"));
+      floating.subdomains.push_back(std::make_shared<ElasticSubdomain>(
+          stiffness.back(), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
     }
     directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
     interface = partition::find_interface(decomposition, *directory, comm);

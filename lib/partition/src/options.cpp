@@ -7,7 +7,7 @@ void describe(deck::Description<Options>& d)
   d.help("How bodies are cut into subdomains.");
   d.key("method", &Options::method, "metis, or grid for blocks.").one_of({"metis", "grid"});
   d.key("unknowns_per_subdomain", &Options::unknowns_per_subdomain,
-        "Aim, 4000 where nothing is said; every body has at least one subdomain.")
+        "Aim, where nothing is said 4000, in axisymmetric models 20000; every body has at least one subdomain.")
       .at_least(10);
   d.key("subdomains", &Options::subdomains, "Total number, at least one a body, instead of unknowns_per_subdomain.").at_least(1);
   d.key("counts", &Options::counts, "For grid: subdomains along each axis of each block.").at_least(0);

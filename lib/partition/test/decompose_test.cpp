@@ -168,9 +168,26 @@ TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
   EXPECT_EQ(copies[1].original, 0U);
   ASSERT_TRUE(copies[1].rotation);
   EXPECT_LT((*copies[1].rotation - rotation).norm(), 1e-10);
-  EXPECT_EQ(congruent(d.subdomains, kind, false)[1].original, 1U);
+  EXPECT_EQ(congruent(d.subdomains, kind, Motions::along_y)[1].original, 1U);
   for (auto& p : turned) p[1] = -p[1];
   EXPECT_EQ(congruent(d.subdomains, kind)[1].original, 1U);
+}
+
+// Of two rings of one section those of one radius are copies.
+TEST(Congruence, RingsAreCopiesOnlyAlongTheAxis)
+{
+  const Communicator alone(MPI_COMM_SELF);
+  Options options;
+  options.method = "grid";
+  options.counts = {{"lower", {2, 1, 1}}, {"upper", {1, 1, 1}}};
+  auto d = make(beams("hex8", {6, 4, 4}), options, alone);
+  d.subdomains.resize(2);
+  const std::vector<int> kind(2, 0);
+  EXPECT_EQ(congruent(d.subdomains, kind)[1].original, 0U);
+  EXPECT_EQ(congruent(d.subdomains, kind, Motions::along_y)[1].original, 1U);  // beside it
+  d.subdomains[1].mesh.points = d.subdomains[0].mesh.points;
+  for (auto& p : d.subdomains[1].mesh.points) p[1] += 3;
+  EXPECT_EQ(congruent(d.subdomains, kind, Motions::along_y)[1].original, 0U);
 }
 
 TEST(BoundarySurface, IsWholeOverAllRanks)

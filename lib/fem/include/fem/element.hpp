@@ -39,8 +39,8 @@ struct Element {
   std::size_t points() const { return weight.size(); }
 };
 
-/// In axisymmetry tri3 has three points: with the one that a constant strain needs, a displacement u_r / r that vanishes there would
-/// have no energy.
+/// In axisymmetry tri3 has three points: with the one that a constant strain needs, a displacement u_r / r that vanishes there
+/// would have no energy.
 const Element& element(mesh::CellType type, Kinematics kinematics = Kinematics::solid);
 
 }  // namespace mortise::fem

@@ -19,6 +19,7 @@ void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, d
 void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& traction, Eigen::VectorXd& f);
 
 /// f_i += integral of density a N_i over all cells.
-void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double density, const Point& acceleration, Eigen::VectorXd& f);
+void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double density, const Point& acceleration,
+                      Eigen::VectorXd& f);
 
 }  // namespace mortise::fem

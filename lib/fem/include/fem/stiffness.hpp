@@ -17,7 +17,8 @@ Lame lame(const Material& material, Kinematics kinematics);
 
 /// Lower triangle of K, K_ij = integral of lambda div v_i div v_j + 2 mu e(v_i):e(v_j), full integration, for a mesh of one
 /// material; other formulations as they have it. Unknown d * node + component, d = dimension(kinematics). In axisymmetry the hoop
-/// strain u_r / r counts as well. Throws Error(bad_input) that names the cell if its Jacobian is not positive at an integration point.
+/// strain u_r / r counts as well. Throws Error(bad_input) that names the cell if its Jacobian is not positive at an integration
+/// point.
 Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness(const mesh::Mesh& mesh, const Material& material,
                                                             Kinematics kinematics,
                                                             Formulation formulation = Formulation::standard);

@@ -20,8 +20,8 @@ struct CopyOf {
 enum class Motions { rigid, along_y };
 
 /// For each subdomain of this rank the first one of this rank with the same cells (in the same local numbering), the same points
-/// up to one of the `motions`, to 1e-10 of its size, and the same `kind` (one number a subdomain: whatever else must agree, such as the
-/// material).
+/// up to one of the `motions`, to 1e-10 of its size, and the same `kind` (one number a subdomain: whatever else must agree, such
+/// as the material).
 std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind,
                               Motions motions = Motions::rigid);
 

@@ -12,6 +12,9 @@ namespace mortise::partition {
 
 /// Unknowns of a subdomain where the deck says nothing.
 inline constexpr int usual_size = 4000;
+/// For axisymmetric models: of their subdomains' motions in the plane only that along the axis is in the coarse problem, so that
+/// many small ones cost iterations.
+inline constexpr int usual_size_of_rings = 20000;
 
 struct Options {
   std::string method = "metis";                      ///< metis | grid (blocks only)
