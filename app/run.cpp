@@ -192,9 +192,8 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   std::unique_ptr<friction::Result> solved;
   {
     const auto scope = timers.scope("solve");
-    auto options = deck.solver.subdomains;
-    if (deck.solver.programme.algorithm == "smalse") options.preconditioner = "none";
-    problem = std::make_unique<feti::DualProblem>(decomposition, directory, interface, constraints, floating, options, context);
+    problem = std::make_unique<feti::DualProblem>(decomposition, directory, interface, constraints, floating,
+                                                  deck.solver.subdomains, context);
     log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(), problem->kernel_dimension());
     const auto allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
       const auto estimating = timers.scope("error estimate");

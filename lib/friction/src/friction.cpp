@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "qp/error_estimate.hpp"
 #include "qp/smalse.hpp"
 
 namespace mortise::friction {
@@ -13,6 +14,7 @@ namespace mortise::friction {
 namespace {
 
 constexpr double loose = 1e-2;         // tolerance of the first Tresca problem, and the loosest of all
+constexpr double finest = 1e-7;        // tolerance of SMALSE-M that is enough where no error is allowed
 constexpr double worth_a_look = 0.05;  // change of the slip bounds at which the allowed error is asked for
 
 // ||a - b|| over all ranks; points that stick without limit in either do not count.
@@ -104,6 +106,29 @@ class CoulombBounds {
 
 }  // namespace
 
+namespace {
+
+// SMALSE-M for one set of slip bounds. Where the goal is an allowed error, with tolerances that fall until it is reached.
+qp::Solution solve_by_smalse(const qp::Problem& programme, std::optional<qp::Solution> start, const qp::Goal& goal,
+                             const Operator* preconditioner, const qp::Observer& observer)
+{
+  double tolerance = goal.allowed_error ? loose : goal.residual;
+  int outer = 0;
+  while (true) {
+    qp::Solution found = qp::smalse(programme, start, tolerance, observer);
+    found.outer_iterations = outer += found.outer_iterations;
+    if (!found.feasible) return found;
+    found.error = qp::error_estimate(programme, found, preconditioner);
+    if (!goal.allowed_error || !found.converged || tolerance <= finest) return found;
+    const double allowed = goal.allowed_error(found.x, found.nu);
+    if (found.error <= allowed) return found;
+    tolerance = std::max(finest, tolerance * std::clamp(0.5 * allowed / found.error, 0.03, 0.5));
+    start = std::move(found);
+  }
+}
+
+}  // namespace
+
 Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Options& options, const qp::Options& solver,
              const AllowedError& allowed_error, const Observer& observer)
 {
@@ -145,7 +170,8 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
     problem.set().set_radii(bounds);
     qp::Goal now = goal;
     if (coulomb) now = {std::max(goal.residual, std::min(loose, 0.1 * change)), {}};
-    auto next = newton ? newton->solve(solution, now, nullptr, watch) : qp::smalse(programme, solution, now.residual, watch);
+    auto next = newton ? newton->solve(solution, now, nullptr, watch)
+                       : solve_by_smalse(programme, solution, now, problem.preconditioner(), watch);
     if (!next.feasible) {
       // Bounds from inexact normal forces may fall short by as much: go half way back before giving up.
       if (!solution || ++infeasible > 5) no_equilibrium(problem, next.nu);
@@ -157,7 +183,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
         !hessian.exhausted()) {  // it crawls where bodies are soft and slender: the slower, steadier one
       outer += next.outer_iterations;
       preconditionings += next.preconditionings;
-      next = qp::smalse(programme, next, now.residual, watch);
+      next = solve_by_smalse(programme, next, now, problem.preconditioner(), watch);
       if (!next.feasible) no_equilibrium(problem, next.nu);
     }
     const bool first = !solution;

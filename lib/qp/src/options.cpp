@@ -11,7 +11,7 @@ void describe(deck::Description<Options>& d)
   d.key("tolerance", &Options::tolerance,
         "Relative: the reduced projected gradient and the equality residual over ||P d||. auto: stop when the algebraic error is "
         "a "
-        "tenth of the estimated discretization error, both in the energy norm (smalse: 1e-4).")
+        "tenth of the estimated discretization error, both in the energy norm.")
       .positive()
       .below(1);
   d.key("max_multiplications", &Options::max_multiplications, "Products with the dual operator in the whole run.").at_least(1);
