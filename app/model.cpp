@@ -59,31 +59,55 @@ double Model::radius(const Communicator& comm) const
   return comm.max(largest);
 }
 
-void Model::require_cells(deck::Document& document, const Communicator& comm) const
+void Model::require_formulations(deck::Document& document) const
+{
+  std::map<std::string, mesh::CellType> wrong;  // body of the deck, a cell of it
+  for (const auto& subdomain : decomposition_.subdomains)
+    for (const auto type : subdomain.mesh.cells.type)
+      if (!fem::applies(formulation(subdomain), type))
+        wrong.emplace(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group, type);
+  for (const auto& [body, type] : wrong)
+    document.error("bodies." + body + ".formulation",
+                   "this is not for the body's cells of type " + std::string(mesh::name(type)) +
+                       "; bbar is for hex8, quad4 and prism6, incompatible for hex8 and quad4, standard for all");
+}
+
+void Model::require_axis(deck::Document& document, double rounding) const
+{
+  for (const auto& subdomain : decomposition_.subdomains) {
+    const auto& points = subdomain.mesh.points;
+    const auto leftmost =
+        std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
+    if (leftmost == points.end() || (*leftmost)[0] >= -rounding) continue;
+    document.error("dimension",
+                   fmt::format("body \"{}\" reaches to x = {:.4g}, beyond the axis of revolution x = 0; draw the half with x >= 0",
+                               decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].name, (*leftmost)[0]));
+    return;
+  }
+}
+
+void Model::require_fit(deck::Document& document, const Communicator& comm) const
 {
   const double rounding = on_the_axis * radius(comm);
+  std::vector<std::pair<std::string, std::string>> named;  // boundary, key
+  for (std::size_t i = 0; i < deck_.supports.size(); ++i)
+    named.emplace_back(deck_.supports[i].boundary, fmt::format("supports[{}].boundary", i));
+  for (std::size_t i = 0; i < deck_.contacts.size(); ++i) {
+    named.emplace_back(deck_.contacts[i].secondary, fmt::format("contacts[{}].secondary", i));
+    named.emplace_back(deck_.contacts[i].primary, fmt::format("contacts[{}].primary", i));
+  }
+  std::vector<double> faces;
+  for (const auto& [boundary, key] : named) {
+    const auto [index, on_body] = select(boundary);
+    faces.push_back(static_cast<double>(partition::boundary_surface(decomposition_, index, on_body).faces.size()));
+  }
+  comm.sum_in_place(faces);
   collectively(comm, [&] {
-    std::map<std::string, mesh::CellType> wrong;  // body of the deck, a cell of it
-    for (const auto& subdomain : decomposition_.subdomains)
-      for (const auto type : subdomain.mesh.cells.type)
-        if (!fem::applies(formulation(subdomain), type))
-          wrong.emplace(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group, type);
-    for (const auto& [body, type] : wrong)
-      document.error("bodies." + body + ".formulation",
-                     "this is not for the body's cells of type " + std::string(mesh::name(type)) +
-                         "; bbar is for hex8, quad4 and prism6, incompatible for hex8 and quad4, standard for all");
-    if (deck_.axisymmetric())
-      for (const auto& subdomain : decomposition_.subdomains) {
-        const auto& points = subdomain.mesh.points;
-        const auto leftmost =
-            std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
-        if (leftmost == points.end() || (*leftmost)[0] >= -rounding) continue;
-        document.error(
-            "dimension",
-            fmt::format("body \"{}\" reaches to x = {:.4g}, beyond the axis of revolution x = 0; draw the half with x >= 0",
-                        decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].name, (*leftmost)[0]));
-        break;
-      }
+    for (std::size_t i = 0; i < named.size(); ++i)
+      if (faces[i] == 0)
+        document.error(named[i].second, fmt::format("\"{}\" has no face: its boundary does not lie on that body", named[i].first));
+    require_formulations(document);
+    if (deck_.axisymmetric()) require_axis(document, rounding);
     document.check();
   });
 }

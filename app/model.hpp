@@ -18,8 +18,8 @@ class Model {
   const fem::Material& material(const partition::Subdomain& subdomain) const;
   fem::Formulation formulation(const partition::Subdomain& subdomain) const;
   /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for, or reaches beyond
-  /// the axis of revolution. Collective.
-  void require_cells(deck::Document& document, const Communicator& comm) const;
+  /// the axis of revolution, or if a support or a contact names a boundary that has no part on its body. Collective.
+  void require_fit(deck::Document& document, const Communicator& comm) const;
   /// For each subdomain the first one of this rank with the same shape and material.
   std::vector<partition::CopyOf> congruent() const;
   /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.
@@ -41,6 +41,8 @@ class Model {
   Selection select(const std::string& name) const;
   std::vector<bool> bodies_called(const std::string& name) const;
   double radius(const Communicator& comm) const;
+  void require_formulations(deck::Document& document) const;
+  void require_axis(deck::Document& document, double rounding) const;
 
   const Deck& deck_;
   const partition::Decomposition& decomposition_;

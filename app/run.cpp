@@ -142,7 +142,7 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   if (!command_line.check) io::prepare_directory(deck.output.directory, comm);
 
   const Model model(deck, decomposition);
-  model.require_cells(document, comm);
+  model.require_fit(document, comm);
   constraint::Constraints constraints;
   std::vector<contact::Pair> pairs;
   {

@@ -206,7 +206,22 @@ class Builder {
     for (Eigen::Index p = 0; p < count; ++p) {
       const auto& place = places_.all[static_cast<std::size_t>(p)];
       directions_.push_back(directions(place.normal, held_at(place), dimension_));
-      kept_.push_back(directions_.back().free_normal && cover(p, 0) > least_cover * cover(p, 1));
+    }
+    // Places held along their normal leave their share to the others of the face. Where a face has no others, as on a surface that a
+    // support moves as a whole, they stay: their rows are felt by the primary side alone (and dropped in add_point if that is held, too).
+    std::vector<double> stranded(places_.all.size(), 0.0);
+    for (std::size_t i = 0; i < integrals_.size(); ++i) {
+      const auto places = node_places(first_face(comm_.rank()) + i);
+      const auto is_held = [&](Local p) { return !directions_[static_cast<std::size_t>(p)].free_normal; };
+      if (std::all_of(places.begin(), places.end(), is_held))
+        for (const Local p : places) stranded[static_cast<std::size_t>(p)] = 1;
+    }
+    comm_.sum_in_place(stranded);
+    for (Eigen::Index p = 0; p < count; ++p) {
+      const auto i = static_cast<std::size_t>(p);
+      const bool alone = stranded[i] > 0;
+      if (alone) directions_[i] = directions(places_.all[i].normal, {false, false, false}, dimension_);  // moves() picks the tangents
+      kept_.push_back((directions_[i].free_normal || alone) && cover(p, 0) > least_cover * cover(p, 1));
     }
   }
 
@@ -284,6 +299,7 @@ class Builder {
       if (!term.on_primary) weight += term.value / d;
     }
     point.weight = weight;
+    point.at = secondary_.points[static_cast<std::size_t>(place.node)];
     point.gap = bonded ? 0
                        : weight * (gap_at(p, (frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d) / weight) -
                                    pair_.options.interference);

@@ -91,6 +91,8 @@ void describe(deck::Description<Options>& d)
         "Surfaces farther apart than this never meet; 0 chooses a tenth of the smaller side's extent.")
       .at_least(0);
   d.check([](const Options& contact, const std::string& path, deck::Document& document) {
+    if (contact.law == Law::bonded && contact.interference != 0)
+      document.error(path + ".interference", "bonded surfaces are tied where they are; expected another friction law, or no interference");
     if (contact.secondary == contact.primary)
       document.error(
           path,

@@ -53,8 +53,8 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
                                       const Context& context)
 {
   SparseMatrix g = coarse_rows(decomposition_, *jump_, floating_.subdomains, numbering(), comm_);
-  const auto motions =
-      find_free_motions(decomposition_, *jump_, floating_.subdomains, floating_.kinematics, g, floating_.load, comm_);
+  const auto motions = find_free_motions(decomposition_, *jump_, floating_.subdomains, floating_.kinematics, g,
+                                         constraints_.contacts, floating_.load, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;
@@ -144,6 +144,10 @@ double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vecto
   for (std::size_t s = 0; s < u.size(); ++s) {
     residual += (floating_.subdomains[s]->apply(u[s]) + forces[s] - floating_.load[s]).squaredNorm();
     size += floating_.load[s].squaredNorm() + forces[s].squaredNorm();
+    for (Eigen::Index i = 0; i < u[s].size(); ++i) {  // what rounding makes of a rigid motion is no force
+      const double k = floating_.nodal_stiffness[s][static_cast<std::size_t>(i / decomposition_.catalogue.dimension)];
+      size += std::pow(1e-6 * k * u[s][i], 2);
+    }
   }
   size = comm_.sum(size);
   return size > 0 ? std::sqrt(comm_.sum(residual) / size) : 0;
@@ -152,7 +156,11 @@ double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vecto
 double DualProblem::strain_energy(const std::vector<Eigen::VectorXd>& u) const
 {
   double energy = 0;
-  for (std::size_t s = 0; s < u.size(); ++s) energy += 0.5 * u[s].dot(floating_.subdomains[s]->apply(u[s]));
+  for (std::size_t s = 0; s < u.size(); ++s) {  // without the rigid part, which has none and, where it is large, rounds
+    const auto& kernel = floating_.subdomains[s]->kernel();
+    const Eigen::VectorXd bent = u[s] - kernel * (kernel.transpose() * u[s]);
+    energy += 0.5 * bent.dot(floating_.subdomains[s]->apply(bent));
+  }
   return comm_.sum(energy);
 }
 

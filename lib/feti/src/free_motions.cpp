@@ -13,9 +13,12 @@ namespace {
 // of a faceted cylinder are wrong by about half the difference of neighbouring facet angles.
 constexpr double nearly = 0.02;
 constexpr double exactly = 1e-7;
+// Facets excuse the normal rows of contacts alone: what supports, bonds and friction feel of a motion counts this often.
+constexpr double support_weight = 1e3;
 
-// v of the rigid motions of one body, scaled so that |v| is about 1 at its radius: 3 translations and 3 rotations, or 2 and 1, or
-// 1 along the axis.
+// v of the rigid motions of one body, scaled so that |v| is about 1 on it: 3 translations and 3 rotations about its principal axes,
+// each by the nodes' distance from that axis (the spin of a slender bar has a short arm), or 2 and 1, or 1 along the axis of
+// revolution.
 RigidMotion unit_motion(int body, const BodyFrame& frame, int index, fem::Kinematics kinematics)
 {
   RigidMotion motion{body, frame.centre};
@@ -25,7 +28,7 @@ RigidMotion unit_motion(int body, const BodyFrame& frame, int index, fem::Kinema
   else if (index < dimension)
     motion.translation[index] = 1;
   else
-    motion.rotation[dimension == 2 ? 2 : index - dimension] = 1 / frame.radius;
+    motion.rotation = frame.axes.col(dimension == 2 ? 2 : index - dimension) / frame.arms[dimension == 2 ? 2 : index - dimension];
   return motion;
 }
 
@@ -116,6 +119,18 @@ std::vector<Eigen::VectorXd> unfelt(const Eigen::MatrixXd& rows, double toleranc
   return result;
 }
 
+// Turns an orthonormal basis so that the loads drive its first vector alone, and in its own sense: of many motions together, that
+// is the one to tell.
+void turn_to_loads(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised)
+{
+  if (basis.cols() == 0) return;
+  const Eigen::VectorXd work = basis.transpose() * generalised;
+  if (!(work.norm() > 0)) return;
+  Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(work).householderQ();
+  if (q.col(0).dot(work) < 0) q.col(0) *= -1;
+  basis *= q;
+}
+
 double largest(const Eigen::VectorXd& values, const Communicator& comm)
 {
   return comm.max(values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0);
@@ -126,7 +141,7 @@ double largest(const Eigen::VectorXd& values, const Communicator& comm)
 std::string describe(const RigidMotion& motion, double size)
 {
   const auto print = [](const Point& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0], p[1], p[2]); };
-  const auto clean = [](Point p) { return Point((p.array().abs() < 1e-6 * p.cwiseAbs().maxCoeff()).select(0.0, p)); };
+  const auto clean = [](Point p) { return Point((p.array().abs() < 1e-4 * p.cwiseAbs().maxCoeff()).select(0.0, p)); };
   const double turning = motion.rotation.norm() * size;
   if (turning < 1e-2 * motion.translation.norm() || turning == 0)
     return "moves along " + print(clean(motion.translation.normalized()));
@@ -146,15 +161,27 @@ std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition
     }
   comm.sum_in_place(sums);
   std::vector<BodyFrame> frames(count);
-  std::vector<double> squares(count, 0.0);
+  std::vector<double> squares(count * 9, 0.0);  // sums of (x - centre)(x - centre)'
   for (std::size_t b = 0; b < count; ++b)
     frames[b].centre = Point(sums[b * 5 + 1], sums[b * 5 + 2], sums[b * 5 + 3]) / std::max(sums[b * 5], 1.0);
   for (const auto& subdomain : decomposition.subdomains)
-    for (const auto& p : subdomain.mesh.points)
-      squares[static_cast<std::size_t>(subdomain.body)] +=
-          (p - frames[static_cast<std::size_t>(subdomain.body)].centre).squaredNorm();
+    for (const auto& p : subdomain.mesh.points) {
+      const auto b = static_cast<std::size_t>(subdomain.body);
+      const Point x = p - frames[b].centre;
+      Eigen::Map<Eigen::Matrix3d>(&squares[b * 9]) += x * x.transpose();
+    }
   comm.sum_in_place(squares);
-  for (std::size_t b = 0; b < count; ++b) frames[b].radius = std::sqrt(squares[b] / std::max(sums[b * 5], 1.0));
+  const bool solid = decomposition.catalogue.dimension == 3;
+  for (std::size_t b = 0; b < count; ++b) {
+    const Eigen::Matrix3d moments = Eigen::Map<Eigen::Matrix3d>(&squares[b * 9]) / std::max(sums[b * 5], 1.0);
+    frames[b].radius = std::sqrt(moments.trace());
+    if (solid) frames[b].axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors();
+    for (int k = 0; k < 3; ++k) {
+      const Point axis = frames[b].axes.col(k);
+      const double square = moments.trace() - axis.dot(moments * axis);
+      frames[b].arms[k] = std::sqrt(std::max(square, 1e-6 * moments.trace()));
+    }
+  }
   return frames;
 }
 
@@ -182,7 +209,8 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subd
 
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Subdomains& subdomains, fem::Kinematics kinematics, const SparseMatrix& g,
-                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
+                                          const constraint::Contacts& contacts, const std::vector<Eigen::VectorXd>& load,
+                                          const Communicator& comm)
 {
   const Bodies bodies = aggregate(decomposition, subdomains, kinematics, load, comm);
   const int modes = bodies.modes;
@@ -190,17 +218,40 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   const Local first = jump.ranges().held, count = jump.ranges().extra - first;
   const SparseMatrix felt = SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
   const Eigen::VectorXd unscale = jump.scale().segment(first, count).cwiseInverse();
+  const Local first_contact = jump.ranges().contacts - first;
+  Eigen::VectorXd weight_of_row = support_weight * unscale;
+  for (std::size_t i = 0; i < contacts.points.size(); ++i)
+    if (!contacts.bonded[i]) weight_of_row[first_contact + static_cast<Local>(contacts.points[i].row)] /= support_weight;
+  // Whether the normal rows feel no more of a motion than the angles of facets explain: a small part of the velocity there.
+  const auto along_surfaces = [&](const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) {
+    double worst = 0;
+    for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+      if (contacts.bonded[i]) continue;
+      const double here = std::abs(rows.row(first_contact + static_cast<Local>(contacts.points[i].row)).dot(v));
+      if (here > 1e-6) worst = std::max(worst, here / std::max(motion.at(contacts.points[i].at).norm(), 1e-12));
+    }
+    return comm.max(worst) <= 3 * nearly;
+  };
   const auto body_count = static_cast<int>(bodies.frames.size());
 
   std::vector<FreeMotion> found;
   std::vector<Eigen::VectorXd> amplitudes;  // of each found motion, over all bodies
   for (int b = 0; b < body_count; ++b) {
-    const Eigen::MatrixXd rows = unscale.asDiagonal() * Eigen::MatrixXd(felt.middleCols(b * modes, modes));
+    const Eigen::MatrixXd rows = weight_of_row.asDiagonal() * Eigen::MatrixXd(felt.middleCols(b * modes, modes));
+    Eigen::MatrixXd free(modes, 0), others(modes, 0);  // exactly free ones may be mixed with each other, not with the nearly free
     for (const auto& v : unfelt(rows, nearly, comm)) {
+      auto& part = largest(rows * v, comm) < 1e-6 ? free : others;
+      part.conservativeResize(Eigen::NoChange, part.cols() + 1);
+      part.rightCols(1) = v;
+    }
+    turn_to_loads(free, bodies.generalised.segment(b * modes, modes));
+    Eigen::MatrixXd candidates(modes, free.cols() + others.cols());
+    candidates << free, others;
+    for (const auto& v : candidates.colwise()) {
       FreeMotion motion;
       motion.felt = largest(rows * v, comm);
-      if (motion.felt > 3 * nearly) continue;
       motion.motions.push_back(combine(b, bodies.frames[b], v, kinematics));
+      if (!along_surfaces(rows, v, motion.motions.back()) || motion.felt > 3 * nearly) continue;
       motion.work = bodies.force[b] > 0 ? std::abs(bodies.generalised.segment(b * modes, modes).dot(v)) / bodies.force[b] : 0;
       amplitudes.emplace_back(Eigen::VectorXd::Zero(body_count * modes));
       amplitudes.back().segment(b * modes, modes) = v;
@@ -217,8 +268,11 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   const double weight = std::max(gram.diagonal().maxCoeff(), 1.0);
   for (const auto& v : amplitudes) gram += weight * v * v.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  for (Eigen::Index k = 0; k < gram.cols() && eigen.eigenvalues()[k] < exactly * exactly * weight * 100; ++k) {
-    const Eigen::VectorXd v = eigen.eigenvectors().col(k);
+  Eigen::Index together = 0;
+  while (together < gram.cols() && eigen.eigenvalues()[together] < exactly * exactly * weight * 100) ++together;
+  Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(together);
+  turn_to_loads(basis, bodies.generalised);
+  for (const auto& v : basis.colwise()) {
     FreeMotion motion;
     motion.felt = largest(scaled * v, comm);
     double force = 0;

@@ -102,7 +102,15 @@ void Preconditioner::factorize_gram()
     for (SparseMatrix::InnerIterator it(free, c); it; ++it)
       if (fixed_[static_cast<std::size_t>(it.row())] || fixed_[static_cast<std::size_t>(c)])
         it.valueRef() = it.row() == c ? 1 : 0;
-  usable_ = factor_->factorize(free);  // not where rows depend on each other
+  // Rows that depend on each other (bonded contacts round a common edge, a pair named twice) need a trace more.
+  usable_ = false;
+  for (double trace = 0; !usable_ && trace <= 1e-2; trace = trace == 0 ? 1e-8 : 1e2 * trace) {
+    SparseMatrix matrix = free;
+    for (int c = 0; c < matrix.outerSize(); ++c)
+      for (SparseMatrix::InnerIterator it(matrix, c); it; ++it)
+        if (it.row() == c) it.valueRef() *= 1 + trace;
+    usable_ = factor_->factorize(matrix);
+  }
 }
 
 // Place of this rank's first contact row among all.

@@ -144,7 +144,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
   else
     goal.allowed_error = allowed_error;
   std::optional<qp::Solution> solution;
-  double change = 1, previous_change = 1, damping = 1;
+  double change = 1, least_change = 1, damping = 1;
   int step = 0, stalled = 0, infeasible = 0, outer = 0, preconditionings = 0;
   bool settled = false;
   const auto watch = [&](const qp::Progress& progress) {
@@ -169,7 +169,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
     ++step;
     problem.set().set_radii(bounds);
     qp::Goal now = goal;
-    if (coulomb) now = {std::max(goal.residual, std::min(loose, 0.1 * change)), {}};
+    if (coulomb) now = {std::max(goal.residual, std::min(loose, 0.1 * least_change)), {}};  // looser again would bring swings of its own
     auto next = newton ? newton->solve(solution, now, nullptr, watch)
                        : solve_by_smalse(programme, solution, now, problem.preconditioner(), watch);
     if (!next.feasible) {
@@ -196,19 +196,22 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
       break;
     }
     auto wanted = slip_bounds(problem, laws, &solution->x);
-    previous_change = change;
     change = first ? 1.0 : relative_change(wanted, bounds, problem.communicator());
     if (goal.allowed_error && std::isfinite(solution->error)) {
       // Bounds that move by so much move the multipliers by about as much, and ||x||_F^2 <= ||F|| ||x||^2.
       solution->error += std::sqrt(solution->hessian_norm) * distance(wanted, bounds, problem.communicator());
-      settled = !first && change <= worth_a_look && solution->error <= goal.allowed_error(solution->x, solution->nu);
+      // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
+      settled = !first && ((change <= worth_a_look && solution->error <= goal.allowed_error(solution->x, solution->nu)) ||
+                           (change <= options.tolerance && solution->converged && now.residual <= 1e-1 * options.tolerance));
     } else {
       settled = !first && change <= options.tolerance && now.residual <= goal.residual;
     }
     if (settled || step >= options.max_steps || hessian.exhausted()) break;
-    // A fixed point that twice fails to contract is most often one that swings: meet it half way until it contracts again.
-    stalled = step > 2 && change > 0.9 * previous_change ? stalled + 1 : 0;
-    damping = stalled >= 2 ? 0.5 : std::min(1.0, 2 * damping);
+    // A fixed point that twice fails to come nearer than ever is most often one that swings, perhaps from one state to another and
+    // back: take shorter and shorter steps, and longer ones again slowly.
+    stalled = step > 2 && change > 0.9 * least_change ? stalled + 1 : 0;
+    least_change = first ? 1.0 : std::min(least_change, change);
+    damping = stalled >= 2 ? std::max(0.1, 0.6 * damping) : std::min(1.0, 1.2 * damping);
     for (std::size_t i = 0; i < wanted.size(); ++i)
       if (!std::isinf(bounds[i])) wanted[i] = bounds[i] + damping * (wanted[i] - bounds[i]);
     previous_bounds = std::exchange(bounds, std::move(wanted));

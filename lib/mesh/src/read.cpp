@@ -265,6 +265,20 @@ Assembly separate(const RawCells& raw, const std::vector<Group>& bodies, const N
       mesh.cell_body.push_back(static_cast<int>(assembly.catalogue.bodies.size()) - 1);
     }
   }
+  // Parts of one body that share nodes, but no face, part there.
+  std::map<std::pair<Local, int>, int> first_part;  // node of the file and group -> part
+  std::map<int, std::size_t> torn;                  // group -> nodes
+  for (std::size_t c = 0; c < raw.cells.size(); ++c)
+    for (const Local n : raw.cells[c])
+      if (const auto [at, fresh] = first_part.emplace(std::pair(n, raw.group[c]), part[c]); !fresh && at->second != part[c]) {
+        ++torn[raw.group[c]];
+        at->second = part[c];
+      }
+  for (const auto& [group, count] : torn)
+    assembly.warnings.push_back(fmt::format(
+        "parts of body \"{}\" share an edge or a vertex and no face ({} nodes): they are separate bodies there, which nothing ties; "
+        "give them a common face, or contacts",
+        bodies[static_cast<std::size_t>(group)].name, count));
   assembly.catalogue.node_count = static_cast<Global>(mesh.points.size());
   assembly.catalogue.cell_count = static_cast<Global>(mesh.cells.size());
   return assembly;

@@ -1,7 +1,10 @@
 #include "partition/decompose.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <queue>
 
@@ -206,6 +209,13 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
     collectively(comm, [&] {
       if (mesh.file.empty()) {
         assembly.catalogue = mesh::block_catalogue(mesh, dimension);
+        // Local numbers have 31 bits, and a cell with its nodes takes some 100 bytes of the rank that cuts the mesh.
+        const auto largest = std::numeric_limits<Local>::max() / 32;
+        if (!grid && std::max(assembly.catalogue.cell_count, assembly.catalogue.node_count) > largest)
+          throw Error(ExitStatus::machine,
+                      fmt::format("not enough memory to cut a mesh of {} cells in one piece (at most {}); take fewer cells, or "
+                                  "decomposition.method grid",
+                                  assembly.catalogue.cell_count, largest));
         if (!grid && comm.root()) assembly.mesh = generate_whole(mesh, dimension, assembly.catalogue);
       } else if (comm.root()) {
         assembly = mesh::read(mesh, dimension);

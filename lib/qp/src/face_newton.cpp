@@ -25,13 +25,15 @@ constexpr int max_retreats = 8;           // of slip bounds
 constexpr int max_retreats_to_z = 2;      // quarters of the way back, before the step becomes a gradient projection
 constexpr int max_safeguards = 12;        // after which another algorithm will do better
 constexpr double finest = 1e-7;           // residual over ||P b|| that is enough where no error is allowed
+constexpr double rounding = 1e-13;        // of ||b||: no residual below this means anything
 constexpr double first_look = 0.1;        // part of the first error at which the allowed one is asked for
 
-double projected_size(const Problem& problem)
+// ||P b||, but no less than what rounding makes of it: where supports move bodies rigidly, P b should be zero and b is not.
+double projected_size(const Problem& problem, double tolerance)
 {
   Vector pb(problem.linear, Teuchos::Copy);
   problem.equality.project(pb);
-  return pb.norm2();
+  return std::max(pb.norm2(), rounding / tolerance * problem.linear.norm2());
 }
 
 // ||x - x*||_A from residuals and energies. With M near A^-1 the residual's r'Mr is near its square but for a factor, and that
@@ -169,7 +171,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     if (observer) observer({"norm", 0, hessian.count()});
     if (norm_ == 0) norm_ = 1;
   }
-  double size = projected_size(problem_);
+  double size = projected_size(problem_, goal.allowed_error ? finest : goal.residual);
   if (size == 0) size = 1;
 
   State state(map);

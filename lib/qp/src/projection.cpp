@@ -13,6 +13,7 @@ constexpr double flat = 0.1;         // part of its first slope at which a line 
 constexpr double runaway = 1e10;     // of ||G' nu|| over ||e|| and ||y||, at which C counts as empty
 constexpr double target = 1e-13;     // of the residual
 constexpr double acceptable = 1e-9;  // at which a projection that makes no more progress counts as found
+constexpr int max_repairs = 5;       // with the residual e - G x taken from x itself
 
 SparseMatrix columns_of(const SparseMatrix& g, std::span<const Local> columns)
 {
@@ -140,11 +141,26 @@ Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
     result.residual = residual;
     if (stalled > max_stalled && residual <= acceptable) break;
   }
+  // G G' nu - G (P(w) - w) loses, where stiffnesses differ by 1e6, what the kernels of soft bodies need; G P(w) does not.
   result.nu = now.nu;
+  for (int repair = 0; repair <= max_repairs; ++repair) {
+    result.argument.assign(y);
+    equality_.add_transpose(-1, now.nu, result.argument);
+    Vector point(result.argument, Teuchos::Copy);
+    set_.project(view(point));
+    const Eigen::VectorXd missing = equality_.right_side() - equality_.apply(point);
+    const double residual = equality_.norm(missing) / scale;
+    if (repair > 0 && !(residual < result.residual)) break;
+    result.nu = now.nu;
+    result.residual = residual;
+    result.point.assign(point);
+    if (residual <= 1e2 * target || now.pull >= runaway * scale) break;
+    Eigen::VectorXd w = view(result.argument)(constrained_);
+    if (!matrix_.factorize(lost(w), 1e-14)) break;
+    now.nu -= matrix_.solve(missing);
+  }
+  result.argument.assign(y);
   equality_.add_transpose(-1, result.nu, result.argument);
-  result.point.assign(result.argument);
-  set_.project(view(result.point));
-  result.residual = equality_.norm(equality_.right_side() - equality_.apply(result.point)) / scale;
   result.found = result.residual <= acceptable;
   return result;
 }

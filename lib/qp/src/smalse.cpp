@@ -41,11 +41,12 @@ class AugmentedLagrangian {
   Vector work_;
 };
 
-double relative_size(const Problem& problem)
+double relative_size(const Problem& problem, double tolerance)
 {
+  constexpr double rounding = 1e-13;  // as in face_newton.cpp
   Vector pb(problem.linear, Teuchos::Copy);
   problem.equality.project(pb);
-  return pb.norm2();
+  return std::max(pb.norm2(), rounding / tolerance * problem.linear.norm2());
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
       start && start->augmented.size() == equality.size() ? start->augmented : Eigen::VectorXd::Zero(equality.size());
   double norm = result.hessian_norm;
   if (norm == 0) norm = 1;
-  double size = relative_size(problem) / norm;
+  double size = relative_size(problem, tolerance) / norm;
   if (size == 0) size = 1;
 
   Vector constant(map);  // P (A x0 - b) / nrm

@@ -26,6 +26,8 @@ std::string describe(const RigidMotion& motion, double size);
 struct BodyFrame {
   Point centre = Point::Zero();  ///< mean of its nodes
   double radius = 1;             ///< root mean square distance of its nodes from there
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< principal axes of its nodes, as columns
+  Point arms = Point::Ones();                          ///< root mean square distance of its nodes from each axis
 };
 std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition, const Communicator& comm);
 
@@ -45,7 +47,8 @@ struct FreeMotion {
 /// those of several bodies together, which must be exactly free. Collective.
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Subdomains& subdomains, fem::Kinematics kinematics, const SparseMatrix& g,
-                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
+                                          const constraint::Contacts& contacts, const std::vector<Eigen::VectorXd>& load,
+                                          const Communicator& comm);
 
 /// The equality row that says that the mean of the motion, weighted with the stiffness of the nodes, is zero.
 SubdomainRow gauge(const FreeMotion& motion, const partition::Decomposition& decomposition,
