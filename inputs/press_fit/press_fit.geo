@@ -1,7 +1,8 @@
 // Quarter of a hollow shaft (radii a, b) in a hub (radii b, c); each ring has its own cells, and they do not match on the interface.
 DefineConstant[ n = 8 ];      // cells across the shaft
 DefineConstant[ a = 25, b = 50, c = 100 ];
-ns = 2 * n; nh = 3 * n;       // round the shaft, round the hub
+DefineConstant[ hub = 3 ];    // cells round the hub, in n; 2 for meshes that match on the interface
+ns = 2 * n; nh = hub * n;     // round the shaft, round the hub
 
 Point(1) = {0, 0, 0};
 Point(2) = {a, 0, 0}; Point(3) = {b, 0, 0}; Point(4) = {0, b, 0}; Point(5) = {0, a, 0};

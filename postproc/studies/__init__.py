@@ -1,0 +1,1 @@
+"""Modules of `study.py` that other scripts use too."""
