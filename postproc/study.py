@@ -29,7 +29,7 @@ import sys
 import tempfile
 
 from studies import convergence, measure, tables
-from studies.refinement import BadInput, Ladder, have_gmsh
+from studies.refinement import BadInput, Ladder, defined, have_gmsh
 
 
 def numbers(value):
@@ -133,7 +133,9 @@ class Study:
                     raise BadInput(f"--elements {element}: the cells of blocks have names (hex8, hex20, quad4, ...), no order")
             elif name not in ("1", "2"):
                 raise BadInput(f"--elements {element}: expected an order, 1 or 2, for a mesh from a file")
-            elif self.ladder.file.suffix != ".geo" or "order" not in self.ladder.file.read_text():
+            elif self.ladder.file.suffix != ".geo":
+                raise BadInput(f"--elements {element}: the cells of {self.ladder.file.name} are what they are; give a .geo with a constant `order`")
+            elif "order" not in defined(self.ladder.file.read_text()):
                 raise BadInput(f"--elements {element}: {self.ladder.file.name} has no constant `order`; add to it\n"
                                "  DefineConstant[ order = 1 ]; Mesh.ElementOrder = order;")
 

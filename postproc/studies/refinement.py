@@ -89,8 +89,9 @@ def choose(geometry, given, size, count):
         tier = {name: kind for name, kind in found.items() if name in given} or found
         kinds = set(tier.values())
         if not tier:
-            raise BadInput(f"{geometry.name}: no constant decides on the size of cells; name one with --size or --count "
-                           f"(its constants: {', '.join(values) or 'none'})")
+            raise BadInput(f"{geometry.name}: no constant is seen to decide on the size of cells; " + (
+                f"name one with --size or --count (there are {', '.join(values)})" if values else
+                "give it one, such as DefineConstant[ h = 0.1 ]; with h as the fourth number of its points"))
         if len(tier) > 1 and kinds != {"count"} or kinds - {"size", "count"}:
             raise BadInput(f"{geometry.name}: several constants may set the size of cells ({', '.join(f'{n}: {k}' for n, k in tier.items())}); "
                            f"name the one to divide with --size NAME, or those to multiply with --count NAME")

@@ -146,7 +146,7 @@ def draw(plot, rows, quantity, axis):
     """One line an element or program, through the runs that stop by themselves (else the tightest); thin lines through the tolerances of a mesh."""
     good = [row for row in rows if row["status"] == 0 and row["errors"].get(quantity)]
     names = list(dict.fromkeys((row["program"], row["element"]) for row in good))
-    marked = False
+    marked = labelled = False
     for number, name in enumerate(names):
         own = [row for row in good if (row["program"], row["element"]) == name]
         tolerances = {row["tolerance"] for row in own}
@@ -156,8 +156,10 @@ def draw(plot, rows, quantity, axis):
         plot.plot([row[axis] for row in line], [row["errors"][quantity] for row in line], "-o" if ours else "--s", color=f"C{number}", markersize=4,
                   label=" ".join(name).strip())
         for step in sorted({row["step"] for row in own}):
-            thin = sorted((row for row in own if row["step"] == step and row["tolerance"]), key=lambda row: row["cpu"])
-            plot.plot([row[axis] for row in thin], [row["errors"][quantity] for row in thin], ":.", color=f"C{number}", linewidth=0.8, markersize=3)
+            thin = sorted((row for row in own if row["step"] == step and row["tolerance"]), key=lambda row: row["products"])
+            plot.plot([row[axis] for row in thin], [row["errors"][quantity] for row in thin], ":.", color=f"C{number}", linewidth=0.8, markersize=3,
+                      label=None if labelled or len(thin) < 2 else "tolerances on one mesh")
+            labelled = labelled or len(thin) > 1
         stars = [row for row in own if row["tolerance"] == "auto"]
         plot.plot([row[axis] for row in stars], [row["errors"][quantity] for row in stars], "*", color=f"C{number}", markersize=13, markeredgecolor="black",
                   label="stopped by itself (auto)" if stars and not marked else None)
