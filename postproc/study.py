@@ -4,82 +4,34 @@
     ./mortise study DECK [--refine N] [--tolerances T ...] [--elements E ...] [--ranks R] [--calculix] [--exact QUANTITY=VALUE ...]
         [--pressure FORMULA] [--quantity PATH ...] [--size NAME ... | --count NAME ...] [--factor F] [--set KEY=VALUE ...] [--output DIR]
 
-    ./mortise study inputs/press_fit/press_fit.yaml --refine 3 --tolerances 1e-2 1e-4 1e-6 --elements 1 2 --exact contacts.0.max_recovered_pressure=69.23
-    ./mortise study inputs/hertz_cylinder/hertz_cylinder.yaml --pressure "3585.4 * sqrt(maximum(0, 1 - (x / 6.2146)**2))" --calculix
+    ./mortise study inputs/press_fit/press_fit.yaml --refine 3 --tolerances 1e-2 1e-4 --elements 1 2 --pressure 69.23
+    ./mortise study inputs/hertz_cylinder/hertz_cylinder.yaml --pressure "3585.4 * sqrt(maximum(0, 1 - (x / 6.2146)**2))"
 
-Meshes: the deck's own and N finer ones. Blocks: `cells` times F; .geo: a size among mesh.constants is divided by F, a count multiplied (--size, --count where
-the file leaves it open); .msh, .step, .brep: gmsh splits each cell. F is 2 for plane models and sqrt 2 for solids. On each: `solver.tolerance: auto` and
-those of --tolerances. Elements: names as in mesh.blocks (hex8, hex20, ...), or the order, 1 or 2, for a .geo with the constant `order`; a formulation may
-follow (hex8:incompatible, 1:bbar).
+Meshes: the deck's own and N finer ones. Blocks: `cells` times F; .geo: a size among mesh.constants is divided by F, a count multiplied
+(--size, --count where the file leaves it open); .msh, .step, .brep: gmsh splits each cell. F is 2 for plane models and sqrt 2 for solids.
+On each: `solver.tolerance: auto` and those of --tolerances. Elements: names as in mesh.blocks (hex8, hex20, ...), or the order, 1 or 2,
+for a .geo with the constant `order`; a formulation may follow (hex8:incompatible, 1:bbar).
 
-Quantities are paths into summary.json; a vector counts by its length. Errors are relative to --exact, else to Richardson's extrapolation of Mortise's runs, else to
-the finest of them; the table says which. --pressure gives the contact pressure as a formula in x, y, z and `force`,
+Quantities are paths into summary.json; a vector counts by its length. Errors are relative to --exact, else to Richardson's extrapolation of
+Mortise's runs, else to the finest of them; the table says which. --pressure gives the contact pressure as a formula in x, y, z and `force`,
 the integral of the run's own pressure; its error is taken in the L2 norm over the secondary surface.
 
-Writes study.csv, study.md, error_over_cpu.png and error_over_unknowns.png. CPU seconds are user and system time of the whole run, start, reading and writing
-included; not the meshing by gmsh where the command gmsh is installed, since a geometry is then meshed once for all runs. --calculix adds CalculiX on the same meshes.
-Exit status: 0 also where some runs failed (the table says how); 1 bad input; 2 no run succeeded; 4 a file is not writable.
+Writes study.csv, study.md, error_over_cpu.png and error_over_unknowns.png. CPU seconds are user and system time of the whole run, start,
+reading and writing included; not the meshing by gmsh where the command gmsh is installed, since a geometry is then meshed once for all runs.
+--calculix adds CalculiX on the same meshes. Exit status: 0 also where some runs failed (the table says how); 1 bad input; 2 no run
+succeeded; 4 a file is not writable.
 """
-import argparse
+
 import json
-import math
 import pathlib
 import re
 import sys
 import tempfile
 
 from studies import convergence, measure, tables
+from studies.arguments import parse
+from studies.deck import look_up, read_deck
 from studies.refinement import BadInput, Ladder, defined, have_gmsh
-
-
-def numbers(value):
-    """PyYAML takes 210.0e3 for a string."""
-    if isinstance(value, dict):
-        return {key: numbers(part) for key, part in value.items()}
-    if isinstance(value, list):
-        return [numbers(part) for part in value]
-    try:
-        return float(value) if isinstance(value, str) else value
-    except ValueError:
-        return value
-
-
-def read_deck(path, settings):
-    try:
-        import yaml
-    except ImportError:
-        raise BadInput("reading a deck needs PyYAML: apt-get install python3-yaml, and run this with /usr/bin/python3") from None
-    try:
-        deck = numbers(yaml.safe_load(path.read_text()))
-        if not isinstance(deck, dict):
-            raise BadInput(f"{path}: this is no deck, which would have keys such as mesh, materials, bodies")
-        for setting in settings:
-            key, equal, value = setting.partition("=")
-            if not equal:
-                raise BadInput(f"--set {setting}: expected KEY=VALUE")
-            place = deck
-            *way, last = key.split(".")
-            for part in way:
-                place = place[int(part)] if isinstance(place, list) else place.setdefault(part, {})
-            place[int(last) if isinstance(place, list) else last] = numbers(yaml.safe_load(value))
-    except OSError as problem:
-        raise BadInput(f"{path}: {problem.strerror}") from None
-    except (yaml.YAMLError, TypeError, ValueError, IndexError) as problem:
-        raise BadInput(f"{path}: {problem}") from None
-    return deck
-
-
-def look_up(summary, path):
-    """A number of summary.json; the length of a vector; None where there is none."""
-    value = summary
-    try:
-        for key in path.split("."):
-            value = value[int(key)] if isinstance(value, list) else value[key]
-    except (KeyError, IndexError, ValueError, TypeError):
-        return None
-    if isinstance(value, list) and all(isinstance(part, (int, float)) for part in value):
-        return math.hypot(*value)
-    return value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
 
 
 def last_words(text, status):
@@ -87,7 +39,9 @@ def last_words(text, status):
     if status < 0:
         return f"ended by signal {-status}" + (", the time limit of the study" if status == -9 else "")
     found = [line.strip() for line in text.splitlines() if line.strip()]
-    told = [line for line in found if any(word in line.lower() for word in ("not converged", "*error", "no equilibrium", "yaml:", "diverg", "cutbacks"))]
+    told = [
+        line for line in found if any(word in line.lower() for word in ("not converged", "*error", "no equilibrium", "yaml:", "diverg", "cutbacks"))
+    ]
     return " ".join((told or found[-1:] or ["no word"])[0].split())[:200].replace("|", "/")
 
 
@@ -109,25 +63,33 @@ class Study:
                 import meshio  # noqa: F401
                 from studies.pressure import Formula
             except ImportError as problem:
-                raise BadInput(f"--pressure reads contact_*.vtu by meshio and numpy, and {problem.name} is missing: apt-get install python3-meshio") from None
+                raise BadInput(
+                    f"--pressure reads contact_*.vtu by meshio and numpy, and {problem.name} is missing: apt-get install python3-meshio"
+                ) from None
             self.formula = Formula(arguments.pressure)
         self.quantities = ([convergence.L2] if self.formula else []) + (arguments.quantity or self.usual_quantities())
         self.quantities += [path for path in arguments.exact if path not in self.quantities]
         self.check_elements()
         self.meshes = {}
         # A geometry is meshed once where gmsh is there; cells of a .msh are split by it.
-        self.premesh = not self.blocks and (self.ladder.split and arguments.refine > 0 or self.ladder.file.suffix != ".msh" and have_gmsh() or arguments.calculix)
+        self.premesh = not self.blocks and (
+            self.ladder.split and arguments.refine > 0 or self.ladder.file.suffix != ".msh" and have_gmsh() or arguments.calculix
+        )
 
     def usual_quantities(self):
         contacts = range(len(self.deck.get("contacts") or []))
-        return ["strain_energy", "max_displacement", *(f"contacts.{i}.{key}" for i in contacts for key in ("force", "max_recovered_pressure")),
-                "error_estimate.discretization"]
+        return [
+            "strain_energy",
+            "max_displacement",
+            *(f"contacts.{i}.{key}" for i in contacts for key in ("force", "max_recovered_pressure")),
+            "error_estimate.discretization",
+        ]
 
     def check_elements(self):
         for element in self.arguments.elements:
             name, colon, formulation = element.partition(":")
             if colon and formulation not in ("standard", "bbar", "incompatible"):
-                raise BadInput(f"--elements {element}: the formulation is \"{formulation}\"; expected standard, bbar or incompatible")
+                raise BadInput(f'--elements {element}: the formulation is "{formulation}"; expected standard, bbar or incompatible')
             if self.blocks:
                 if name.isdigit():
                     raise BadInput(f"--elements {element}: the cells of blocks have names (hex8, hex20, quad4, ...), no order")
@@ -136,8 +98,10 @@ class Study:
             elif self.ladder.file.suffix != ".geo":
                 raise BadInput(f"--elements {element}: the cells of {self.ladder.file.name} are what they are; give a .geo with a constant `order`")
             elif "order" not in defined(self.ladder.file.read_text()):
-                raise BadInput(f"--elements {element}: {self.ladder.file.name} has no constant `order`; add to it\n"
-                               "  DefineConstant[ order = 1 ]; Mesh.ElementOrder = order;")
+                raise BadInput(
+                    f"--elements {element}: {self.ladder.file.name} has no constant `order`; add to it\n"
+                    "  DefineConstant[ order = 1 ]; Mesh.ElementOrder = order;"
+                )
 
     def mesh_settings(self, step, element):
         """--set arguments for one mesh; gmsh meshes a geometry once for all that ask for it."""
@@ -161,9 +125,21 @@ class Study:
 
     def row(self, program, element, step, tolerance, measured):
         label = element if self.blocks or not element else f"order {element}"
-        return {"program": program, "element": label, "step": step, "mesh": self.ladder.name(step), "tolerance": tolerance, "status": measured.status,
-                "message": last_words(measured.text, measured.status) if measured.status else "", "cpu": measured.cpu, "wall": measured.wall,
-                "memory": measured.memory, "unknowns": None, "products": None, "values": {}}
+        return {
+            "program": program,
+            "element": label,
+            "step": step,
+            "mesh": self.ladder.name(step),
+            "tolerance": tolerance,
+            "status": measured.status,
+            "message": last_words(measured.text, measured.status) if measured.status else "",
+            "cpu": measured.cpu,
+            "wall": measured.wall,
+            "memory": measured.memory,
+            "unknowns": None,
+            "products": None,
+            "values": {},
+        }
 
     def cheapest(self, solve):
         """Of --repeat runs: other work on the machine only adds to the CPU seconds."""
@@ -182,20 +158,30 @@ class Study:
             summary_file = directory / "out" / "summary.json"
             if summary_file.exists():
                 summary = json.loads(summary_file.read_text())
-                row.update(unknowns=unknowns_of_mesh(measured.text) or summary["primal_unknowns"], products=summary["hessian_multiplications"], memory=summary["peak_memory_bytes"] / 1e6)
+                row.update(
+                    unknowns=unknowns_of_mesh(measured.text) or summary["primal_unknowns"],
+                    products=summary["hessian_multiplications"],
+                    memory=summary["peak_memory_bytes"] / 1e6,
+                )
                 row["values"] = {q: look_up(summary, q) for q in self.quantities if q != convergence.L2}
                 if self.formula:
                     from studies import pressure
+
                     row["values"][convergence.L2] = pressure.relative_error(
-                        pressure.of_mortise(directory / "out", self.arguments.contact, self.arguments.field), self.formula)
+                        pressure.of_mortise(directory / "out", self.arguments.contact, self.arguments.field), self.formula
+                    )
         return row
 
     def calculix(self, step, element, solver, penalty):
         from studies import calculix
+
         with tempfile.TemporaryDirectory(dir=self.scratch) as name:
             directory = pathlib.Path(name)
             order, _, formulation = (element or "").partition(":")
-            deck = dict(self.deck, bodies={body: dict(entry, **({"formulation": formulation} if formulation else {})) for body, entry in self.deck["bodies"].items()})
+            deck = dict(
+                self.deck,
+                bodies={body: dict(entry, **({"formulation": formulation} if formulation else {})) for body, entry in self.deck["bodies"].items()},
+            )
             mesh = calculix.Mesh(self.mesh_file(step, order), self.dimension)
             measured = self.cheapest(lambda: calculix.solve(deck, mesh, penalty, solver, directory, self.arguments.time_limit))
             row = self.row(f"CalculiX {calculix.SOLVERS[solver]} {penalty:g} E", element, step, "", measured)
@@ -226,7 +212,11 @@ class Study:
                     raise
                 row = self.row(*label, measure.Measured(None, None, None, 1, str(problem)))
             said = f"{row['cpu']:.2f} CPU s" if row["status"] == 0 else f"exit status {row['status']}: {row['message']}"
-            print("  " + ", ".join(filter(None, [row["program"], row["element"], f"mesh {row['mesh']}", row["tolerance"]])) + f": {said}", file=sys.stderr, flush=True)
+            print(
+                "  " + ", ".join(filter(None, [row["program"], row["element"], f"mesh {row['mesh']}", row["tolerance"]])) + f": {said}",
+                file=sys.stderr,
+                flush=True,
+            )
             rows.append(row)
             if row["program"] == "Mortise" and row["status"] == 0 and not checked:
                 checked = True
@@ -242,88 +232,24 @@ class Study:
         arguments = self.arguments
         meshing = "the mesh is made once by gmsh and not counted" if self.premesh else "with the making of the mesh"
         repeats = f" (the least of {arguments.repeat} runs)" if arguments.repeat > 1 else ""
-        result = [f"meshes: {self.ladder.says() or 'one'}; {arguments.ranks} rank{'s' if arguments.ranks > 1 else ''}; CPU seconds of the whole run{repeats}, {meshing}"]
+        result = [
+            f"meshes: {self.ladder.says() or 'one'}",
+            f"{arguments.ranks} rank{'s' if arguments.ranks > 1 else ''}; CPU seconds of the whole run{repeats}, {meshing}",
+        ]
         if self.formula:
             result.append(f"{convergence.L2}: relative error of the contact pressure ({arguments.field} of Mortise) against {self.formula.text}")
         if arguments.calculix:
-            result.append("CalculiX: surface to surface contact, linear penalty in Young's moduli a length; nodal pressures of its .frd file; the iterative solver is Cholesky's"
-                          f" incomplete factorization; stopped after {arguments.time_limit:g} s")
+            result.append(
+                "CalculiX: surface to surface contact, linear penalty in Young's moduli a length; nodal pressures of its .frd file; "
+                f"iterative: its incomplete Cholesky solver; stopped after {arguments.time_limit:g} s"
+            )
         return result
-
-
-def exact_value(text):
-    path, equal, value = text.partition("=")
-    try:
-        number = float(value)
-    except ValueError:
-        number = math.nan
-    if not equal or not math.isfinite(number):
-        raise argparse.ArgumentTypeError(f"{text!r}; expected QUANTITY=VALUE, such as contacts.0.max_recovered_pressure=69.23")
-    return path, number
-
-
-def tolerance_value(text):
-    try:
-        if 0 < float(text) < 1:
-            return text
-    except ValueError:
-        pass
-    raise argparse.ArgumentTypeError(f"{text!r}; expected numbers between 0 and 1 (auto is always run)")
-
-
-def at_least(least, kind=int):
-    def check(text):
-        try:
-            if kind(text) >= least:
-                return kind(text)
-        except ValueError:
-            pass
-        raise argparse.ArgumentTypeError(f"{text!r}; expected a number of at least {least}")
-    return check
-
-
-def parse(words):
-    parser = argparse.ArgumentParser(prog="mortise study", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, usage=argparse.SUPPRESS)
-    parser.error = lambda message: (_ for _ in ()).throw(BadInput(message))
-    parser.add_argument("mortise", help=argparse.SUPPRESS)
-    parser.add_argument("deck", type=pathlib.Path)
-    parser.add_argument("--refine", type=at_least(0), default=2, metavar="N", help="finer meshes beside the deck's own; default 2")
-    parser.add_argument("--factor", type=at_least(1.05, float), metavar="F", help="of cells along an edge from mesh to mesh")
-    parser.add_argument("--size", nargs="+", default=[], metavar="NAME", help="constants of the .geo to divide")
-    parser.add_argument("--count", nargs="+", default=[], metavar="NAME", help="constants of the .geo to multiply")
-    parser.add_argument("--tolerances", nargs="+", type=tolerance_value, default=[], metavar="T", help="beside auto")
-    parser.add_argument("--tolerance-mesh", type=at_least(0), metavar="K", help="only on mesh K (0: the deck's own)")
-    parser.add_argument("--elements", nargs="+", default=[], metavar="E")
-    parser.add_argument("--quantity", nargs="+", metavar="PATH")
-    parser.add_argument("--exact", nargs="+", type=exact_value, default=[], metavar="QUANTITY=VALUE")
-    parser.add_argument("--pressure", metavar="FORMULA")
-    parser.add_argument("--contact", type=at_least(0), default=0, metavar="I", help="the contact that --pressure is of")
-    parser.add_argument("--field", default="contact_pressure_recovered", choices=["contact_pressure_recovered", "contact_pressure"])
-    parser.add_argument("--plot", metavar="QUANTITY", help="of the plots; default: the pressure, else the first of --exact, else the first")
-    parser.add_argument("--ranks", type=at_least(1), default=1)
-    parser.add_argument("--mpiexec", default="mpirun", help=argparse.SUPPRESS)
-    parser.add_argument("--calculix", action="store_true", help="CalculiX (ccx) on the same meshes")
-    parser.add_argument("--solvers", nargs="+", default=["SPOOLES", "ITERATIVE CHOLESKY"], choices=["SPOOLES", "ITERATIVE CHOLESKY"], help="of CalculiX; default: both")
-    parser.add_argument("--penalty", nargs="+", type=at_least(1e-3, float), default=[50.0], help="of CalculiX, in Young's moduli a length; default 50")
-    parser.add_argument("--time-limit", type=at_least(1, float), default=900.0, metavar="SECONDS", help="of one run; default 900")
-    parser.add_argument("--repeat", type=at_least(1), default=1, metavar="N", help="runs of each, of which the cheapest counts")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
-    parser.add_argument("--output", type=pathlib.Path, metavar="DIR", help="default: <deck name>.study.out beside the deck")
-    arguments = parser.parse_args(words)
-    arguments.exact = dict(arguments.exact)
-    if arguments.tolerance_mesh is not None and arguments.tolerance_mesh > arguments.refine:
-        raise BadInput(f"--tolerance-mesh {arguments.tolerance_mesh}: the meshes are 0 to {arguments.refine} (--refine)")
-    if arguments.contact and not arguments.pressure:
-        raise BadInput("--contact says which contact --pressure is of; there is no --pressure")
-    arguments.deck = arguments.deck.resolve()
-    arguments.mortise = str(pathlib.Path(arguments.mortise).resolve())
-    arguments.output = arguments.output or arguments.deck.with_name(arguments.deck.stem + ".study.out")
-    return arguments
 
 
 def without_calculix(study):
     """Why CalculiX is left out, or None."""
     from shutil import which
+
     if which("ccx") is None:
         return "CalculiX is left out: the command ccx is missing (apt-get install calculix-ccx)"
     if study.blocks:
@@ -365,7 +291,7 @@ def conduct(arguments, scratch):
 
 def main():
     try:
-        arguments = parse(sys.argv[1:])
+        arguments = parse(sys.argv[1:], __doc__)
         with tempfile.TemporaryDirectory(prefix="mortise_study_") as scratch:
             return conduct(arguments, pathlib.Path(scratch))
     except BadInput as problem:

@@ -1,9 +1,11 @@
 """A deck and its mesh in the language of CalculiX, and what CalculiX found.
 
 Translated: elastic materials, solids of first and second order, plane strain and plane stress, prescribed displacements, pressures,
-tractions, forces and accelerations, contact surface to surface (linear penalty) without friction or with Coulomb's, interference. CalculiX has no cells with nodes
-inside faces: quad9, hex27 and prism18 become quad8, hex20 and prism15 on the same corners and edges. Needs python3-meshio.
+tractions, forces and accelerations, contact surface to surface (linear penalty) without friction or with Coulomb's, interference.
+CalculiX has no cells with nodes inside faces: quad9, hex27 and prism18 become quad8, hex20 and prism15 on the same corners and edges.
+Needs python3-meshio.
 """
+
 import contextlib
 import re
 
@@ -14,20 +16,36 @@ from studies import measure, pressure
 from studies.refinement import BadInput
 
 SOLVERS = {"SPOOLES": "SPOOLES", "ITERATIVE CHOLESKY": "iterative"}
-SOLID = {"hexahedron": "C3D8", "tetra": "C3D4", "wedge": "C3D6", "hexahedron20": "C3D20", "hexahedron27": "C3D20", "tetra10": "C3D10",
-         "wedge15": "C3D15", "wedge18": "C3D15"}
+SOLID = {
+    "hexahedron": "C3D8",
+    "tetra": "C3D4",
+    "wedge": "C3D6",
+    "hexahedron20": "C3D20",
+    "hexahedron27": "C3D20",
+    "tetra10": "C3D10",
+    "wedge15": "C3D15",
+    "wedge18": "C3D15",
+}
 PLANE = {"triangle": "3", "quad": "4", "triangle6": "6", "quad8": "8", "quad9": "8"}
 INCOMPATIBLE = {"C3D8": "C3D8I", "C3D8I": "C3D8I"}
 # Corners of the faces S1, S2, ... in CalculiX's order, by the number of corners of the cell.
-FACES = {(3, 8): [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)],
-         (3, 4): [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)],
-         (3, 6): [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)],
-         (2, 3): [(0, 1), (1, 2), (2, 0)],
-         (2, 4): [(0, 1), (1, 2), (2, 3), (3, 0)]}
+FACES = {
+    (3, 8): [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)],
+    (3, 4): [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)],
+    (3, 6): [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)],
+    (2, 3): [(0, 1), (1, 2), (2, 0)],
+    (2, 4): [(0, 1), (1, 2), (2, 3), (3, 0)],
+}
 CORNERS = {"hexahedron": 8, "tetra": 4, "wedge": 6, "triangle": 3, "quad": 4, "line": 2}
 # Share of each node in a load spread evenly over a straight facet: corners, then middles.
-SHARES = {2: [1 / 2] * 2, 3: [1 / 6, 1 / 6, 2 / 3], (3, 3): [1 / 3] * 3, (3, 6): [0] * 3 + [1 / 3] * 3, (4, 4): [1 / 4] * 4,
-          (4, 8): [-1 / 12] * 4 + [1 / 3] * 4}
+SHARES = {
+    2: [1 / 2] * 2,
+    3: [1 / 6, 1 / 6, 2 / 3],
+    (3, 3): [1 / 3] * 3,
+    (3, 6): [0] * 3 + [1 / 3] * 3,
+    (4, 4): [1 / 4] * 4,
+    (4, 8): [-1 / 12] * 4 + [1 / 3] * 4,
+}
 
 
 def corners(kind):
@@ -74,10 +92,10 @@ class Mesh:
 
     def nodes(self, boundary):
         """Without the nodes inside facets, which CalculiX's cells lack."""
-        return sorted({int(n) + 1 for kind, facet in self.facets(boundary) for n in facet[:serendipity(kind)]})
+        return sorted({int(n) + 1 for kind, facet in self.facets(boundary) for n in facet[: serendipity(kind)]})
 
     def sides(self, boundary):
-        return [self.sides_of[tuple(sorted(facet[:corners(kind)]))] for kind, facet in self.facets(boundary)]
+        return [self.sides_of[tuple(sorted(facet[: corners(kind)]))] for kind, facet in self.facets(boundary)]
 
     def shares(self, boundary):
         """Measure of the boundary that falls to each node when a traction is spread over it."""
@@ -97,8 +115,17 @@ class Mesh:
 
 def serendipity(kind):
     """Nodes of a cell without those inside it or inside its faces."""
-    return {"hexahedron27": 20, "wedge18": 15, "quad9": 8, "hexahedron20": 20, "wedge15": 15, "quad8": 8, "tetra10": 10, "triangle6": 6,
-            "line3": 3}.get(kind, corners(kind))
+    return {
+        "hexahedron27": 20,
+        "wedge18": 15,
+        "quad9": 8,
+        "hexahedron20": 20,
+        "wedge15": 15,
+        "quad8": 8,
+        "tetra10": 10,
+        "triangle6": 6,
+        "line3": 3,
+    }.get(kind, corners(kind))
 
 
 def element_type(kind, dimension, formulation):
@@ -110,7 +137,7 @@ def element_type(kind, dimension, formulation):
 
 def lines(values, width=12):
     values = list(values)
-    return [", ".join(map(str, values[i:i + width])) + "," for i in range(0, len(values), width)]
+    return [", ".join(map(str, values[i : i + width])) + "," for i in range(0, len(values), width)]
 
 
 def model(deck, mesh):
@@ -121,7 +148,7 @@ def model(deck, mesh):
         for kind, numbers, cells in blocks:
             text.append(f"*ELEMENT, TYPE={element_type(kind, dimension, deck['bodies'][body].get('formulation'))}, ELSET={body}")
             for number, cell in zip(numbers, cells):
-                words = [str(number), *map(str, cell[:serendipity(kind)] + 1)]
+                words = [str(number), *map(str, cell[: serendipity(kind)] + 1)]
                 text += [", ".join(words[:16]) + ("," if len(words) > 16 else "")] + ([", ".join(words[16:])] if len(words) > 16 else [])
     for name, material in deck["materials"].items():
         text += [f"*MATERIAL, NAME={name}", "*ELASTIC", f"{material['young_modulus']}, {material['poisson_ratio']}"]
@@ -199,7 +226,10 @@ def results(directory, deck, mesh, formula, contact):
     _, displacements = nodal_field(directory, "DISP")
     if not len(displacements):
         return {}
-    found = {"strain_energy": strain_energy(directory, len(deck["bodies"])), "max_displacement": float(np.linalg.norm(displacements[:, :3], axis=1).max())}
+    found = {
+        "strain_energy": strain_energy(directory, len(deck["bodies"])),
+        "max_displacement": float(np.linalg.norm(displacements[:, :3], axis=1).max()),
+    }
     force = contact_force(directory, deck, mesh, deck["contacts"][contact]["secondary"]) if len(deck["contacts"]) == 1 else None
     if force is not None:
         found["contacts.0.force"] = float(np.linalg.norm(force))
@@ -213,7 +243,8 @@ def results(directory, deck, mesh, formula, contact):
 
 
 def contact_force(directory, deck, mesh, secondary):
-    """On the secondary's body, from its supports; None where it is loaded otherwise, or where a support holds nodes of the contact, whose forces CalculiX counts in."""
+    """On the secondary's body, from its supports; None where there are loads, or where a support holds nodes of the contact, whose
+    contact forces CalculiX counts in."""
     if deck.get("loads"):
         return None
     body = next(name for name, blocks in mesh.bodies.items() if any(mesh.nodes(secondary)[0] - 1 in cells for _, _, cells in blocks))
@@ -264,5 +295,5 @@ def nodal_field(directory, name):
             elif line.startswith(" -3"):
                 reading = False
             elif reading and line.startswith(" -1"):
-                values[int(line[3:13])] = [float(line[i:i + 12]) for i in range(13, len(line.rstrip()) - 11, 12)]
+                values[int(line[3:13])] = [float(line[i : i + 12]) for i in range(13, len(line.rstrip()) - 11, 12)]
     return np.array(list(values)), np.array(list(values.values()))

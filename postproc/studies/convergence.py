@@ -3,6 +3,7 @@
 A row is a dictionary with program, element, step, mesh, tolerance, status, message, unknowns, products, cpu, wall, memory, `values`
 {quantity: value}; `measure` adds `errors` (against the reference), `algebraic` (against the tightest run of the same mesh) and `orders`.
 """
+
 import math
 
 L2 = "pressure (L2)"
@@ -69,12 +70,27 @@ def reference(rows, quantity, exact, dimension):
         if len(chain) >= 3:
             limit = richardson([size(row, dimension) for row in chain[-3:]], values[-3:])
             if limit:
-                extrapolated.append((abs(limit[0] - values[-1]), limit[0],
-                                     f"Richardson's extrapolation of {element or 'the runs'}, tolerance {tolerance}, order {limit[1]:.1f}", None))
+                extrapolated.append(
+                    (
+                        abs(limit[0] - values[-1]),
+                        limit[0],
+                        f"Richardson's extrapolation of {element or 'the runs'}, tolerance {tolerance}, order {limit[1]:.1f}",
+                        None,
+                    )
+                )
         last = min((chain[-1] for _, chain in own), key=lambda row: (-row["step"], tightness(row["tolerance"])))
         change = abs(values[-1] - values[-2]) if len(values) > 1 else math.inf
-        finest.append((change, -last["unknowns"], last["values"][quantity],
-                       "finest run: " + ", ".join(filter(None, [element, f"mesh {last['mesh']}", f"tolerance {last['tolerance']}"])) + "; errors near it are too small", last))
+        finest.append(
+            (
+                change,
+                -last["unknowns"],
+                last["values"][quantity],
+                "finest run: "
+                + ", ".join(filter(None, [element, f"mesh {last['mesh']}", f"tolerance {last['tolerance']}"]))
+                + "; errors near it are too small",
+                last,
+            )
+        )
     if extrapolated:
         return min(extrapolated, key=lambda item: item[0])[1:]
     return min(finest, key=lambda item: item[:2])[2:] if finest else None

@@ -1,4 +1,5 @@
 """Runs one program alone and measures it."""
+
 import os
 import pathlib
 import signal
@@ -6,18 +7,25 @@ import subprocess
 import time
 from dataclasses import dataclass
 
-SERIAL = {"OMP_NUM_THREADS": "1", "OMP_THREAD_LIMIT": "1", "OPENBLAS_NUM_THREADS": "1", "MORTISE_TERMINAL": "0",
-          "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+SERIAL = {
+    "OMP_NUM_THREADS": "1",
+    "OMP_THREAD_LIMIT": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MORTISE_TERMINAL": "0",
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+}
 
 
 @dataclass
 class Measured:
     """CPU seconds (user and system of the process and of all it waited for), wall seconds, peak memory of its largest process in MB."""
+
     cpu: float
     wall: float
     memory: float
     status: int  # negative: the signal that ended it
-    text: str    # the last it said
+    text: str  # the last it said
 
 
 def run(command, directory, limit=None):
@@ -25,7 +33,9 @@ def run(command, directory, limit=None):
     log = pathlib.Path(directory) / "log"
     start = time.perf_counter()
     with open(log, "w") as sink:
-        process = subprocess.Popen(command, cwd=directory, stdout=sink, stderr=subprocess.STDOUT, env=dict(os.environ, **SERIAL), start_new_session=True)
+        process = subprocess.Popen(
+            command, cwd=directory, stdout=sink, stderr=subprocess.STDOUT, env=dict(os.environ, **SERIAL), start_new_session=True
+        )
         try:
             status, usage = wait(process, start, limit)
         except BaseException:  # a session of its own hears no Ctrl-C

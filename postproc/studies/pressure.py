@@ -3,17 +3,20 @@
 Nodal pressures are interpolated by the shape functions of the facets (of second order on facets that are), the formula is evaluated at the
 points of a Gauss rule. Needs python3-numpy, and python3-meshio to read contact_*.vtu.
 """
+
 import re
 
 import numpy as np
 
 from studies.refinement import BadInput
 
-NAMES = {name: getattr(np, name) for name in ("sqrt", "maximum", "minimum", "where", "abs", "exp", "log", "sin", "cos", "tan", "arctan2", "hypot", "pi")}
+NAMES = {
+    name: getattr(np, name) for name in ("sqrt", "maximum", "minimum", "where", "abs", "exp", "log", "sin", "cos", "tan", "arctan2", "hypot", "pi")
+}
 
 
 class Formula:
-    """An expression in x, y, z and the run's own `force` (the integral of its pressure) with numpy's functions: sqrt, maximum, where, hypot, pi and so on."""
+    """An expression in x, y, z and the run's own `force` (the integral of its pressure) with functions of numpy's."""
 
     def __init__(self, text):
         self.text = text
@@ -91,7 +94,9 @@ def at_gauss_points(kind, points, values):
     at, weights = rule(corners)
     shape = functions(kind, at)
     step = 1e-6
-    tangents = [np.einsum("qn,fnd->fqd", (functions(kind, at + step * e) - functions(kind, at - step * e)) / (2 * step), points) for e in np.eye(at.shape[1])]
+    tangents = [
+        np.einsum("qn,fnd->fqd", (functions(kind, at + step * e) - functions(kind, at - step * e)) / (2 * step), points) for e in np.eye(at.shape[1])
+    ]
     size = np.linalg.norm(tangents[0], axis=2) if corners == 2 else np.linalg.norm(np.cross(tangents[0], tangents[1]), axis=2)
     return np.einsum("qn,fnd->fqd", shape, points).reshape(-1, 3), (size * weights).ravel(), np.einsum("qn,fn->fq", shape, values).ravel()
 
@@ -108,6 +113,7 @@ def relative_error(groups, formula):
 
 def of_mortise(directory, contact, field):
     import meshio
+
     groups = []
     for path in sorted(directory.glob("contact_*.vtu")):
         mesh = meshio.read(path)

@@ -3,6 +3,7 @@
 Blocks: `cells` is multiplied. A .geo file: a constant that is a size is divided, one that is a count is multiplied; which is which is read
 from what the file does with it (`evidence`). A .msh, .step or .brep file: gmsh splits every cell.
 """
+
 import pathlib
 import re
 import shutil
@@ -23,7 +24,9 @@ def expressions(text):
         yield "division", match.group(1)
     for match in re.finditer(r"\bLayers\s*\{([^;]*?)\}\s*;", text):
         yield "division", match.group(1)
-    for match in re.finditer(r"\b(?:Mesh\.(?:MeshSize|CharacteristicLength)\w*|MeshSize\s*\{[^}]*\}|Characteristic\s+Length\s*\{[^}]*\})\s*=\s*([^;]*);", text):
+    for match in re.finditer(
+        r"\b(?:Mesh\.(?:MeshSize|CharacteristicLength)\w*|MeshSize\s*\{[^}]*\}|Characteristic\s+Length\s*\{[^}]*\})\s*=\s*([^;]*);", text
+    ):
         yield "size", match.group(1)
     for match in re.finditer(r"\bField\s*\[[^\]]*\]\.(?:F|Size\w*|LcMin|LcMax|VIn|VOut|h\w+)\s*=\s*([^;]*);", text):
         yield "size", re.sub(r'^\s*Sprintf\s*\(\s*"[^"]*"\s*,', "", match.group(1))
@@ -45,7 +48,9 @@ def split_arguments(text):
 def substituted(expression, assignments, depth=3):
     """With the variables of the file replaced by what they were set from."""
     for _ in range(depth):
-        expression = re.sub(r"\b[A-Za-z_]\w*\b(?!\s*\()", lambda m: f"({assignments[m.group()]})" if m.group() in assignments else m.group(), expression)
+        expression = re.sub(
+            r"\b[A-Za-z_]\w*\b(?!\s*\()", lambda m: f"({assignments[m.group()]})" if m.group() in assignments else m.group(), expression
+        )
     return expression
 
 
@@ -89,12 +94,19 @@ def choose(geometry, given, size, count):
         tier = {name: kind for name, kind in found.items() if name in given} or found
         kinds = set(tier.values())
         if not tier:
-            raise BadInput(f"{geometry.name}: no constant is seen to decide on the size of cells; " + (
-                f"name one with --size or --count (there are {', '.join(values)})" if values else
-                "give it one, such as DefineConstant[ h = 0.1 ]; with h as the fourth number of its points"))
+            raise BadInput(
+                f"{geometry.name}: no constant is seen to decide on the size of cells; "
+                + (
+                    f"name one with --size or --count (there are {', '.join(values)})"
+                    if values
+                    else "give it one, such as DefineConstant[ h = 0.1 ]; with h as the fourth number of its points"
+                )
+            )
         if len(tier) > 1 and kinds != {"count"} or kinds - {"size", "count"}:
-            raise BadInput(f"{geometry.name}: several constants may set the size of cells ({', '.join(f'{n}: {k}' for n, k in tier.items())}); "
-                           f"name the one to divide with --size NAME, or those to multiply with --count NAME")
+            raise BadInput(
+                f"{geometry.name}: several constants may set the size of cells ({', '.join(f'{n}: {k}' for n, k in tier.items())}); "
+                f"name the one to divide with --size NAME, or those to multiply with --count NAME"
+            )
         wanted = list(tier.items())
     for name, kind in wanted:
         if name not in values:
@@ -147,8 +159,10 @@ class Ladder:
 
     def values(self, step):
         """{constant: value} of a .geo file."""
-        return {name: float(f"{value / self.factor**step:.6g}") if kind == "size" else multiplied(int(value), self.factor**step)
-                for name, kind, value in self.constants}
+        return {
+            name: float(f"{value / self.factor**step:.6g}") if kind == "size" else multiplied(int(value), self.factor**step)
+            for name, kind, value in self.constants
+        }
 
     def name(self, step):
         if "blocks" in self.mesh or self.split:

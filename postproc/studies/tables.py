@@ -1,4 +1,5 @@
 """Writes what a study found: study.csv, study.md and the two plots. A file appears under its name when it is whole."""
+
 import csv
 import io
 import os
@@ -17,7 +18,11 @@ def write_whole(path, content):
 def comma_separated(rows, quantities):
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    heads = [name for q in quantities for name in ((q,) if convergence.is_error(q) else (q, f"error of {q}", f"change from the tightest of {q}", f"order of {q}"))]
+    heads = [
+        name
+        for q in quantities
+        for name in ((q,) if convergence.is_error(q) else (q, f"error of {q}", f"change from the tightest of {q}", f"order of {q}"))
+    ]
     writer.writerow([*COLUMNS, *heads, "message"])
     for row in rows:
         cells = []
@@ -61,8 +66,19 @@ def main_table(rows, quantities):
         end = [cell(row, q) for q in quantities]
         if row["status"] != 0 and end:
             end[0] = f"exit status {row['status']}"
-        body.append([f"{row['program']} {row['element']}".strip(), row["mesh"], row["tolerance"] or "-", row["unknowns"] or "-", row["products"] or "-",
-                     rounded(row["cpu"], ".2f"), rounded(row["wall"], ".2f"), rounded(row["memory"], ".0f"), *end])
+        body.append(
+            [
+                f"{row['program']} {row['element']}".strip(),
+                row["mesh"],
+                row["tolerance"] or "-",
+                row["unknowns"] or "-",
+                row["products"] or "-",
+                rounded(row["cpu"], ".2f"),
+                rounded(row["wall"], ".2f"),
+                rounded(row["memory"], ".0f"),
+                *end,
+            ]
+        )
     return aligned(head, body)
 
 
@@ -81,16 +97,34 @@ def algebraic_table(rows, quantities):
     chosen = [q for q in quantities if any(q in row["algebraic"] for row in rows)]
     if not chosen:
         return []
-    body = [[f"{row['program']} {row['element']}".strip(), row["mesh"], row["tolerance"], row["products"], rounded(row["cpu"], ".2f"),
-             *(f"{percent(row['algebraic'].get(q))}; {percent(row['errors'].get(q))}" for q in chosen)] for row in rows if row["algebraic"]]
-    return ["", "The solver's share: change from the tightest run of the same mesh; error against the reference.", "",
-            *aligned(["program, element", "mesh", "tolerance", "products", "CPU s", *chosen], body)]
+    body = [
+        [
+            f"{row['program']} {row['element']}".strip(),
+            row["mesh"],
+            row["tolerance"],
+            row["products"],
+            rounded(row["cpu"], ".2f"),
+            *(f"{percent(row['algebraic'].get(q))}; {percent(row['errors'].get(q))}" for q in chosen),
+        ]
+        for row in rows
+        if row["algebraic"]
+    ]
+    return [
+        "",
+        "The solver's share: change from the tightest run of the same mesh; error against the reference.",
+        "",
+        *aligned(["program, element", "mesh", "tolerance", "products", "CPU s", *chosen], body),
+    ]
 
 
 def report(title, remarks, rows, quantities, references):
     text = [f"# {title}", ""] + [f"- {remark}" for remark in remarks]
     text += [f"- {q}: reference {value:.8g}, {where}" for q, (value, where) in references.items() if where]
-    text += ["", "A quantity's columns: value; relative error; measured order (exponent of the error against the size of cells, unknowns^(-1/dimension)).", ""]
+    text += [
+        "",
+        "A quantity's columns: value; relative error; measured order (exponent of the error against the size of cells, unknowns^(-1/dimension)).",
+        "",
+    ]
     return "\n".join(text + main_table(rows, quantities) + failures(rows) + algebraic_table(rows, quantities)) + "\n"
 
 
@@ -103,12 +137,27 @@ def equal_error(rows, quantity, names):
     for key, chain in theirs.items():
         for row in chain:
             error = row["errors"].get(quantity)
-            best = min((seconds for seconds in (seconds_of(own, quantity, error) for own in ours.values()) if seconds), default=None) if error else None
-            body.append([f"{key[0]} {key[1]}", row["mesh"], percent(error), f"{row['cpu']:.2f}", rounded(best, ".2f"), f"{row['cpu'] / best:.1f}" if best else "-"])
+            best = (
+                min((seconds for seconds in (seconds_of(own, quantity, error) for own in ours.values()) if seconds), default=None) if error else None
+            )
+            body.append(
+                [
+                    f"{key[0]} {key[1]}",
+                    row["mesh"],
+                    percent(error),
+                    f"{row['cpu']:.2f}",
+                    rounded(best, ".2f"),
+                    f"{row['cpu'] / best:.1f}" if best else "-",
+                ]
+            )
     if not body:
         return []
-    return ["", f"At equal error of {names}: CPU seconds of the other program's run, of Mortise with its best element, and their ratio.", "",
-            *aligned(["program, element", "mesh", "error", "CPU s", "Mortise: CPU s", "ratio"], body)]
+    return [
+        "",
+        f"At equal error of {names}: CPU seconds of the other program's run, of Mortise with its best element, and their ratio.",
+        "",
+        *aligned(["program, element", "mesh", "error", "CPU s", "Mortise: CPU s", "ratio"], body),
+    ]
 
 
 def seconds_of(chain, quantity, wanted):
@@ -127,6 +176,7 @@ def plots(rows, quantity, title, directory):
         return "No plots: python3-matplotlib is missing (apt-get install python3-matplotlib). The tables are complete."
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+
     for axis, label in (("cpu", "CPU seconds"), ("unknowns", "unknowns")):
         figure, plot = plt.subplots(figsize=(7.5, 5.5))
         draw(plot, rows, quantity, axis)
@@ -153,14 +203,34 @@ def draw(plot, rows, quantity, axis):
         chosen = "auto" if "auto" in tolerances else min(tolerances, key=lambda t: convergence.tightness(t) if t else 0)
         line = sorted((row for row in own if row["tolerance"] == chosen), key=lambda row: row["step"])
         ours = name[0] == "Mortise"
-        plot.plot([row[axis] for row in line], [row["errors"][quantity] for row in line], "-o" if ours else "--s", color=f"C{number}", markersize=4,
-                  label=" ".join(name).strip())
+        plot.plot(
+            [row[axis] for row in line],
+            [row["errors"][quantity] for row in line],
+            "-o" if ours else "--s",
+            color=f"C{number}",
+            markersize=4,
+            label=" ".join(name).strip(),
+        )
         for step in sorted({row["step"] for row in own}):
             thin = sorted((row for row in own if row["step"] == step and row["tolerance"]), key=lambda row: row["products"])
-            plot.plot([row[axis] for row in thin], [row["errors"][quantity] for row in thin], ":.", color=f"C{number}", linewidth=0.8, markersize=3,
-                      label=None if labelled or len(thin) < 2 else "tolerances on one mesh")
+            plot.plot(
+                [row[axis] for row in thin],
+                [row["errors"][quantity] for row in thin],
+                ":.",
+                color=f"C{number}",
+                linewidth=0.8,
+                markersize=3,
+                label=None if labelled or len(thin) < 2 else "tolerances on one mesh",
+            )
             labelled = labelled or len(thin) > 1
         stars = [row for row in own if row["tolerance"] == "auto"]
-        plot.plot([row[axis] for row in stars], [row["errors"][quantity] for row in stars], "*", color=f"C{number}", markersize=13, markeredgecolor="black",
-                  label="stopped by itself (auto)" if stars and not marked else None)
+        plot.plot(
+            [row[axis] for row in stars],
+            [row["errors"][quantity] for row in stars],
+            "*",
+            color=f"C{number}",
+            markersize=13,
+            markeredgecolor="black",
+            label="stopped by itself (auto)" if stars and not marked else None,
+        )
         marked = marked or bool(stars)

@@ -3,10 +3,11 @@
 
     calculix.py MORTISE DECK [--constants n=19 n=24 ...] [--solver "ITERATIVE CHOLESKY" | SPOOLES] [--repeat N] [--set KEY=VALUE ...]
 
-The deck is translated by postproc/studies/calculix.py, as far as CalculiX has the same; contact is surface to surface with a linear penalty of `--penalty` times
-the largest Young's modulus a length. CPU seconds are of the whole run, reading and writing included; a .geo is meshed beforehand for both. `./mortise study
---calculix` measures errors as well. Needs calculix-ccx, gmsh, python3-meshio, python3-yaml.
+The deck is translated by postproc/studies/calculix.py, as far as CalculiX has the same; contact is surface to surface with a linear penalty of
+`--penalty` times the largest Young's modulus a length. CPU seconds are of the whole run, reading and writing included; a .geo is meshed
+beforehand for both. `./mortise study --calculix` measures errors as well. Needs calculix-ccx, gmsh, python3-meshio, python3-yaml.
 """
+
 import argparse
 import json
 import pathlib
@@ -20,7 +21,7 @@ import yaml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "postproc"))
 from studies import calculix, measure  # noqa: E402
-from study import read_deck  # noqa: E402
+from studies.deck import read_deck  # noqa: E402
 
 
 def write_mesh(deck, path, constants, target, dimension):
@@ -43,7 +44,10 @@ def main():
     mortise = str(arguments.mortise.resolve())
     deck = read_deck(arguments.deck, [])
     dimension = 3 if deck.get("dimension", 3) == 3 else 2
-    print("constants | unknowns | CalculiX: CPU s | MB | force | pressure | Mortise: CPU s | MB | force | pressure | products | CPU ratio | memory ratio")
+    print(
+        "constants | unknowns | CalculiX: CPU s | MB | force | pressure | "
+        "Mortise: CPU s | MB | force | pressure | products | CPU ratio | memory ratio"
+    )
     for constants in arguments.constants:
         with tempfile.TemporaryDirectory(prefix="mortise_comparison_") as name:
             directory = pathlib.Path(name)
@@ -64,9 +68,12 @@ def main():
             contact = summary["contacts"][0]
             seconds = [statistics.median(run.cpu for run in runs) for runs in (theirs, ours)]
             memory = [statistics.median(run.memory for run in runs) for runs in (theirs, ours)]
-            print(f"{constants} | {mesh.unknowns()} | {seconds[0]:.1f} | {memory[0]:.0f} | {force:.6g} | {pressure:.6g} | "
-                  f"{seconds[1]:.1f} | {memory[1]:.0f} | {np.abs(contact['force']).max():.6g} | {contact['max_recovered_pressure']:.6g} | "
-                  f"{summary['hessian_multiplications']} | {seconds[0] / seconds[1]:.2f} | {memory[0] / memory[1]:.2f}", flush=True)
+            print(
+                f"{constants} | {mesh.unknowns()} | {seconds[0]:.1f} | {memory[0]:.0f} | {force:.6g} | {pressure:.6g} | "
+                f"{seconds[1]:.1f} | {memory[1]:.0f} | {np.abs(contact['force']).max():.6g} | {contact['max_recovered_pressure']:.6g} | "
+                f"{summary['hessian_multiplications']} | {seconds[0] / seconds[1]:.2f} | {memory[0] / memory[1]:.2f}",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

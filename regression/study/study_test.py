@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Tests ./mortise study: study_test.py MORTISE. The expected values are those of column.yaml's head."""
+
 import csv
 import math
 import pathlib
@@ -108,8 +109,19 @@ class Parts(unittest.TestCase):
         self.assertIsNone(convergence.richardson(sizes, [3.0, 3.1, 3.3]))
 
     def test_reference_and_orders_of_rows(self):
-        rows = [{"program": "Mortise", "element": "hex8", "tolerance": "auto", "step": step, "mesh": str(step), "status": 0, "unknowns": 1000 * 8**step,
-                 "values": {"energy": 2 + 0.1 * 4.0**-step}} for step in range(3)]
+        rows = [
+            {
+                "program": "Mortise",
+                "element": "hex8",
+                "tolerance": "auto",
+                "step": step,
+                "mesh": str(step),
+                "status": 0,
+                "unknowns": 1000 * 8**step,
+                "values": {"energy": 2 + 0.1 * 4.0**-step},
+            }
+            for step in range(3)
+        ]
         references = convergence.measure(rows, ["energy"], {}, 3)
         self.assertAlmostEqual(references["energy"][0], 2, places=10)
         self.assertIn("order 2.0", references["energy"][1])
