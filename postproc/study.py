@@ -71,10 +71,14 @@ class Study:
         self.quantities += [path for path in arguments.exact if path not in self.quantities]
         self.check_elements()
         self.meshes = {}
-        # A geometry is meshed once where gmsh is there; cells of a .msh are split by it.
-        self.premesh = not self.blocks and (
-            self.ladder.split and arguments.refine > 0 or self.ladder.file.suffix != ".msh" and have_gmsh() or arguments.calculix
-        )
+
+    @property
+    def premesh(self):
+        """A geometry is meshed once where gmsh is there; cells of a .msh are split by it; CalculiX needs a file."""
+        if self.blocks:
+            return False
+        splits = self.ladder.split and self.arguments.refine > 0
+        return splits or self.arguments.calculix or self.ladder.file.suffix != ".msh" and have_gmsh()
 
     def usual_quantities(self):
         contacts = range(len(self.deck.get("contacts") or []))
@@ -182,7 +186,7 @@ class Study:
                 self.deck,
                 bodies={body: dict(entry, **({"formulation": formulation} if formulation else {})) for body, entry in self.deck["bodies"].items()},
             )
-            mesh = calculix.Mesh(self.mesh_file(step, order), self.dimension)
+            mesh = calculix.Mesh(self.mesh_file(step, order), self.dimension, self.ladder.mesh.get("scale", 1.0))
             measured = self.cheapest(lambda: calculix.solve(deck, mesh, penalty, solver, directory, self.arguments.time_limit))
             row = self.row(f"CalculiX {calculix.SOLVERS[solver]} {penalty:g} E", element, step, "", measured)
             row["unknowns"] = mesh.unknowns()

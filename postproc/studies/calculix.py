@@ -55,11 +55,11 @@ def corners(kind):
 class Mesh:
     """Nodes, cells by body and facets by boundary of a .msh file with physical names, numbered from 1 in CalculiX's files."""
 
-    def __init__(self, path, dimension):
+    def __init__(self, path, dimension, scale=1.0):
         with contextlib.redirect_stdout(None):  # its reader prints an empty line
             mesh = meshio.read(path)
         self.dimension = dimension
-        self.points = np.array(mesh.points)
+        self.points = scale * np.array(mesh.points)
         name = {(int(data[1]), int(data[0])): key for key, data in mesh.field_data.items()}
         self.bodies, self.boundaries, self.sides_of = {}, {}, {}
         element = 0
