@@ -1,7 +1,6 @@
 // Quarter of a cylinder of radius R on half of a block, plane; graded towards the contact at the origin, where the two sides do not match.
 DefineConstant[ h = 0.4 ];     // cell size at the contact
-DefineConstant[ R = 50, W = 200, H = 200 ];
-d = 12;                        // extent of the fine region, twice the contact
+DefineConstant[ R = 50, W = 200, H = 200, d = 12 ]; // d: extent of the fine region, twice the contact
 hf = R / 6;
 
 Point(1) = {0, 0, 0, h}; Point(2) = {R * Sin(d / R), R - R * Cos(d / R), 0, h};

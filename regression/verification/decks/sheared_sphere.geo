@@ -1,0 +1,25 @@
+// Half of the lower half of a sphere of radius R on half of a block (y > 0), tetrahedra graded towards the contact at the origin.
+SetFactory("OpenCASCADE");
+DefineConstant[ h = 0.1, R = 10, W = 10, H = 10, fine = 0.4, growth = 0.7, order = 2 ];
+Sphere(1) = {0, 0, R, R, -Pi / 2, 0, Pi};
+Box(2) = {-W, 0, -H, 2 * W, W, H};
+Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeFromCurvature = 0; Mesh.MeshSizeExtendFromBoundary = 0;
+Field[1] = MathEval;
+Field[1].F = Sprintf("%g + %g * 0.5 * (abs(sqrt(x*x+y*y+z*z) - %g) + sqrt(x*x+y*y+z*z) - %g)", h, growth, fine, fine);
+Background Field = 1;
+Mesh.ElementOrder = order;
+Mesh.Optimize = 1;
+e = 1e-3;
+Physical Volume("sphere") = {1};
+Physical Volume("block") = {2};
+sy() = Surface In BoundingBox {-R - W, -e, -H - e, R + W, e, R + e};
+Physical Surface("symmetry") = {sy()};
+top() = Surface In BoundingBox {-R - e, -e, R - e, R + e, R + e, R + e};
+Physical Surface("sphere_top") = {top()};
+bottom() = Surface In BoundingBox {-W - e, -e, -H - e, W + e, W + e, -H + e};
+Physical Surface("block_bottom") = {bottom()};
+face() = Surface In BoundingBox {-W - e, -e, -e, W + e, W + e, e};
+Physical Surface("block_top") = {face()};
+all() = Boundary { Volume{1}; };
+all() -= sy(); all() -= top();
+Physical Surface("sphere_surface") = {all()};
