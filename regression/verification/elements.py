@@ -4,6 +4,7 @@ Written from the definitions, not from lib/fem: shape functions by inverting a V
 by Gauss's rules (collapsed on triangles and tetrahedra). Formulations bbar (Hughes 1980) and incompatible (Wilson 1973, Taylor 1976) as
 their papers have them.
 """
+
 import itertools
 
 import numpy as np
@@ -13,20 +14,36 @@ CORNERS = {
     "quad": [(-1, -1), (1, -1), (1, 1), (-1, 1)],
     "tet": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
     "hex": [(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)],
-    "prism": [(0, 0, -1), (1, 0, -1), (0, 1, -1), (0, 0, 1), (1, 0, 1), (0, 1, 1)]}
+    "prism": [(0, 0, -1), (1, 0, -1), (0, 1, -1), (0, 0, 1), (1, 0, 1), (0, 1, 1)],
+}
 EDGES = {
     "tri": [(0, 1), (1, 2), (2, 0)],
     "quad": [(0, 1), (1, 2), (2, 3), (3, 0)],
     "tet": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
     "hex": [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)],
-    "prism": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)]}
-FACES = {"quad": [(0, 1, 2, 3)],
-         "hex": [(0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 1, 2, 3), (4, 5, 6, 7), tuple(range(8))],
-         "prism": [(0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)]}
+    "prism": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
+}
+FACES = {
+    "quad": [(0, 1, 2, 3)],
+    "hex": [(0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 1, 2, 3), (4, 5, 6, 7), tuple(range(8))],
+    "prism": [(0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
+}
 # VTK's type: shape, edges' nodes, faces' nodes.
-KINDS = {5: ("tri", 0, 0), 22: ("tri", 1, 0), 9: ("quad", 0, 0), 23: ("quad", 1, 0), 28: ("quad", 1, 1), 10: ("tet", 0, 0),
-         24: ("tet", 1, 0), 12: ("hex", 0, 0), 25: ("hex", 1, 0), 29: ("hex", 1, 1), 13: ("prism", 0, 0), 26: ("prism", 1, 0),
-         32: ("prism", 1, 1)}
+KINDS = {
+    5: ("tri", 0, 0),
+    22: ("tri", 1, 0),
+    9: ("quad", 0, 0),
+    23: ("quad", 1, 0),
+    28: ("quad", 1, 1),
+    10: ("tet", 0, 0),
+    24: ("tet", 1, 0),
+    12: ("hex", 0, 0),
+    25: ("hex", 1, 0),
+    29: ("hex", 1, 1),
+    13: ("prism", 0, 0),
+    26: ("prism", 1, 0),
+    32: ("prism", 1, 1),
+}
 
 
 def exponents(shape, edges, faces):
@@ -38,8 +55,11 @@ def exponents(shape, edges, faces):
         return [p for p in powers if sum(p) <= order]
     if shape == "prism":
         inside = [p for p in powers if p[0] + p[1] <= order]
-        return inside if faces or not edges else [p for p in inside if sum(p) <= 2 or (p[2] == 1 and p[0] + p[1] == 2) or
-                                                  (p[2] == 2 and p[0] + p[1] == 1)]
+        return (
+            inside
+            if faces or not edges
+            else [p for p in inside if sum(p) <= 2 or (p[2] == 1 and p[0] + p[1] == 2) or (p[2] == 2 and p[0] + p[1] == 1)]
+        )
     if not edges or faces:
         return powers
     return [p for p in powers if sum(e for e in p if e > 1) <= 2]  # serendipity: superlinear degree two at most
@@ -120,8 +140,11 @@ def mode_amplitudes(reference, x, u, constants):
     _, determinant, gradient = geometry(reference, x, at)
     modes, volume = mode_gradients(reference, x, at), np.abs(determinant) * w
     d, (lam, mu) = reference.dimension, constants
-    both = lambda f, g: (lam * np.einsum("cq,cqia,cqjb->ciajb", volume, f, g) + mu * np.einsum("cq,cqib,cqja->ciajb", volume, f, g) +
-                         mu * np.einsum("cq,cqik,cqjk,ab->ciajb", volume, f, g, np.eye(d)))
+    both = lambda f, g: (
+        lam * np.einsum("cq,cqia,cqjb->ciajb", volume, f, g)
+        + mu * np.einsum("cq,cqib,cqja->ciajb", volume, f, g)
+        + mu * np.einsum("cq,cqik,cqjk,ab->ciajb", volume, f, g, np.eye(d))
+    )
     cells = len(x)
     right = np.einsum("ciajb,cjb->cia", both(modes, gradient), u).reshape(cells, -1, 1)
     return -np.linalg.solve(both(modes, modes).reshape(cells, d * d, d * d), right).reshape(cells, d, d)

@@ -5,6 +5,7 @@ McGraw-Hill 1951. [C] M. Ciavarella, D. Hills and G. Monno, The influence of rou
 212 (1998). [S] D. Spence, An eigenvalue problem for elastic contact with finite friction, Proc. Camb. Phil. Soc. 73 (1973). [W] H.
 Westergaard, Bearing pressures and cracks, J. Appl. Mech. 6 (1939).
 """
+
 import math
 
 import numpy as np
@@ -21,6 +22,7 @@ def root(x):
 
 
 # Hertz [J, 4.2 and appendix 3].
+
 
 def hertz_line(force, radius, modulus):
     """Half width a and peak pressure p0 for a force a length."""
@@ -73,6 +75,7 @@ def roller_compression(force, radius, a, e, nu):
 
 # Friction.
 
+
 def cattaneo(r, a, c, limit):
     """Tangential traction, limit = coefficient * p0 [Cattaneo 1938, Mindlin 1949; J, 7.26 and 7.41]."""
     return limit * (root(1 - (np.asarray(r) / a) ** 2) - c / a * root(1 - (np.asarray(r) / c) ** 2))
@@ -103,6 +106,7 @@ def spence_stick(coefficient, nu):
 
 
 # Rings [T, 28].
+
 
 def press_fit_pressure(interference, a, b, c, e, nu, plane):
     """Shaft of radii a, b in a hub of radii b, c, the same material; plane: "plane_stress" or "plane_strain"."""
@@ -153,6 +157,7 @@ def sphere_displacement(r, inner, outer, pressure, e, nu):
 
 # Punches on a half-plane.
 
+
 def flat_punch(x, a, force):
     """Pressure under a rigid flat punch of half width a [J, 2.64]."""
     return force / (math.pi * np.sqrt(a**2 - np.asarray(x) ** 2))
@@ -196,6 +201,7 @@ def wave_pressure(x, mean, a, length):
 
 
 # Beams.
+
 
 def cantilever(force, length, height, width, e, nu):
     """End deflection with shear, rectangular section, shear coefficient 10 (1 + nu) / (12 + 11 nu) [Cowper, J. Appl. Mech. 33 (1966)]."""

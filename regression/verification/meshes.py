@@ -1,4 +1,5 @@
 """Meshes whose nodes lie exactly where a formula has them: structured grids, mapped, as .msh files (format 2.2)."""
+
 import numpy as np
 
 # Local grid places of gmsh's quadrilaterals with 4 and 9 nodes, and of its lines.
@@ -38,8 +39,7 @@ class Writer:
             file.write(f"$EndPhysicalNames\n$Nodes\n{len(self.points)}\n")
             file.writelines(f"{i + 1} {x:.16g} {y:.16g} 0\n" for i, (x, y) in enumerate(self.points))
             file.write(f"$EndNodes\n$Elements\n{len(self.elements)}\n")
-            file.writelines(f"{i + 1} {kind} 2 {tag} {tag} {' '.join(map(str, nodes))}\n"
-                            for i, (kind, tag, nodes) in enumerate(self.elements))
+            file.writelines(f"{i + 1} {kind} 2 {tag} {tag} {' '.join(map(str, nodes))}\n" for i, (kind, tag, nodes) in enumerate(self.elements))
             file.write("$EndElements\n")
 
 

@@ -1,4 +1,5 @@
 """What a run of Mortise left behind: summary.json and the .vtu files of solution.pvd and contact.pvd, without a library for VTK."""
+
 import json
 import pathlib
 import re
@@ -17,7 +18,7 @@ def unpacked(data, start):
     sizes = np.frombuffer(data, np.uint32, blocks, start + 12)
     at, parts = start + 12 + 4 * blocks, []
     for size in sizes:
-        parts.append(zlib.decompress(data[at:at + int(size)]))
+        parts.append(zlib.decompress(data[at : at + int(size)]))
         at += int(size)
     return b"".join(parts)
 

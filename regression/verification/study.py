@@ -1,4 +1,5 @@
 """What a verification case is, how it is run and how it is judged."""
+
 import dataclasses
 import os
 import pathlib
@@ -19,6 +20,7 @@ ORDER_SLACK = 0.3  # what a measured order may stay below the expected one: mesh
 @dataclasses.dataclass
 class Mesh:
     """One run: settings as the command line's --set takes them; h the size of a cell in whatever measure the case likes."""
+
     label: str
     h: float
     settings: list
@@ -31,6 +33,7 @@ class Quantity:
     """bound: the largest relative error on the first mesh (without an order: on each). order: expected at refinement. floor: error
     that the formula's own assumptions leave on this model, below which no order is asked for. differences: the order is that of
     the differences between the values of successive meshes, where the floor would hide it."""
+
     name: str
     bound: float
     order: Optional[float] = None
@@ -42,6 +45,7 @@ class Quantity:
 @dataclasses.dataclass
 class Case:
     """evaluate(result, mesh) -> {quantity: (found, expected)}, or {quantity: error} for a norm that is an error already."""
+
     name: str
     title: str
     source: str
@@ -49,11 +53,11 @@ class Case:
     meshes: list
     quantities: list
     evaluate: Callable
-    plot: Optional[Callable] = None            # plot(axes, [(mesh, result)]): a distribution beside the formula
-    true_error: Optional[Callable] = None      # true_error(result, mesh) -> ||u - u_h|| in the energy norm, absolute
-    effectivity: tuple = (0.7, 1.5)            # judged where true_error is there
-    quick: tuple = (0,)                        # numbers of the meshes that --quick runs
-    needs: str = ""                            # a value of `dimension` that not every version of the program has
+    plot: Optional[Callable] = None  # plot(axes, [(mesh, result)]): a distribution beside the formula
+    true_error: Optional[Callable] = None  # true_error(result, mesh) -> ||u - u_h|| in the energy norm, absolute
+    effectivity: tuple = (0.7, 1.5)  # judged where true_error is there
+    quick: tuple = (0,)  # numbers of the meshes that --quick runs
+    needs: str = ""  # a value of `dimension` that not every version of the program has
 
 
 @dataclasses.dataclass
@@ -88,11 +92,11 @@ class Program:
             mesh = directory.with_suffix(".msh")
             generate(mesh)
             settings = [f"mesh.file={mesh}", *settings]
-        environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_THREAD_LIMIT="1", OMPI_ALLOW_RUN_AS_ROOT="1",
-                           OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+        environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_THREAD_LIMIT="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run(self.command(deck, settings) + ["--output", str(directory)], capture_output=True, text=True,
-                              env=environment, timeout=1200)
+        done = subprocess.run(
+            self.command(deck, settings) + ["--output", str(directory)], capture_output=True, text=True, env=environment, timeout=1200
+        )
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         if done.returncode != 0:
             raise Failed(f"{deck.name} {' '.join(settings)}: exit status {done.returncode}\n{(done.stdout + done.stderr)[-2000:]}")

@@ -7,6 +7,7 @@ A case is named by itself or by its family (a module of cases/). --quick runs th
 with the bounds stated; without it the orders of convergence are judged as well. Exit status 1 if a case fails. Needs numpy, and
 matplotlib for --plots.
 """
+
 import argparse
 import importlib
 import pathlib
@@ -39,12 +40,23 @@ def table(case, rows):
     """The lines of a case: one a mesh, then the orders."""
     names = [quantity.name for quantity in case.quantities]
     head = ["mesh", "unknowns", *names, "effectivity", "products", "s"]
-    lines = [[row.mesh.label, str(row.result.summary["primal_unknowns"]), *(f"{row.errors[name]:.2e}" for name in names),
-              shown(row.effectivity, "{:.2f}"), str(row.result.summary["hessian_multiplications"]), f"{row.result.seconds:.1f}"]
-             for row in rows]
+    lines = [
+        [
+            row.mesh.label,
+            str(row.result.summary["primal_unknowns"]),
+            *(f"{row.errors[name]:.2e}" for name in names),
+            shown(row.effectivity, "{:.2f}"),
+            str(row.result.summary["hessian_multiplications"]),
+            f"{row.result.seconds:.1f}",
+        ]
+        for row in rows
+    ]
     if any(quantity.order is not None for quantity in case.quantities) and len(rows) > 1:
-        lines.append(["order: expected / measured", ""] + [
-            "-" if q.order is None else f"{q.order:g} / {shown(study.order(q, rows), '{:.2f}')}" for q in case.quantities] + ["", "", ""])
+        lines.append(
+            ["order: expected / measured", ""]
+            + ["-" if q.order is None else f"{q.order:g} / {shown(study.order(q, rows), '{:.2f}')}" for q in case.quantities]
+            + ["", "", ""]
+        )
     return head, lines
 
 
@@ -62,8 +74,10 @@ def markdown(case, head, lines, complaints):
 def draw(case, rows, directory):
     """One picture a case: the distribution beside the formula, and the errors over h."""
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+
     converging = [q for q in case.quantities if q.order is not None and len(rows) > 1]
     if case.plot is None and not converging:
         return
@@ -74,9 +88,11 @@ def draw(case, rows, directory):
         last = axes[0, -1]
         h = [row.mesh.h for row in rows]
         for quantity, mark in zip(converging, "os^vDx+*"):
-            line, = last.loglog(h, [row.errors[quantity.name] for row in rows], mark + "-", markersize=4, label=quantity.name)
+            (line,) = last.loglog(h, [row.errors[quantity.name] for row in rows], mark + "-", markersize=4, label=quantity.name)
             end = rows[0].errors[quantity.name]
             last.loglog(h, [end * (x / h[0]) ** quantity.order for x in h], ":", color=line.get_color(), linewidth=0.8)
+        last.set_xticks(h, [f"{x:.2g}" for x in h])
+        last.minorticks_off()
         last.set_xlabel("h")
         last.set_ylabel("relative error (dotted: expected order)")
         last.legend(fontsize=7)
@@ -115,8 +131,7 @@ def main():
         rows, failures = study.solve(program, case, arguments.quick)
         complaints = failures + study.judge(case, rows, arguments.quick)
         head, lines = table(case, rows)
-        print(aligned(head, lines), *(f"  FAILED: {complaint}" for complaint in complaints), "" if complaints else "  passed\n",
-              sep="\n", flush=True)
+        print(aligned(head, lines), *(f"  FAILED: {complaint}" for complaint in complaints), "" if complaints else "  passed\n", sep="\n", flush=True)
         failed += [case.name] if complaints else []
         seconds += sum(row.result.seconds for row in rows)
         text.append(markdown(case, head, lines, complaints))

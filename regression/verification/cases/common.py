@@ -1,4 +1,5 @@
 """What several cases measure in the same way."""
+
 import numpy as np
 
 from elements import squared_norms
@@ -12,7 +13,7 @@ def node_areas(grid):
     """The share of the faces' areas (lines: lengths) of each node of a surface, equal parts to the nodes of a face."""
     areas = np.zeros(len(grid.points))
     for kind, _, nodes in grid.groups():
-        x = grid.points[nodes[:, :CORNERS[kind]]]
+        x = grid.points[nodes[:, : CORNERS[kind]]]
         if CORNERS[kind] == 2:
             size = np.linalg.norm(x[:, 1] - x[:, 0], axis=1)
         else:
@@ -50,8 +51,10 @@ def constants(**values):
 
 def exact_error(materials, kinematics, exact, formulation=lambda mesh: "standard"):
     """For Case.true_error: the energy norm of the stress's difference from exact(x, body)."""
+
     def error(result, mesh):
         return float(np.sqrt(squared_norms(result.solution, materials, kinematics, exact, formulation(mesh))[1]))
+
     return error
 
 

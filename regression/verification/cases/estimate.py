@@ -3,6 +3,7 @@
 The true error is the energy norm of the stress's difference from the formula, integrated over the cells by elements.py. Effectivity is
 the estimated error (error_estimate.discretization, made absolute with the strain energy) over the true one.
 """
+
 import functools
 
 import numpy as np
@@ -18,45 +19,85 @@ RING = formulas.ring_constants(1, 2, 10, 0)
 def evaluate(kinematics, exact, formulation, displacement, order, result, mesh):
     """Energy norm of the error over that of the solution; displacement at the bore; and whether elements.py finds the program's own
     energy when it integrates by as many Gauss points."""
-    norm, error = squared_norms(result.solution, {0: MATERIAL}, kinematics, exact, formulation)
+    norm, error = squared_norms(result.solution, {0: MATERIAL}, kinematics, exact, formulation, order + 2)
+    result.true_error = float(np.sqrt(error))
     same, _ = squared_norms(result.solution, {0: MATERIAL}, kinematics, None, formulation, order + 1)
-    return {"energy norm": np.sqrt(error / norm), "displacement": (result.displacement_at((1, 0, 0))[0], displacement),
-            "own energy": (same / 2, result.summary["strain_energy"])}
-
-
-def true_error(kinematics, exact, formulation, result, mesh):
-    return float(np.sqrt(squared_norms(result.solution, {0: MATERIAL}, kinematics, exact, formulation)[1]))
+    return {
+        "energy norm": np.sqrt(error / norm),
+        "displacement": (result.displacement_at((1, 0, 0))[0], displacement),
+        "own energy": (same / 2, result.summary["strain_energy"]),
+    }
 
 
 def case(name, element, deck, kinematics, order, meshes, exact, displacement, formulation="standard", bound=0.4):
     plane = kinematics or "3"
-    return Case(name, f"Error estimate, {element}", "Timoshenko and Goodier (1951), 28 and 142; error integrated over the cells", DECKS / deck, meshes,
-                [Quantity("energy norm", bound, order), Quantity("displacement", bound / 2, order + 1, floor=1e-5), Quantity("own energy", 1e-5)],
-                functools.partial(evaluate, plane, exact, formulation, displacement, order),
-                true_error=functools.partial(true_error, plane, exact, formulation))
+    return Case(
+        name,
+        f"Error estimate, {element}",
+        "Timoshenko and Goodier (1951), 28 and 142; error integrated over the cells",
+        DECKS / deck,
+        meshes,
+        [Quantity("energy norm", bound, order), Quantity("displacement", bound / 2, order + 1, floor=1e-5), Quantity("own energy", 1e-5)],
+        functools.partial(evaluate, plane, exact, formulation, displacement, order),
+        true_error=lambda result, mesh: result.true_error,  # evaluate() comes first
+    )
 
 
 def tube(element, three, order, sizes, formulation="standard", **shape):
-    meshes = [Mesh(f"n = {n}", 1 / n, constants(n=n, order=order, three=three, **shape) +
-                   ([f"bodies.tube.formulation={formulation}"] if formulation != "standard" else [])) for n in sizes]
-    return case(f"tube_{element}", f"{element} in a thick tube", "tube_3d.yaml" if three else "tube.yaml", "3" if three else "plane_strain", order, meshes,
-                lambda x, body: formulas.ring_stress(x, RING, 0.3, "plane_strain"), formulas.ring_displacement(1, RING, *MATERIAL, "plane_strain"), formulation)
+    meshes = [
+        Mesh(
+            f"n = {n}",
+            1 / n,
+            constants(n=n, order=order, three=three, **shape) + ([f"bodies.tube.formulation={formulation}"] if formulation != "standard" else []),
+        )
+        for n in sizes
+    ]
+    return case(
+        f"tube_{element}",
+        f"{element} in a thick tube",
+        "tube_3d.yaml" if three else "tube.yaml",
+        "3" if three else "plane_strain",
+        order,
+        meshes,
+        lambda x, body: formulas.ring_stress(x, RING, 0.3, "plane_strain"),
+        formulas.ring_displacement(1, RING, *MATERIAL, "plane_strain"),
+        formulation,
+    )
 
 
 def sphere(element, order, sizes):
-    return case(f"sphere_{element}", f"{element} in a hollow sphere", "hollow_sphere.yaml", "3", order, [Mesh(f"n = {n}", 1 / n, constants(n=n, order=order)) for n in sizes],
-                lambda x, body: formulas.sphere_stress(x, 1, 2, 10), formulas.sphere_displacement(1, 1, 2, 10, *MATERIAL))
+    return case(
+        f"sphere_{element}",
+        f"{element} in a hollow sphere",
+        "hollow_sphere.yaml",
+        "3",
+        order,
+        [Mesh(f"n = {n}", 1 / n, constants(n=n, order=order)) for n in sizes],
+        lambda x, body: formulas.sphere_stress(x, 1, 2, 10),
+        formulas.sphere_displacement(1, 1, 2, 10, *MATERIAL),
+    )
 
 
 PLANE, SOLID, FINE = (4, 8, 16, 32), (2, 4, 8, 16), (4, 8, 12)
 CASES = [
-    tube("tri3", 0, 1, PLANE, quads=0), tube("quad4", 0, 1, PLANE), tube("quad4_bbar", 0, 1, PLANE, "bbar"),
-    tube("quad4_incompatible", 0, 1, PLANE, "incompatible"), tube("tri6", 0, 2, PLANE[:3], quads=0),
-    tube("quad8", 0, 2, PLANE[:3], incomplete=1), tube("quad9", 0, 2, PLANE[:3]),
-    tube("tet4", 2, 1, SOLID, quads=0), tube("prism6", 1, 1, SOLID, quads=0), tube("hex8", 1, 1, SOLID),
+    tube("tri3", 0, 1, PLANE, quads=0),
+    tube("quad4", 0, 1, PLANE),
+    tube("quad4_bbar", 0, 1, PLANE, "bbar"),
+    tube("quad4_incompatible", 0, 1, PLANE, "incompatible"),
+    tube("tri6", 0, 2, PLANE[:3], quads=0),
+    tube("quad8", 0, 2, PLANE[:3], incomplete=1),
+    tube("quad9", 0, 2, PLANE[:3]),
+    tube("tet4", 2, 1, SOLID, quads=0),
+    tube("prism6", 1, 1, SOLID, quads=0),
+    tube("hex8", 1, 1, SOLID),
     tube("prism6_bbar", 1, 1, SOLID, "bbar", quads=0),
-    tube("hex8_bbar", 1, 1, SOLID, "bbar"), tube("hex8_incompatible", 1, 1, SOLID, "incompatible"),
-    tube("tet10", 2, 2, FINE, quads=0), tube("prism15", 1, 2, FINE, quads=0, incomplete=1), tube("prism18", 1, 2, FINE, quads=0),
-    tube("hex20", 1, 2, FINE, incomplete=1), tube("hex27", 1, 2, FINE),
-    sphere("tet4", 1, (4, 8, 12)), sphere("tet10", 2, (3, 5, 8)),
+    tube("hex8_bbar", 1, 1, SOLID, "bbar"),
+    tube("hex8_incompatible", 1, 1, SOLID, "incompatible"),
+    tube("tet10", 2, 2, FINE, quads=0),
+    tube("prism15", 1, 2, FINE, quads=0, incomplete=1),
+    tube("prism18", 1, 2, FINE, quads=0),
+    tube("hex20", 1, 2, FINE, incomplete=1),
+    tube("hex27", 1, 2, FINE),
+    sphere("tet4", 1, (4, 8, 12)),
+    sphere("tet10", 2, (3, 5, 8)),
 ]

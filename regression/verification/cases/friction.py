@@ -4,10 +4,11 @@ Slip counts from the undeformed state, in one step. For equal bodies that is Cat
 moves their surfaces by the same amounts sideways, so points that come into contact early or late are no different. It is not P and Q
 growing in proportion: with Q < coefficient * P that sticks everywhere, with q = (Q/P) p, which only steps with a memory can give.
 """
+
 import numpy as np
 
 import formulas
-from cases.common import (DECKS, INPUTS, Case, Mesh, Quantity, by_x, constants, difference, forces_at_points, node_areas, plot_pressure)
+from cases.common import DECKS, INPUTS, Case, Mesh, Quantity, by_x, constants, difference, forces_at_points, node_areas, plot_pressure
 
 STEEL = (210e3, 0.3)
 MODULUS = formulas.pair_modulus(*STEEL, *STEEL)
@@ -29,9 +30,12 @@ def cattaneo_line(result, mesh):
     exact, found = formulas.cattaneo(x, a, c, 0.3 * p0), np.abs(traction[:, 0])
     points, _, forces = forces_at_points(result)
     moment = np.sum(np.abs(forces[:, 0]) * points[:, 0] ** 2)
-    return {"pressure": difference(np.abs(traction[:, 1]), formulas.hertz_pressure(x, a, p0), areas), "shear": difference(found, exact, areas),
-            "shear, even part": difference((found + np.interp(-x, x, found)) / 2, exact, areas),
-            "c": ((a**2 * (a**2 - 4 * moment / (0.3 * p))) ** 0.25, c)}
+    return {
+        "pressure": difference(np.abs(traction[:, 1]), formulas.hertz_pressure(x, a, p0), areas),
+        "shear": difference(found, exact, areas),
+        "shear, even part": difference((found + np.interp(-x, x, found)) / 2, exact, areas),
+        "c": ((a**2 * (a**2 - 4 * moment / (0.3 * p))) ** 0.25, c),
+    }
 
 
 def plot_shear(axes, runs):
@@ -68,9 +72,12 @@ def cattaneo_point(result, mesh):
     radius = np.linalg.norm(points[:, :2], axis=1)
     all_areas = node_areas(grid)
     across = np.sqrt(np.sum(all_areas * grid.fields["contact_traction"][:, 1] ** 2) / np.sum(areas * found**2))
-    return {"pressure": difference(grid.fields["contact_pressure"], formulas.hertz_pressure(radius, a, p0), all_areas),
-            "shear": difference(found, formulas.cattaneo(r, a, c, 0.3 * p0), areas), "shear across": across,
-            "c": ((a**3 * (a**2 - moment / (0.12 * p))) ** 0.2, c)}
+    return {
+        "pressure": difference(grid.fields["contact_pressure"], formulas.hertz_pressure(radius, a, p0), all_areas),
+        "shear": difference(found, formulas.cattaneo(r, a, c, 0.3 * p0), areas),
+        "shear across": across,
+        "c": ((a**3 * (a**2 - moment / (0.12 * p))) ** 0.2, c),
+    }
 
 
 def plot_sphere(axes, runs):
@@ -91,8 +98,11 @@ def stick_fraction(result):
     ratio = np.where(p > 0, q / (COEFFICIENT * np.where(p > 0, p, 1)), 1)
     first = np.flatnonzero(ratio >= 1 - 1e-6)
     first = first[first > 0][0]
-    return (x[first - 1] + (x[first] - x[first - 1]) * (1 - ratio[first - 1]) / max(1 - ratio[first - 2], 1e-12)
-            if first > 1 and ratio[first - 1] > ratio[first - 2] else x[first]) / a
+    return (
+        x[first - 1] + (x[first] - x[first - 1]) * (1 - ratio[first - 1]) / max(1 - ratio[first - 2], 1e-12)
+        if first > 1 and ratio[first - 1] > ratio[first - 2]
+        else x[first]
+    ) / a
 
 
 def punch(result, mesh):
@@ -112,18 +122,39 @@ def invariant_case():
     def evaluate(result, mesh):
         reference.append(shear_share(result))
         return {"share of friction used": (reference[-1], reference[0])}
-    meshes = [Mesh(f"a = R/{50 / a:g}", 1, [f"mesh.constants={{h: {a / 20}, d: {2 * a}, W: {200 * a}, H: {200 * a}}}", f"loads[0].force=[0, {-906.2 / 2 * a * a}]",
-                                   f"contacts[0].friction={{coulomb: {COEFFICIENT}}}", "contacts[0].secondary=block_top",
-                                   "contacts[0].primary=cylinder_surface"]) for a in (0.5, 1, 2)]
-    return Case("self_similar", "A cylinder on a softer block with friction, at three loads: the stick fraction does not depend on the load",
-                "Spence (1973): self-similar; compared with the smallest load; 0.02 allowed for a/R = 0.04", INPUTS / "hertz_cylinder/hertz_cylinder.yaml",
-                meshes, [Quantity("share of friction used", 0.02)], evaluate, quick=(0, 1))
+
+    meshes = [
+        Mesh(
+            f"a = R/{50 / a:g}",
+            1,
+            [
+                f"mesh.constants={{h: {a / 20}, d: {2 * a}, W: {200 * a}, H: {200 * a}}}",
+                f"loads[0].force=[0, {-906.2 / 2 * a * a}]",
+                f"contacts[0].friction={{coulomb: {COEFFICIENT}}}",
+                "contacts[0].secondary=block_top",
+                "contacts[0].primary=cylinder_surface",
+            ],
+        )
+        for a in (0.5, 1, 2)
+    ]
+    return Case(
+        "self_similar",
+        "A cylinder on a softer block with friction, at three loads: the stick fraction does not depend on the load",
+        "Spence (1973): self-similar; compared with the smallest load; 0.02 allowed for a/R = 0.04",
+        INPUTS / "hertz_cylinder/hertz_cylinder.yaml",
+        meshes,
+        [Quantity("share of friction used", 0.02)],
+        evaluate,
+        quick=(0, 1),
+    )
 
 
 # Blocks.
 
+
 def sliding(shear, slip, normal):
     """Uniform stress -10 across, `shear` along x; the largest differences anywhere."""
+
     def evaluate(result, mesh):
         volume, contact = result.solution.fields, result.contact.fields
         exact = np.zeros(6)
@@ -131,8 +162,13 @@ def sliding(shear, slip, normal):
         traction = np.zeros(3)
         traction[normal], traction[0] = 10, -shear
         found_slip = contact["slip"][:, 0]
-        return {"stress": np.abs(volume["stress"] - exact).max() / 10, "traction": np.abs(contact["contact_traction"] - traction).max() / 10,
-                "slip": np.abs(found_slip - slip).max() / 0.03, "energy": (result.summary["strain_energy"], (100 / 1000 + shear**2 / 500) / 2 * 2)}
+        return {
+            "stress": np.abs(volume["stress"] - exact).max() / 10,
+            "traction": np.abs(contact["contact_traction"] - traction).max() / 10,
+            "slip": np.abs(found_slip - slip).max() / 0.03,
+            "energy": (result.summary["strain_energy"], (100 / 1000 + shear**2 / 500) / 2 * 2),
+        }
+
     return evaluate
 
 
@@ -140,28 +176,74 @@ def sliding_case(name, deck, normal, stick):
     shear, slip, move = (2.5, 0.0, 0.01) if stick else (5.0, 0.03, 0.05)
     side = lambda sign: "[" + ", ".join(["0"] * normal + [str(sign * shear)]) + "]"
     settings = [f"supports[1].displacement.x={move}"] + [f"loads[{i}].traction={side(-1 if i % 2 == 0 else 1)}" for i in range(4)]
-    kinds = ("quad4", "tri3", "quad8", "quad9", "tri6") if normal == 1 else ("hex8", "tet4", "prism6", "hex20", "hex27", "tet10", "prism15", "prism18")
+    kinds = (
+        ("quad4", "tri3", "quad8", "quad9", "tri6") if normal == 1 else ("hex8", "tet4", "prism6", "hex20", "hex27", "tet10", "prism15", "prism18")
+    )
     meshes = [Mesh(kind, 1, settings + [f"mesh.blocks.{body}.element={kind}" for body in ("lower", "upper")]) for kind in kinds]
-    return Case(name, f"Blocks that {'stick' if stick else 'slide'} with Coulomb friction, uniform stress", "Exact: sigma = -E d / 2, tau = G D / 2 or 0.5 sigma, slip D - 2 tau / G",
-                DECKS / deck, meshes, [Quantity(q, 1e-9) for q in ("stress", "traction", "slip", "energy")], sliding(shear, slip, normal))
+    return Case(
+        name,
+        f"Blocks that {'stick' if stick else 'slide'} with Coulomb friction, uniform stress",
+        "Exact: sigma = -E d / 2, tau = G D / 2 or 0.5 sigma, slip D - 2 tau / G",
+        DECKS / deck,
+        meshes,
+        [Quantity(q, 1e-9) for q in ("stress", "traction", "slip", "energy")],
+        sliding(shear, slip, normal),
+    )
 
 
 CASES = [
-    Case("cattaneo", "Cattaneo's line contact, pressed and sheared", "Johnson (1985), 7.2; P and Q are those found; c from the second moment of q",
-         INPUTS / "hertz_cylinder/cattaneo_mindlin.yaml", [Mesh(f"h = {h}", h / 1.31, constants(h=h, growth=3 * h) + [f"mesh.file={DECKS / 'sheared_cylinder.geo'}", "contacts[0].secondary=block_top",
-                                                              "contacts[0].primary=cylinder_surface"])
-          for h in (0.2, 0.1, 0.05, 0.025)],
-         [Quantity("pressure", 0.1, 1), Quantity("shear", 0.15, 1, floor=2 * 1.31 / 50), Quantity("shear, even part", 0.1, 1, floor=2 * 1.31 / 50),
-          Quantity("c", 0.05, 1, floor=0.002)], cattaneo_line, plot_shear),
-    Case("mindlin", "Mindlin's point contact, pressed and sheared, tet10, Poisson's ratio 0", "Johnson (1985), 7.2; c from the second moment of q",
-         DECKS / "sheared_sphere.yaml", [Mesh(f"h = {h}", h / 0.3, constants(h=h, growth=7 * h)) for h in (0.14, 0.1, 0.07)],
-         [Quantity("pressure", 0.2, 1), Quantity("shear", 0.3, 1), Quantity("shear across", 0.2, 1), Quantity("c", 0.1, 1, floor=0.01)],
-         cattaneo_point, plot_sphere),
-    Case("spence", "Stick zone under a flat punch, friction 0.2", "Spence (1973), the pressure taken as frictionless: 3 % allowed",
-         DECKS / "punch.yaml", [Mesh(f"h = {h}, P = {load}", h, constants(h=h) + [f"contacts[0].friction={{coulomb: {COEFFICIENT}}}", f"loads[0].force=[0, {-load}]",
-                                        "friction_loop.tolerance=1e-6"]) for h, load in ((0.05, 1), (0.05, 100), (0.025, 1))],
-         [Quantity("c / a", 0.05)], punch),
+    Case(
+        "cattaneo",
+        "Cattaneo's line contact, pressed and sheared",
+        "Johnson (1985), 7.2; P and Q are those found; c from the second moment of q",
+        INPUTS / "hertz_cylinder/cattaneo_mindlin.yaml",
+        [
+            Mesh(
+                f"h = {h}",
+                h / 1.31,
+                constants(h=h, growth=3 * h)
+                + [f"mesh.file={DECKS / 'sheared_cylinder.geo'}", "contacts[0].secondary=block_top", "contacts[0].primary=cylinder_surface"],
+            )
+            for h in (0.2, 0.1, 0.05, 0.025)
+        ],
+        [
+            Quantity("pressure", 0.1, 1),
+            Quantity("shear", 0.15, 1, floor=2 * 1.31 / 50),
+            Quantity("shear, even part", 0.1, 1, floor=2 * 1.31 / 50),
+            Quantity("c", 0.05, 1, floor=0.002),
+        ],
+        cattaneo_line,
+        plot_shear,
+    ),
+    Case(
+        "mindlin",
+        "Mindlin's point contact, pressed and sheared, tet10, Poisson's ratio 0",
+        "Johnson (1985), 7.2; c from the second moment of q",
+        DECKS / "sheared_sphere.yaml",
+        [Mesh(f"h = {h}", h / 0.3, constants(h=h, growth=7 * h)) for h in (0.14, 0.1, 0.07)],
+        [Quantity("pressure", 0.2, 1), Quantity("shear", 0.3, 1), Quantity("shear across", 0.2, 1), Quantity("c", 0.1, 1, floor=0.01)],
+        cattaneo_point,
+        plot_sphere,
+    ),
+    Case(
+        "spence",
+        "Stick zone under a flat punch, friction 0.2",
+        "Spence (1973), the pressure taken as frictionless: 5 % allowed",
+        DECKS / "punch.yaml",
+        [
+            Mesh(
+                f"h = {h}, P = {load}",
+                h,
+                constants(h=h) + [f"contacts[0].friction={{coulomb: {COEFFICIENT}}}", f"loads[0].force=[0, {-load}]", "friction_loop.tolerance=1e-6"],
+            )
+            for h, load in ((0.05, 1), (0.05, 100), (0.025, 1))
+        ],
+        [Quantity("c / a", 0.05)],
+        punch,
+    ),
     invariant_case(),
-    sliding_case("stick_2d", "sliding.yaml", 1, True), sliding_case("slide_2d", "sliding.yaml", 1, False),
-    sliding_case("stick_3d", "sliding_3d.yaml", 2, True), sliding_case("slide_3d", "sliding_3d.yaml", 2, False),
+    sliding_case("stick_2d", "sliding.yaml", 1, True),
+    sliding_case("slide_2d", "sliding.yaml", 1, False),
+    sliding_case("stick_3d", "sliding_3d.yaml", 2, True),
+    sliding_case("slide_3d", "sliding_3d.yaml", 2, False),
 ]
