@@ -148,6 +148,15 @@ void check_vectors(const Deck& deck, deck::Document& document)
 
 void check_contact_names(const Deck& deck, deck::Document& document)
 {
+  for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
+    const auto& contact = deck.contacts[i];
+    const auto secondary = parse_boundary(contact.secondary), primary = parse_boundary(contact.primary);
+    if (contact.secondary != contact.primary && secondary.boundary == primary.boundary &&
+        (secondary.body == primary.body || secondary.body.empty() || primary.body.empty()))
+      document.error(fmt::format("contacts[{}]", i),
+                     fmt::format("\"{}\" and \"{}\" have faces in common; narrow both to different bodies (body:boundary)",
+                                 contact.secondary, contact.primary));
+  }
   for (std::size_t i = 0; i < deck.contacts.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (deck.contacts[i].name == deck.contacts[j].name)

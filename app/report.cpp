@@ -11,6 +11,9 @@ namespace mortise {
 
 namespace {
 
+// Of the largest force: sums of loads and support forces that differ by more are no equilibrium.
+constexpr double unbalanced = 1e-3;
+
 // Largest value over all ranks and where it is.
 struct Peak {
   double value = 0;
@@ -127,7 +130,7 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
   results.resultants = contact::resultants(results.points, deck.contacts.size(), comm);
   const double length = results.summary.max_displacement;
   results.summary.residuals.penetration = length > 0 ? comm.max(penetration) / length : comm.max(penetration);
-  const double energy = results.summary.strain_energy;
+  const double energy = std::max(results.summary.strain_energy, results.rounding_of_energy);
   slackness = comm.sum(slackness);
   results.summary.residuals.complementarity = energy > 0 ? slackness / (2 * energy) : slackness;
 }
@@ -185,15 +188,25 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
   const auto& comm = problem.communicator();
   const int dimension = decomposition.catalogue.dimension;
   double largest = 0;
+  std::array<double, 2> stiff{0, 0};  // sums of k |u| and k |u|^2 / 2: forces and energy if nothing moved with its neighbours
   std::vector<double> applied(3, 0.0);
   long long unknowns = 0;
   for (std::size_t s = 0; s < results.displacement.size(); ++s) {
     const auto& u = results.displacement[s];
     unknowns += u.size();
-    for (Eigen::Index i = 0; i < u.size(); i += dimension) largest = std::max(largest, u.segment(i, dimension).norm());
+    for (Eigen::Index i = 0; i < u.size(); i += dimension) {
+      const double length = u.segment(i, dimension).norm();
+      const double k = floating.nodal_stiffness[s][static_cast<std::size_t>(i / dimension)];
+      largest = std::max(largest, length);
+      stiff[0] += k * length;
+      stiff[1] += 0.5 * k * length * length;
+    }
     for (Eigen::Index i = 0; i < u.size(); ++i) applied[static_cast<std::size_t>(i % dimension)] += floating.load[s][i];
   }
   comm.sum_in_place(applied);
+  comm.sum_in_place(stiff);
+  results.rounding_of_force = 1e-12 * stiff[0];
+  results.rounding_of_energy = 1e-12 * stiff[1];
   // What pushes a ring outwards needs no support.
   results.applied = Point(floating.kinematics == fem::Kinematics::axisymmetric ? 0 : applied[0], applied[1], applied[2]);
   auto& summary = results.summary;
@@ -252,6 +265,14 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
                                         r.slip,
                                         recovered});
   }
+  double size = std::max({results.applied.norm(), results.reaction.norm(), results.rounding_of_force, 1e-300});
+  for (const auto& r : results.resultants) size = std::max(size, r.force.norm());
+  results.imbalance = (results.applied + results.reaction).norm() / size;
+  results.limit = solved.limit;
+  if (results.imbalance > unbalanced && results.summary.converged) {
+    results.summary.converged = false;
+    results.summary.exit_status = 2;
+  }
   return results;
 }
 
@@ -262,11 +283,16 @@ void print(const Results& results, const Context& context)
   const auto vector = [](const Point& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p[0], p[1], p[2]); };
   log.line("");
   log.line("{}", s.converged ? "Solved." : "NOT CONVERGED within the limits: the results are written, but do not trust them.");
-  double size = std::max({results.applied.norm(), results.reaction.norm(), 1e-300});
-  for (const auto& contact : s.contacts)
-    size = std::max(size, Point(contact.force[0], contact.force[1], contact.force[2]).norm());
+  if (!results.limit.empty())
+    log.line("  It was ended by {}; a larger value lets it go on.", results.limit);
+  else if (results.imbalance > unbalanced)
+    log.line("  The forces do not balance: a motion that only facets of the mesh resist was taken for free, and the loads drive it. Hold "
+             "the body against it by a support.");
+  else if (!s.converged)
+    log.line("  It made no more progress: a looser solver.tolerance may be all that this mesh allows; --set solver.algorithm=smalse is "
+             "the other way.");
   log.line("  balance of forces   applied {}, supports {}, difference {:.1e} of the largest force", vector(results.applied),
-           vector(results.reaction), (results.applied + results.reaction).norm() / size);
+           vector(results.reaction), results.imbalance);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);
   const auto percent = [](double part) {

@@ -61,8 +61,8 @@ void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& dec
   for (std::size_t c = 0; c < points.size(); ++c)
     if (points[c] == 0)
       context.log.warning(
-          "contact {} has no point: its surfaces do not face each other within the search distance, and nothing "
-          "keeps them apart; look at the names, or set a larger search_distance",
+          "contact {} has no point: its surfaces do not face each other within the search distance, or share less than a twentieth of "
+          "a cell, and nothing keeps them apart; look at the names, set a larger search_distance, or refine the secondary side",
           deck.contacts[c].name);
 }
 
@@ -231,7 +231,7 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   log.line("  seconds on the ranks       min     mean      max");
   for (const auto& spread : spreads)
     log.line("    {:<18} {:8.2f} {:8.2f} {:8.2f}", spread.stage, spread.min, spread.mean, spread.max);
-  return solved->converged ? ExitStatus::solved : ExitStatus::not_converged;
+  return results.summary.converged ? ExitStatus::solved : ExitStatus::not_converged;
 }
 
 }  // namespace mortise

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -6,6 +8,7 @@
 #include <memory>
 #include <tuple>
 
+#include "base/error.hpp"
 #include "contact/mortar.hpp"
 #include "face_integrals.hpp"
 
@@ -114,6 +117,11 @@ class Builder {
       while (term != terms.end() && term->place == static_cast<Local>(p)) ++term;
       if (kept_[p] && d_[static_cast<Eigen::Index>(p)] > 0) add_point(p, {begin, term}, contacts);
     }
+    const double crossing = comm_.max(crossing_);
+    if (crossing > 1e-9 * reach_)
+      throw Error(ExitStatus::bad_input,
+                  fmt::format("contact {}: supports hold both sides and push them {:.3g} into each other; change one of the supports",
+                              pair_.options.name, crossing));
   }
 
  private:
@@ -277,15 +285,15 @@ class Builder {
     return terms;
   }
 
-  void add_point(std::size_t p, std::span<const Term> terms, constraint::Contacts& contacts) const
+  void add_point(std::size_t p, std::span<const Term> terms, constraint::Contacts& contacts)
   {
     const Place& place = places_.all[p];
     const double d = d_[static_cast<Eigen::Index>(p)];
     const bool bonded = pair_.options.law == Law::bonded;
     constraint::ContactPoint point{
         index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, place.normal, {}, contacts.rows.size()};
-    if (!moves(terms, d, place.normal)) return;  // both sides are held here
-    if (pair_.options.law != Law::frictionless)
+    const bool held = !moves(terms, d, place.normal);  // on both sides
+    if (!held && pair_.options.law != Law::frictionless)
       for (const auto& tangent : directions_[p].tangents)
         if (moves(terms, d, tangent)) point.tangents.push_back(tangent);
 
@@ -303,6 +311,10 @@ class Builder {
     point.gap = bonded ? 0
                        : weight * (gap_at(p, (frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d) / weight) -
                                    pair_.options.interference);
+    if (held) {
+      if (!bonded) crossing_ = std::max(crossing_, held_part(terms, d, place.normal) - point.gap);
+      return;
+    }
     for (std::size_t axis = 0; axis < frame.size(); ++axis) add_row(terms, d, frame[axis], axis == 0 ? point.gap : 0.0, contacts);
     contacts.points.push_back(std::move(point));
     contacts.bonded.push_back(bonded);
@@ -331,6 +343,17 @@ class Builder {
     });
   }
 
+  // What supports contribute to sum_k value_k / d axis . u(node_k).
+  double held_part(std::span<const Term> terms, double d, const Point& axis) const
+  {
+    double sum = 0;
+    for (const auto& term : terms)
+      for (int c = 0; c < dimension_; ++c)
+        if (counts(term, d, axis, c))
+          if (const auto* held = support_of(term, c)) sum += term.value / d * axis[c] * held->value;
+    return sum;
+  }
+
   // sum_k value_k / d axis . u(node_k) <= bound, without what supports hold.
   void add_row(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts) const
   {
@@ -356,6 +379,7 @@ class Builder {
   Places places_, primary_places_;
   HeldNodes held_, primary_held_;
   double reach_;
+  double crossing_ = 0;  // how far supports alone push the two sides into each other, on this rank
   std::unique_ptr<Tree> tree_;                           // of the primary facets
   std::vector<FaceIntegrals> integrals_;                 // of this rank's faces
   std::vector<std::pair<Local, Local>> face_of_middle_;  // of each place: a face and the node in it, if that is no corner

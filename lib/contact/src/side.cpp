@@ -24,6 +24,20 @@ Point corner_normal(const FaceGeometry& face, std::size_t k)
   return next.cross(last) / (next.squaredNorm() * last.squaredNorm());
 }
 
+// Places of a border that goes on nearly straight there: its two edges turn by less than 45 degrees.
+std::vector<bool> between_two_faces(const Side& side, const Places& places, const std::map<std::pair<Local, Local>, int>& edges)
+{
+  std::vector<std::vector<Point>> along(places.all.size());
+  const auto at = [&](Local place) -> const Point& {
+    return side.points[static_cast<std::size_t>(places.all[static_cast<std::size_t>(place)].node)];
+  };
+  for (const auto& [edge, count] : edges)
+    if (count == 1) along[static_cast<std::size_t>(edge.first)].push_back((at(edge.second) - at(edge.first)).normalized());
+  std::vector<bool> result;
+  for (const auto& directions : along) result.push_back(directions.size() == 2 && directions[0].dot(directions[1]) < -0.7);
+  return result;
+}
+
 // Corrects the normals of places on a border; see find_places().
 void continue_curvature(const Side& side, Places& places)
 {
@@ -48,15 +62,18 @@ void continue_curvature(const Side& side, Places& places)
   if (plane)
     for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
 
-  // First from edges that lead inside; then corners, which have none, from their neighbours on the border.
+  // First from edges that lead inside; then corners, which have none, from their neighbours on the border. On a surface one cell wide
+  // all places are on the border: there those between two faces have the normal that the ends continue.
+  const auto smooth = plane ? std::vector<bool>(border.size(), false) : between_two_faces(side, places, edges);
   std::vector<bool> known(border.size());
   for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];
   for (int pass = 0; pass < 2; ++pass) {
     std::vector<bool> reached = known;
+    const auto leads = [&](std::size_t b, std::size_t a) { return known[b] || (pass == 1 && smooth[b] && !smooth[a]); };
     for (int sweep = 0; sweep < 10; ++sweep)
       for (const auto& [edge, count] : edges) {
         const auto a = static_cast<std::size_t>(edge.first), b = static_cast<std::size_t>(edge.second);
-        if (known[a] || !known[b]) continue;
+        if (known[a] || !leads(b, a)) continue;
         auto& place = places.all[a];
         const Place& inner = places.all[b];
         const Point along =

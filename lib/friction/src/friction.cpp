@@ -26,10 +26,13 @@ double distance(const std::vector<double>& a, const std::vector<double>& b, cons
   return std::sqrt(comm.sum(square));
 }
 
-// ||a - b|| / ||a||.
-double relative_change(const std::vector<double>& next, const std::vector<double>& now, const Communicator& comm)
+// ||next - now|| / ||next||, but for what rounding makes of no force at all: of multipliers of the size ||b|| / ||A||.
+double relative_change(const std::vector<double>& next, const std::vector<double>& now, const qp::Problem& programme,
+                       double hessian_norm, const Communicator& comm)
 {
-  const double size = distance(next, std::vector<double>(next.size(), 0.0), comm);
+  constexpr double rounding = 1e-10;
+  const double least = hessian_norm > 0 ? rounding * programme.linear.norm2() / hessian_norm : 0;
+  const double size = std::max(distance(next, std::vector<double>(next.size(), 0.0), comm), least);
   return size > 0 ? distance(next, now, comm) / size : 0;
 }
 
@@ -108,6 +111,36 @@ class CoulombBounds {
 
 namespace {
 
+// How far to go towards the next bounds of the fixed point: Aitken's rule, which makes a swing about a point settle there [Irons and
+// Tuck, IJNME 1 (1969)].
+class Relaxation {
+ public:
+  explicit Relaxation(const Communicator& comm) : comm_(comm) {}
+
+  double operator()(const std::vector<double>& now, const std::vector<double>& next)
+  {
+    std::vector<double> step;  // infinite bounds are left in one go
+    for (std::size_t i = 0; i < now.size(); ++i)
+      step.push_back(std::isinf(now[i]) || std::isinf(next[i]) ? 0.0 : next[i] - now[i]);
+    double product = 0, square = 0;
+    for (std::size_t i = 0; i < step_.size(); ++i) {
+      product += step_[i] * (step[i] - step_[i]);
+      square += (step[i] - step_[i]) * (step[i] - step_[i]);
+    }
+    product = comm_.sum(product);
+    square = comm_.sum(square);
+    if (square > 0) part_ = std::clamp(-part_ * product / square, shortest, 1.0);
+    step_ = std::move(step);
+    return part_;
+  }
+
+ private:
+  static constexpr double shortest = 0.05;
+  const Communicator& comm_;
+  std::vector<double> step_;  // the one before
+  double part_ = 1;
+};
+
 // SMALSE-M for one set of slip bounds. Where the goal is an allowed error, with tolerances that fall until it is reached.
 qp::Solution solve_by_smalse(const qp::Problem& programme, std::optional<qp::Solution> start, const qp::Goal& goal,
                              const Operator* preconditioner, const qp::Observer& observer)
@@ -144,8 +177,9 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
   else
     goal.allowed_error = allowed_error;
   std::optional<qp::Solution> solution;
-  double change = 1, least_change = 1, damping = 1;
-  int step = 0, stalled = 0, infeasible = 0, outer = 0, preconditionings = 0;
+  double change = 1, least_change = 1;
+  Relaxation relaxation(problem.communicator());
+  int step = 0, infeasible = 0, outer = 0, preconditionings = 0;
   bool settled = false;
   const auto watch = [&](const qp::Progress& progress) {
     if (observer) observer(step, change, progress);
@@ -159,7 +193,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
     preconditionings += found.preconditionings;
     if (found.feasible) {
       bounds = slip_bounds(problem, laws, &found.x);
-      change = relative_change(bounds, law.now(), problem.communicator());
+      change = relative_change(bounds, law.now(), programme, found.hessian_norm, problem.communicator());
       // Where the error decides, what the bounds would still change counts in it.
       settled = found.converged && (goal.allowed_error || change <= options.tolerance);
       solution = std::move(found);
@@ -196,7 +230,7 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
       break;
     }
     auto wanted = slip_bounds(problem, laws, &solution->x);
-    change = first ? 1.0 : relative_change(wanted, bounds, problem.communicator());
+    change = first ? 1.0 : relative_change(wanted, bounds, programme, solution->hessian_norm, problem.communicator());
     if (goal.allowed_error && std::isfinite(solution->error)) {
       // Bounds that move by so much move the multipliers by about as much, and ||x||_F^2 <= ||F|| ||x||^2.
       solution->error += std::sqrt(solution->hessian_norm) * distance(wanted, bounds, problem.communicator());
@@ -207,19 +241,20 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
       settled = !first && change <= options.tolerance && now.residual <= goal.residual;
     }
     if (settled || step >= options.max_steps || hessian.exhausted()) break;
-    // A fixed point that twice fails to come nearer than ever is most often one that swings, perhaps from one state to another and
-    // back: take shorter and shorter steps, and longer ones again slowly.
-    stalled = step > 2 && change > 0.9 * least_change ? stalled + 1 : 0;
     least_change = first ? 1.0 : std::min(least_change, change);
-    damping = stalled >= 2 ? std::max(0.1, 0.6 * damping) : std::min(1.0, 1.2 * damping);
+    const double part = relaxation(bounds, wanted);
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (!std::isinf(bounds[i])) wanted[i] = bounds[i] + damping * (wanted[i] - bounds[i]);
+      if (!std::isinf(bounds[i])) wanted[i] = bounds[i] + part * (wanted[i] - bounds[i]);
     previous_bounds = std::exchange(bounds, std::move(wanted));
   }
   Result result{std::move(*solution)};
   result.steps = step;
   result.change = change;
   result.converged = settled && result.solution.converged;
+  if (!result.converged && hessian.exhausted())
+    result.limit = "solver.max_multiplications";
+  else if (!result.converged && coulomb && step >= options.max_steps)
+    result.limit = "friction_loop.max_steps";
   result.multiplications = hessian.count();
   result.preconditionings = preconditionings;
   result.outer_iterations = outer;

@@ -77,6 +77,24 @@ std::string GmshSession::load(const std::string& file, int dimension) const
 
 namespace {
 
+// Where tell_and_exit() writes.
+int error_pipe = -1;
+
+// gmsh throws strings through its own parallel loops, which ends the process: what it had to say is kept.
+[[noreturn]] void tell_and_exit()
+{
+  std::string text = "it gave up without a word";
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::string& said) {
+    text = said;
+  } catch (const std::exception& said) {
+    text = said.what();
+  } catch (...) {
+  }
+  _exit(write(error_pipe, text.data(), text.size()) < 0 ? 2 : 0);
+}
+
 // Meshes a geometry in a process of its own and leaves the mesh in the file `target`, for gmsh's meshers crash on some faulty
 // geometries.
 void mesh_apart(const Options& options, int dimension, const std::string& target)
@@ -87,6 +105,8 @@ void mesh_apart(const Options& options, int dimension, const std::string& target
   if (child < 0) throw Error(ExitStatus::machine, "cannot start a process for gmsh");
   if (child == 0) {
     for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE}) std::signal(signal_number, SIG_DFL);
+    error_pipe = pipe_ends[1];
+    std::set_terminate(tell_and_exit);
     const GmshSession gmsh_session(options.constants);
     std::string error = gmsh_session.load(options.file, dimension);
     if (error.empty()) {

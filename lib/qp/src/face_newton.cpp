@@ -26,6 +26,7 @@ constexpr int max_retreats_to_z = 2;      // quarters of the way back, before th
 constexpr int max_safeguards = 12;        // after which another algorithm will do better
 constexpr double finest = 1e-7;           // residual over ||P b|| that is enough where no error is allowed
 constexpr double rounding = 1e-13;        // of ||b||: no residual below this means anything
+constexpr double finest_asked = 1e-10;    // finer tolerances are taken at their word
 constexpr double first_look = 0.1;        // part of the first error at which the allowed one is asked for
 
 // ||P b||, but no less than what rounding makes of it: where supports move bodies rigidly, P b should be zero and b is not.
@@ -33,7 +34,7 @@ double projected_size(const Problem& problem, double tolerance)
 {
   Vector pb(problem.linear, Teuchos::Copy);
   problem.equality.project(pb);
-  return std::max(pb.norm2(), rounding / tolerance * problem.linear.norm2());
+  return std::max(pb.norm2(), rounding / std::max(tolerance, finest_asked) * problem.linear.norm2());
 }
 
 // ||x - x*||_A from residuals and energies. With M near A^-1 the residual's r'Mr is near its square but for a factor, and that

@@ -43,10 +43,10 @@ class AugmentedLagrangian {
 
 double relative_size(const Problem& problem, double tolerance)
 {
-  constexpr double rounding = 1e-13;  // as in face_newton.cpp
+  constexpr double rounding = 1e-13, finest_asked = 1e-10;  // as in face_newton.cpp
   Vector pb(problem.linear, Teuchos::Copy);
   problem.equality.project(pb);
-  return std::max(pb.norm2(), rounding / tolerance * problem.linear.norm2());
+  return std::max(pb.norm2(), rounding / std::max(tolerance, finest_asked) * problem.linear.norm2());
 }
 
 }  // namespace

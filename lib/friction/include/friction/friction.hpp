@@ -33,6 +33,7 @@ struct Result {
   int steps = 1;      ///< Tresca problems solved
   double change = 0;  ///< relative, of the slip bounds in the last step
   bool converged = false;
+  std::string limit = {};  ///< the key of the deck that ended it before, if one did
   int multiplications = 0;
   int preconditionings = 0;
   int outer_iterations = 0;  ///< of all Tresca problems
