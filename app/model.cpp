@@ -79,9 +79,10 @@ void Model::require_axis(deck::Document& document, double rounding) const
     const auto leftmost =
         std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
     if (leftmost == points.end() || (*leftmost)[0] >= -rounding) continue;
-    document.error("dimension",
-                   fmt::format("body \"{}\" reaches to x = {:.4g}, beyond the axis of revolution x = 0; draw the half with x >= 0",
-                               decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].name, (*leftmost)[0]));
+    document.error(
+        "dimension",
+        fmt::format("body \"{}\" reaches to x = {:.4g}, beyond the axis of revolution x = 0; draw the half with x >= 0",
+                    decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].name, (*leftmost)[0]));
     return;
   }
 }
@@ -105,7 +106,8 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
   collectively(comm, [&] {
     for (std::size_t i = 0; i < named.size(); ++i)
       if (faces[i] == 0)
-        document.error(named[i].second, fmt::format("\"{}\" has no face: its boundary does not lie on that body", named[i].first));
+        document.error(named[i].second,
+                       fmt::format("\"{}\" has no face: its boundary does not lie on that body", named[i].first));
     require_formulations(document);
     if (deck_.axisymmetric()) require_axis(document, rounding);
     document.check();

@@ -286,11 +286,15 @@ void print(const Results& results, const Context& context)
   if (!results.limit.empty())
     log.line("  It was ended by {}; a larger value lets it go on.", results.limit);
   else if (results.imbalance > unbalanced)
-    log.line("  The forces do not balance: a motion that only facets of the mesh resist was taken for free, and the loads drive it. Hold "
-             "the body against it by a support.");
+    log.line(
+        "  The forces do not balance: a motion that only facets of the mesh resist was taken for free, and the loads drive it. "
+        "Hold "
+        "the body against it by a support.");
   else if (!s.converged)
-    log.line("  It made no more progress: a looser solver.tolerance may be all that this mesh allows; --set solver.algorithm=smalse is "
-             "the other way.");
+    log.line(
+        "  It made no more progress: a looser solver.tolerance may be all that this mesh allows; --set solver.algorithm=smalse "
+        "is "
+        "the other way.");
   log.line("  balance of forces   applied {}, supports {}, difference {:.1e} of the largest force", vector(results.applied),
            vector(results.reaction), results.imbalance);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));

@@ -61,7 +61,8 @@ void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& dec
   for (std::size_t c = 0; c < points.size(); ++c)
     if (points[c] == 0)
       context.log.warning(
-          "contact {} has no point: its surfaces do not face each other within the search distance, or share less than a twentieth of "
+          "contact {} has no point: its surfaces do not face each other within the search distance, or share less than a "
+          "twentieth of "
           "a cell, and nothing keeps them apart; look at the names, set a larger search_distance, or refine the secondary side",
           deck.contacts[c].name);
 }

@@ -119,9 +119,10 @@ class Builder {
     }
     const double crossing = comm_.max(crossing_);
     if (crossing > 1e-9 * reach_)
-      throw Error(ExitStatus::bad_input,
-                  fmt::format("contact {}: supports hold both sides and push them {:.3g} into each other; change one of the supports",
-                              pair_.options.name, crossing));
+      throw Error(
+          ExitStatus::bad_input,
+          fmt::format("contact {}: supports hold both sides and push them {:.3g} into each other; change one of the supports",
+                      pair_.options.name, crossing));
   }
 
  private:
@@ -215,8 +216,9 @@ class Builder {
       const auto& place = places_.all[static_cast<std::size_t>(p)];
       directions_.push_back(directions(place.normal, held_at(place), dimension_));
     }
-    // Places held along their normal leave their share to the others of the face. Where a face has no others, as on a surface that a
-    // support moves as a whole, they stay: their rows are felt by the primary side alone (and dropped in add_point if that is held, too).
+    // Places held along their normal leave their share to the others of the face. Where a face has no others, as on a surface
+    // that a support moves as a whole, they stay: their rows are felt by the primary side alone (and dropped in add_point if that
+    // is held, too).
     std::vector<double> stranded(places_.all.size(), 0.0);
     for (std::size_t i = 0; i < integrals_.size(); ++i) {
       const auto places = node_places(first_face(comm_.rank()) + i);
@@ -228,7 +230,8 @@ class Builder {
     for (Eigen::Index p = 0; p < count; ++p) {
       const auto i = static_cast<std::size_t>(p);
       const bool alone = stranded[i] > 0;
-      if (alone) directions_[i] = directions(places_.all[i].normal, {false, false, false}, dimension_);  // moves() picks the tangents
+      if (alone)
+        directions_[i] = directions(places_.all[i].normal, {false, false, false}, dimension_);  // moves() picks the tangents
       kept_.push_back((directions_[i].free_normal || alone) && cover(p, 0) > least_cover * cover(p, 1));
     }
   }
@@ -379,9 +382,9 @@ class Builder {
   Places places_, primary_places_;
   HeldNodes held_, primary_held_;
   double reach_;
-  double crossing_ = 0;  // how far supports alone push the two sides into each other, on this rank
-  std::unique_ptr<Tree> tree_;                           // of the primary facets
-  std::vector<FaceIntegrals> integrals_;                 // of this rank's faces
+  double crossing_ = 0;                   // how far supports alone push the two sides into each other, on this rank
+  std::unique_ptr<Tree> tree_;            // of the primary facets
+  std::vector<FaceIntegrals> integrals_;  // of this rank's faces
   std::vector<std::pair<Local, Local>> face_of_middle_;  // of each place: a face and the node in it, if that is no corner
   std::vector<Directions> directions_;                   // of each place
   std::vector<bool> kept_;

@@ -92,7 +92,8 @@ void describe(deck::Description<Options>& d)
       .at_least(0);
   d.check([](const Options& contact, const std::string& path, deck::Document& document) {
     if (contact.law == Law::bonded && contact.interference != 0)
-      document.error(path + ".interference", "bonded surfaces are tied where they are; expected another friction law, or no interference");
+      document.error(path + ".interference",
+                     "bonded surfaces are tied where they are; expected another friction law, or no interference");
     if (contact.secondary == contact.primary)
       document.error(
           path,

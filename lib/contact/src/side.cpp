@@ -62,8 +62,8 @@ void continue_curvature(const Side& side, Places& places)
   if (plane)
     for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
 
-  // First from edges that lead inside; then corners, which have none, from their neighbours on the border. On a surface one cell wide
-  // all places are on the border: there those between two faces have the normal that the ends continue.
+  // First from edges that lead inside; then corners, which have none, from their neighbours on the border. On a surface one cell
+  // wide all places are on the border: there those between two faces have the normal that the ends continue.
   const auto smooth = plane ? std::vector<bool>(border.size(), false) : between_two_faces(side, places, edges);
   std::vector<bool> known(border.size());
   for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];

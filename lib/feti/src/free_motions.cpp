@@ -16,9 +16,9 @@ constexpr double exactly = 1e-7;
 // Facets excuse the normal rows of contacts alone: what supports, bonds and friction feel of a motion counts this often.
 constexpr double support_weight = 1e3;
 
-// v of the rigid motions of one body, scaled so that |v| is about 1 on it: 3 translations and 3 rotations about its principal axes,
-// each by the nodes' distance from that axis (the spin of a slender bar has a short arm), or 2 and 1, or 1 along the axis of
-// revolution.
+// v of the rigid motions of one body, scaled so that |v| is about 1 on it: 3 translations and 3 rotations about its principal
+// axes, each by the nodes' distance from that axis (the spin of a slender bar has a short arm), or 2 and 1, or 1 along the axis
+// of revolution.
 RigidMotion unit_motion(int body, const BodyFrame& frame, int index, fem::Kinematics kinematics)
 {
   RigidMotion motion{body, frame.centre};

@@ -111,8 +111,8 @@ class CoulombBounds {
 
 namespace {
 
-// How far to go towards the next bounds of the fixed point: Aitken's rule, which makes a swing about a point settle there [Irons and
-// Tuck, IJNME 1 (1969)].
+// How far to go towards the next bounds of the fixed point: Aitken's rule, which makes a swing about a point settle there [Irons
+// and Tuck, IJNME 1 (1969)].
 class Relaxation {
  public:
   explicit Relaxation(const Communicator& comm) : comm_(comm) {}
@@ -203,7 +203,8 @@ Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Opt
     ++step;
     problem.set().set_radii(bounds);
     qp::Goal now = goal;
-    if (coulomb) now = {std::max(goal.residual, std::min(loose, 0.1 * least_change)), {}};  // looser again would bring swings of its own
+    if (coulomb)
+      now = {std::max(goal.residual, std::min(loose, 0.1 * least_change)), {}};  // looser again would bring swings of its own
     auto next = newton ? newton->solve(solution, now, nullptr, watch)
                        : solve_by_smalse(programme, solution, now, problem.preconditioner(), watch);
     if (!next.feasible) {

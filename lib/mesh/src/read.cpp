@@ -275,10 +275,11 @@ Assembly separate(const RawCells& raw, const std::vector<Group>& bodies, const N
         at->second = part[c];
       }
   for (const auto& [group, count] : torn)
-    assembly.warnings.push_back(fmt::format(
-        "parts of body \"{}\" share an edge or a vertex and no face ({} nodes): they are separate bodies there, which nothing ties; "
-        "give them a common face, or contacts",
-        bodies[static_cast<std::size_t>(group)].name, count));
+    assembly.warnings.push_back(
+        fmt::format("parts of body \"{}\" share an edge or a vertex and no face ({} nodes): they are separate bodies there, "
+                    "which nothing ties; "
+                    "give them a common face, or contacts",
+                    bodies[static_cast<std::size_t>(group)].name, count));
   assembly.catalogue.node_count = static_cast<Global>(mesh.points.size());
   assembly.catalogue.cell_count = static_cast<Global>(mesh.cells.size());
   return assembly;

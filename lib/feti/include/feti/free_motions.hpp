@@ -24,8 +24,8 @@ std::string describe(const RigidMotion& motion, double size);
 
 /// The place of each body, the same on every rank.
 struct BodyFrame {
-  Point centre = Point::Zero();  ///< mean of its nodes
-  double radius = 1;             ///< root mean square distance of its nodes from there
+  Point centre = Point::Zero();                        ///< mean of its nodes
+  double radius = 1;                                   ///< root mean square distance of its nodes from there
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< principal axes of its nodes, as columns
   Point arms = Point::Ones();                          ///< root mean square distance of its nodes from each axis
 };
