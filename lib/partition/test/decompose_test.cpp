@@ -152,7 +152,8 @@ TEST(Congruence, CopiesAreFoundAndOthersAreNot)
   EXPECT_EQ(congruent(d.subdomains, kind)[4].original, 0U);
 }
 
-TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
+// The two halves of the lower beam.
+Decomposition two_halves()
 {
   const Communicator alone(MPI_COMM_SELF);
   Options options;
@@ -160,6 +161,12 @@ TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
   options.counts = {{"lower", {2, 1, 1}}, {"upper", {1, 1, 1}}};
   auto d = make(beams("hex8", {6, 4, 4}), options, alone);
   d.subdomains.resize(2);
+  return d;
+}
+
+TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
+{
+  auto d = two_halves();
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).matrix();
   auto& turned = d.subdomains[1].mesh.points;
   for (auto& p : turned) p = rotation * p + Point(5, 0, -2);
@@ -176,12 +183,7 @@ TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
 // Of two rings of one section those of one radius are copies.
 TEST(Congruence, RingsAreCopiesOnlyAlongTheAxis)
 {
-  const Communicator alone(MPI_COMM_SELF);
-  Options options;
-  options.method = "grid";
-  options.counts = {{"lower", {2, 1, 1}}, {"upper", {1, 1, 1}}};
-  auto d = make(beams("hex8", {6, 4, 4}), options, alone);
-  d.subdomains.resize(2);
+  auto d = two_halves();
   const std::vector<int> kind(2, 0);
   EXPECT_EQ(congruent(d.subdomains, kind)[1].original, 0U);
   EXPECT_EQ(congruent(d.subdomains, kind, Motions::along_y)[1].original, 1U);  // beside it
