@@ -145,6 +145,8 @@ std::string describe(const RigidMotion& motion, double size)
   const double turning = motion.rotation.norm() * size;
   if (turning < 1e-2 * motion.translation.norm() || turning == 0)
     return "moves along " + print(clean(motion.translation.normalized()));
+  if (turning < 0.5 * motion.translation.norm())
+    return "moves along " + print(clean(motion.translation.normalized())) + ", turning as it goes";
   const Point axis = motion.centre + motion.rotation.cross(motion.translation) / motion.rotation.squaredNorm();
   return "rotates about the axis through " + print(clean(axis)) + " along " + print(clean(motion.rotation.normalized()));
 }
