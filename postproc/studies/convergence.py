@@ -18,9 +18,9 @@ def usable(row, quantity):
     return row["status"] == 0 and row["values"].get(quantity) is not None
 
 
-def tightness(tolerance):
-    """Numbers first, the smallest first; `auto` last."""
-    return math.inf if tolerance == "auto" else float(tolerance)
+def looseness(row):
+    """Least for the run of a mesh that was solved furthest: `auto` may stop before or after a number does, products tell."""
+    return -(row["products"] or 0)
 
 
 def series(rows, quantity=None, program=None):
@@ -65,7 +65,7 @@ def reference(rows, quantity, exact, dimension):
         chains.setdefault(element, []).append((tolerance, chain))
     extrapolated, finest = [], []
     for element, own in chains.items():
-        tolerance, chain = min(own, key=lambda item: (-len(item[1]), tightness(item[0])))
+        tolerance, chain = min(own, key=lambda item: (-len(item[1]), looseness(item[1][-1])))
         values = [row["values"][quantity] for row in chain]
         if len(chain) >= 3:
             limit = richardson([size(row, dimension) for row in chain[-3:]], values[-3:])
@@ -78,7 +78,7 @@ def reference(rows, quantity, exact, dimension):
                         None,
                     )
                 )
-        last = min((chain[-1] for _, chain in own), key=lambda row: (-row["step"], tightness(row["tolerance"])))
+        last = min((chain[-1] for _, chain in own), key=lambda row: (-row["step"], looseness(row)))
         change = abs(values[-1] - values[-2]) if len(values) > 1 else math.inf
         finest.append(
             (
@@ -138,7 +138,7 @@ def algebraic(rows, quantity):
         if usable(row, quantity) and row["tolerance"]:
             groups.setdefault((row["program"], row["element"], row["step"]), []).append(row)
     for group in groups.values():
-        tightest = min(group, key=lambda row: tightness(row["tolerance"]))
+        tightest = min(group, key=looseness)
         for row in group:
             if row is not tightest:
                 row["algebraic"][quantity] = relative(row["values"][quantity], tightest["values"][quantity])

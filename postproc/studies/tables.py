@@ -200,7 +200,7 @@ def draw(plot, rows, quantity, axis):
     for number, name in enumerate(names):
         own = [row for row in good if (row["program"], row["element"]) == name]
         tolerances = {row["tolerance"] for row in own}
-        chosen = "auto" if "auto" in tolerances else min(tolerances, key=lambda t: convergence.tightness(t) if t else 0)
+        chosen = "auto" if "auto" in tolerances else min(own, key=convergence.looseness)["tolerance"]
         line = sorted((row for row in own if row["tolerance"] == chosen), key=lambda row: row["step"])
         ours = name[0] == "Mortise"
         plot.plot(

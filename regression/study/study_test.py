@@ -115,6 +115,7 @@ class Parts(unittest.TestCase):
                 "program": "Mortise",
                 "element": "hex8",
                 "tolerance": "auto",
+                "products": 9,
                 "step": step,
                 "mesh": str(step),
                 "status": 0,
