@@ -221,11 +221,11 @@ void describe(deck::Description<Deck>& d)
       "contacts", "Pairs of boundaries that may touch; a pair that is not named passes through each other.", read_contacts,
       [](const Deck& deck) { return deck::Codec<std::vector<contact::Options>>::write(deck.contacts); },
       [](const deck::Limits& limits) { return deck::Codec<std::vector<contact::Options>>::schema(limits); });
+  d.key("steps", &Deck::steps, "Load steps, one after the other; without any all loads act at once.");
   d.key("decomposition", &Deck::decomposition, "How bodies are cut into subdomains.");
   d.key("solver", &Deck::solver, "How the problem is solved.");
   d.key("friction_loop", &Deck::friction_loop, "The fixed point of Coulomb friction.");
   d.key("output", &Deck::output, "What is written where.");
-  d.unavailable("steps");
 }
 
 Deck read_deck(deck::Document& document, const std::string& output)
@@ -234,10 +234,15 @@ Deck read_deck(deck::Document& document, const std::string& output)
   deck::read(deck, document);
   for (auto& contact : deck.contacts)
     if (contact.name.empty()) contact.name = contact.secondary + "/" + contact.primary;
+  for (auto& load : deck.loads)
+    if (load.name.empty()) load.name = load.boundary.empty() ? load.body : load.boundary;
+  for (auto& support : deck.supports)
+    if (support.name.empty()) support.name = support.boundary;
   check_bodies(deck, document);
   check_decomposition(deck, document);
   check_vectors(deck, document);
   check_contact_names(deck, document);
+  check_steps(deck, document);
   auto& decomposition = deck.decomposition;
   if (decomposition.method == "metis" && !decomposition.subdomains && !decomposition.unknowns_per_subdomain)
     decomposition.unknowns_per_subdomain = deck.axisymmetric() ? partition::usual_size_of_rings : partition::usual_size;

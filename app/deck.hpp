@@ -16,6 +16,7 @@
 #include "mesh/options.hpp"
 #include "partition/options.hpp"
 #include "qp/options.hpp"
+#include "steps.hpp"
 
 namespace mortise {
 
@@ -34,6 +35,7 @@ struct Deck {
   std::vector<constraint::SupportOptions> supports;
   std::vector<fem::LoadOptions> loads;
   std::vector<contact::Options> contacts;
+  std::vector<StepOptions> steps;
   partition::Options decomposition;
   SolverOptions solver;
   friction::Options friction_loop;

@@ -1,4 +1,6 @@
 // The fields of a run as files: solution.pvd, contact.pvd, results.h5.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "io/results.hpp"
@@ -168,17 +170,22 @@ io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambd
 
 }  // namespace
 
-void write_fields(const Deck& deck, const partition::Decomposition& decomposition, const std::vector<contact::Pair>& pairs,
-                  const partition::Interface& interface, const feti::DualProblem& problem, const friction::Result& solved,
-                  const Results& results, const Communicator& comm)
+void FieldFiles::write(const Simulation& simulation, const Results& results, double time, bool last, const Communicator& comm)
 {
-  const auto& directory = deck.output.directory;
-  auto tables = node_tables(decomposition, interface, results);
-  tables.push_back(multiplier_table(problem, solved.solution.x));
+  const auto& directory = deck_.output.directory;
+  const auto& pairs = simulation.pairs();
+  auto tables = node_tables(decomposition_, simulation.interface(), results);
+  tables.push_back(multiplier_table(simulation.problem(), simulation.solved().solution.x));
   if (!pairs.empty()) tables.push_back(contact_table(results, comm));
-  io::write_results(directory + "/results.h5", tables, comm);
-  if (!pairs.empty()) io::write_vtk(directory, "contact", contact_piece(pairs, results.surfaces), comm);
-  io::write_vtk(directory, "solution", volume_piece(deck, decomposition, results), comm);
+  io::write_results(directory + (last ? "/results.h5" : fmt::format("/results.{}.h5", volume_.frames.size() + 1)), tables, comm);
+  const auto put = [&](io::Series& series, const io::Piece& piece) {
+    if (deck_.steps.empty())
+      io::write_vtk(directory, series.name, piece, comm);
+    else
+      io::write_vtk(directory, series, time, piece, comm);
+  };
+  if (!pairs.empty()) put(contact_, contact_piece(pairs, results.surfaces));
+  put(volume_, volume_piece(deck_, decomposition_, results));
 }
 
 }  // namespace mortise

@@ -140,18 +140,22 @@ std::vector<SparseMatrix> Model::stiffness(const std::vector<partition::CopyOf>&
   return result;
 }
 
-std::vector<Eigen::VectorXd> Model::loads(const Communicator& comm) const
+std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communicator& comm) const
 {
   const int dimension = deck_.dimension();
   std::vector<Eigen::VectorXd> f;
   for (const auto& subdomain : decomposition_.subdomains)
     f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
-  for (const auto& load : deck_.loads) {
+  for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
+    const auto& load = deck_.loads[i];
+    const double factor = state.load[i];
+    if (factor == 0) continue;
     if (load.acceleration) {
       const auto on_body = bodies_called(load.body);
       for (std::size_t s = 0; s < f.size(); ++s)
         if (const auto& subdomain = decomposition_.subdomains[s]; on_body[static_cast<std::size_t>(subdomain.body)])
-          fem::add_acceleration(subdomain.mesh, deck_.kinematics, material(subdomain).density, point(*load.acceleration), f[s]);
+          fem::add_acceleration(subdomain.mesh, deck_.kinematics, material(subdomain).density, factor * point(*load.acceleration),
+                                f[s]);
       continue;
     }
     const auto [boundary, on_body] = select(load.boundary);
@@ -163,17 +167,24 @@ std::vector<Eigen::VectorXd> Model::loads(const Communicator& comm) const
     for (std::size_t s = 0; s < f.size(); ++s) {
       const auto& subdomain = decomposition_.subdomains[s];
       if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
-      if (load.pressure) fem::add_pressure(subdomain.mesh, boundary, deck_.kinematics, *load.pressure, f[s]);
-      if (load.traction) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, point(*load.traction), f[s]);
-      if (load.force) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, point(*load.force) / area, f[s]);
+      if (load.pressure) fem::add_pressure(subdomain.mesh, boundary, deck_.kinematics, factor * *load.pressure, f[s]);
+      if (load.traction) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, factor * point(*load.traction), f[s]);
+      if (load.force) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, factor * point(*load.force) / area, f[s]);
     }
   }
   return f;
 }
 
-std::vector<constraint::SupportOptions> Model::supports() const
+std::vector<constraint::SupportOptions> Model::supports(const LoadState& state) const
 {
   auto supports = deck_.supports;
+  for (std::size_t i = 0; i < supports.size(); ++i)
+    for (auto& value : supports[i].displacement) {
+      if (!state.held[i])
+        value.reset();
+      else if (value)
+        *value *= state.support[i];
+    }
   if (deck_.axisymmetric()) {
     supports.emplace_back().boundary = "the axis of revolution";
     supports.back().displacement[0] = 0.0;
@@ -197,14 +208,18 @@ std::vector<std::vector<Global>> Model::support_nodes(const Communicator& comm) 
   return nodes;
 }
 
-std::vector<contact::Pair> Model::contact_pairs() const
+std::vector<contact::Pair> Model::contact_pairs(const LoadState& state) const
 {
   std::vector<contact::Pair> pairs;
   const auto surface = [&](const std::string& name) {
     const auto [boundary, on_body] = select(name);
     return partition::boundary_surface(decomposition_, boundary, on_body);
   };
-  for (const auto& contact : deck_.contacts) pairs.push_back({contact, surface(contact.secondary), surface(contact.primary)});
+  for (std::size_t c = 0; c < deck_.contacts.size(); ++c) {
+    const auto& contact = deck_.contacts[c];
+    pairs.push_back({contact, surface(contact.secondary), surface(contact.primary)});
+    pairs.back().options.interference *= state.contact[c];
+  }
   return pairs;
 }
 

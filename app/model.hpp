@@ -25,12 +25,12 @@ class Model {
   /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.
   std::vector<SparseMatrix> stiffness(const std::vector<partition::CopyOf>& copies) const;
   /// Consistent loads of every subdomain. Collective.
-  std::vector<Eigen::VectorXd> loads(const Communicator& comm) const;
-  /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways.
-  std::vector<constraint::SupportOptions> supports() const;
-  /// Nodes of this rank that each of supports() holds. Collective.
+  std::vector<Eigen::VectorXd> loads(const LoadState& state, const Communicator& comm) const;
+  /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways. Those that do not act hold nothing.
+  std::vector<constraint::SupportOptions> supports(const LoadState& state) const;
+  /// Nodes of this rank on the boundary of each of supports(). Collective.
   std::vector<std::vector<Global>> support_nodes(const Communicator& comm) const;
-  std::vector<contact::Pair> contact_pairs() const;
+  std::vector<contact::Pair> contact_pairs(const LoadState& state) const;
   std::vector<friction::Law> friction_laws() const;
 
  private:

@@ -114,9 +114,9 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
     for (Local r = rows.normal; r <= rows.normal + rows.tangents; ++r) {
       multipliers.push_back(lambda[r] * scale[r]);
       row_jumps.push_back(jump[r] / scale[r]);
-      // Of the tangential rows, what moving supports contribute stands in the bound.
-      if (r > rows.normal)
-        row_jumps.back() -= contacts.rows.bound[contacts.points[i].row + static_cast<std::size_t>(r - rows.normal)];
+      // Of the tangential rows, what moving supports contribute stands in the bound, beside the slip of the steps before.
+      const auto row = contacts.points[i].row + static_cast<std::size_t>(r - rows.normal);
+      if (r > rows.normal) row_jumps.back() -= contacts.rows.bound[row] - contacts.slipped_before(row);
     }
     const double limit =
         rows.disc < 0 ? 0.0 : problem.set().discs()[static_cast<std::size_t>(rows.disc)].radius * scale[rows.normal];
@@ -228,6 +228,16 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
   summary.residuals.equilibrium = problem.imbalance(results.displacement, solved.solution.x);
 }
 
+void print_contacts(const io::StateSummary& s, Log& log)
+{
+  for (const auto& c : s.contacts)
+    log.line(
+        "  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g} ({:.5g} at one node), area "
+        "{:.4g}; {} open, {} "
+        "stick, {} slip",
+        c.name, c.force[0], c.force[1], c.force[2], c.max_recovered_pressure, c.max_pressure, c.area, c.open, c.stick, c.slip);
+}
+
 }  // namespace
 
 double discretization_error(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
@@ -238,16 +248,19 @@ double discretization_error(const Deck& deck, const partition::Decomposition& de
 }
 
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                 const partition::Interface& interface, const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem,
-                 const feti::Floating& floating, const friction::Result& solved, const Context& context)
+                 const Simulation& simulation, const Context& context)
 {
+  const auto& problem = simulation.problem();
+  const auto& floating = simulation.floating();
+  const auto& solved = simulation.solved();
+  const auto& pairs = simulation.pairs();
   Results results;
   results.displacement = problem.displacement(solved.solution.x, solved.solution.nu);
   results.summary.version = MORTISE_VERSION;
   results.summary.title = deck.title;
   results.summary.error_estimate.algebraic = solved.solution.error;
   sum_up(decomposition, problem, floating, solved, results);
-  recover_stress(deck, decomposition, model, interface, context.comm, results);
+  recover_stress(deck, decomposition, model, simulation.interface(), context.comm, results);
   contact_states(deck, problem, solved, results);
   warn_of_short_search(deck, pairs, problem, results, context);
   reactions(deck, problem, solved, results);
@@ -274,6 +287,14 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
     results.summary.exit_status = 2;
   }
   return results;
+}
+
+void print_step(const Results& results, const Context& context)
+{
+  const auto& s = results.summary.steps.back();
+  print_contacts(s, context.log);
+  context.log.line("  largest von Mises {:.5g}, largest displacement {:.5g}; {} products with F, {} friction steps",
+                   s.max_von_mises, s.max_displacement, s.hessian_multiplications, s.friction_steps);
 }
 
 void print(const Results& results, const Context& context)
@@ -304,12 +325,7 @@ void print(const Results& results, const Context& context)
   };
   log.line("  error               of the mesh {}, of the solver {}, in the energy norm", percent(s.error_estimate.discretization),
            percent(s.error_estimate.algebraic));
-  for (const auto& c : s.contacts)
-    log.line(
-        "  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g} ({:.5g} at one node), area "
-        "{:.4g}; {} open, {} "
-        "stick, {} slip",
-        c.name, c.force[0], c.force[1], c.force[2], c.max_recovered_pressure, c.max_pressure, c.area, c.open, c.stick, c.slip);
+  print_contacts(s, log);
   log.line(
       "  residuals           gradient {:.1e}, equality {:.1e}, equilibrium {:.1e}, penetration {:.1e}, complementarity {:.1e}",
       s.residuals.projected_gradient, s.residuals.equality, s.residuals.equilibrium, s.residuals.penetration,

@@ -4,7 +4,8 @@
 #include "base/context.hpp"
 #include "contact/state.hpp"
 #include "io/summary.hpp"
-#include "model.hpp"
+#include "io/vtk.hpp"
+#include "simulation.hpp"
 
 namespace mortise {
 
@@ -32,13 +33,24 @@ double discretization_error(const Deck& deck, const partition::Decomposition& de
 
 /// Collective.
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                 const partition::Interface& interface, const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem,
-                 const feti::Floating& floating, const friction::Result& solved, const Context& context);
+                 const Simulation& simulation, const Context& context);
 
-/// Writes every file but the history and the summary. Collective.
-void write_fields(const Deck& deck, const partition::Decomposition& decomposition, const std::vector<contact::Pair>& pairs,
-                  const partition::Interface& interface, const feti::DualProblem& problem, const friction::Result& solved,
-                  const Results& results, const Communicator& comm);
+/// The files of one state after the other: solution.pvd, contact.pvd and results.h5. With load steps each state has its own
+/// pieces and tables, solution.1_0.vtu or results.1.h5, but for the last tables, which are results.h5.
+class FieldFiles {
+ public:
+  FieldFiles(const Deck& deck, const partition::Decomposition& decomposition) : deck_(deck), decomposition_(decomposition) {}
+  /// Collective.
+  void write(const Simulation& simulation, const Results& results, double time, bool last, const Communicator& comm);
+
+ private:
+  const Deck& deck_;
+  const partition::Decomposition& decomposition_;
+  io::Series volume_{"solution", {}}, contact_{"contact", {}};
+};
+
+/// The lines on the terminal after a load step that is not the last.
+void print_step(const Results& results, const Context& context);
 
 /// The last lines on the terminal, for an engineer to judge. Collective.
 void print(const Results& results, const Context& context);

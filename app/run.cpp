@@ -3,24 +3,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
-#include "constraint/supports.hpp"
-#include "contact/mortar.hpp"
-#include "fem/stiffness.hpp"
-#include "feti/dual_problem.hpp"
-#include "friction/friction.hpp"
 #include "io/files.hpp"
 #include "memory.hpp"
-#include "model.hpp"
 #include "partition/decompose.hpp"
 #include "report.hpp"
+#include "simulation.hpp"
 
 namespace mortise {
 
 namespace {
-
-// Of the estimated discretization error, at which the solver stops where the tolerance is auto.
-constexpr double algebraic_part = 0.1;
 
 void print_header(const Deck& deck, const partition::Decomposition& decomposition, const Context& context)
 {
@@ -67,37 +61,12 @@ void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& dec
           deck.contacts[c].name);
 }
 
-// Factorizes every subdomain that is not a copy of an earlier one.
-feti::Floating float_subdomains(const Deck& deck, const partition::Decomposition& decomposition,
-                                const std::vector<partition::CopyOf>& copies, std::vector<SparseMatrix> stiffness,
-                                std::vector<Eigen::VectorXd> load, std::vector<std::vector<double>> nodal_stiffness,
-                                const Communicator& comm)
-{
-  feti::Floating floating{{}, std::move(load), std::move(nodal_stiffness), deck.kinematics};
-  collectively(comm, [&] {
-    for (std::size_t s = 0; s < copies.size(); ++s) {
-      const auto& [original, rotation] = copies[s];
-      if (original != s) {
-        const auto& shared = floating.subdomains[original];
-        floating.subdomains.push_back(rotation ? std::make_shared<feti::TurnedSubdomain>(shared, *rotation, deck.dimension())
-                                               : shared);
-        continue;
-      }
-      const auto& points = decomposition.subdomains[s].mesh.points;
-      floating.subdomains.push_back(
-          std::make_shared<feti::ElasticSubdomain>(std::move(stiffness[s]), fem::rigid_motions(points, deck.kinematics), points,
-                                                   deck.dimension(), deck.solver.subdomains.factorization));
-    }
-  });
-  return floating;
-}
-
 // The rows of history.csv and the moving line.
 class History {
  public:
   History(const Deck& deck, const Context& context) : deck_(deck), context_(context) {}
 
-  void note(int step, double change, const qp::Progress& p)
+  void note(const LoadState& state, int step, double change, const qp::Progress& p)
   {
     if (p.what == "inner") {
       const auto& options = deck_.solver.programme;
@@ -111,8 +80,8 @@ class History {
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
-    text_ += fmt::format("{},{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{}\n", p.what, step, p.outer, p.multiplications,
-                         p.preconditionings, p.projected_gradient, p.equality, change, p.precision, bounds, discs);
+    text_ += fmt::format("{},{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{},{}\n", p.what, step, p.outer, p.multiplications,
+                         p.preconditionings, p.projected_gradient, p.equality, change, p.precision, bounds, discs, state.time);
   }
   const std::string& text() const { return text_; }
 
@@ -122,7 +91,58 @@ class History {
   std::string text_ =
       "stage,friction_step,outer_iteration,hessian_multiplications,preconditionings,projected_gradient,equality,slip_bound_"
       "change,precision,open,"
-      "slipping\n";
+      "slipping,time\n";
+};
+
+void print_copies(const std::vector<partition::CopyOf>& copies, const partition::Decomposition& decomposition,
+                  const Context& context)
+{
+  long long originals = 0;
+  for (std::size_t s = 0; s < copies.size(); ++s) originals += copies[s].original == s ? 1 : 0;
+  originals = context.comm.sum(originals);
+  if (originals < decomposition.subdomain_count())
+    context.log.line("  {} subdomains are copies of {} others and share their factors",
+                     decomposition.subdomain_count() - originals, originals);
+}
+
+// Says which state is being solved, where there are several.
+void print_state(const LoadState& state, std::size_t index, const std::vector<LoadState>& states, Log& log)
+{
+  if (!state.step.empty()) log.line("Step {}, time {:.4g} ({} of {} states)", state.step, state.time, index + 1, states.size());
+}
+
+// The summary of the states so far, of which `results` is the last.
+void add_up(const LoadState& state, const io::Summary& before, Results& results)
+{
+  auto& summary = results.summary;
+  summary.steps = before.steps;
+  if (state.step.empty()) return;
+  io::Summary::Step step;
+  static_cast<io::StateSummary&>(step) = summary;
+  step.name = state.step;
+  step.time = state.time;
+  summary.steps.push_back(std::move(step));
+  summary.friction_steps += before.friction_steps;
+  summary.outer_iterations += before.outer_iterations;
+  summary.hessian_multiplications += before.hessian_multiplications;
+}
+
+// The stages of a run, which end with a line and its time.
+class Stages {
+ public:
+  explicit Stages(const Context& context) : context_(context) {}
+
+  // The time since it was last asked for.
+  void end(const char* what, const char* name)
+  {
+    const double seconds = context_.timers.seconds(name);
+    context_.log.line("  {:<22} {:8.2f} s", what, context_.comm.max(seconds - before_[name]));
+    before_[name] = seconds;
+  }
+
+ private:
+  const Context& context_;
+  std::map<std::string, double> before_;
 };
 
 }  // namespace
@@ -135,24 +155,17 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   check_names(deck, document, decomposition.catalogue);
   document.check();
   print_header(deck, decomposition, context);
-  const auto stage = [&](const char* what, const char* name) {
-    log.line("  {:<22} {:8.2f} s", what, comm.max(timers.seconds(name)));
-  };
-  stage("mesh", "mesh");
-  stage("partition", "partition");
+  Stages stages(context);
+  stages.end("mesh", "mesh");
+  stages.end("partition", "partition");
   if (!command_line.check) io::prepare_directory(deck.output.directory, comm);
 
   const Model model(deck, decomposition);
   model.require_fit(document, comm);
-  constraint::Constraints constraints;
-  std::vector<contact::Pair> pairs;
-  {
-    const auto scope = timers.scope("contact");
-    constraints.held = constraint::hold(model.supports(), model.support_nodes(comm), deck.dimension(), comm);
-    pairs = model.contact_pairs();
-    constraints.contacts = contact::discretize(pairs, constraints.held, deck.kinematics, comm);
-  }
-  stage("supports and contact", "contact");
+  const auto states = load_states(deck);
+  Simulation simulation(deck, decomposition, model, states.front(), context);
+  stages.end("supports and contact", "contact");
+  const auto& constraints = simulation.constraints();
   warn_of_idle_contacts(constraints.contacts, deck, context);
   const auto copies = model.congruent();
   const auto memory = foresee_memory(deck, decomposition, model, copies, comm);
@@ -160,72 +173,59 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   require(memory, deck, decomposition);
   if (command_line.check) return ExitStatus::solved;
 
-  std::vector<SparseMatrix> stiffness;
-  std::vector<Eigen::VectorXd> load;
-  {
-    const auto scope = timers.scope("assembly");
-    collectively(comm, [&] { stiffness = model.stiffness(copies); });
-    load = model.loads(comm);
-  }
-  stage("assembly", "assembly");
-  std::vector<std::vector<double>> nodal_stiffness;
-  for (std::size_t s = 0; s < copies.size(); ++s)
-    nodal_stiffness.push_back(copies[s].original == s ? feti::nodal_stiffness(stiffness[s], deck.dimension())
-                                                      : nodal_stiffness[copies[s].original]);
-  const partition::NodeDirectory directory(decomposition, nodal_stiffness, comm);
-  const auto interface = partition::find_interface(decomposition, directory, comm);
-  feti::Floating floating;
-  {
-    const auto scope = timers.scope("factorization");
-    floating =
-        float_subdomains(deck, decomposition, copies, std::move(stiffness), std::move(load), std::move(nodal_stiffness), comm);
-  }
-  stage("factorization", "factorization");
-  long long originals = 0;
-  for (std::size_t s = 0; s < copies.size(); ++s) originals += copies[s].original == s ? 1 : 0;
-  originals = comm.sum(originals);
-  if (originals < decomposition.subdomain_count())
-    log.line("  {} subdomains are copies of {} others and share their factors", decomposition.subdomain_count() - originals,
-             originals);
+  simulation.factorize(copies);
+  stages.end("assembly", "assembly");
+  stages.end("factorization", "factorization");
+  print_copies(copies, decomposition, context);
 
   History history(deck, context);
-  std::unique_ptr<feti::DualProblem> problem;
-  std::unique_ptr<friction::Result> solved;
-  {
-    const auto scope = timers.scope("solve");
-    problem = std::make_unique<feti::DualProblem>(decomposition, directory, interface, constraints, floating,
-                                                  deck.solver.subdomains, context);
-    log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(), problem->kernel_dimension());
-    const auto allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
-      const auto estimating = timers.scope("error estimate");
-      return algebraic_part *
-             discretization_error(deck, decomposition, model, interface, problem->displacement(lambda, nu), comm);
-    };
-    solved = std::make_unique<friction::Result>(
-        friction::solve(*problem, model.friction_laws(), deck.friction_loop, deck.solver.programme, allowed_error,
-                        [&](int step, double change, const qp::Progress& p) { history.note(step, change, p); }));
-  }
-  log.end_progress();
-  stage("solve", "solve");
-
-  Results results = evaluate(deck, decomposition, model, interface, pairs, *problem, floating, *solved, context);
-  {
-    const auto scope = timers.scope("output");
-    write_fields(deck, decomposition, pairs, interface, *problem, *solved, results, comm);
+  FieldFiles files(deck, decomposition);
+  Results results;
+  const auto write_summary = [&] {
+    results.summary.time["total"] = comm.max(MPI_Wtime() - start);
+    results.summary.peak_memory_bytes = comm.sum(static_cast<double>(peak_memory()));
     collectively(comm, [&] {
-      if (!comm.root()) return;
-      io::write_text(deck.output.directory + "/history.csv", history.text());
-      io::write_text(deck.output.directory + "/deck.yaml", write_deck(deck));
+      if (comm.root()) io::write_text(deck.output.directory + "/summary.json", io::to_json(results.summary));
     });
+  };
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto& state = states[i];
+    print_state(state, i, states, log);
+    try {
+      simulation.solve(state, [&](int step, double change, const qp::Progress& p) { history.note(state, step, change, p); });
+    } catch (const Error& error) {
+      log.end_progress();
+      if (i == 0) throw;
+      results.summary.converged = false;
+      results.summary.exit_status = static_cast<int>(error.status());
+      write_summary();
+      throw Error(error.status(), fmt::format("step {}, time {:.4g}: {}\nThe results of the states before are written.",
+                                              state.step, state.time, error.what()));
+    }
+    log.end_progress();
+    stages.end("solve", "solve");
+    const auto before = std::exchange(results, evaluate(deck, decomposition, model, simulation, context));
+    add_up(state, before.summary, results);
+    {
+      const auto scope = timers.scope("output");
+      const bool last = i + 1 == states.size() || !results.summary.converged;
+      files.write(simulation, results, state.time, last, comm);
+      collectively(comm, [&] {
+        if (!comm.root()) return;
+        io::write_text(deck.output.directory + "/history.csv", history.text());
+        io::write_text(deck.output.directory + "/deck.yaml", write_deck(deck));
+      });
+    }
+    stages.end("output", "output");
+    if (!results.summary.converged) break;
+    if (i + 1 == states.size()) break;
+    print_step(results, context);
+    write_summary();
+    simulation.settle(results.displacement);
   }
-  stage("output", "output");
   const auto spreads = timers.spread(comm);
   for (const auto& spread : spreads) results.summary.time[spread.stage] = spread.max;
-  results.summary.time["total"] = comm.max(MPI_Wtime() - start);
-  results.summary.peak_memory_bytes = comm.sum(static_cast<double>(peak_memory()));
-  collectively(comm, [&] {
-    if (comm.root()) io::write_text(deck.output.directory + "/summary.json", io::to_json(results.summary));
-  });
+  write_summary();
   print(results, context);
   log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", results.summary.time["total"],
            results.summary.peak_memory_bytes / 1e9, deck.output.directory);

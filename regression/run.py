@@ -9,6 +9,7 @@ A deck NAME.yaml has its expectations beside it in NAME.expected.json, or in the
     {"quantities": {"strain_energy": {"value": 1.25, "relative": 1e-3}, "contacts.0.force.2": {"value": -50, "absolute": 1e-2}},
      "residuals": {"equilibrium": 1e-6},            limits that replace the default ones below
      "exit_status": 0, "output": ["text that the terminal must show"],
+     "summary": true,                                    a run that fails leaves that of the load steps before
      "address_space": 3000000000}                        bytes that the run may take
 
 Every quantity has a tolerance of its own: without one there is no test. Whatever a deck stores, its KKT residuals are judged as well:
@@ -112,8 +113,8 @@ def main():
                 complaints += judge(summary, expected)
         elif status in (0, 2):
             complaints.append("no summary.json")
-        elif summary_file.exists():
-            complaints.append("summary.json of a run that failed")
+        elif summary_file.exists() != expected.get("summary", False):
+            complaints.append("summary.json of a run that failed, or none of its states before")
         if directory.exists():
             complaints += [f"left behind: {name}" for name in left_over(directory)]
     if complaints:

@@ -73,6 +73,7 @@ void describe(deck::Description<BodyOptions>& d)
 void describe(deck::Description<LoadOptions>& d)
 {
   d.help("One load: pressure, traction or force on a boundary, or acceleration of a body.");
+  d.key("name", &LoadOptions::name, "For load steps; the boundary or body if not given.").hidden();
   d.key("boundary", &LoadOptions::boundary, "Boundary that is loaded.");
   d.key("body", &LoadOptions::body, "Body that is accelerated.");
   d.key("pressure", &LoadOptions::pressure, "Force an area, positive into the body.");

@@ -12,6 +12,8 @@ namespace {
 
 // A load that works less than this on a free motion, relative to the forces on the body, counts as rounding.
 constexpr double no_work = 1e-6;
+// What rows feel of a motion that is free up to rounding.
+constexpr double exactly_free = 1e-6;
 
 std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bodies, const std::vector<BodyFrame>& frames)
 {
@@ -20,6 +22,13 @@ std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bo
                                  describe(first, frames[static_cast<std::size_t>(first.body)].radius));
   if (motion.motions.size() > 1) text += fmt::format(", and {} other bodies with it", motion.motions.size() - 1);
   return text;
+}
+
+[[noreturn]] void throw_driven(const std::string& motions)
+{
+  throw Error(ExitStatus::no_equilibrium,
+              "no equilibrium: no support or contact resists these motions:" + motions +
+                  "\nhold the body by a support, let a contact (perhaps with friction) reach it, or remove the load");
 }
 
 }  // namespace
@@ -42,11 +51,40 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
     preconditioner_->invert_gram(floating.nodal_stiffness, decomposition.catalogue.dimension);
   }
   make_set();
+  renew_right_sides();
+}
 
-  std::vector<Eigen::VectorXd> u = floating.load;
-  apply_inverse(floating.subdomains, u);
-  linear_ = std::make_unique<Vector>(jump_->apply(u), Teuchos::Copy);
-  view(*linear_) -= jump_->bound();
+void DualProblem::renew_right_sides()
+{
+  std::vector<Eigen::VectorXd> u = floating_.load;
+  apply_inverse(floating_.subdomains, u);
+  Vector linear = jump_->apply(u);
+  view(linear) -= jump_->bound();
+  if (linear_)
+    linear_->assign(linear);  // solvers refer to it
+  else
+    linear_ = std::make_unique<Vector>(linear, Teuchos::Copy);
+  equality_->set_right_side(kernel_coordinates(decomposition_, floating_.subdomains, floating_.load, numbering(), comm_));
+}
+
+bool DualProblem::driven(const FreeMotion& motion, double work)
+{
+  return work > std::max(no_work, 3 * motion.felt);
+}
+
+bool DualProblem::renew()
+{
+  const auto frames = body_frames(decomposition_, comm_);
+  std::string loaded;
+  for (const auto& motion : gauged_) {
+    if (!driven(motion, work(motion, decomposition_, floating_.load, comm_))) continue;
+    if (motion.felt >= exactly_free) return false;
+    loaded += fmt::format("\n  {}, driven by its loads", describe(motion, decomposition_.catalogue.bodies, frames));
+  }
+  if (!loaded.empty()) throw_driven(loaded);
+  jump_->renew_bounds(constraints_.held, constraints_.contacts);
+  renew_right_sides();
+  return true;
 }
 
 void DualProblem::settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
@@ -61,13 +99,14 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
   std::string loaded;
   int silent = 0;
   for (const auto& motion : motions) {
-    const bool free = motion.felt < 1e-6;
-    if (motion.work > std::max(no_work, 3 * motion.felt)) {
+    const bool free = motion.felt < exactly_free;
+    if (driven(motion, motion.work)) {
       // What facets alone resist is left to the solver; what nothing resists has no equilibrium.
       if (free) loaded += fmt::format("\n  {}, driven by its loads", describe(motion, bodies, frames));
       continue;
     }
     gauges.push_back(gauge(motion, decomposition_, floating_.nodal_stiffness, comm_));
+    gauged_.push_back(motion);
     if (gauges.size() <= 10)
       context.log.line("  free rigid motion, set to zero: {}{}", describe(motion, bodies, frames),
                        free ? "" : fmt::format(" (but for facets, which feel {:.1e} of it)", motion.felt));
@@ -75,10 +114,7 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
       ++silent;
   }
   if (silent > 0) context.log.line("  ... and {} more free rigid motions", silent);
-  if (!loaded.empty())
-    throw Error(ExitStatus::no_equilibrium,
-                "no equilibrium: no support or contact resists these motions:" + loaded +
-                    "\nhold the body by a support, let a contact (perhaps with friction) reach it, or remove the load");
+  if (!loaded.empty()) throw_driven(loaded);
   if (!gauges.empty()) {
     jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.held, constraints_.contacts, gauges,
                                            comm_);

@@ -289,6 +289,23 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   return found;
 }
 
+double work(const FreeMotion& motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,
+            const Communicator& comm)
+{
+  const int dimension = decomposition.catalogue.dimension;
+  std::array<double, 2> sums{0, 0};  // work, sum of |nodal forces|
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    for (const auto& part : motion.motions) {
+      if (part.body != subdomain.body) continue;
+      sums[0] += load[s].dot(sample(part, subdomain.mesh.points, dimension));
+      sums[1] += load[s].reshaped(dimension, load[s].size() / dimension).colwise().norm().sum();
+    }
+  }
+  comm.sum_in_place(sums);
+  return sums[1] > 0 ? std::abs(sums[0]) / sums[1] : 0;
+}
+
 SubdomainRow gauge(const FreeMotion& motion, const partition::Decomposition& decomposition,
                    const std::vector<std::vector<double>>& nodal_stiffness, const Communicator& comm)
 {

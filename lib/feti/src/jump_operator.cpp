@@ -121,9 +121,9 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
                extra_base = contact_base + contact_numbers.total;
   contact_rows_ = {contact_base, extra_base};
 
-  // Owned rows: their numbers, scales and bounds.
+  // Owned rows: their numbers and scales.
   std::vector<Global> owned;
-  std::vector<double> scale(glued, 1.0), bound(glued, 0.0);
+  std::vector<double> scale(glued, 1.0);
   const Global glue_start = comm.offset(static_cast<long long>(glued));
   for (std::size_t i = 0; i < glued; ++i) owned.push_back(glue_start + static_cast<Global>(i));
   ranges_.held = static_cast<Local>(owned.size());
@@ -138,7 +138,6 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
       assembly.add({copy.subdomain, row, copy.node * dimension + held[i].component, copy.weight / factor});
     owned.push_back(row);
     scale.push_back(factor);
-    bound.push_back(factor * held[i].value);
   }
   ranges_.contacts = static_cast<Local>(owned.size());
 
@@ -165,7 +164,6 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
       }
       owned.push_back(row);
       scale.push_back(factor);
-      bound.push_back(factor * contacts.rows.bound[r]);
     }
   }
   ranges_.extra = static_cast<Local>(owned.size());
@@ -183,12 +181,11 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
     if (decomposition.rank_of(comm.min(lowest)) == comm.rank()) {
       owned.push_back(row);
       scale.push_back(1);
-      bound.push_back(0);
     }
   }
   ranges_.end = static_cast<Local>(owned.size());
   scale_ = Eigen::Map<const Eigen::VectorXd>(scale.data(), static_cast<Eigen::Index>(scale.size()));
-  bound_ = Eigen::Map<const Eigen::VectorXd>(bound.data(), static_cast<Eigen::Index>(bound.size()));
+  renew_bounds(held, contacts);
 
   // The rows that this rank's subdomains take part in, and their blocks.
   const auto pieces = assembly.receive();
@@ -220,6 +217,15 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
     }
     blocks_.push_back(std::move(block));
   }
+}
+
+void JumpOperator::renew_bounds(std::span<const constraint::Held> held, const constraint::Contacts& contacts)
+{
+  bound_ = Eigen::VectorXd::Zero(ranges_.end);
+  for (std::size_t i = 0; i < held.size(); ++i) bound_[ranges_.held + static_cast<Local>(i)] = held[i].value;
+  for (std::size_t r = 0; r < contacts.rows.size(); ++r)
+    bound_[ranges_.contacts + static_cast<Local>(r)] = contacts.rows.bound[r];
+  bound_.array() *= scale_.array();
 }
 
 std::vector<Eigen::VectorXd> JumpOperator::apply_transpose(const Vector& lambda) const

@@ -71,8 +71,9 @@ namespace {
 // Renews slip bounds between two faces of face Newton.
 class CoulombBounds {
  public:
-  CoulombBounds(feti::DualProblem& problem, const std::vector<Law>& laws)
-      : problem_(problem), laws_(laws), now_(slip_bounds(problem, laws, nullptr)), before_(now_)
+  // Those of the multipliers `lambda`, or of points that all stick if there are none.
+  CoulombBounds(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda)
+      : problem_(problem), laws_(laws), now_(slip_bounds(problem, laws, lambda)), before_(now_)
   {
     problem_.set().set_radii(now_);
   }
@@ -162,103 +163,160 @@ qp::Solution solve_by_smalse(const qp::Problem& programme, std::optional<qp::Sol
 
 }  // namespace
 
-Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Options& options, const qp::Options& solver,
-             const AllowedError& allowed_error, const Observer& observer)
-{
-  const bool coulomb = any_coulomb(laws);
-  qp::Hessian hessian(problem.hessian(), solver.max_multiplications);
-  const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
-  std::vector<double> bounds = slip_bounds(problem, laws, nullptr), previous_bounds = bounds;
-  std::unique_ptr<qp::FaceNewton> newton;
-  if (solver.algorithm == "face_newton") newton = std::make_unique<qp::FaceNewton>(programme, problem.preconditioner());
+// One load step on its way.
+struct Solver::Run {
   qp::Goal goal;
-  if (solver.tolerance.value)
-    goal.residual = *solver.tolerance.value;
-  else
-    goal.allowed_error = allowed_error;
-  std::optional<qp::Solution> solution;
+  qp::Observer watch;
+  std::vector<double> bounds, previous_bounds;
+  std::optional<qp::Solution> solution;  // at first that of the load step before
+  bool solved = false;                   // `solution` is of this load step
+  Eigen::VectorXd escape;                // nu of the last Tresca problem that was infeasible
   double change = 1, least_change = 1;
-  Relaxation relaxation(problem.communicator());
-  int step = 0, infeasible = 0, outer = 0, preconditionings = 0;
+  int step = 0, outer = 0, preconditionings = 0;
   bool settled = false;
-  const auto watch = [&](const qp::Progress& progress) {
-    if (observer) observer(step, change, progress);
-  };
-  if (newton && coulomb) {  // all in one loop; the fixed point below goes on from there where that does not settle
-    step = 1;
-    CoulombBounds law(problem, laws);
-    const auto renewal = law.renewal();
-    auto found = newton->solve({}, goal, &renewal, watch);
+
+  void count(const qp::Solution& found)
+  {
     outer += found.outer_iterations;
     preconditionings += found.preconditionings;
-    if (found.feasible) {
-      bounds = slip_bounds(problem, laws, &found.x);
-      change = relative_change(bounds, law.now(), programme, found.hessian_norm, problem.communicator());
-      // Where the error decides, what the bounds would still change counts in it.
-      settled = found.converged && (goal.allowed_error || change <= options.tolerance);
-      solution = std::move(found);
-    }
   }
-  while (!settled) {
-    ++step;
-    problem.set().set_radii(bounds);
-    qp::Goal now = goal;
-    if (coulomb)
-      now = {std::max(goal.residual, std::min(loose, 0.1 * least_change)), {}};  // looser again would bring swings of its own
-    auto next = newton ? newton->solve(solution, now, nullptr, watch)
-                       : solve_by_smalse(programme, solution, now, problem.preconditioner(), watch);
-    if (!next.feasible) {
+};
+
+Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver)
+    : problem_(problem),
+      laws_(std::move(laws)),
+      options_(options),
+      solver_(solver),
+      hessian_(problem.hessian(), solver.max_multiplications),
+      programme_{hessian_, problem.linear(), problem.equality(), problem.set()}
+{
+  if (solver.algorithm == "face_newton") newton_ = std::make_unique<qp::FaceNewton>(programme_, problem.preconditioner());
+}
+
+Solver::~Solver() = default;
+
+// Bounds renewed at every face. Where that does not settle, the fixed point goes on from there.
+void Solver::renew_at_faces(Run& run)
+{
+  run.step = 1;
+  // Bounds of the step before may leave no feasible point: then every point sticks at first.
+  for (const bool warm : {true, false}) {
+    if (warm && !run.solution) continue;
+    CoulombBounds law(problem_, laws_, warm ? &run.solution->x : nullptr);
+    const auto renewal = law.renewal();
+    auto found = newton_->solve(run.solution, run.goal, &renewal, run.watch);
+    run.count(found);
+    if (!found.feasible) continue;
+    run.bounds = slip_bounds(problem_, laws_, &found.x);
+    run.change = relative_change(run.bounds, law.now(), programme_, found.hessian_norm, problem_.communicator());
+    // Where the error decides, what the bounds would still change counts in it.
+    run.settled = found.converged && (run.goal.allowed_error || run.change <= options_.tolerance);
+    run.solution = std::move(found);
+    run.solved = true;
+    return;
+  }
+}
+
+// One Tresca problem; false if it is infeasible.
+bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
+{
+  problem_.set().set_radii(run.bounds);
+  auto next = newton_ ? newton_->solve(run.solution, goal, nullptr, run.watch)
+                      : solve_by_smalse(programme_, run.solution, goal, problem_.preconditioner(), run.watch);
+  if (!next.feasible) {
+    run.escape = next.nu;
+    return false;
+  }
+  if (newton_ && !next.converged &&
+      !hessian_.exhausted()) {  // it crawls where bodies are soft and slender: the slower, steadier one
+    run.count(next);
+    next = solve_by_smalse(programme_, next, goal, problem_.preconditioner(), run.watch);
+    if (!next.feasible) no_equilibrium(problem_, next.nu);
+  }
+  run.count(next);
+  run.solution = std::move(next);
+  return true;
+}
+
+// Whether the fixed point is at rest, with bounds `wanted` that the last Tresca problem asks for.
+bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& run)
+{
+  auto& solution = *run.solution;
+  if (!run.goal.allowed_error || !std::isfinite(solution.error))
+    return run.change <= options_.tolerance && tolerance <= run.goal.residual;
+  // Bounds that move by so much move the multipliers by about as much, and ||x||_F^2 <= ||F|| ||x||^2.
+  solution.error += std::sqrt(solution.hessian_norm) * distance(wanted, run.bounds, problem_.communicator());
+  // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
+  return (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu)) ||
+         (run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance);
+}
+
+// Tresca problems until their bounds are at rest.
+void Solver::fixed_point(Run& run)
+{
+  constexpr int most_infeasible = 5;
+  Relaxation relaxation(problem_.communicator());
+  int infeasible = 0;
+  while (!run.settled) {
+    ++run.step;
+    // Looser again would bring swings of its own.
+    const double tolerance = std::max(run.goal.residual, std::min(loose, 0.1 * run.least_change));
+    const bool first = !run.solved;
+    if (!solve_tresca({tolerance, {}}, run)) {
       // Bounds from inexact normal forces may fall short by as much: go half way back before giving up.
-      if (!solution || ++infeasible > 5) no_equilibrium(problem, next.nu);
-      for (std::size_t i = 0; i < bounds.size(); ++i)
-        bounds[i] = std::isinf(previous_bounds[i]) ? 2 * bounds[i] : 0.5 * (bounds[i] + previous_bounds[i]);
+      if (!run.solved || ++infeasible > most_infeasible) no_equilibrium(problem_, run.escape);
+      for (std::size_t i = 0; i < run.bounds.size(); ++i)
+        run.bounds[i] = std::isinf(run.previous_bounds[i]) ? 2 * run.bounds[i] : 0.5 * (run.bounds[i] + run.previous_bounds[i]);
       continue;
     }
-    if (newton && !next.converged &&
-        !hessian.exhausted()) {  // it crawls where bodies are soft and slender: the slower, steadier one
-      outer += next.outer_iterations;
-      preconditionings += next.preconditionings;
-      next = solve_by_smalse(programme, next, now, problem.preconditioner(), watch);
-      if (!next.feasible) no_equilibrium(problem, next.nu);
-    }
-    const bool first = !solution;
-    solution = std::move(next);
-    outer += solution->outer_iterations;
-    preconditionings += solution->preconditionings;
-    if (!coulomb) {
-      settled = true;
-      change = 0;
-      break;
-    }
-    auto wanted = slip_bounds(problem, laws, &solution->x);
-    change = first ? 1.0 : relative_change(wanted, bounds, programme, solution->hessian_norm, problem.communicator());
-    if (goal.allowed_error && std::isfinite(solution->error)) {
-      // Bounds that move by so much move the multipliers by about as much, and ||x||_F^2 <= ||F|| ||x||^2.
-      solution->error += std::sqrt(solution->hessian_norm) * distance(wanted, bounds, problem.communicator());
-      // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
-      settled = !first && ((change <= worth_a_look && solution->error <= goal.allowed_error(solution->x, solution->nu)) ||
-                           (change <= options.tolerance && solution->converged && now.residual <= 1e-1 * options.tolerance));
-    } else {
-      settled = !first && change <= options.tolerance && now.residual <= goal.residual;
-    }
-    if (settled || step >= options.max_steps || hessian.exhausted()) break;
-    least_change = first ? 1.0 : std::min(least_change, change);
-    const double part = relaxation(bounds, wanted);
+    run.solved = true;
+    auto wanted = slip_bounds(problem_, laws_, &run.solution->x);
+    run.change =
+        first ? 1.0 : relative_change(wanted, run.bounds, programme_, run.solution->hessian_norm, problem_.communicator());
+    run.settled = !first && at_rest(wanted, tolerance, run);
+    if (run.settled || run.step >= options_.max_steps || hessian_.exhausted()) return;
+    run.least_change = first ? 1.0 : std::min(run.least_change, run.change);
+    const double part = relaxation(run.bounds, wanted);
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (!std::isinf(bounds[i])) wanted[i] = bounds[i] + part * (wanted[i] - bounds[i]);
-    previous_bounds = std::exchange(bounds, std::move(wanted));
+      if (!std::isinf(run.bounds[i])) wanted[i] = run.bounds[i] + part * (wanted[i] - run.bounds[i]);
+    run.previous_bounds = std::exchange(run.bounds, std::move(wanted));
   }
-  Result result{std::move(*solution)};
-  result.steps = step;
-  result.change = change;
-  result.converged = settled && result.solution.converged;
-  if (!result.converged && hessian.exhausted())
+}
+
+Result Solver::solve(const qp::Solution* start, const AllowedError& allowed_error, const Observer& observer)
+{
+  const bool coulomb = any_coulomb(laws_);
+  const int before = hessian_.count();
+  Run run;
+  if (solver_.tolerance.value)
+    run.goal.residual = *solver_.tolerance.value;
+  else
+    run.goal.allowed_error = allowed_error;
+  if (start) run.solution = *start;
+  run.bounds = run.previous_bounds = slip_bounds(problem_, laws_, nullptr);
+  run.watch = [&](const qp::Progress& progress) {
+    if (observer) observer(run.step, run.change, progress);
+  };
+  if (coulomb) {
+    if (newton_) renew_at_faces(run);
+    fixed_point(run);
+  } else {
+    run.step = 1;
+    if (!solve_tresca(run.goal, run)) no_equilibrium(problem_, run.escape);
+    run.settled = true;
+    run.change = 0;
+  }
+  Result result{std::move(*run.solution)};
+  result.steps = run.step;
+  result.change = run.change;
+  result.converged = run.settled && result.solution.converged;
+  if (!result.converged && hessian_.exhausted())
     result.limit = "solver.max_multiplications";
-  else if (!result.converged && coulomb && step >= options.max_steps)
+  else if (!result.converged && coulomb && run.step >= options_.max_steps)
     result.limit = "friction_loop.max_steps";
-  result.multiplications = hessian.count();
-  result.preconditionings = preconditionings;
-  result.outer_iterations = outer;
+  result.multiplications = hessian_.count() - before;
+  result.preconditionings = run.preconditionings;
+  result.outer_iterations = run.outer;
   return result;
 }
 

@@ -20,7 +20,7 @@ constexpr const char* suffix = ".part";
 const std::regex& our_files()
 {
   static const std::regex names(
-      R"((solution|contact)(_\d+)?\.(vtu|pvtu|pvd)|results\.h5|history\.csv|deck\.yaml|summary\.json|.*\.part)");
+      R"((solution|contact)(\.\d+)?(_\d+)?\.(vtu|pvtu|pvd)|results(\.\d+)?\.h5|history\.csv|deck\.yaml|summary\.json|.*\.part)");
   return names;
 }
 

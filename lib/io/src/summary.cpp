@@ -18,23 +18,15 @@ Json vector(const std::array<double, 3>& x)
   return Json::array({number(x[0]), number(x[1]), number(x[2])});
 }
 
-}  // namespace
-
-std::string to_json(const Summary& s)
+void add_work(const StateSummary& s, Json& json)
 {
-  Json json{{"version", s.version},
-            {"title", s.title},
-            {"converged", s.converged},
-            {"exit_status", s.exit_status},
-            {"ranks", s.ranks},
-            {"primal_unknowns", s.primal_unknowns},
-            {"dual_unknowns", s.dual_unknowns},
-            {"subdomains", s.subdomains},
-            {"kernel_dimension", s.kernel_dimension},
-            {"bodies", s.bodies},
-            {"friction_steps", s.friction_steps},
-            {"outer_iterations", s.outer_iterations},
-            {"hessian_multiplications", s.hessian_multiplications}};
+  json["friction_steps"] = s.friction_steps;
+  json["outer_iterations"] = s.outer_iterations;
+  json["hessian_multiplications"] = s.hessian_multiplications;
+}
+
+void add_state(const StateSummary& s, Json& json)
+{
   json["residuals"] = {{"projected_gradient", number(s.residuals.projected_gradient)},
                        {"equality", number(s.residuals.equality)},
                        {"equilibrium", number(s.residuals.equilibrium)},
@@ -57,6 +49,30 @@ std::string to_json(const Summary& s)
                                 {"stick", c.stick},
                                 {"slip", c.slip},
                                 {"max_recovered_pressure", number(c.max_recovered_pressure)}});
+}
+
+}  // namespace
+
+std::string to_json(const Summary& s)
+{
+  Json json{{"version", s.version},
+            {"title", s.title},
+            {"converged", s.converged},
+            {"exit_status", s.exit_status},
+            {"ranks", s.ranks},
+            {"primal_unknowns", s.primal_unknowns},
+            {"dual_unknowns", s.dual_unknowns},
+            {"subdomains", s.subdomains},
+            {"kernel_dimension", s.kernel_dimension},
+            {"bodies", s.bodies}};
+  add_work(s, json);
+  add_state(s, json);
+  for (const auto& step : s.steps) {
+    Json state{{"name", step.name}, {"time", number(step.time)}, {"converged", step.converged}};
+    add_work(step, state);
+    add_state(step, state);
+    json["steps"].push_back(std::move(state));
+  }
   json["time"] = Json::object();
   for (const char* stage :
        {"total", "mesh", "partition", "assembly", "contact", "factorization", "solve", "multiplication", "output"}) {

@@ -218,26 +218,27 @@ std::string parallel_file(const std::string& name, const Piece& piece, int ranks
   return text + "  </PUnstructuredGrid>\n</VTKFile>\n";
 }
 
-std::string collection(const std::string& file)
+std::string collection(const Series& series)
 {
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n"
-      "    <DataSet timestep=\"0\" part=\"0\" file=\"{}\"/>\n  </Collection>\n</VTKFile>\n",
-      file);
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  for (const auto& [time, file] : series.frames)
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, file);
+  return text + "  </Collection>\n</VTKFile>\n";
 }
 
-}  // namespace
-
-void write_vtk(const std::string& directory, const std::string& name, const Piece& piece, const Communicator& comm)
+// The pieces of one frame, and the .pvd file with the frame as its last.
+void write_frame(const std::string& directory, const std::string& name, Series& series, double time, const Piece& piece,
+                 const Communicator& comm)
 {
   const std::string mine = fmt::format("{}/{}_{}.vtu", directory, name, comm.rank());
   const std::string shown = comm.size() > 1 ? name + ".pvtu" : name + "_0.vtu";
+  series.frames.emplace_back(time, shown);
   try {
     collectively(comm, [&] { write_piece(mine, piece); });
     collectively(comm, [&] {
       if (!comm.root()) return;
       if (comm.size() > 1) write_text(directory + "/" + shown, parallel_file(name, piece, comm.size()));
-      write_text(directory + "/" + name + ".pvd", collection(shown));
+      write_text(directory + "/" + series.name + ".pvd", collection(series));
     });
   } catch (const Error&) {  // on all ranks: pieces without their collection are of no use
     std::error_code ignored;
@@ -245,6 +246,19 @@ void write_vtk(const std::string& directory, const std::string& name, const Piec
     if (comm.root()) std::filesystem::remove(directory + "/" + shown, ignored);
     throw;
   }
+}
+
+}  // namespace
+
+void write_vtk(const std::string& directory, const std::string& name, const Piece& piece, const Communicator& comm)
+{
+  Series single{name, {}};
+  write_frame(directory, name, single, 0, piece, comm);
+}
+
+void write_vtk(const std::string& directory, Series& series, double time, const Piece& piece, const Communicator& comm)
+{
+  write_frame(directory, fmt::format("{}.{}", series.name, series.frames.size() + 1), series, time, piece, comm);
 }
 
 }  // namespace mortise::io

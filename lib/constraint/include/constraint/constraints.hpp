@@ -78,6 +78,11 @@ struct Contacts {
   std::vector<HeldEntry> held;
   std::vector<ContactPoint> points;
   std::vector<bool> bonded;  ///< for each point: all its rows are equalities
+  /// Of each row: the tangential jump at the end of the load step before, from which friction counts. Part of the row's bound.
+  /// Empty before the first step ends.
+  std::vector<double> slipped;
+
+  double slipped_before(std::size_t row) const { return slipped.empty() ? 0.0 : slipped[row]; }
 };
 
 struct Constraints {

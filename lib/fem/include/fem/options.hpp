@@ -41,6 +41,7 @@ struct BodyOptions {
 
 /// One load; exactly one of the four quantities is given, `boundary` for the first three and `body` for the last.
 struct LoadOptions {
+  std::string name;  ///< for load steps; default: the boundary or body
   std::string boundary;
   std::string body;
   std::optional<double> pressure;                     ///< force an area, positive into the body

@@ -46,6 +46,10 @@ class DualProblem {
               const partition::Interface& interface, const constraint::Constraints& constraints, const Floating& floating,
               const Options& options, const Context& context);
   DualProblem(const DualProblem&) = delete;
+  /// The same rows with the loads and bounds that `floating` and `constraints` hold by now: d, e and c anew, everything else
+  /// stays. Returns false if a motion that was gauged is driven by loads now and facets resist it: then a problem has to be built
+  /// anew. Throws Error(no_equilibrium) as the constructor does. Collective.
+  bool renew();
   DualProblem& operator=(const DualProblem&) = delete;
 
   const JumpOperator& jump() const { return *jump_; }
@@ -75,6 +79,8 @@ class DualProblem {
   void settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
                            const Context& context);
   void make_set();
+  void renew_right_sides();
+  static bool driven(const FreeMotion& motion, double work);
   KernelNumbering numbering() const { return KernelNumbering(floating_.kinematics); }
 
   const partition::Decomposition& decomposition_;
@@ -88,6 +94,7 @@ class DualProblem {
   std::unique_ptr<qp::EqualityConstraint> equality_;
   qp::FeasibleSet set_;
   std::vector<PointRows> points_;
+  std::vector<FreeMotion> gauged_;
 };
 
 }  // namespace mortise::feti

@@ -50,6 +50,10 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
                                           const constraint::Contacts& contacts, const std::vector<Eigen::VectorXd>& load,
                                           const Communicator& comm);
 
+/// FreeMotion::work of other loads. Collective.
+double work(const FreeMotion& motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,
+            const Communicator& comm);
+
 /// The equality row that says that the mean of the motion, weighted with the stiffness of the nodes, is zero.
 SubdomainRow gauge(const FreeMotion& motion, const partition::Decomposition& decomposition,
                    const std::vector<std::vector<double>>& nodal_stiffness, const Communicator& comm);

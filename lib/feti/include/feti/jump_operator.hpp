@@ -45,6 +45,8 @@ class JumpOperator {
   const Eigen::VectorXd& scale() const { return scale_; }
   /// c, scaled, of the owned rows: B u = c, B u <= c.
   const Eigen::VectorXd& bound() const { return bound_; }
+  /// c anew, of the same rows with other bounds.
+  void renew_bounds(std::span<const constraint::Held> held, const constraint::Contacts& contacts);
 
   /// f_s = B_s' lambda for each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> apply_transpose(const Vector& lambda) const;

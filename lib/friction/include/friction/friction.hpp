@@ -4,10 +4,11 @@
 // is the coefficient times the point's normal force, which is found by repeating Tresca problems, each solved only as exactly as
 // the bounds are known and started from the one before. Face Newton renews the bounds at each of its faces instead, and falls
 // back to the fixed point where that does not settle. The first step lets every Coulomb point stick, so that a floating body that
-// is pushed sideways has an equilibrium from the start.
+// is pushed sideways has an equilibrium from the start; a later load step begins with the bounds that the one before ended with.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,8 +34,8 @@ struct Result {
   int steps = 1;      ///< Tresca problems solved
   double change = 0;  ///< relative, of the slip bounds in the last step
   bool converged = false;
-  std::string limit = {};  ///< the key of the deck that ended it before, if one did
-  int multiplications = 0;
+  std::string limit = {};   ///< the key of the deck that ended it before, if one did
+  int multiplications = 0;  ///< of this load step
   int preconditionings = 0;
   int outer_iterations = 0;  ///< of all Tresca problems
 };
@@ -45,9 +46,34 @@ using Observer = std::function<void(int step, double change, const qp::Progress&
 /// The algebraic error in the energy norm that is good enough at the multipliers lambda and nu, see qp::Goal.
 using AllowedError = std::function<double(const Vector& lambda, const Eigen::VectorXd& nu)>;
 
-/// Solves for the multipliers, to the tolerance of `solver` or, where that is auto, to the allowed error. Throws
-/// Error(no_equilibrium) that names the body that moves and how. Collective.
-Result solve(feti::DualProblem& problem, const std::vector<Law>& laws, const Options& options, const qp::Options& solver,
-             const AllowedError& allowed_error, const Observer& observer);
+/// A sequence of load steps on one dual problem, which may be renewed between them: what was learnt about F stays.
+class Solver {
+ public:
+  /// The problem outlives it. laws[c] is that of contact c. Collective.
+  Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver);
+  ~Solver();
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  /// Solves for the multipliers, to the tolerance of the solver's options or, where that is auto, to the allowed error; from
+  /// `start`, the solution of the step before, if there is one. Throws Error(no_equilibrium) that names the body that moves and
+  /// how. Collective.
+  Result solve(const qp::Solution* start, const AllowedError& allowed_error, const Observer& observer);
+
+ private:
+  struct Run;
+  void renew_at_faces(Run& run);
+  bool solve_tresca(const qp::Goal& goal, Run& run);
+  bool at_rest(const std::vector<double>& wanted, double tolerance, Run& run);
+  void fixed_point(Run& run);
+
+  feti::DualProblem& problem_;
+  std::vector<Law> laws_;
+  Options options_;
+  qp::Options solver_;
+  qp::Hessian hessian_;
+  qp::Problem programme_;
+  std::unique_ptr<qp::FaceNewton> newton_;
+};
 
 }  // namespace mortise::friction

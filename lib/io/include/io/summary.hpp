@@ -11,11 +11,9 @@
 
 namespace mortise::io {
 
-struct Summary {
-  std::string version, title;
+/// One equilibrium and what it took to find it.
+struct StateSummary {
   bool converged = false;
-  int exit_status = 0, ranks = 1;
-  Global primal_unknowns = 0, dual_unknowns = 0, subdomains = 0, kernel_dimension = 0, bodies = 0;
   int friction_steps = 0, outer_iterations = 0, hessian_multiplications = 0;
   struct {
     double projected_gradient = 0, equality = 0, equilibrium = 0, penetration = 0, complementarity = 0;
@@ -38,6 +36,18 @@ struct Summary {
     double max_recovered_pressure = 0;  ///< averaged over the faces at a node
   };
   std::vector<Contact> contacts;
+};
+
+/// The last equilibrium, with the work of all.
+struct Summary : StateSummary {
+  std::string version, title;
+  int exit_status = 0, ranks = 1;
+  Global primal_unknowns = 0, dual_unknowns = 0, subdomains = 0, kernel_dimension = 0, bodies = 0;
+  struct Step : StateSummary {
+    std::string name;
+    double time = 0;
+  };
+  std::vector<Step> steps;             ///< if the deck has load steps: all states that were solved
   std::map<std::string, double> time;  ///< seconds a stage, the largest over the ranks
   double peak_memory_bytes = 0;        ///< summed over the ranks
 };

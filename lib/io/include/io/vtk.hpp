@@ -27,4 +27,12 @@ struct Piece {
 /// Throws Error(machine) on all ranks if one fails; then none of these files is there. Collective.
 void write_vtk(const std::string& directory, const std::string& name, const Piece& piece, const Communicator& comm);
 
+/// What a .pvd file opens: a file at each time.
+struct Series {
+  std::string name;
+  std::vector<std::pair<double, std::string>> frames;
+};
+/// The same for one state of many: `series.name`.1_0.vtu ... and a .pvd of all that were written so far. Collective.
+void write_vtk(const std::string& directory, Series& series, double time, const Piece& piece, const Communicator& comm);
+
 }  // namespace mortise::io

@@ -1,0 +1,228 @@
+#include "simulation.hpp"
+
+#include <map>
+#include <tuple>
+
+#include "base/error.hpp"
+#include "constraint/renewal.hpp"
+#include "constraint/supports.hpp"
+#include "fem/stiffness.hpp"
+#include "report.hpp"
+
+namespace mortise {
+
+namespace {
+
+// Of the estimated discretization error, at which the solver stops where the tolerance is auto.
+constexpr double algebraic_part = 0.1;
+
+// Factorizes every subdomain that is not a copy of an earlier one.
+feti::Subdomains factors(const Deck& deck, const partition::Decomposition& decomposition,
+                         const std::vector<partition::CopyOf>& copies, std::vector<SparseMatrix> stiffness)
+{
+  feti::Subdomains subdomains;
+  for (std::size_t s = 0; s < copies.size(); ++s) {
+    const auto& [original, rotation] = copies[s];
+    if (original != s) {
+      const auto& shared = subdomains[original];
+      subdomains.push_back(rotation ? std::make_shared<feti::TurnedSubdomain>(shared, *rotation, deck.dimension()) : shared);
+      continue;
+    }
+    const auto& points = decomposition.subdomains[s].mesh.points;
+    subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(std::move(stiffness[s]),
+                                                                  fem::rigid_motions(points, deck.kinematics), points,
+                                                                  deck.dimension(), deck.solver.subdomains.factorization));
+  }
+  return subdomains;
+}
+
+// The points of a contact by what does not change when other components are held: contact, node, and its place among the points
+// of that node.
+using PointKey = std::tuple<int, Global, int>;
+
+std::map<PointKey, std::size_t> index(const constraint::Contacts& contacts)
+{
+  std::map<PointKey, std::size_t> result;
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    PointKey key{contacts.points[i].contact, contacts.points[i].node, 0};
+    while (!result.emplace(key, i).second) ++std::get<2>(key);
+  }
+  return result;
+}
+
+// A vector in the tangent plane of one point, from entries along its tangents, to entries along those of another.
+template <class From, class To>
+void turn(const constraint::ContactPoint& from, const constraint::ContactPoint& to, const From& entry, const To& take)
+{
+  Point v = Point::Zero();
+  for (std::size_t t = 0; t < from.tangents.size(); ++t) v += entry(t) * from.tangents[t];
+  for (std::size_t t = 0; t < to.tangents.size(); ++t) take(t, v.dot(to.tangents[t]));
+}
+
+// Slip remembered by one set of rows, for another one of the same contacts.
+void carry_slip(const constraint::Contacts& from, constraint::Contacts& to)
+{
+  if (from.slipped.empty()) return;
+  to.slipped.assign(to.rows.size(), 0.0);
+  const auto old = index(from);
+  for (const auto& [key, i] : index(to)) {
+    const auto found = old.find(key);
+    if (found == old.end()) continue;
+    const auto &a = from.points[found->second], &b = to.points[i];
+    turn(
+        a, b, [&](std::size_t t) { return from.slipped[a.row + 1 + t]; },
+        [&](std::size_t t, double slip) {
+          to.slipped[b.row + 1 + t] = slip;
+          to.rows.bound[b.row + 1 + t] += slip;
+        });
+  }
+}
+
+// Multipliers of one problem as a start for another one of the same assembly, where other components are held.
+qp::Solution carry_multipliers(const feti::DualProblem& from, const constraint::Constraints& old, const qp::Solution& solution,
+                               const feti::DualProblem& to)
+{
+  Vector x(to.jump().rows());
+  const auto &old_ranges = from.jump().ranges(), &ranges = to.jump().ranges();
+  const auto& now = to.constraints();
+  {
+    auto value = view(x);
+    const auto before = view(solution.x);
+    value.head(ranges.held) = before.head(old_ranges.held);
+    const auto force = [&](Local row) { return before[row] * from.jump().scale()[row]; };
+    const auto set = [&](Local row, double f) { value[row] = f / to.jump().scale()[row]; };
+    std::map<std::pair<Global, int>, Local> held;
+    for (std::size_t i = 0; i < old.held.size(); ++i)
+      held[{old.held[i].node, old.held[i].component}] = old_ranges.held + static_cast<Local>(i);
+    for (std::size_t i = 0; i < now.held.size(); ++i)
+      if (const auto found = held.find({now.held[i].node, now.held[i].component}); found != held.end())
+        set(ranges.held + static_cast<Local>(i), force(found->second));
+    const auto points = index(old.contacts);
+    for (const auto& [key, i] : index(now.contacts)) {
+      const auto found = points.find(key);
+      if (found == points.end()) continue;
+      const auto &a = old.contacts.points[found->second], &b = now.contacts.points[i];
+      const Local first = from.points()[found->second].normal, row = to.points()[i].normal;
+      set(row, force(first));
+      turn(
+          a, b, [&](std::size_t t) { return force(first + 1 + static_cast<Local>(t)); },
+          [&](std::size_t t, double f) { set(row + 1 + static_cast<Local>(t), f); });
+    }
+  }
+  qp::Solution start(x, x, solution.nu);
+  start.hessian_norm = solution.hessian_norm;
+  start.precision = solution.precision;
+  start.augmented = solution.augmented;
+  return start;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                       const LoadState& first, const Context& context)
+    : deck_(deck), decomposition_(decomposition), model_(model), context_(context)
+{
+  const auto scope = context.timers.scope("contact");
+  support_nodes_ = model.support_nodes(context.comm);
+  constrain(first);
+}
+
+void Simulation::constrain(const LoadState& state)
+{
+  state_ = state;
+  supports_ = model_.supports(state);
+  pairs_ = model_.contact_pairs(state);
+  constraints_.held = constraint::hold(supports_, support_nodes_, deck_.dimension(), context_.comm);
+  constraints_.contacts = contact::discretize(pairs_, constraints_.held, deck_.kinematics, context_.comm);
+}
+
+// The present rows with the bounds of a new state; false if it has other rows.
+bool Simulation::move_constraints(const LoadState& state)
+{
+  auto supports = model_.supports(state);
+  auto held = constraint::hold(supports, support_nodes_, deck_.dimension(), context_.comm);
+  if (!constraint::move_supports(constraints_, std::move(held), supports, supports_, context_.comm)) return false;
+  for (std::size_t c = 0; c < deck_.contacts.size(); ++c) {
+    const double overlap = (state.contact[c] - state_.contact[c]) * deck_.contacts[c].interference;
+    if (overlap != 0) constraint::add_interference(constraints_.contacts, static_cast<int>(c), overlap);
+    pairs_[c].options.interference += overlap;
+  }
+  supports_ = std::move(supports);
+  state_ = state;
+  return true;
+}
+
+void Simulation::factorize(const std::vector<partition::CopyOf>& copies)
+{
+  auto& [comm, log, timers] = context_;
+  std::vector<SparseMatrix> stiffness;
+  {
+    const auto scope = timers.scope("assembly");
+    collectively(comm, [&] { stiffness = model_.stiffness(copies); });
+  }
+  for (std::size_t s = 0; s < copies.size(); ++s)
+    floating_.nodal_stiffness.push_back(copies[s].original == s ? feti::nodal_stiffness(stiffness[s], deck_.dimension())
+                                                                : floating_.nodal_stiffness[copies[s].original]);
+  directory_.emplace(decomposition_, floating_.nodal_stiffness, comm);
+  interface_ = partition::find_interface(decomposition_, *directory_, comm);
+  floating_.kinematics = deck_.kinematics;
+  const auto scope = timers.scope("factorization");
+  collectively(comm, [&] { floating_.subdomains = factors(deck_, decomposition_, copies, std::move(stiffness)); });
+}
+
+void Simulation::build_problem()
+{
+  auto& [comm, log, timers] = context_;
+  solver_.reset();
+  problem_ = std::make_unique<feti::DualProblem>(decomposition_, *directory_, interface_, constraints_, floating_,
+                                                 deck_.solver.subdomains, context_);
+  log.line("  dual problem: {} multipliers, {} kernel dimensions", problem_->dual_unknowns(), problem_->kernel_dimension());
+  auto options = deck_.solver.programme;
+  options.max_multiplications -= multiplications_;
+  solver_ = std::make_unique<friction::Solver>(*problem_, model_.friction_laws(), deck_.friction_loop, options);
+}
+
+// A new problem, with the multipliers and the slip of the present one.
+void Simulation::rebuild(const LoadState& state)
+{
+  const auto before = std::move(problem_);
+  const auto old = std::exchange(constraints_, {});
+  constrain(state);
+  carry_slip(old.contacts, constraints_.contacts);
+  build_problem();
+  solved_->solution = carry_multipliers(*before, old, solved_->solution, *problem_);
+}
+
+void Simulation::solve(const LoadState& state, const friction::Observer& observer)
+{
+  auto& [comm, log, timers] = context_;
+  {
+    const auto scope = timers.scope("assembly");
+    floating_.load = model_.loads(state, comm);
+  }
+  const auto scope = timers.scope("solve");
+  if (!problem_)
+    build_problem();
+  else if (!move_constraints(state) || !problem_->renew())
+    rebuild(state);
+  const auto allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+    const auto estimating = timers.scope("error estimate");
+    return algebraic_part *
+           discretization_error(deck_, decomposition_, model_, interface_, problem_->displacement(lambda, nu), comm);
+  };
+  auto found = solver_->solve(solved_ ? &solved_->solution : nullptr, allowed_error, observer);
+  multiplications_ += found.multiplications;
+  solved_ = std::make_unique<friction::Result>(std::move(found));
+}
+
+void Simulation::settle(const std::vector<Eigen::VectorXd>& displacement)
+{
+  const Vector jumps = problem_->jump().apply(displacement);
+  const auto& ranges = problem_->jump().ranges();
+  const Local count = ranges.extra - ranges.contacts;
+  const Eigen::VectorXd lengths =
+      view(jumps).segment(ranges.contacts, count).cwiseQuotient(problem_->jump().scale().segment(ranges.contacts, count));
+  constraint::remember_slip(constraints_.contacts, {lengths.data(), static_cast<std::size_t>(count)});
+}
+
+}  // namespace mortise

@@ -1,0 +1,44 @@
+#include "constraint/renewal.hpp"
+
+#include <algorithm>
+
+namespace mortise::constraint {
+
+bool move_supports(Constraints& constraints, std::vector<Held> held, std::span<const SupportOptions> supports,
+                   std::span<const SupportOptions> before, const Communicator& comm)
+{
+  const bool same = std::equal(held.begin(), held.end(), constraints.held.begin(), constraints.held.end(),
+                               [](const Held& a, const Held& b) { return a.node == b.node && a.component == b.component; });
+  if (comm.min(static_cast<long long>(same)) == 0) return false;
+  constraints.held = std::move(held);
+  auto& contacts = constraints.contacts;
+  for (const auto& entry : contacts.held) {
+    const auto support = static_cast<std::size_t>(entry.support), c = static_cast<std::size_t>(entry.component);
+    contacts.rows.bound[entry.row] -=
+        entry.coefficient * (supports[support].displacement[c].value_or(0) - before[support].displacement[c].value_or(0));
+  }
+  return true;
+}
+
+void add_interference(Contacts& contacts, int contact, double overlap)
+{
+  for (auto& point : contacts.points) {
+    if (point.contact != contact) continue;
+    point.gap -= point.weight * overlap;
+    contacts.rows.bound[point.row] -= point.weight * overlap;
+  }
+}
+
+void remember_slip(Contacts& contacts, std::span<const double> jumps)
+{
+  contacts.slipped.resize(contacts.rows.size(), 0.0);
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    if (contacts.bonded[i]) continue;
+    for (std::size_t r = contacts.points[i].row + 1; r <= contacts.points[i].row + contacts.points[i].tangents.size(); ++r) {
+      contacts.slipped[r] += jumps[r] - contacts.rows.bound[r];
+      contacts.rows.bound[r] = jumps[r];
+    }
+  }
+}
+
+}  // namespace mortise::constraint
