@@ -234,10 +234,10 @@ Deck read_deck(deck::Document& document, const std::string& output)
   deck::read(deck, document);
   for (auto& contact : deck.contacts)
     if (contact.name.empty()) contact.name = contact.secondary + "/" + contact.primary;
-  for (auto& load : deck.loads)
-    if (load.name.empty()) load.name = load.boundary.empty() ? load.body : load.boundary;
   for (auto& support : deck.supports)
     if (support.name.empty()) support.name = support.boundary;
+  for (auto& load : deck.loads)
+    if (load.name.empty()) load.name = load.boundary.empty() ? load.body : load.boundary;
   check_bodies(deck, document);
   check_decomposition(deck, document);
   check_vectors(deck, document);
@@ -297,7 +297,8 @@ void check_names(const Deck& deck, deck::Document& document, const mesh::Catalog
       const auto entry = deck.bodies.find(body.group);
       if (entry == deck.bodies.end()) continue;
       const auto material = deck.materials.find(entry->second.material);
-      if (material != deck.materials.end() && !(material->second.density > 0)) {
+      if (material == deck.materials.end()) continue;
+      if (load.acceleration && !(material->second.density > 0)) {
         document.error(at, fmt::format("an acceleration needs a density > 0 of the material \"{}\"", material->first));
         break;
       }
@@ -306,6 +307,11 @@ void check_names(const Deck& deck, deck::Document& document, const mesh::Catalog
   for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
     check(deck.contacts[i].secondary, fmt::format("contacts[{}].secondary", i));
     check(deck.contacts[i].primary, fmt::format("contacts[{}].primary", i));
+      if (load.temperature_change && material->second.thermal_expansion == 0) {
+        document.error(at, fmt::format("a temperature_change needs a thermal_expansion (strain a degree) of the material \"{}\"",
+                                       material->first));
+        break;
+      }
   }
 }
 

@@ -50,6 +50,17 @@ fem::Formulation Model::formulation(const partition::Subdomain& subdomain) const
   return deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group).formulation;
 }
 
+double Model::free_strain(const partition::Subdomain& subdomain, const LoadState& state) const
+{
+  double warmer = 0;
+  for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
+    const auto& load = deck_.loads[i];
+    if (load.temperature_change && bodies_called(load.body)[static_cast<std::size_t>(subdomain.body)])
+      warmer += state.load[i] * *load.temperature_change;
+  }
+  return warmer == 0 ? 0 : warmer * material(subdomain).thermal_expansion;
+}
+
 // The largest |x| of all bodies.
 double Model::radius(const Communicator& comm) const
 {
@@ -146,10 +157,15 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
   std::vector<Eigen::VectorXd> f;
   for (const auto& subdomain : decomposition_.subdomains)
     f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
+  for (std::size_t s = 0; s < f.size(); ++s) {
+    const auto& subdomain = decomposition_.subdomains[s];
+    if (const double strain = free_strain(subdomain, state); strain != 0)
+      fem::add_expansion(subdomain.mesh, material(subdomain), deck_.kinematics, strain, f[s]);
+  }
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
     const auto& load = deck_.loads[i];
     const double factor = state.load[i];
-    if (factor == 0) continue;
+    if (factor == 0 || load.temperature_change) continue;
     if (load.acceleration) {
       const auto on_body = bodies_called(load.body);
       for (std::size_t s = 0; s < f.size(); ++s)

@@ -20,6 +20,8 @@ class Model {
   /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for, or reaches beyond
   /// the axis of revolution, or if a support or a contact names a boundary that has no part on its body. Collective.
   void require_fit(deck::Document& document, const Communicator& comm) const;
+  /// Strain along every axis that the body would have if nothing held it: its changes of temperature times the expansion.
+  double free_strain(const partition::Subdomain& subdomain, const LoadState& state) const;
   /// For each subdomain the first one of this rank with the same shape and material.
   std::vector<partition::CopyOf> congruent() const;
   /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.

@@ -37,17 +37,19 @@ struct Recovered {
   std::vector<Eigen::MatrixXd> nodal_stress;
   std::vector<Eigen::VectorXd> cell_von_mises;
   double squared_error = 0;  // in the energy norm, over all ranks
+  double strain_energy = 0;  // of the elastic strain, over all ranks
 };
 
 Recovered recover(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                  const partition::Interface& interface, const std::vector<Eigen::VectorXd>& displacement,
-                  const Communicator& comm)
+                  const LoadState& state, const partition::Interface& interface,
+                  const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
   Recovered result;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
-    auto field =
-        fem::stresses(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s], model.formulation(subdomain));
+    auto field = fem::stresses(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s],
+                               model.formulation(subdomain), model.free_strain(subdomain, state));
+    result.strain_energy += field.strain_energy;
     result.nodal_stress.push_back(std::move(field.nodal_sums));
     result.cell_von_mises.push_back(std::move(field.cell_von_mises));
   }
@@ -57,17 +59,18 @@ Recovered recover(const Deck& deck, const partition::Decomposition& decompositio
     stress = (stress.leftCols(6).array().colwise() / stress.col(6).array()).eval();
     const auto& subdomain = decomposition.subdomains[s];
     result.squared_error += fem::squared_errors(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s],
-                                                stress, model.formulation(subdomain))
+                                                stress, model.formulation(subdomain), model.free_strain(subdomain, state))
                                 .sum();
   }
   result.squared_error = comm.sum(result.squared_error);
+  result.strain_energy = comm.sum(result.strain_energy);
   return result;
 }
 
 void recover_stress(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                    const partition::Interface& interface, const Communicator& comm, Results& results)
+                    const LoadState& state, const partition::Interface& interface, const Communicator& comm, Results& results)
 {
-  auto recovered = recover(deck, decomposition, model, interface, results.displacement, comm);
+  auto recovered = recover(deck, decomposition, model, state, interface, results.displacement, comm);
   results.nodal_stress = std::move(recovered.nodal_stress);
   results.cell_von_mises = std::move(recovered.cell_von_mises);
   Peak peak;
@@ -80,6 +83,7 @@ void recover_stress(const Deck& deck, const partition::Decomposition& decomposit
     }
     results.nodal_von_mises.push_back(std::move(von_mises));
   }
+  results.summary.strain_energy = recovered.strain_energy;
   auto& estimate = results.summary.error_estimate;
   const double squared_norm = 2 * results.summary.strain_energy + recovered.squared_error;
   if (squared_norm > 0) {
@@ -216,7 +220,6 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
   summary.kernel_dimension = problem.kernel_dimension();
   summary.bodies = static_cast<Global>(decomposition.catalogue.bodies.size());
   summary.max_displacement = comm.max(largest);
-  summary.strain_energy = problem.strain_energy(results.displacement);
   summary.converged = solved.converged;
   summary.exit_status = solved.converged ? 0 : 2;
   summary.ranks = comm.size();
@@ -241,10 +244,10 @@ void print_contacts(const io::StateSummary& s, Log& log)
 }  // namespace
 
 double discretization_error(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                            const partition::Interface& interface, const std::vector<Eigen::VectorXd>& displacement,
-                            const Communicator& comm)
+                            const LoadState& state, const partition::Interface& interface,
+                            const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
-  return std::sqrt(recover(deck, decomposition, model, interface, displacement, comm).squared_error);
+  return std::sqrt(recover(deck, decomposition, model, state, interface, displacement, comm).squared_error);
 }
 
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
@@ -260,7 +263,7 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   results.summary.title = deck.title;
   results.summary.error_estimate.algebraic = solved.solution.error;
   sum_up(decomposition, problem, floating, solved, results);
-  recover_stress(deck, decomposition, model, simulation.interface(), context.comm, results);
+  recover_stress(deck, decomposition, model, simulation.state(), simulation.interface(), context.comm, results);
   contact_states(deck, problem, solved, results);
   warn_of_short_search(deck, pairs, problem, results, context);
   reactions(deck, problem, solved, results);
@@ -280,6 +283,7 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   }
   double size = std::max({results.applied.norm(), results.reaction.norm(), results.rounding_of_force, 1e-300});
   for (const auto& r : results.resultants) size = std::max(size, r.force.norm());
+  for (const auto& r : results.summary.reactions) size = std::max(size, std::hypot(r.force[0], r.force[1], r.force[2]));
   results.imbalance = (results.applied + results.reaction).norm() / size;
   results.limit = solved.limit;
   if (results.imbalance > unbalanced && results.summary.converged) {

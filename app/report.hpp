@@ -28,8 +28,8 @@ struct Results {
 /// The part of the error that is the mesh's, in the energy norm, by recovered stresses [Zienkiewicz and Zhu, Int. J. Numer.
 /// Methods Eng. 24 (1987)], inside each body. Collective.
 double discretization_error(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                            const partition::Interface& interface, const std::vector<Eigen::VectorXd>& displacement,
-                            const Communicator& comm);
+                            const LoadState& state, const partition::Interface& interface,
+                            const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
 
 /// Collective.
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,

@@ -208,7 +208,7 @@ void Simulation::solve(const LoadState& state, const friction::Observer& observe
   const auto allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
     const auto estimating = timers.scope("error estimate");
     return algebraic_part *
-           discretization_error(deck_, decomposition_, model_, interface_, problem_->displacement(lambda, nu), comm);
+           discretization_error(deck_, decomposition_, model_, state_, interface_, problem_->displacement(lambda, nu), comm);
   };
   auto found = solver_->solve(solved_ ? &solved_->solution : nullptr, allowed_error, observer);
   multiplications_ += found.multiplications;

@@ -26,6 +26,8 @@ class Simulation {
   /// Friction counts slip from the state that was solved last. `displacement` as of DualProblem. Collective.
   void settle(const std::vector<Eigen::VectorXd>& displacement);
 
+  /// What acts: that of the last solve().
+  const LoadState& state() const { return state_; }
   const constraint::Constraints& constraints() const { return constraints_; }
   const std::vector<contact::Pair>& pairs() const { return pairs_; }
   const feti::Floating& floating() const { return floating_; }

@@ -23,7 +23,7 @@ Contacts sample()
 
 std::vector<SupportOptions> support(std::optional<double> x)
 {
-  return {{"", "wall", {x, std::nullopt, std::nullopt}}};
+  return {{"wall", {x, std::nullopt, std::nullopt}}};
 }
 
 TEST(Renewal, SupportsThatMoveShiftBounds)

@@ -10,7 +10,7 @@ namespace {
 // Every rank sees nodes 0 .. 9 on the first boundary and 8, 9, 10 on the second.
 std::vector<Held> hold_sample(double x_first, double x_second, const Communicator& comm)
 {
-  const std::vector<SupportOptions> supports{{"", "left", {x_first, std::nullopt, 0.0}}, {"", "corner", {x_second, 2.0, std::nullopt}}};
+  const std::vector<SupportOptions> supports{{"left", {x_first, std::nullopt, 0.0}}, {"corner", {x_second, 2.0, std::nullopt}}};
   const std::vector<std::vector<Global>> nodes{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {8, 9, 10}};
   return hold(supports, nodes, 3, comm);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fem/stiffness.hpp"
 #include "geometry.hpp"
 
 namespace mortise::fem {
@@ -76,6 +77,26 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double dens
     cell.evaluate();
     for (std::size_t q = 0; q < cell.volumes().size(); ++q)
       add(cell.element().shape[q], density * cell.volumes()[q] * acceleration, mesh.cells[c], dimension(kinematics), f);
+  }
+}
+
+void add_expansion(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, double free_strain,
+                   Eigen::VectorXd& f)
+{
+  const int d = dimension(kinematics);
+  const auto [lambda, mu] = lame(material, kinematics);
+  // The stress that takes the free strain back: in plane stress lambda allows for the thickness, which stays free.
+  const double stress = ((kinematics == Kinematics::plane_stress ? 2 : 3) * lambda + 2 * mu) * free_strain;
+  CellGeometry cell(kinematics);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    cell.gather(mesh, c);
+    cell.evaluate();
+    for (std::size_t q = 0; q < cell.volumes().size(); ++q)
+      for (int i = 0; i < cell.element().nodes; ++i) {
+        const Local node = mesh.cells[c][static_cast<std::size_t>(i)];
+        f.segment(node * d, d) += stress * cell.volumes()[q] * cell.gradient(q).row(i).transpose();
+        if (cell.axisymmetric()) f[node * d] += stress * cell.volumes()[q] * cell.hoop(q)[i];
+      }
   }
 }
 

@@ -41,8 +41,7 @@ void describe(deck::Description<Material>& d)
   d.key("young_modulus", &Material::young_modulus, "Young's modulus.").required().above(1e-100).below(1e100);
   d.key("poisson_ratio", &Material::poisson_ratio, "Poisson's ratio.").required().above(-1).below(0.5);
   d.key("density", &Material::density, "Mass a volume, for accelerations.").at_least(0);
-  d.key("thermal_expansion", &Material::thermal_expansion,
-        "Strain a degree; read for the sake of the deck, no load uses it yet.");
+  d.key("thermal_expansion", &Material::thermal_expansion, "Strain a degree, for changes of temperature.");
 }
 
 void describe(deck::Description<BodyOptions>& d)
@@ -72,24 +71,30 @@ void describe(deck::Description<BodyOptions>& d)
 
 void describe(deck::Description<LoadOptions>& d)
 {
-  d.help("One load: pressure, traction or force on a boundary, or acceleration of a body.");
-  d.key("name", &LoadOptions::name, "For load steps; the boundary or body if not given.").hidden();
+  d.help("One load: pressure, traction or force on a boundary; acceleration or temperature change of a body.");
+  d.key("name", &LoadOptions::name, "To refer to it; the boundary or body if not given.");
   d.key("boundary", &LoadOptions::boundary, "Boundary that is loaded.");
-  d.key("body", &LoadOptions::body, "Body that is accelerated.");
+  d.key("body", &LoadOptions::body, "Body that is accelerated or heated.");
   d.key("pressure", &LoadOptions::pressure, "Force an area, positive into the body.");
   d.key("traction", &LoadOptions::traction, "Force an area, as a vector.");
   d.key("force", &LoadOptions::force,
         "Resultant, spread evenly over the boundary (plane models: a thickness; axisymmetric: of the whole turn).");
   d.key("acceleration", &LoadOptions::acceleration, "Body force is density times this.");
-  d.unavailable("temperature_change");
+  d.key("temperature_change", &LoadOptions::temperature_change,
+        "Degrees that the body is warmer than when it had no stress; its material has a thermal_expansion. Several on one body "
+        "add.");
   d.check([](const LoadOptions& load, const std::string& path, deck::Document& document) {
-    const int given =
-        load.pressure.has_value() + load.traction.has_value() + load.force.has_value() + load.acceleration.has_value();
+    const bool on_body = load.acceleration.has_value() || load.temperature_change.has_value();
+    const int given = load.pressure.has_value() + load.traction.has_value() + load.force.has_value() +
+                      load.acceleration.has_value() + load.temperature_change.has_value();
     if (given != 1)
-      document.error(path, fmt::format("expected exactly one of pressure, traction, force and acceleration, found {}", given));
-    const bool on_body = load.acceleration.has_value();
+      document.error(
+          path,
+          fmt::format("expected exactly one of pressure, traction, force, acceleration and temperature_change, found {}", given));
     if (load.boundary.empty() != on_body || load.body.empty() == on_body)
-      document.error(path, on_body ? "an acceleration acts on a `body`" : "this load acts on a `boundary`");
+      document.error(path, !on_body            ? "this load acts on a `boundary`"
+                           : load.acceleration ? "an acceleration acts on a `body`"
+                                               : "a change of temperature acts on a `body`");
   });
 }
 

@@ -9,10 +9,11 @@ namespace mortise::fem {
 
 namespace {
 
-// Stress from the displacement gradient H = du_i/dx_j.
-Stress stress_of(const Eigen::Matrix3d& h, const Lame& constants, Kinematics kinematics)
+// Stress from the displacement gradient H = du_i/dx_j and the strain that has none.
+Stress stress_of(const Eigen::Matrix3d& h, const Lame& constants, Kinematics kinematics, double free_strain)
 {
-  const Eigen::Matrix3d strain = 0.5 * (h + h.transpose());
+  Eigen::Matrix3d strain = 0.5 * (h + h.transpose());
+  strain.diagonal().head(kinematics == Kinematics::plane_stress ? 2 : 3).array() -= free_strain;
   Eigen::Matrix3d s = constants.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2 * constants.mu * strain;
   if (kinematics == Kinematics::plane_stress) s(2, 2) = 0;
   return (Stress() << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)).finished();
@@ -28,7 +29,7 @@ double complementary_energy(const Stress& s, const Material& material)
 // Calls visit(c, cell, stress) for every cell c; stress is q x 6.
 template <class Visit>
 void for_each_cell(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, Formulation formulation,
-                   const Eigen::VectorXd& u, const Visit& visit)
+                   double free_strain, const Eigen::VectorXd& u, const Visit& visit)
 {
   const int d = dimension(kinematics);
   const Lame constants = lame(material, kinematics);
@@ -44,7 +45,7 @@ void for_each_cell(const mesh::Mesh& mesh, const Material& material, Kinematics 
     stress.resize(static_cast<Eigen::Index>(cell.volumes().size()), 6);
     const auto& gradients = cell_formulation.gradients(cell, displacement);
     for (std::size_t q = 0; q < gradients.size(); ++q)
-      stress.row(static_cast<Eigen::Index>(q)) = stress_of(gradients[q], constants, kinematics).transpose();
+      stress.row(static_cast<Eigen::Index>(q)) = stress_of(gradients[q], constants, kinematics, free_strain).transpose();
     visit(c, cell, stress);
   }
 }
@@ -58,18 +59,20 @@ double von_mises(const Stress& s)
 }
 
 StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                     Formulation formulation)
+                     Formulation formulation, double free_strain)
 {
   StressField field;
   field.nodal_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), 7);
   field.cell_von_mises.resize(static_cast<Eigen::Index>(mesh.cells.size()));
-  for_each_cell(mesh, material, kinematics, formulation, u,
+  for_each_cell(mesh, material, kinematics, formulation, free_strain, u,
                 [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
                   Stress sum = Stress::Zero();
                   double volume = 0;
                   for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
                     sum += cell.volumes()[q] * stress.row(static_cast<Eigen::Index>(q)).transpose();
                     volume += cell.volumes()[q];
+                    field.strain_energy += 0.5 * cell.volumes()[q] *
+                                           complementary_energy(stress.row(static_cast<Eigen::Index>(q)).transpose(), material);
                   }
                   field.cell_von_mises[static_cast<Eigen::Index>(c)] = von_mises(sum / volume);
                   for (int i = 0; i < cell.element().nodes; ++i) {
@@ -82,11 +85,12 @@ StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematic
 }
 
 Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                               const Eigen::MatrixXd& recovered, Formulation formulation)
+                               const Eigen::MatrixXd& recovered, Formulation formulation, double free_strain)
 {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
   for_each_cell(
-      mesh, material, kinematics, formulation, u, [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
+      mesh, material, kinematics, formulation, free_strain, u,
+      [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
         double& sum = result[static_cast<Eigen::Index>(c)];
         if (cell.volumes().size() == 1) {  // one point misses what is linear in s* - s; that is a simplex with nodes 0 .. n - 1:
           // the integral of a quadratic form q of a linear function is V / (n (n + 1)) (sum of q(f_i) + q(sum of f_i)).

@@ -189,15 +189,4 @@ double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vecto
   return size > 0 ? std::sqrt(comm_.sum(residual) / size) : 0;
 }
 
-double DualProblem::strain_energy(const std::vector<Eigen::VectorXd>& u) const
-{
-  double energy = 0;
-  for (std::size_t s = 0; s < u.size(); ++s) {  // without the rigid part, which has none and, where it is large, rounds
-    const auto& kernel = floating_.subdomains[s]->kernel();
-    const Eigen::VectorXd bent = u[s] - kernel * (kernel.transpose() * u[s]);
-    energy += 0.5 * bent.dot(floating_.subdomains[s]->apply(bent));
-  }
-  return comm_.sum(energy);
-}
-
 }  // namespace mortise::feti

@@ -11,9 +11,9 @@ namespace mortise::constraint {
 
 /// Prescribed displacement of a boundary; a component without a value is free.
 struct SupportOptions {
-  std::string name;  ///< for load steps; default: the boundary
   std::string boundary;
   std::array<std::optional<double>, 3> displacement;
+  std::string name = {};  ///< default: the boundary
 };
 
 /// The keywords.

@@ -22,4 +22,10 @@ void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, c
 void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double density, const Point& acceleration,
                       Eigen::VectorXd& f);
 
+/// f_i += integral of B_i' D e over all cells, where e is the strain `free_strain` along every axis, also across a plane: what a
+/// body feels that would expand by it if nothing held it. Every formulation has the same, for mean changes of volume and
+/// incompatible modes do not see a constant stress.
+void add_expansion(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, double free_strain,
+                   Eigen::VectorXd& f);
+
 }  // namespace mortise::fem

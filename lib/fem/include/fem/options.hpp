@@ -39,15 +39,16 @@ struct BodyOptions {
   Formulation formulation = Formulation::standard;
 };
 
-/// One load; exactly one of the four quantities is given, `boundary` for the first three and `body` for the last.
+/// One load; exactly one of the five quantities is given, `boundary` for the first three and `body` for the others.
 struct LoadOptions {
-  std::string name;  ///< for load steps; default: the boundary or body
   std::string boundary;
   std::string body;
   std::optional<double> pressure;                     ///< force an area, positive into the body
   std::optional<std::array<double, 3>> traction;      ///< force an area
   std::optional<std::array<double, 3>> force;         ///< resultant, spread evenly over the boundary (plane: a thickness)
   std::optional<std::array<double, 3>> acceleration;  ///< body force is density times this
+  std::optional<double> temperature_change = {};      ///< degrees; several on one body add
+  std::string name = {};                              ///< default: the boundary or the body
 };
 
 /// The keywords.

@@ -21,15 +21,19 @@ struct StressField {
   Eigen::MatrixXd nodal_sums;
   /// Of each cell, from the volume mean of its stress.
   Eigen::VectorXd cell_von_mises;
+  /// Integral of s : C^-1 : s / 2, the energy of the elastic strain: 1/2 u'K u where nothing expands freely.
+  double strain_energy = 0;
 };
+/// `free_strain`: what the piece would expand by along every axis if nothing held it (see add_expansion); it has no stress.
 StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                     Formulation formulation = Formulation::standard);
+                     Formulation formulation = Formulation::standard, double free_strain = 0);
 
 /// For each cell the squared energy norm of s* - s: the integral of (s* - s) : C^-1 : (s* - s), where s is the stress of the
 /// finite elements and s* interpolates `recovered`, nodes x 6, by the shape functions [Zienkiewicz and Zhu, A simple error
 /// estimator and adaptive procedure for practical engineering analysis, IJNME 24 (1987)]. The sum over all cells estimates ||u -
-/// u_h||^2 in the energy norm; in the same norm ||u_h||^2 is twice the strain energy.
+/// u_h||^2 in the energy norm; in the same norm ||u_h||^2 is twice the strain energy. `free_strain` as in stresses().
 Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                               const Eigen::MatrixXd& recovered, Formulation formulation = Formulation::standard);
+                               const Eigen::MatrixXd& recovered, Formulation formulation = Formulation::standard,
+                               double free_strain = 0);
 
 }  // namespace mortise::fem

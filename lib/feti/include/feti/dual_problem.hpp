@@ -72,8 +72,6 @@ class DualProblem {
   std::string runaway(const Eigen::VectorXd& nu) const;
   /// ||K u + B'lambda - f|| / (||f|| + ||B'lambda||) over all subdomains. Collective.
   double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const;
-  /// 1/2 u'K u. Collective.
-  double strain_energy(const std::vector<Eigen::VectorXd>& u) const;
 
  private:
   void settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,

@@ -1,0 +1,114 @@
+// Bodies that expand by a change of temperature.
+#include <gtest/gtest.h>
+
+#include "fem/loads.hpp"
+#include "fem/stress.hpp"
+#include "sample.hpp"
+
+namespace mortise::fem {
+namespace {
+
+using namespace test;
+
+constexpr double strain = 1.3e-3;  // what a body expands by if nothing holds it
+
+struct Expanding {
+  Case what;
+  Formulation formulation;
+  Block block;
+};
+
+// Every cell in every kinematics, with each of its formulations, distorted; in axisymmetry a ring.
+std::vector<Expanding> all_bodies()
+{
+  auto cases = all_cases();
+  for (const char* name : {"tri3", "quad4", "tri6", "quad8", "quad9"}) cases.push_back({name, Kinematics::axisymmetric});
+  std::vector<Expanding> bodies;
+  for (const auto& what : cases)
+    for (const auto formulation : {Formulation::standard, Formulation::bbar, Formulation::incompatible}) {
+      const bool ring = what.kinematics == Kinematics::axisymmetric;
+      if (!applies(formulation, mesh::cell_type(what.element).value())) continue;
+      if ((ring && formulation == Formulation::incompatible) ||
+          (what.kinematics == Kinematics::plane_stress && formulation == Formulation::bbar))
+        continue;
+      bodies.push_back({what, formulation, Block(what.element, {3, 3, 2}, {1, 2, 1.5})});
+      auto& mesh = bodies.back().block.distort(0.07).mesh;
+      if (ring)
+        for (auto& p : mesh.points) p[0] += 0.5;
+    }
+  return bodies;
+}
+
+// The displacement of the free body: across a plane strain cannot expand, so that the plane expands the more.
+Eigen::VectorXd free_expansion(const Expanding& body)
+{
+  const double in_plane = body.what.kinematics == Kinematics::plane_strain ? (1 + steel().poisson_ratio) * strain : strain;
+  return sample(body.block.mesh, body.block.dimension, [&](const Point& x) { return Point(in_plane * x); });
+}
+
+double volume(const Expanding& body)
+{
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(body.block.mesh.node_count()) * body.block.dimension);
+  add_acceleration(body.block.mesh, body.what.kinematics, 1, Point(0, 1, 0), weight);
+  return weight.sum();
+}
+
+TEST(Expansion, OfAFreeBodyIsInEquilibriumAndHasNoStress)
+{
+  for (const auto& body : all_bodies()) {
+    const auto& [name, kinematics] = body.what;
+    const auto& mesh = body.block.mesh;
+    const auto u = free_expansion(body);
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(u.size());
+    add_expansion(mesh, steel(), kinematics, strain, f);
+    EXPECT_GT(f.norm(), 1);
+    EXPECT_LT((dense(stiffness(mesh, steel(), kinematics, body.formulation)) * u - f).norm(), 1e-11 * f.norm()) << name;
+
+    const auto field = stresses(mesh, steel(), kinematics, u, body.formulation, strain);
+    const Eigen::MatrixXd nodal = field.nodal_sums.leftCols(6).array().colwise() / field.nodal_sums.col(6).array();
+    const double size = steel().young_modulus * strain, across = kinematics == Kinematics::plane_strain ? -size : 0;
+    const Eigen::RowVectorXd expected = (Eigen::RowVectorXd(6) << 0, 0, across, 0, 0, 0).finished();
+    EXPECT_LT((nodal.rowwise() - expected).cwiseAbs().maxCoeff(), 1e-10 * size) << name;
+    EXPECT_LT((field.cell_von_mises.array() - std::abs(across)).abs().maxCoeff(), 1e-10 * size) << name;
+    EXPECT_NEAR(field.strain_energy, 0.5 * across * across / steel().young_modulus * volume(body), 1e-10 * size * strain) << name;
+    EXPECT_LT(squared_errors(mesh, steel(), kinematics, u, nodal, body.formulation, strain).sum(), 1e-18 * size) << name;
+  }
+}
+
+// Held all over: the stress is that of the strain taken back, and the load is what the supports push with.
+TEST(Expansion, OfAHeldBodyIsTakenBackByStress)
+{
+  for (const auto& body : all_bodies()) {
+    const auto& [name, kinematics] = body.what;
+    const auto& mesh = body.block.mesh;
+    const Eigen::VectorXd u = Eigen::VectorXd::Zero(free_expansion(body).size());
+    const auto field = stresses(mesh, steel(), kinematics, u, body.formulation, strain);
+    const double e = steel().young_modulus, nu = steel().poisson_ratio;
+    const bool thin = kinematics == Kinematics::plane_stress;
+    const double all_round = -e * strain / (thin ? 1 - nu : 1 - 2 * nu);
+    const Eigen::RowVectorXd expected = (Eigen::RowVectorXd(6) << all_round, all_round, thin ? 0 : all_round, 0, 0, 0).finished();
+    const Eigen::MatrixXd nodal = field.nodal_sums.leftCols(6).array().colwise() / field.nodal_sums.col(6).array();
+    EXPECT_LT((nodal.rowwise() - expected).cwiseAbs().maxCoeff(), 1e-11 * e * strain) << name;
+    // Work of the supports' stress on a linear displacement.
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(u.size());
+    add_expansion(mesh, steel(), kinematics, strain, f);
+    const auto along = sample(mesh, body.block.dimension, [](const Point& x) { return Point(0, x[1], 0); });
+    EXPECT_NEAR(f.dot(along), -all_round * volume(body), 1e-11 * std::abs(all_round) * volume(body)) << name;
+  }
+}
+
+TEST(StrainEnergy, IsThatOfTheStiffness)
+{
+  for (const auto& body : all_bodies()) {
+    const auto& [name, kinematics] = body.what;
+    const auto& mesh = body.block.mesh;
+    const auto u = sample(mesh, body.block.dimension, [](const Point& x) {
+      return Point(1e-3 * (x[0] * x[1] + x[1] * x[1]), 2e-3 * x[0] * x[0] - 1e-3 * x[1], 1e-3 * x[2] * x[0]);
+    });
+    const double expected = 0.5 * u.dot(dense(stiffness(mesh, steel(), kinematics, body.formulation)) * u);
+    EXPECT_NEAR(stresses(mesh, steel(), kinematics, u, body.formulation).strain_energy, expected, 1e-11 * expected) << name;
+  }
+}
+
+}  // namespace
+}  // namespace mortise::fem
