@@ -252,4 +252,14 @@ std::vector<friction::Law> Model::friction_laws() const
   return laws;
 }
 
+std::vector<constraint::Preload> Model::preloads() const
+{
+  std::vector<constraint::Preload> preloads;
+  for (std::size_t c = 0; c < deck_.contacts.size(); ++c)
+    if (const auto& preload = deck_.contacts[c].preload)
+      preloads.push_back(
+          {static_cast<int>(c), deck_.contacts[c].name, preload->force, preload->force ? 0 : preload->shortening.value_or(0)});
+  return preloads;
+}
+
 }  // namespace mortise

@@ -34,6 +34,8 @@ class Model {
   std::vector<std::vector<Global>> support_nodes(const Communicator& comm) const;
   std::vector<contact::Pair> contact_pairs(const LoadState& state) const;
   std::vector<friction::Law> friction_laws() const;
+  /// Of the preloaded contacts.
+  std::vector<constraint::Preload> preloads() const;
 
  private:
   struct Selection {

@@ -95,6 +95,16 @@ void recover_stress(const Deck& deck, const partition::Decomposition& decomposit
   results.max_von_mises_at = peak.at;
 }
 
+// g of this rank's contact rows, with what cuts are drawn together.
+std::vector<double> bounds(const feti::DualProblem& problem, const friction::Result& solved)
+{
+  auto result = problem.constraints().contacts.rows.bound;
+  const auto shortenings = problem.shortenings(solved.solution.nu);
+  for (std::size_t c = 0; c < shortenings.size(); ++c)
+    for (const auto& [row, part] : problem.constraints().cuts[c].rows) result[row] += part * shortenings[c];
+  return result;
+}
+
 // The state of this rank's contact points from the multipliers and the jumps.
 void contact_states(const Deck& deck, const feti::DualProblem& problem, const friction::Result& solved, Results& results)
 {
@@ -104,6 +114,7 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
   const auto lambda = view(solved.solution.x);
   const auto& scale = problem.jump().scale();
   const auto& contacts = problem.constraints().contacts;
+  const auto bound = bounds(problem, solved);
   double penetration = 0, slackness = 0;
   std::vector<double> largest(deck.contacts.size(), 0.0);  // pressure of each contact
   for (std::size_t i = 0; i < contacts.points.size(); ++i) {
@@ -118,14 +129,14 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
     for (Local r = rows.normal; r <= rows.normal + rows.tangents; ++r) {
       multipliers.push_back(lambda[r] * scale[r]);
       row_jumps.push_back(jump[r] / scale[r]);
-      // Of the tangential rows, what moving supports contribute stands in the bound, beside the slip of the steps before.
+      // Of the tangential rows, what moving supports and cuts contribute stands in the bound, beside the slip of the steps before.
       const auto row = contacts.points[i].row + static_cast<std::size_t>(r - rows.normal);
-      if (r > rows.normal) row_jumps.back() -= contacts.rows.bound[row] - contacts.slipped_before(row);
+      if (r > rows.normal) row_jumps.back() -= bound[row] - contacts.slipped_before(row);
     }
     const double limit =
         rows.disc < 0 ? 0.0 : problem.set().discs()[static_cast<std::size_t>(rows.disc)].radius * scale[rows.normal];
     results.points.push_back(contact::state_of(contacts.points[i], contacts.bonded[i], multipliers, row_jumps,
-                                               contacts.rows.bound[contacts.points[i].row], limit,
+                                               bound[contacts.points[i].row], limit,
                                                1e-4 * largest[static_cast<std::size_t>(contacts.points[i].contact)]));
     if (contacts.bonded[i]) continue;
     penetration = std::max(penetration, -results.points.back().gap);
@@ -239,6 +250,8 @@ void print_contacts(const io::StateSummary& s, Log& log)
         "{:.4g}; {} open, {} "
         "stick, {} slip",
         c.name, c.force[0], c.force[1], c.force[2], c.max_recovered_pressure, c.max_pressure, c.area, c.open, c.stick, c.slip);
+  for (const auto& c : s.contacts)
+    if (c.preload) log.line("  preload {}: force {:.6g}, shortened by {:.6g}", c.name, c.preload->force, c.preload->shortening);
 }
 
 }  // namespace
@@ -280,6 +293,12 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
                                         r.stick,
                                         r.slip,
                                         recovered});
+  }
+  const auto shortenings = problem.shortenings(solved.solution.nu);
+  for (std::size_t i = 0; i < shortenings.size(); ++i) {
+    const auto& cut = problem.constraints().cuts[i];
+    const auto contact = static_cast<std::size_t>(cut.preload.contact);
+    results.summary.contacts[contact].preload = {cut.normal.dot(results.resultants[contact].force), shortenings[i]};
   }
   double size = std::max({results.applied.norm(), results.reaction.norm(), results.rounding_of_force, 1e-300});
   for (const auto& r : results.resultants) size = std::max(size, r.force.norm());

@@ -64,6 +64,19 @@ nlohmann::ordered_json friction_schema(const deck::Limits&)
 
 }  // namespace
 
+void describe(deck::Description<PreloadOptions>& d)
+{
+  d.help("Draws the two sides of a bonded contact, a cut through the shank of a bolt, together along the cut's mean normal.");
+  d.key("force", &PreloadOptions::force,
+        "Tension of the bolt; how far that shortens it is found (plane models: a thickness; axisymmetric: of the whole turn).")
+      .positive();
+  d.key("shortening", &PreloadOptions::shortening, "How far the two sides are drawn together; the force is found.");
+  d.check([](const PreloadOptions& preload, const std::string& path, deck::Document& document) {
+    if (preload.force.has_value() == preload.shortening.has_value())
+      document.error(path, fmt::format("expected either a force or a shortening, found {}", preload.force ? "both" : "neither"));
+  });
+}
+
 void describe(deck::Description<Options>& d)
 {
   d.help("A pair of boundaries that may touch.");
@@ -90,10 +103,15 @@ void describe(deck::Description<Options>& d)
   d.key("search_distance", &Options::search_distance,
         "Surfaces farther apart than this never meet; 0 chooses a tenth of the smaller side's extent.")
       .at_least(0);
+  d.key("preload", &Options::preload,
+        "{force: tension} or {shortening: length} of a bolt that is cut into two bodies, bonded here: bonded contacts alone.");
   d.check([](const Options& contact, const std::string& path, deck::Document& document) {
     if (contact.law == Law::bonded && contact.interference != 0)
       document.error(path + ".interference",
                      "bonded surfaces are tied where they are; expected another friction law, or no interference");
+    if (contact.preload && contact.law != Law::bonded)
+      document.error(path + ".preload",
+                     "only a cut through a bolt, which is bonded, can be preloaded; expected `friction: {bonded: true}` with it");
     if (contact.secondary == contact.primary)
       document.error(
           path,

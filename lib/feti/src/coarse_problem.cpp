@@ -31,4 +31,22 @@ Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition
   return result;
 }
 
+SparseMatrix with_cuts(const SparseMatrix& g, std::span<const constraint::Cut> cuts, const JumpOperator& jump)
+{
+  std::vector<Eigen::Triplet<double>> triplets;
+  auto height = static_cast<int>(g.rows());
+  for (const auto& cut : cuts) {
+    if (!cut.preload.force) continue;
+    for (const auto& [row, part] : cut.rows) {
+      const auto column = jump.ranges().contacts + static_cast<Local>(row);
+      triplets.emplace_back(height, column, part * jump.scale()[column]);
+    }
+    ++height;
+  }
+  SparseMatrix added(height, g.cols()), result = g;
+  added.setFromTriplets(triplets.begin(), triplets.end());
+  result.conservativeResize(height, g.cols());
+  return result + added;
+}
+
 }  // namespace mortise::feti

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -54,17 +55,57 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
   renew_right_sides();
 }
 
+void DualProblem::make_equality(SparseMatrix g)
+{
+  if (tightened() > 0) {
+    g = with_cuts(g, constraints_.cuts, *jump_);
+    pull_ = std::make_unique<Vector>(jump_->rows());
+  }
+  const auto size = g.rows();
+  equality_ = std::make_unique<qp::EqualityConstraint>(std::move(g), Eigen::VectorXd::Zero(size), comm_);
+}
+
+Eigen::Index DualProblem::tightened() const
+{
+  return std::count_if(constraints_.cuts.begin(), constraints_.cuts.end(),
+                       [](const constraint::Cut& cut) { return cut.preload.force.has_value(); });
+}
+
 void DualProblem::renew_right_sides()
 {
   std::vector<Eigen::VectorXd> u = floating_.load;
   apply_inverse(floating_.subdomains, u);
-  Vector linear = jump_->apply(u);
-  view(linear) -= jump_->bound();
+  Vector d = jump_->apply(u);
+  {
+    auto linear = view(d);
+    linear -= jump_->bound();
+    for (const auto& cut : constraints_.cuts)
+      if (!cut.preload.force)
+        for (const auto& [row, part] : cut.rows) {
+          const auto at = jump_->ranges().contacts + static_cast<Local>(row);
+          linear[at] -= jump_->scale()[at] * part * cut.preload.shortening;
+        }
+  }
   if (linear_)
-    linear_->assign(linear);  // solvers refer to it
+    linear_->assign(d);  // solvers refer to it
   else
-    linear_ = std::make_unique<Vector>(linear, Teuchos::Copy);
-  equality_->set_right_side(kernel_coordinates(decomposition_, floating_.subdomains, floating_.load, numbering(), comm_));
+    linear_ = std::make_unique<Vector>(d, Teuchos::Copy);
+
+  Eigen::VectorXd e = kernel_coordinates(decomposition_, floating_.subdomains, floating_.load, numbering(), comm_);
+  const auto kernels = e.size();
+  std::vector<double> forces;
+  for (const auto& cut : constraints_.cuts)
+    if (cut.preload.force) forces.push_back(-*cut.preload.force);
+  const auto count = static_cast<Eigen::Index>(forces.size());
+  e.conservativeResize(kernels + count);
+  e.tail(count) = Eigen::Map<const Eigen::VectorXd>(forces.data(), count);
+  if (pull_) {
+    Eigen::VectorXd alone = Eigen::VectorXd::Zero(e.size());
+    alone.tail(count) = e.tail(count);
+    pull_->putScalar(0);
+    equality_->add_transpose(1, equality_->solve(alone), *pull_);
+  }
+  equality_->set_right_side(std::move(e));
 }
 
 bool DualProblem::driven(const FreeMotion& motion, double work)
@@ -92,7 +133,7 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
 {
   SparseMatrix g = coarse_rows(decomposition_, *jump_, floating_.subdomains, numbering(), comm_);
   const auto motions = find_free_motions(decomposition_, *jump_, floating_.subdomains, floating_.kinematics, g,
-                                         constraints_.contacts, floating_.load, comm_);
+                                         constraints_.contacts, constraints_.cuts, floating_.load, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;
@@ -120,8 +161,7 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
                                            comm_);
     g = coarse_rows(decomposition_, *jump_, floating_.subdomains, numbering(), comm_);
   }
-  equality_ = std::make_unique<qp::EqualityConstraint>(
-      std::move(g), kernel_coordinates(decomposition_, floating_.subdomains, floating_.load, numbering(), comm_), comm_);
+  make_equality(std::move(g));
 }
 
 void DualProblem::make_set()
@@ -187,6 +227,14 @@ double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vecto
   }
   size = comm_.sum(size);
   return size > 0 ? std::sqrt(comm_.sum(residual) / size) : 0;
+}
+
+std::vector<double> DualProblem::shortenings(const Eigen::VectorXd& nu) const
+{
+  std::vector<double> result;
+  Eigen::Index next = kernel_dimension();
+  for (const auto& cut : constraints_.cuts) result.push_back(cut.preload.force ? nu[next++] : cut.preload.shortening);
+  return result;
 }
 
 }  // namespace mortise::feti

@@ -119,6 +119,21 @@ std::vector<Eigen::VectorXd> unfelt(const Eigen::MatrixXd& rows, double toleranc
   return result;
 }
 
+// Takes out of `felt` what a cut that is tightened to a force gives way to, part * s with the s that is nearest to each motion,
+// and adds what the force works on it. `first`: the first contact row of `felt`.
+void release(const constraint::Cut& cut, Local first, Bodies& bodies, SparseMatrix& felt, const Communicator& comm)
+{
+  SparseMatrix parts(felt.rows(), 1);
+  for (const auto& [row, part] : cut.rows) parts.insert(first + static_cast<Local>(row), 0) = part;
+  Eigen::VectorXd shortening = Eigen::MatrixXd(felt.transpose() * parts);
+  comm.sum_in_place({shortening.data(), static_cast<std::size_t>(shortening.size())});
+  shortening /= comm.sum(parts.squaredNorm());
+  felt -= SparseMatrix(parts * SparseMatrix(shortening.sparseView(1.0, 1e-12)).transpose());
+  bodies.generalised += *cut.preload.force * shortening;
+  for (Eigen::Index b = 0; b < bodies.force.size(); ++b)
+    if (shortening.segment(b * bodies.modes, bodies.modes).norm() > 1e-6) bodies.force[b] += *cut.preload.force;
+}
+
 // Turns an orthonormal basis so that the loads drive its first vector alone, and in its own sense: of many motions together, that
 // is the one to tell.
 void turn_to_loads(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised)
@@ -211,17 +226,20 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subd
 
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Subdomains& subdomains, fem::Kinematics kinematics, const SparseMatrix& g,
-                                          const constraint::Contacts& contacts, const std::vector<Eigen::VectorXd>& load,
-                                          const Communicator& comm)
+                                          const constraint::Contacts& contacts, std::span<const constraint::Cut> cuts,
+                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
-  const Bodies bodies = aggregate(decomposition, subdomains, kinematics, load, comm);
+  Bodies bodies = aggregate(decomposition, subdomains, kinematics, load, comm);
   const int modes = bodies.modes;
   // Rows x amplitudes, in length units again: the support and contact rows that this rank owns.
   const Local first = jump.ranges().held, count = jump.ranges().extra - first;
-  const SparseMatrix felt = SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
   const Eigen::VectorXd unscale = jump.scale().segment(first, count).cwiseInverse();
+  SparseMatrix felt =
+      unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
   const Local first_contact = jump.ranges().contacts - first;
-  Eigen::VectorXd weight_of_row = support_weight * unscale;
+  for (const auto& cut : cuts)
+    if (cut.preload.force) release(cut, first_contact, bodies, felt, comm);
+  Eigen::VectorXd weight_of_row = Eigen::VectorXd::Constant(count, support_weight);
   for (std::size_t i = 0; i < contacts.points.size(); ++i)
     if (!contacts.bonded[i]) weight_of_row[first_contact + static_cast<Local>(contacts.points[i].row)] /= support_weight;
   // Whether the normal rows feel no more of a motion than the angles of facets explain: a small part of the velocity there.
@@ -264,8 +282,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   // Several bodies together: the null space of all rows once the motions found so far are stopped.
   constexpr int dense_limit = 3000;
   if (body_count < 2 || body_count * modes > dense_limit) return found;
-  SparseMatrix scaled = unscale.asDiagonal() * felt;
-  Eigen::MatrixXd gram = Eigen::MatrixXd(scaled.transpose() * scaled);
+  Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(felt.transpose() * felt));
   comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
   const double weight = std::max(gram.diagonal().maxCoeff(), 1.0);
   for (const auto& v : amplitudes) gram += weight * v * v.transpose();
@@ -276,7 +293,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   turn_to_loads(basis, bodies.generalised);
   for (const auto& v : basis.colwise()) {
     FreeMotion motion;
-    motion.felt = largest(scaled * v, comm);
+    motion.felt = largest(felt * v, comm);
     double force = 0;
     for (int b = 0; b < body_count; ++b) {
       if (v.segment(b * modes, modes).norm() < 1e-6) continue;

@@ -188,7 +188,8 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
       options_(options),
       solver_(solver),
       hessian_(problem.hessian(), solver.max_multiplications),
-      programme_{hessian_, problem.linear(), problem.equality(), problem.set()}
+      driven_(problem.linear().getMap()),
+      programme_{hessian_, problem.linear(), problem.equality(), problem.set(), problem.pull() ? &driven_ : nullptr}
 {
   if (solver.algorithm == "face_newton") newton_ = std::make_unique<qp::FaceNewton>(programme_, problem.preconditioner());
 }
@@ -287,6 +288,7 @@ Result Solver::solve(const qp::Solution* start, const AllowedError& allowed_erro
 {
   const bool coulomb = any_coulomb(laws_);
   const int before = hessian_.count();
+  if (problem_.pull()) hessian_.apply(*problem_.pull(), driven_);
   Run run;
   if (solver_.tolerance.value)
     run.goal.residual = *solver_.tolerance.value;

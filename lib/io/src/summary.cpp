@@ -40,7 +40,7 @@ void add_state(const StateSummary& s, Json& json)
   json["reactions"] = Json::array();
   for (const auto& r : s.reactions) json["reactions"].push_back({{"boundary", r.boundary}, {"force", vector(r.force)}});
   json["contacts"] = Json::array();
-  for (const auto& c : s.contacts)
+  for (const auto& c : s.contacts) {
     json["contacts"].push_back({{"name", c.name},
                                 {"force", vector(c.force)},
                                 {"max_pressure", number(c.max_pressure)},
@@ -49,6 +49,9 @@ void add_state(const StateSummary& s, Json& json)
                                 {"stick", c.stick},
                                 {"slip", c.slip},
                                 {"max_recovered_pressure", number(c.max_recovered_pressure)}});
+    if (c.preload)
+      json["contacts"].back()["preload"] = {{"force", number(c.preload->force)}, {"shortening", number(c.preload->shortening)}};
+  }
 }
 
 }  // namespace

@@ -25,17 +25,7 @@ constexpr int max_retreats = 8;           // of slip bounds
 constexpr int max_retreats_to_z = 2;      // quarters of the way back, before the step becomes a gradient projection
 constexpr int max_safeguards = 12;        // after which another algorithm will do better
 constexpr double finest = 1e-7;           // residual over ||P b|| that is enough where no error is allowed
-constexpr double rounding = 1e-13;        // of ||b||: no residual below this means anything
-constexpr double finest_asked = 1e-10;    // finer tolerances are taken at their word
 constexpr double first_look = 0.1;        // part of the first error at which the allowed one is asked for
-
-// ||P b||, but no less than what rounding makes of it: where supports move bodies rigidly, P b should be zero and b is not.
-double projected_size(const Problem& problem, double tolerance)
-{
-  Vector pb(problem.linear, Teuchos::Copy);
-  problem.equality.project(pb);
-  return std::max(pb.norm2(), rounding / std::max(tolerance, finest_asked) * problem.linear.norm2());
-}
 
 // ||x - x*||_A from residuals and energies. With M near A^-1 the residual's r'Mr is near its square but for a factor, and that
 // is known of the point before: its squared error is at least twice the energy that has been gained since, and little more where
@@ -158,7 +148,7 @@ bool FaceNewton::descend(const Face& face, double goal, const std::function<void
 Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const Renewal* renewal,
                            const Observer& observer)
 {
-  auto& [hessian, linear, equality, set] = problem_;
+  auto& [hessian, linear, equality, set, driven] = problem_;
   const auto map = hessian.map();
   Projection feasible = projector_(start ? start->x : Vector(map));
   Solution result(feasible.point, Vector(map), feasible.nu);
@@ -172,7 +162,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     if (observer) observer({"norm", 0, hessian.count()});
     if (norm_ == 0) norm_ = 1;
   }
-  double size = projected_size(problem_, goal.allowed_error ? finest : goal.residual);
+  double size = relative_size(problem_, goal.allowed_error ? finest : goal.residual);
   if (size == 0) size = 1;
 
   State state(map);

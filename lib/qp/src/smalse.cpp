@@ -41,19 +41,11 @@ class AugmentedLagrangian {
   Vector work_;
 };
 
-double relative_size(const Problem& problem, double tolerance)
-{
-  constexpr double rounding = 1e-13, finest_asked = 1e-10;  // as in face_newton.cpp
-  Vector pb(problem.linear, Teuchos::Copy);
-  problem.equality.project(pb);
-  return std::max(pb.norm2(), rounding / std::max(tolerance, finest_asked) * problem.linear.norm2());
-}
-
 }  // namespace
 
 Solution smalse(const Problem& problem, const std::optional<Solution>& start, double tolerance, const Observer& observer)
 {
-  auto& [hessian, linear, equality, set] = problem;
+  auto& [hessian, linear, equality, set, driven] = problem;
   const auto map = hessian.map();
 
   Projection feasible = project(start ? start->x : Vector(map), equality, set);

@@ -7,6 +7,7 @@
 // Each rank holds rows of its own; a row stands on exactly one rank and may speak of nodes that live on others.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -85,9 +86,31 @@ struct Contacts {
   double slipped_before(std::size_t row) const { return slipped.empty() ? 0.0 : slipped[row]; }
 };
 
+/// How a bonded contact is drawn together: to a force, whatever shortening that takes, or by a given shortening.
+struct Preload {
+  int contact = -1;             ///< index into the deck's contacts
+  std::string name = {};        ///< of the contact, for messages
+  std::optional<double> force;  ///< tension of the bolt, > 0 (plane models: a thickness; axisymmetric: of the whole turn)
+  double shortening = 0;        ///< where no force is given
+};
+
+/// A preloaded contact. Its two sides jump by s n, n the mean normal out of the secondary body, as if a slice of thickness s were
+/// cut out of the bolt: row . u = g + part s. Where a force F is given s is one more unknown; the energy is stationary in it if
+/// -sum of part * multiplier = F.
+struct Cut {
+  Preload preload;
+  Point normal;
+  struct Row {
+    std::size_t row;  ///< of Contacts::rows
+    double part;      ///< weight of the point times n . axis of the row
+  };
+  std::vector<Row> rows;  ///< those of this rank
+};
+
 struct Constraints {
   std::vector<Held> held;  ///< each pair (node, component) once over all ranks
   Contacts contacts;
+  std::vector<Cut> cuts = {};  ///< the same on every rank, but for their rows
 };
 
 }  // namespace mortise::constraint

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "constraint/constraints.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/jump_operator.hpp"
 #include "feti/subdomain_operator.hpp"
@@ -29,5 +30,8 @@ SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const Ju
 Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition, const Subdomains& subdomains,
                                    const std::vector<Eigen::VectorXd>& v, const KernelNumbering& numbering,
                                    const Communicator& comm);
+
+/// G with one more row for each cut that is tightened to a force, over the same columns: its parts of the (scaled) contact rows.
+SparseMatrix with_cuts(const SparseMatrix& g, std::span<const constraint::Cut> cuts, const JumpOperator& jump);
 
 }  // namespace mortise::feti

@@ -4,7 +4,8 @@
 //     minimise  1/2 lambda'F lambda - lambda'd   subject to  G lambda = e,  lambda in Omega,
 //     F = B K^+ B',  d = B K^+ f - c,  G = R'B',  e = R'f,     u = K^+ (f - B' lambda) - R nu,
 //
-// where nu are the multipliers of G lambda = e [Dostal et al., DD20, section 3].
+// where nu are the multipliers of G lambda = e [Dostal et al., DD20, section 3]. Each cut that is tightened to a force adds a row
+// to G, sum of part * lambda = -force, and its shortening to nu.
 #pragma once
 
 #include <memory>
@@ -63,7 +64,12 @@ class DualProblem {
   const constraint::Constraints& constraints() const { return constraints_; }
   const Communicator& communicator() const { return comm_; }
   Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
-  int kernel_dimension() const { return equality_->size(); }
+  int kernel_dimension() const { return numbering().first(decomposition_.subdomain_count()); }
+  /// The least-norm multipliers that give all cuts their forces and move no body, and have nothing to do with linear(): what else
+  /// drives the problem. Null if no cut is tightened to a force.
+  const Vector* pull() const { return pull_.get(); }
+  /// The shortening of each of constraints().cuts, given or found.
+  std::vector<double> shortenings(const Eigen::VectorXd& nu) const;
 
   /// u of every subdomain. Collective.
   std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;
@@ -76,6 +82,8 @@ class DualProblem {
  private:
   void settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
                            const Context& context);
+  void make_equality(SparseMatrix g);
+  Eigen::Index tightened() const;  // cuts with a force
   void make_set();
   void renew_right_sides();
   static bool driven(const FreeMotion& motion, double work);
@@ -88,7 +96,7 @@ class DualProblem {
   std::unique_ptr<JumpOperator> jump_;
   std::unique_ptr<DualOperator> hessian_;
   std::unique_ptr<Preconditioner> preconditioner_;
-  std::unique_ptr<Vector> linear_;
+  std::unique_ptr<Vector> linear_, pull_;
   std::unique_ptr<qp::EqualityConstraint> equality_;
   qp::FeasibleSet set_;
   std::vector<PointRows> points_;

@@ -39,16 +39,17 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subd
 struct FreeMotion {
   std::vector<RigidMotion> motions;
   double felt = 0;  ///< the largest |row . v| over all rows, 0 for a motion that is exactly free
-  double work = 0;  ///< of the loads on it, relative to the sum of the nodal forces on its bodies
+  double work = 0;  ///< of loads and preloads on it, relative to the sum of the nodal forces and preloads on its bodies
 };
 
 /// Finds them from the support and contact rows of `jump` (G of coarse_rows): body by body, with all other bodies at rest, where
 /// also motions count that facets of a curved surface make nearly free (every row feels less than a few per cent of them); then
-/// those of several bodies together, which must be exactly free. Collective.
+/// those of several bodies together, which must be exactly free. A cut that is tightened to a force lets its two sides move
+/// towards each other. Collective.
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Subdomains& subdomains, fem::Kinematics kinematics, const SparseMatrix& g,
-                                          const constraint::Contacts& contacts, const std::vector<Eigen::VectorXd>& load,
-                                          const Communicator& comm);
+                                          const constraint::Contacts& contacts, std::span<const constraint::Cut> cuts,
+                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
 
 /// FreeMotion::work of other loads. Collective.
 double work(const FreeMotion& motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,

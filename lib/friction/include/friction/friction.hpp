@@ -72,6 +72,7 @@ class Solver {
   Options options_;
   qp::Options solver_;
   qp::Hessian hessian_;
+  Vector driven_;
   qp::Problem programme_;
   std::unique_ptr<qp::FaceNewton> newton_;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,10 @@ struct StateSummary {
     double max_pressure, area;
     long long open, stick, slip;
     double max_recovered_pressure = 0;  ///< averaged over the faces at a node
+    struct Preload {
+      double force, shortening;
+    };
+    std::optional<Preload> preload = {};  ///< of a preloaded bolt: its tension, and how far the cut is drawn together
   };
   std::vector<Contact> contacts;
 };

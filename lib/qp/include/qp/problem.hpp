@@ -46,7 +46,12 @@ struct Problem {
   const Vector& linear;
   const EqualityConstraint& equality;
   const FeasibleSet& set;
+  const Vector* driven = nullptr;  ///< A x of an x that part of e alone asks for: its size counts like that of b
 };
+
+/// What tolerances are relative to: ||P b||, but no less than what rounding of b leaves of any residual at `tolerance`, for where
+/// supports move bodies rigidly P b should be zero and b is not. The same of Problem::driven, if that is larger. Collective.
+double relative_size(const Problem& problem, double tolerance);
 
 /// Where a solver stands, for the history and the progress line.
 struct Progress {

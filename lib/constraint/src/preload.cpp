@@ -1,0 +1,58 @@
+#include "constraint/preload.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
+namespace mortise::constraint {
+
+namespace {
+
+// Length of the mean of unit normals below which a surface has no direction.
+constexpr double least_mean = 0.5;
+
+Point direction(const Contacts& contacts, const Preload& preload, bool axisymmetric, const Communicator& comm)
+{
+  std::vector<double> sums(4, 0.0);  // area times normal, area
+  for (const auto& point : contacts.points) {
+    if (point.contact != preload.contact) continue;
+    for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)] += point.area * point.normal[c];
+    sums[3] += point.area;
+  }
+  comm.sum_in_place(sums);
+  if (!(sums[3] > 0))
+    throw Error(
+        ExitStatus::bad_input,
+        fmt::format("contact {}: the two sides of its cut do not meet, so that no bolt can be preloaded there; look at the "
+                    "names of the boundaries or set a larger search_distance",
+                    preload.name));
+  const Point mean = Point(axisymmetric ? 0 : sums[0], sums[1], sums[2]) / sums[3];
+  if (mean.norm() < least_mean)
+    throw Error(
+        ExitStatus::bad_input,
+        fmt::format("contact {}: the normals of its cut point all ways, so that it cannot be drawn together; expected one "
+                    "cut across the shank of a bolt{}",
+                    preload.name, axisymmetric ? ", whose axis is the axis of revolution" : ""));
+  return mean.normalized();
+}
+
+}  // namespace
+
+std::vector<Cut> find_cuts(const Contacts& contacts, std::span<const Preload> preloads, bool axisymmetric,
+                           const Communicator& comm)
+{
+  std::vector<Cut> cuts;
+  for (const auto& preload : preloads) {
+    Cut cut{preload, direction(contacts, preload, axisymmetric, comm), {}};
+    for (const auto& point : contacts.points) {
+      if (point.contact != preload.contact) continue;
+      cut.rows.push_back({point.row, point.weight * cut.normal.dot(point.normal)});
+      for (std::size_t t = 0; t < point.tangents.size(); ++t)
+        cut.rows.push_back({point.row + 1 + t, point.weight * cut.normal.dot(point.tangents[t])});
+    }
+    cuts.push_back(std::move(cut));
+  }
+  return cuts;
+}
+
+}  // namespace mortise::constraint

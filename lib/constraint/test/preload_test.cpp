@@ -1,0 +1,65 @@
+#include "constraint/preload.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+
+namespace mortise::constraint {
+namespace {
+
+// Points of contact 1 on every rank, two with tilted normals whose mean is z, one on an axis of its own; contact 0 looks
+// elsewhere.
+Contacts sample()
+{
+  Contacts contacts;
+  contacts.points.push_back({0, 5, 7, Point(1, 0, 0), {}, 0});
+  contacts.points.push_back({1, 6, 2, Point(0.6, 0, 0.8), {Point(0.8, 0, -0.6), Point(0, 1, 0)}, 1, 1.5});
+  contacts.points.push_back({1, 7, 2, Point(-0.6, 0, 0.8), {}, 4});
+  for (int r = 0; r < 5; ++r) contacts.rows.close(0);
+  contacts.bonded.assign(3, true);
+  return contacts;
+}
+
+TEST(Cuts, ARowsPartIsWhatItSeesOfTheMeanNormal)
+{
+  const Communicator comm;
+  const auto cuts = find_cuts(sample(), std::vector<Preload>{{1, "bolt", 3.0}}, false, comm);
+  ASSERT_EQ(cuts.size(), 1U);
+  EXPECT_LT((cuts[0].normal - Point(0, 0, 1)).norm(), 1e-14);
+  ASSERT_EQ(cuts[0].rows.size(), 4U);
+  const std::vector<double> parts{1.5 * 0.8, -1.5 * 0.6, 0, 0.8};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(cuts[0].rows[i].row, i + 1);
+    EXPECT_NEAR(cuts[0].rows[i].part, parts[i], 1e-14);
+  }
+}
+
+TEST(Cuts, InAxisymmetryTheDirectionIsTheAxis)
+{
+  Contacts contacts = sample();
+  contacts.points[0].normal = Point(0.8, -0.6, 0);
+  const auto cuts = find_cuts(contacts, std::vector<Preload>{{0, "bolt", 3.0}}, true, Communicator());
+  EXPECT_LT((cuts[0].normal - Point(0, -1, 0)).norm(), 1e-14);
+}
+
+void expect_error(Contacts contacts, int contact, const std::string& text)
+{
+  try {
+    find_cuts(contacts, std::vector<Preload>{{contact, "bolt", 3.0}}, false, Communicator());
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input);
+    EXPECT_NE(std::string(error.what()).find("contact bolt: " + text), std::string::npos) << error.what();
+  }
+}
+
+TEST(Cuts, NeedADirection)
+{
+  expect_error(sample(), 2, "the two sides of its cut do not meet");
+  Contacts closed = sample();
+  closed.points[2].normal = -closed.points[1].normal;
+  expect_error(closed, 1, "the normals of its cut point all ways");
+}
+
+}  // namespace
+}  // namespace mortise::constraint
