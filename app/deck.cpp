@@ -302,16 +302,16 @@ void check_names(const Deck& deck, deck::Document& document, const mesh::Catalog
         document.error(at, fmt::format("an acceleration needs a density > 0 of the material \"{}\"", material->first));
         break;
       }
-    }
-  }
-  for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
-    check(deck.contacts[i].secondary, fmt::format("contacts[{}].secondary", i));
-    check(deck.contacts[i].primary, fmt::format("contacts[{}].primary", i));
       if (load.temperature_change && material->second.thermal_expansion == 0) {
         document.error(at, fmt::format("a temperature_change needs a thermal_expansion (strain a degree) of the material \"{}\"",
                                        material->first));
         break;
       }
+    }
+  }
+  for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
+    check(deck.contacts[i].secondary, fmt::format("contacts[{}].secondary", i));
+    check(deck.contacts[i].primary, fmt::format("contacts[{}].primary", i));
   }
 }
 

@@ -194,13 +194,16 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
 std::vector<constraint::SupportOptions> Model::supports(const LoadState& state) const
 {
   auto supports = deck_.supports;
-  for (std::size_t i = 0; i < supports.size(); ++i)
-    for (auto& value : supports[i].displacement) {
-      if (!state.held[i])
-        value.reset();
-      else if (value)
-        *value *= state.support[i];
-    }
+  const auto act = [&](std::size_t i, std::optional<double>& value) {
+    if (!state.held[i])
+      value.reset();
+    else if (value)
+      *value *= state.support[i];
+  };
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    for (auto& value : supports[i].displacement) act(i, value);
+    act(i, supports[i].normal);
+  }
   if (deck_.axisymmetric()) {
     supports.emplace_back().boundary = "the axis of revolution";
     supports.back().displacement[0] = 0.0;
@@ -222,6 +225,19 @@ std::vector<std::vector<Global>> Model::support_nodes(const Communicator& comm) 
     for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
       if (std::abs(subdomain.mesh.points[n][0]) <= rounding) nodes.back().push_back(subdomain.mesh.node_id[n]);
   return nodes;
+}
+
+std::vector<mesh::Surface> Model::support_surfaces() const
+{
+  std::vector<mesh::Surface> surfaces;
+  for (const auto& support : deck_.supports) {
+    surfaces.emplace_back();
+    if (!support.normal) continue;
+    const auto [boundary, on_body] = select(support.boundary);
+    surfaces.back() = partition::boundary_surface(decomposition_, boundary, on_body);
+  }
+  if (deck_.axisymmetric()) surfaces.emplace_back();
+  return surfaces;
 }
 
 std::vector<contact::Pair> Model::contact_pairs(const LoadState& state) const
@@ -252,13 +268,21 @@ std::vector<friction::Law> Model::friction_laws() const
   return laws;
 }
 
-std::vector<constraint::Preload> Model::preloads() const
+std::vector<constraint::Preload> Model::preloads(const LoadState& state, const std::vector<double>& shortenings) const
 {
   std::vector<constraint::Preload> preloads;
-  for (std::size_t c = 0; c < deck_.contacts.size(); ++c)
-    if (const auto& preload = deck_.contacts[c].preload)
-      preloads.push_back(
-          {static_cast<int>(c), deck_.contacts[c].name, preload->force, preload->force ? 0 : preload->shortening.value_or(0)});
+  for (std::size_t c = 0; c < deck_.contacts.size(); ++c) {
+    const auto& options = deck_.contacts[c].preload;
+    if (!options) continue;
+    constraint::Preload preload{static_cast<int>(c), deck_.contacts[c].name};
+    if (state.locked[c])
+      preload.shortening = shortenings[preloads.size()];
+    else if (options->force)
+      preload.force = state.contact[c] * *options->force;
+    else
+      preload.shortening = state.contact[c] * options->shortening.value_or(0);
+    preloads.push_back(std::move(preload));
+  }
   return preloads;
 }
 

@@ -32,10 +32,12 @@ class Model {
   std::vector<constraint::SupportOptions> supports(const LoadState& state) const;
   /// Nodes of this rank on the boundary of each of supports(). Collective.
   std::vector<std::vector<Global>> support_nodes(const Communicator& comm) const;
+  /// The boundaries of those of supports() that hold along normals, this rank's faces; the others are empty.
+  std::vector<mesh::Surface> support_surfaces() const;
   std::vector<contact::Pair> contact_pairs(const LoadState& state) const;
   std::vector<friction::Law> friction_laws() const;
-  /// Of the preloaded contacts.
-  std::vector<constraint::Preload> preloads() const;
+  /// Of the preloaded contacts. Those that are locked are held at `shortenings`, one for each, of the state before.
+  std::vector<constraint::Preload> preloads(const LoadState& state, const std::vector<double>& shortenings) const;
 
  private:
   struct Selection {

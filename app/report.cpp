@@ -40,9 +40,9 @@ struct Recovered {
   double strain_energy = 0;  // of the elastic strain, over all ranks
 };
 
-Recovered recover(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                  const LoadState& state, const partition::Interface& interface,
-                  const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
+Recovered recover(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const LoadState& state,
+                  const partition::Interface& interface, const std::vector<Eigen::VectorXd>& displacement,
+                  const Communicator& comm)
 {
   Recovered result;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
@@ -67,8 +67,8 @@ Recovered recover(const Deck& deck, const partition::Decomposition& decompositio
   return result;
 }
 
-void recover_stress(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                    const LoadState& state, const partition::Interface& interface, const Communicator& comm, Results& results)
+void recover_stress(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const LoadState& state,
+                    const partition::Interface& interface, const Communicator& comm, Results& results)
 {
   auto recovered = recover(deck, decomposition, model, state, interface, results.displacement, comm);
   results.nodal_stress = std::move(recovered.nodal_stress);
@@ -129,7 +129,8 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
     for (Local r = rows.normal; r <= rows.normal + rows.tangents; ++r) {
       multipliers.push_back(lambda[r] * scale[r]);
       row_jumps.push_back(jump[r] / scale[r]);
-      // Of the tangential rows, what moving supports and cuts contribute stands in the bound, beside the slip of the steps before.
+      // Of the tangential rows, what moving supports and cuts contribute stands in the bound, beside the slip of the steps
+      // before.
       const auto row = contacts.points[i].row + static_cast<std::size_t>(r - rows.normal);
       if (r > rows.normal) row_jumps.back() -= bound[row] - contacts.slipped_before(row);
     }
@@ -181,6 +182,13 @@ void reactions(const Deck& deck, const feti::DualProblem& problem, const frictio
     const auto row = problem.jump().ranges().held + static_cast<Local>(i);
     sums[static_cast<std::size_t>(held[i].support) * 3 + static_cast<std::size_t>(held[i].component)] -=
         lambda[row] * problem.jump().scale()[row];
+  }
+  const auto& inclined = problem.constraints().inclined;
+  for (std::size_t i = 0; i < inclined.size(); ++i) {
+    const auto row = problem.jump().ranges().held + static_cast<Local>(held.size() + i);
+    for (const auto& share : std::span(inclined[i].shares).first(static_cast<std::size_t>(inclined[i].share_count)))
+      for (std::size_t c = 0; c < 3; ++c)
+        sums[static_cast<std::size_t>(share.support) * 3 + c] -= lambda[row] * problem.jump().scale()[row] * share.part[c];
   }
   const auto& contacts = problem.constraints().contacts;
   for (const auto& entry : contacts.held) {  // contact forces that go straight into supports

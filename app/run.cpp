@@ -27,16 +27,18 @@ void print_header(const Deck& deck, const partition::Decomposition& decompositio
 }
 
 // --check: what would be solved.
-void print_check(const partition::Decomposition& decomposition, const std::vector<constraint::Held>& held,
-                 const constraint::Contacts& contacts, const Memory& memory, const Deck& deck, const Context& context)
+void print_check(const partition::Decomposition& decomposition, const constraint::Constraints& constraints, const Memory& memory,
+                 const Deck& deck, const Context& context)
 {
   const auto& comm = context.comm;
+  const auto& contacts = constraints.contacts;
   long long unknowns = 0;
   for (const auto& subdomain : decomposition.subdomains)
     unknowns += static_cast<long long>(subdomain.mesh.node_count()) * deck.dimension();
   const auto total = comm.sum(unknowns);
   context.log.line("  {} unknowns in the subdomains, {} held components, {} contact points with {} rows", total,
-                   comm.sum(static_cast<long long>(held.size())), comm.sum(static_cast<long long>(contacts.points.size())),
+                   comm.sum(static_cast<long long>(constraints.held.size() + constraints.inclined.size())),
+                   comm.sum(static_cast<long long>(contacts.points.size())),
                    comm.sum(static_cast<long long>(contacts.rows.size())));
   std::vector<double> points(deck.contacts.size(), 0.0);
   for (const auto& point : contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
@@ -169,7 +171,7 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   warn_of_idle_contacts(constraints.contacts, deck, context);
   const auto copies = model.congruent();
   const auto memory = foresee_memory(deck, decomposition, model, copies, comm);
-  if (command_line.check) print_check(decomposition, constraints.held, constraints.contacts, memory, deck, context);
+  if (command_line.check) print_check(decomposition, constraints, memory, deck, context);
   require(memory, deck, decomposition);
   if (command_line.check) return ExitStatus::solved;
 

@@ -110,7 +110,8 @@ std::vector<LoadState> load_states(const Deck& deck)
   Factors now{std::vector<double>(deck.loads.size(), 1.0), std::vector<double>(deck.supports.size(), 1.0),
               std::vector<double>(deck.contacts.size(), 1.0), std::vector<bool>(deck.loads.size(), true),
               std::vector<bool>(deck.supports.size(), true)};
-  if (deck.steps.empty()) return {{"", 1, now.load, now.support, now.contact, now.held}};
+  const std::vector<bool> none(deck.contacts.size(), false);
+  if (deck.steps.empty()) return {{"", 1, now.load, now.support, now.contact, now.held, none}};
   std::vector<LoadState> states;
   // The first step comes from nothing: no load, no displacement, no overlap.
   std::vector<double> load(deck.loads.size(), 0.0), support(deck.supports.size(), 0.0), contact(deck.contacts.size(), 0.0);
@@ -122,11 +123,13 @@ std::vector<LoadState> load_states(const Deck& deck)
     toggle(deck.loads, step, now.loaded);
     toggle(deck.supports, step, now.held);
     const auto acting = now.acting_load();
+    std::vector<bool> locked;
+    for (const auto& contact : deck.contacts) locked.push_back(s > 0 && !step.scale.contains(contact.name));
     for (int i = 1; i <= step.increments; ++i) {
       const double part = static_cast<double>(i) / step.increments;
       states.push_back({step.name.empty() ? std::to_string(s + 1) : step.name, static_cast<double>(s) + part,
                         between(load, acting, part), between(support, now.support, part), between(contact, now.contact, part),
-                        now.held});
+                        now.held, locked});
     }
     load = acting;
     support = now.support;

@@ -31,6 +31,7 @@ struct LoadState {
   double time = 1;                             ///< steps done so far; 0.5 half way through the first
   std::vector<double> load, support, contact;  ///< factors; 0 for a load that is off
   std::vector<bool> held;                      ///< of each support: whether it acts
+  std::vector<bool> locked;                    ///< of each contact: a preloaded bolt keeps the length it has
 };
 
 /// All states of a deck, in order; one if it has no steps.

@@ -45,7 +45,8 @@ TEST(Steps, ADeckWithoutThemHasOneStateInWhichAllActs)
 
 TEST(Steps, FactorsStayUntilAStepNamesThemAndGoLinearlyBetween)
 {
-  const auto states = load_states(deck_of("steps: [{name: press, scale: {push: 0, joint: 0.5}}, {scale: {push: 2}, increments: 4}, {}]"));
+  const auto states =
+      load_states(deck_of("steps: [{name: press, scale: {push: 0, joint: 0.5}}, {scale: {push: 2}, increments: 4}, {}]"));
   ASSERT_EQ(states.size(), 6U);
   EXPECT_EQ(states[0].step, "press");
   EXPECT_EQ(states[0].load, (std::vector<double>{0, 1}));

@@ -26,7 +26,7 @@ void check_agreement(const Held& a, const Held& b, std::span<const SupportOption
 }  // namespace
 
 std::vector<Held> hold(std::span<const SupportOptions> supports, std::span<const std::vector<Global>> nodes, int dimension,
-                       const Communicator& comm)
+                       const Communicator& comm, std::span<const Held> aligned)
 {
   std::vector<std::vector<Held>> send(static_cast<std::size_t>(comm.size()));
   for (std::size_t i = 0; i < supports.size(); ++i)
@@ -35,7 +35,7 @@ std::vector<Held> hold(std::span<const SupportOptions> supports, std::span<const
         if (const auto value = supports[i].displacement[c])
           send[static_cast<std::size_t>(node % comm.size())].push_back({node, c, *value, static_cast<int>(i)});
 
-  std::vector<Held> held;
+  std::vector<Held> held(aligned.begin(), aligned.end());
   for (const auto& part : comm.exchange(send)) held.insert(held.end(), part.begin(), part.end());
   std::sort(held.begin(), held.end(), [](const Held& a, const Held& b) {
     return std::tie(a.node, a.component, a.support) < std::tie(b.node, b.component, b.support);

@@ -23,8 +23,15 @@ constexpr double least_cover = 0.05;
 class HeldNodes {
  public:
   /// Collective.
-  HeldNodes(std::span<const constraint::Held> held, const std::vector<Global>& nodes, const Communicator& comm)
+  HeldNodes(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
+            const std::vector<Global>& nodes, const Communicator& comm)
   {
+    std::vector<constraint::Inclined> along;
+    for (const auto& i : inclined)
+      if (std::binary_search(nodes.begin(), nodes.end(), i.node)) along.push_back(i);
+    inclined_ = comm.all_gather(along);
+    std::stable_sort(inclined_.begin(), inclined_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+
     std::vector<constraint::Held> found;
     for (const auto& h : held)
       if (std::binary_search(nodes.begin(), nodes.end(), h.node)) found.push_back(h);
@@ -39,6 +46,16 @@ class HeldNodes {
     return found != held_.end() && found->node == node && found->component == component ? &*found : nullptr;
   }
 
+  /// The directions that are held there and are no axes.
+  std::span<const constraint::Inclined> inclined(Global node) const
+  {
+    if (inclined_.empty()) return {};
+    const auto begin = std::lower_bound(inclined_.begin(), inclined_.end(), node,
+                                        [](const constraint::Inclined& i, Global wanted) { return i.node < wanted; });
+    const auto end = std::find_if(begin, inclined_.end(), [&](const auto& i) { return i.node != node; });
+    return {begin, end};
+  }
+
  private:
   static bool before(const constraint::Held& a, const constraint::Held& b)
   {
@@ -46,7 +63,13 @@ class HeldNodes {
   }
 
   std::vector<constraint::Held> held_;
+  std::vector<constraint::Inclined> inclined_;
 };
+
+Point along(const constraint::Inclined& inclined)
+{
+  return {inclined.direction[0], inclined.direction[1], inclined.direction[2]};
+}
 
 // The frame of a place: the tangents that supports leave free; nothing if the normal itself is held.
 struct Directions {
@@ -54,10 +77,12 @@ struct Directions {
   std::vector<Point> tangents;
 };
 
-Directions directions(const Point& normal, const std::array<bool, 3>& held, int dimension)
+Directions directions(const Point& normal, const std::array<bool, 3>& held, std::span<const constraint::Inclined> inclined,
+                      int dimension)
 {
   Directions result;
   Point free_part = normal;
+  for (const auto& i : inclined) free_part -= free_part.dot(along(i)) * along(i);
   std::vector<int> free;
   for (int c = 0; c < dimension; ++c) {
     if (held[static_cast<std::size_t>(c)])
@@ -69,7 +94,10 @@ Directions directions(const Point& normal, const std::array<bool, 3>& held, int 
     result.free_normal = false;
     return result;
   }
-  if (dimension == 2) {
+  if (!inclined.empty()) {  // orthogonal to each other and to the held components
+    if (dimension == 3 && inclined.size() == 1 && free.size() == 3)
+      result.tangents.push_back(free_part.cross(along(inclined[0])).normalized());
+  } else if (dimension == 2) {
     if (free.size() == 2) result.tangents.emplace_back(-normal[1], normal[0], 0);
   } else if (free.size() == 3) {
     Eigen::Index axis = 0;  // the axis that is most nearly tangential, the first of equals
@@ -89,8 +117,8 @@ Directions directions(const Point& normal, const std::array<bool, 3>& held, int 
 // One contact on its way from faces to rows.
 class Builder {
  public:
-  Builder(const Pair& pair, int index, std::span<const constraint::Held> held, fem::Kinematics kinematics,
-          const Communicator& comm)
+  Builder(const Pair& pair, int index, std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
+          fem::Kinematics kinematics, const Communicator& comm)
       : pair_(pair),
         index_(index),
         dimension_(fem::dimension(kinematics)),
@@ -99,8 +127,8 @@ class Builder {
         primary_(gather(pair.primary, kinematics, comm)),
         places_(find_places(secondary_)),
         primary_places_(find_places(primary_)),
-        held_(held, secondary_.node_id, comm),
-        primary_held_(held, primary_.node_id, comm),
+        held_(held, inclined, secondary_.node_id, comm),
+        primary_held_(held, inclined, primary_.node_id, comm),
         reach_(search_distance(pair, comm))
   {
   }
@@ -214,7 +242,7 @@ class Builder {
     comm_.sum_in_place({cover.data(), static_cast<std::size_t>(cover.size())});
     for (Eigen::Index p = 0; p < count; ++p) {
       const auto& place = places_.all[static_cast<std::size_t>(p)];
-      directions_.push_back(directions(place.normal, held_at(place), dimension_));
+      directions_.push_back(directions(place.normal, held_at(place), inclined_at(place), dimension_));
     }
     // Places held along their normal leave their share to the others of the face. Where a face has no others, as on a surface
     // that a support moves as a whole, they stay: their rows are felt by the primary side alone (and dropped in add_point if that
@@ -231,7 +259,7 @@ class Builder {
       const auto i = static_cast<std::size_t>(p);
       const bool alone = stranded[i] > 0;
       if (alone)
-        directions_[i] = directions(places_.all[i].normal, {false, false, false}, dimension_);  // moves() picks the tangents
+        directions_[i] = directions(places_.all[i].normal, {false, false, false}, {}, dimension_);  // moves() picks the tangents
       kept_.push_back((directions_[i].free_normal || alone) && cover(p, 0) > least_cover * cover(p, 1));
     }
   }
@@ -240,6 +268,11 @@ class Builder {
   {
     const Global node = secondary_.node_id[static_cast<std::size_t>(place.node)];
     return {held_.find(node, 0) != nullptr, held_.find(node, 1) != nullptr, held_.find(node, 2) != nullptr};
+  }
+
+  std::span<const constraint::Inclined> inclined_at(const Place& place) const
+  {
+    return held_.inclined(secondary_.node_id[static_cast<std::size_t>(place.node)]);
   }
 
   // Terms of this rank's places, ordered by place, side, node and face. Also sums D.
@@ -336,10 +369,25 @@ class Builder {
     return (term.on_primary ? primary_held_ : held_).find(node_of(term), c);
   }
 
+  std::span<const constraint::Inclined> inclined_of(const Term& term) const
+  {
+    return (term.on_primary ? primary_held_ : held_).inclined(node_of(term));
+  }
+  // What inclined supports at the node of a term leave of an axis; parts that are rounding are 0.
+  Point free_of_inclined(const Term& term, const Point& axis) const
+  {
+    const auto inclined = inclined_of(term);
+    if (inclined.empty()) return axis;
+    Point rest = axis;
+    for (const auto& i : inclined) rest -= axis.dot(along(i)) * along(i);
+    return (rest.array().abs() < 1e-9).select(0.0, rest);
+  }
+
   // Whether supports leave anything of the row.
-  bool moves(std::span<const Term> terms, double d, const Point& axis) const
+  bool moves(std::span<const Term> terms, double d, const Point& whole) const
   {
     return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+      const Point axis = free_of_inclined(term, whole);
       for (int c = 0; c < dimension_; ++c)
         if (counts(term, d, axis, c) && !support_of(term, c)) return true;
       return false;
@@ -347,20 +395,32 @@ class Builder {
   }
 
   // What supports contribute to sum_k value_k / d axis . u(node_k).
-  double held_part(std::span<const Term> terms, double d, const Point& axis) const
+  double held_part(std::span<const Term> terms, double d, const Point& whole) const
   {
     double sum = 0;
-    for (const auto& term : terms)
+    for (const auto& term : terms) {
+      for (const auto& i : inclined_of(term)) sum += term.value / d * whole.dot(along(i)) * i.value;
+      const Point axis = free_of_inclined(term, whole);
       for (int c = 0; c < dimension_; ++c)
         if (counts(term, d, axis, c))
           if (const auto* held = support_of(term, c)) sum += term.value / d * axis[c] * held->value;
+    }
     return sum;
   }
 
   // sum_k value_k / d axis . u(node_k) <= bound, without what supports hold.
-  void add_row(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts) const
+  void add_row(std::span<const Term> terms, double d, const Point& whole, double bound, constraint::Contacts& contacts) const
   {
-    for (const auto& term : terms)
+    for (const auto& term : terms) {
+      for (const auto& i : inclined_of(term)) {
+        const double coefficient = term.value / d * whole.dot(along(i));
+        bound -= coefficient * i.value;
+        for (const auto& share : std::span(i.shares).first(static_cast<std::size_t>(i.share_count)))
+          for (int c = 0; c < dimension_; ++c)
+            if (const double part = coefficient * share.part[static_cast<std::size_t>(c)]; part != 0)
+              contacts.held.push_back({contacts.rows.size(), c, share.support, part});
+      }
+      const Point axis = free_of_inclined(term, whole);
       for (int c = 0; c < dimension_; ++c) {
         if (!counts(term, d, axis, c)) continue;
         const double coefficient = term.value / d * axis[c];
@@ -371,6 +431,7 @@ class Builder {
           contacts.rows.entries.push_back({node_of(term), c, coefficient});
         }
       }
+    }
     contacts.rows.close(bound);
   }
 
@@ -426,11 +487,11 @@ double search_distance(const Pair& pair, const Communicator& comm)
 }
 
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
-                                const Communicator& comm)
+                                const Communicator& comm, std::span<const constraint::Inclined> inclined)
 {
   constraint::Contacts contacts;
   for (std::size_t c = 0; c < pairs.size(); ++c)
-    Builder(pairs[c], static_cast<int>(c), held, kinematics, comm).add_rows(contacts);
+    Builder(pairs[c], static_cast<int>(c), held, inclined, kinematics, comm).add_rows(contacts);
   return contacts;
 }
 

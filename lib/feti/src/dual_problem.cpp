@@ -39,8 +39,8 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
                          const Floating& floating, const Options& options, const Context& context)
     : decomposition_(decomposition), constraints_(constraints), floating_(floating), comm_(context.comm)
 {
-  jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints.held, constraints.contacts,
-                                         std::span<const SubdomainRow>(), comm_);
+  jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints.held, constraints.inclined,
+                                         constraints.contacts, std::span<const SubdomainRow>(), comm_);
   settle_free_motions(directory, interface, context);
   hessian_ = std::make_unique<DualOperator>(*jump_, floating.subdomains, context.timers);
   if (options.preconditioner != "none") {
@@ -123,7 +123,7 @@ bool DualProblem::renew()
     loaded += fmt::format("\n  {}, driven by its loads", describe(motion, decomposition_.catalogue.bodies, frames));
   }
   if (!loaded.empty()) throw_driven(loaded);
-  jump_->renew_bounds(constraints_.held, constraints_.contacts);
+  jump_->renew_bounds(constraints_.held, constraints_.inclined, constraints_.contacts);
   renew_right_sides();
   return true;
 }
@@ -157,8 +157,8 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
   if (silent > 0) context.log.line("  ... and {} more free rigid motions", silent);
   if (!loaded.empty()) throw_driven(loaded);
   if (!gauges.empty()) {
-    jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.held, constraints_.contacts, gauges,
-                                           comm_);
+    jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.held, constraints_.inclined,
+                                           constraints_.contacts, gauges, comm_);
     g = coarse_rows(decomposition_, *jump_, floating_.subdomains, numbering(), comm_);
   }
   make_equality(std::move(g));

@@ -110,12 +110,13 @@ double total_weight(std::span<const partition::Copy> copies)
 
 JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                            const partition::Interface& interface, std::span<const constraint::Held> held,
-                           const constraint::Contacts& contacts, std::span<const SubdomainRow> extra, const Communicator& comm)
+                           std::span<const constraint::Inclined> inclined, const constraint::Contacts& contacts,
+                           std::span<const SubdomainRow> extra, const Communicator& comm)
 {
   const int dimension = decomposition.catalogue.dimension;
   Assembly assembly(decomposition, comm);
   const auto [glued, glued_total] = glue(decomposition, interface, dimension, comm, assembly);
-  const Numbering held_numbers = number(held.size(), comm);
+  const Numbering held_numbers = number(held.size() + inclined.size(), comm);
   const Numbering contact_numbers = number(contacts.rows.size(), comm);
   const Global held_base = glued_total, contact_base = held_base + held_numbers.total,
                extra_base = contact_base + contact_numbers.total;
@@ -130,12 +131,17 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
 
   std::vector<Global> nodes;
   for (const auto& h : held) nodes.push_back(h.node);
+  for (const auto& i : inclined) nodes.push_back(i.node);
   const auto held_copies = directory.find(nodes, comm);
-  for (std::size_t i = 0; i < held.size(); ++i) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Global row = held_base + held_numbers.start + static_cast<Global>(i);
     const double factor = std::sqrt(total_weight(held_copies[i]));
+    const auto* along = i < held.size() ? nullptr : &inclined[i - held.size()];
     for (const auto& copy : held_copies[i])
-      assembly.add({copy.subdomain, row, copy.node * dimension + held[i].component, copy.weight / factor});
+      for (int c = 0; c < dimension; ++c) {
+        const double part = along ? along->direction[static_cast<std::size_t>(c)] : (c == held[i].component ? 1.0 : 0.0);
+        if (part != 0) assembly.add({copy.subdomain, row, copy.node * dimension + c, part * copy.weight / factor});
+      }
     owned.push_back(row);
     scale.push_back(factor);
   }
@@ -185,7 +191,7 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   }
   ranges_.end = static_cast<Local>(owned.size());
   scale_ = Eigen::Map<const Eigen::VectorXd>(scale.data(), static_cast<Eigen::Index>(scale.size()));
-  renew_bounds(held, contacts);
+  renew_bounds(held, inclined, contacts);
 
   // The rows that this rank's subdomains take part in, and their blocks.
   const auto pieces = assembly.receive();
@@ -219,10 +225,13 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   }
 }
 
-void JumpOperator::renew_bounds(std::span<const constraint::Held> held, const constraint::Contacts& contacts)
+void JumpOperator::renew_bounds(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
+                                const constraint::Contacts& contacts)
 {
   bound_ = Eigen::VectorXd::Zero(ranges_.end);
-  for (std::size_t i = 0; i < held.size(); ++i) bound_[ranges_.held + static_cast<Local>(i)] = held[i].value;
+  Local row = ranges_.held;
+  for (const auto& h : held) bound_[row++] = h.value;
+  for (const auto& i : inclined) bound_[row++] = i.value;
   for (std::size_t r = 0; r < contacts.rows.size(); ++r)
     bound_[ranges_.contacts + static_cast<Local>(r)] = contacts.rows.bound[r];
   bound_.array() *= scale_.array();

@@ -63,7 +63,7 @@ struct Cube {
 TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
 {
   const Cube cube(1e6, true, MPI_COMM_SELF);
-  const JumpOperator jump(cube.decomposition, *cube.directory, cube.interface, cube.constraints.held, {}, {}, cube.comm);
+  const JumpOperator jump(cube.decomposition, *cube.directory, cube.interface, cube.constraints.held, {}, {}, {}, cube.comm);
   int unknowns = 0;
   for (const auto& w : cube.floating.nodal_stiffness) unknowns += 3 * static_cast<int>(w.size());
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(jump.rows()->getGlobalNumElements()), unknowns);

@@ -7,6 +7,7 @@
 // Each rank holds rows of its own; a row stands on exactly one rank and may speak of nodes that live on others.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,6 +48,31 @@ struct Held {
   int component;
   double value;
   int support;  ///< index into the deck's supports, for messages and reactions
+};
+
+/// A node is held at `value` along a direction that is no axis: orthogonal to the components that are held there and to its other
+/// inclined directions. Supports that are not orthogonal to each other share it.
+struct Inclined {
+  Global node;
+  std::array<double, 3> direction;  ///< unit
+  double value;
+  /// Its force, a multiplier times `direction`, comes from these supports, each along its own normal or axis: the multiplier
+  /// times `part`. The sum of the parts is `direction`.
+  struct Share {
+    int support;
+    std::array<double, 3> part;
+  };
+  std::array<Share, 4> shares;
+  int share_count;
+
+  void add_share(int support, const Point& part)
+  {
+    int k = 0;
+    while (k < share_count && shares[static_cast<std::size_t>(k)].support != support) ++k;
+    auto& share = shares[static_cast<std::size_t>(k)];
+    if (k == share_count) share = {support, {0, 0, 0}}, ++share_count;
+    for (int c = 0; c < 3; ++c) share.part[static_cast<std::size_t>(c)] += part[c];
+  }
 };
 
 /// A point of a contact surface that carries multipliers: a node of the secondary side, or one side of a kink at that node.
@@ -110,7 +136,8 @@ struct Cut {
 struct Constraints {
   std::vector<Held> held;  ///< each pair (node, component) once over all ranks
   Contacts contacts;
-  std::vector<Cut> cuts = {};  ///< the same on every rank, but for their rows
+  std::vector<Inclined> inclined = {};  ///< of this rank; each once over all ranks
+  std::vector<Cut> cuts = {};           ///< the same on every rank, but for their rows
 };
 
 }  // namespace mortise::constraint

@@ -13,7 +13,8 @@ namespace mortise::constraint {
 struct SupportOptions {
   std::string boundary;
   std::array<std::optional<double>, 3> displacement;
-  std::string name = {};  ///< default: the boundary
+  std::optional<double> normal = {};  ///< along the boundary's own outward normal
+  std::string name = {};              ///< default: the boundary
 };
 
 /// The keywords.

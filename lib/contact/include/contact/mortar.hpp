@@ -29,9 +29,9 @@ struct Pair {
 double search_distance(const Pair& pair, const Communicator& comm);
 
 /// The contact rows of all pairs; contact c of ContactPoint is pairs[c]. Rows stand on any rank, each once; they do not depend on
-/// the number of ranks. `held` are the supports of this rank. Frictionless pairs have normal rows only. In
+/// the number of ranks. `held` and `inclined` are the supports of this rank. Frictionless pairs have normal rows only. In
 /// axisymmetry areas and forces are those of the whole turn. Collective.
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
-                                const Communicator& comm);
+                                const Communicator& comm, std::span<const constraint::Inclined> inclined = {});
 
 }  // namespace mortise::contact

@@ -27,10 +27,12 @@ struct SubdomainRow {
 /// Heavy: moves, does not copy.
 class JumpOperator {
  public:
-  /// `held` and `contacts`: this rank's rows. Owned rows are numbered on each rank: gluing, held, contacts, extra. Collective.
+  /// `held`, `inclined` and `contacts`: this rank's rows. Owned rows are numbered on each rank: gluing, held (inclined ones
+  /// last), contacts, extra. Collective.
   JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                const partition::Interface& interface, std::span<const constraint::Held> held,
-               const constraint::Contacts& contacts, std::span<const SubdomainRow> extra, const Communicator& comm);
+               std::span<const constraint::Inclined> inclined, const constraint::Contacts& contacts,
+               std::span<const SubdomainRow> extra, const Communicator& comm);
 
   /// The dual space: each row on one rank.
   Teuchos::RCP<const Map> rows() const { return rows_; }
@@ -46,7 +48,8 @@ class JumpOperator {
   /// c, scaled, of the owned rows: B u = c, B u <= c.
   const Eigen::VectorXd& bound() const { return bound_; }
   /// c anew, of the same rows with other bounds.
-  void renew_bounds(std::span<const constraint::Held> held, const constraint::Contacts& contacts);
+  void renew_bounds(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
+                    const constraint::Contacts& contacts);
 
   /// f_s = B_s' lambda for each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> apply_transpose(const Vector& lambda) const;

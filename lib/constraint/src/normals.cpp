@@ -1,0 +1,207 @@
+#include "constraint/normals.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "base/error.hpp"
+#include "mesh/shape_functions.hpp"
+
+namespace mortise::constraint {
+
+namespace {
+
+constexpr double smooth = 0.906;       // cosine of the angle up to which neighbouring faces are one smooth surface
+constexpr double aligned = 1 - 1e-12;  // largest component of a normal that counts as parallel to its axis
+constexpr double independent = 1e-3;   // length of what a direction has besides those that are held already
+constexpr double disagreement = 1e-9;  // relative, of prescribed displacements
+
+Point vector(const std::array<double, 3>& v)
+{
+  return {v[0], v[1], v[2]};
+}
+std::array<double, 3> array(const Point& v)
+{
+  return {v[0], v[1], v[2]};
+}
+
+// The unit normal of a face at its node k and its weight in the normal there, such that nodes on a circle or a sphere get the
+// normal of that [Max, J. Graphics Tools 4 (1999)]; faces of second order know it better themselves.
+Point weighted_normal(const mesh::Surface& surface, std::size_t face, std::size_t k)
+{
+  const auto nodes = surface.faces[face];
+  const auto type = surface.faces.type[face];
+  const auto at = [&](std::size_t n) -> const Point& {
+    return surface.points[static_cast<std::size_t>(nodes[n % nodes.size()])];
+  };
+  if (type == mesh::CellType::line2) {
+    const Point along = at(1) - at(0);
+    return Point(along[1], -along[0], 0) / along.squaredNorm();
+  }
+  if (type == mesh::first_order(type)) {
+    const Point next = at(k + 1) - at(k), last = at(k + nodes.size() - 1) - at(k);
+    return next.cross(last) / (next.squaredNorm() * last.squaredNorm());
+  }
+  const auto& functions = mesh::shape_functions(type);
+  Eigen::VectorXd value(functions.count());
+  Eigen::MatrixXd gradient(functions.count(), mesh::dimension(type));
+  functions.evaluate(functions.nodes()[k], value, &gradient);
+  Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    tangents.leftCols(gradient.cols()) += at(n) * gradient.row(static_cast<Eigen::Index>(n));
+  if (gradient.cols() == 1) return Point(tangents(1, 0), -tangents(0, 0), 0).normalized();
+  return Point(tangents.col(0)).cross(Point(tangents.col(1))).normalized();
+}
+
+// Joins normals that differ little, to one mean each.
+std::vector<Point> clusters(std::span<const Point> weighted)
+{
+  std::vector<std::size_t> group(weighted.size());
+  std::iota(group.begin(), group.end(), 0U);
+  for (std::size_t a = 0; a < weighted.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (weighted[a].normalized().dot(weighted[b].normalized()) > smooth)
+        std::replace(group.begin(), group.end(), group[a], group[b]);
+  std::vector<Point> means;
+  for (std::size_t g = 0; g < group.size(); ++g) {
+    Point sum = Point::Zero();
+    for (std::size_t a = 0; a < group.size(); ++a)
+      if (group[a] == g) sum += weighted[a];
+    if (sum.squaredNorm() > 0) means.push_back(sum.normalized());
+  }
+  return means;
+}
+
+[[noreturn]] void disagree(std::span<const SupportOptions> supports, int one, int other)
+{
+  const auto a = static_cast<std::size_t>(one), b = static_cast<std::size_t>(other);
+  throw Error(ExitStatus::bad_input,
+              fmt::format("supports[{}] (boundary \"{}\") and supports[{}] (boundary \"{}\") meet in a node and prescribe "
+                          "different displacements along the same direction there; make them agree or drop one of them",
+                          one, supports[a].boundary, other, supports[b].boundary));
+}
+
+// The directions that are held at one node, orthonormal.
+class Directions {
+ public:
+  Directions(std::span<const SupportOptions> supports, std::span<const Held> components) : supports_(supports)
+  {
+    for (const auto& h : components)
+      directions_.push_back(
+          {h.node, array(Point::Unit(h.component)), h.value, {{{h.support, array(Point::Unit(h.component))}}}, 1});
+    components_ = directions_.size();
+  }
+
+  void add(const NodeNormal& normal)
+  {
+    const double value = *supports_[static_cast<std::size_t>(normal.support)].normal;
+    Inclined next{normal.node, {}, value, {{{normal.support, normal.direction}}}, 1};
+    Point rest = vector(normal.direction);
+    double size = std::abs(value);
+    for (const auto& known : directions_) {
+      const double part = vector(known.direction).dot(vector(normal.direction));
+      if (part == 0) continue;
+      rest -= part * vector(known.direction);
+      next.value -= part * known.value;
+      size += std::abs(part * known.value);
+      for (const auto& share : std::span(known.shares).first(static_cast<std::size_t>(known.share_count)))
+        next.add_share(share.support, -part * vector(share.part));
+    }
+    const double length = rest.norm();
+    if (length < independent) {
+      if (std::abs(next.value) > disagreement * size) disagree(supports_, directions_.back().shares[0].support, normal.support);
+      return;
+    }
+    next.value /= length;
+    next.direction = array(rest / length);
+    for (auto& share : next.shares) share.part = array(vector(share.part) / length);
+    directions_.push_back(next);
+  }
+
+  std::span<const Inclined> inclined() const { return std::span(directions_).subspan(components_); }
+
+ private:
+  std::span<const SupportOptions> supports_;
+  std::vector<Inclined> directions_;
+  std::size_t components_ = 0;
+};
+
+}  // namespace
+
+std::vector<NodeNormal> node_normals(std::span<const SupportOptions> supports, std::span<const mesh::Surface> surfaces,
+                                     const Communicator& comm)
+{
+  struct Sent {
+    Global node, face;
+    int support;
+    double weighted[3];
+  };
+  std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    if (!supports[i].normal) continue;
+    const auto& surface = surfaces[i];
+    for (std::size_t f = 0; f < surface.faces.size(); ++f)
+      for (std::size_t k = 0; k < surface.faces[f].size(); ++k) {
+        const Global node = surface.node_id[static_cast<std::size_t>(surface.faces[f][k])];
+        const Point n = weighted_normal(surface, f, k);
+        send[static_cast<std::size_t>(node % comm.size())].push_back(
+            {node, surface.face_id[f], static_cast<int>(i), {n[0], n[1], n[2]}});
+      }
+  }
+  std::vector<Sent> all;
+  for (const auto& part : comm.exchange(send)) all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end(), [](const Sent& a, const Sent& b) {
+    return std::tie(a.node, a.support, a.face) < std::tie(b.node, b.support, b.face);
+  });
+  std::vector<NodeNormal> normals;
+  for (auto begin = all.begin(); begin != all.end();) {
+    const auto end =
+        std::find_if(begin, all.end(), [&](const Sent& s) { return s.node != begin->node || s.support != begin->support; });
+    std::vector<Point> weighted;
+    for (auto s = begin; s != end; ++s) weighted.emplace_back(s->weighted[0], s->weighted[1], s->weighted[2]);
+    for (const auto& mean : clusters(weighted)) normals.push_back({begin->node, begin->support, array(mean)});
+    begin = end;
+  }
+  return normals;
+}
+
+std::vector<Held> take_aligned(std::span<const SupportOptions> supports, std::vector<NodeNormal>& normals)
+{
+  std::vector<Held> held;
+  std::erase_if(normals, [&](const NodeNormal& normal) {
+    for (int c = 0; c < 3; ++c) {
+      const double along = normal.direction[static_cast<std::size_t>(c)];
+      if (std::abs(along) < aligned) continue;
+      const double value = *supports[static_cast<std::size_t>(normal.support)].normal;
+      held.push_back({normal.node, c, along > 0 ? value : -value, normal.support});
+      return true;
+    }
+    return false;
+  });
+  return held;
+}
+
+std::vector<Inclined> incline(std::span<const SupportOptions> supports, std::span<const NodeNormal> normals,
+                              std::span<const Held> held, const Communicator& comm)
+{
+  std::vector<Inclined> result;
+  collectively(comm, [&] {
+    for (auto begin = normals.begin(); begin != normals.end();) {
+      const auto end = std::find_if(begin, normals.end(), [&](const NodeNormal& n) { return n.node != begin->node; });
+      const auto first =
+          std::lower_bound(held.begin(), held.end(), begin->node, [](const Held& h, Global node) { return h.node < node; });
+      const auto last = std::find_if(first, held.end(), [&](const Held& h) { return h.node != begin->node; });
+      Directions directions(supports, {first, last});
+      for (auto normal = begin; normal != end; ++normal) directions.add(*normal);
+      result.insert(result.end(), directions.inclined().begin(), directions.inclined().end());
+      begin = end;
+    }
+  });
+  return result;
+}
+
+}  // namespace mortise::constraint

@@ -1,0 +1,158 @@
+#include "constraint/normals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "constraint/supports.hpp"
+#include "mesh/shape_functions.hpp"
+
+namespace mortise::constraint {
+namespace {
+
+using mesh::CellType;
+
+Point vector(const std::array<double, 3>& v)
+{
+  return {v[0], v[1], v[2]};
+}
+
+// Every ranks-th face stands on this rank, with its nodes.
+mesh::Surface surface(CellType type, const std::vector<std::vector<Local>>& faces, const std::vector<Point>& points,
+                      const Communicator& comm)
+{
+  mesh::Surface result;
+  for (std::size_t n = 0; n < points.size(); ++n) result.node_id.push_back(static_cast<Global>(n));
+  result.points = points;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (static_cast<int>(f) % comm.size() != comm.rank()) continue;
+    result.faces.add(type, faces[f]);
+    result.face_id.push_back(static_cast<Global>(f));
+  }
+  return result;
+}
+
+std::vector<SupportOptions> along_normal(std::initializer_list<double> values)
+{
+  std::vector<SupportOptions> supports;
+  for (const double value : values) {
+    supports.emplace_back().boundary = "side " + std::to_string(supports.size());
+    supports.back().normal = value;
+  }
+  return supports;
+}
+
+TEST(Normals, OfAPlaneAreItsOwnInEveryFace)
+{
+  const Communicator comm;
+  Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix();
+  for (const auto type : {CellType::tri3, CellType::quad4, CellType::tri6, CellType::quad8, CellType::quad9}) {
+    std::vector<Point> points;
+    std::vector<Local> nodes;
+    for (const auto& at : mesh::shape_functions(type).nodes()) {
+      nodes.push_back(static_cast<Local>(points.size()));
+      points.emplace_back(turn * Point(at[0] + 0.2 * at[1] * at[1], at[1], 4));
+    }
+    const auto normals = node_normals(along_normal({0}), std::vector{surface(type, {nodes}, points, comm)}, comm);
+    EXPECT_EQ(comm.sum(static_cast<long long>(normals.size())), static_cast<long long>(points.size()));
+    for (const auto& n : normals) {
+      EXPECT_EQ(n.node % comm.size(), comm.rank());
+      EXPECT_LT((vector(n.direction) - turn.col(2)).norm(), 1e-13);
+    }
+  }
+}
+
+TEST(Normals, OfUnevenChordsAreThoseOfTheCircle)
+{
+  const Communicator comm;
+  std::vector<Point> points;
+  std::vector<std::vector<Local>> faces;
+  for (const double angle : {0.1, 0.3, 0.35, 0.6, 0.7}) points.emplace_back(std::cos(angle), std::sin(angle), 0);
+  for (Local n = 0; n + 1 < 5; ++n) faces.push_back({n, n + 1});
+  for (const auto& n : node_normals(along_normal({0}), std::vector{surface(CellType::line2, faces, points, comm)}, comm))
+    if (n.node > 0 && n.node < 4) {
+      EXPECT_LT((vector(n.direction) - points[static_cast<std::size_t>(n.node)]).norm(), 1e-13);
+    }
+}
+
+// Two chords that meet at 90 degrees, both off the axes, moved along their normals by 2 and -1: the node between them is held in
+// both, and goes where it must.
+TEST(Normals, ANodeOnAnEdgeIsHeldAcrossBothSides)
+{
+  const Communicator comm;
+  const Point along(std::cos(0.4), std::sin(0.4), 0), across(-along[1], along[0], 0);
+  const std::vector<Point> points{along, Point::Zero(), 2 * across};
+  const std::vector<mesh::Surface> sides{surface(CellType::line2, {{0, 1}}, points, comm),
+                                         surface(CellType::line2, {{1, 2}}, points, comm)};
+  const auto supports = along_normal({2, -1});
+  const auto normals = node_normals(supports, sides, comm);
+  const auto inclined = incline(supports, normals, {}, comm);
+  EXPECT_EQ(comm.sum(static_cast<long long>(inclined.size())), 4);
+  for (const auto& i : inclined) {
+    if (i.node != 1) continue;
+    // A chord with the direction t has the outward normal (t_y, -t_x): across and along.
+    EXPECT_NEAR(vector(i.direction).dot(2 * across - along), i.value, 1e-13);
+  }
+}
+
+// At one node: y held at 0.3, and normals at 60 degrees to y and to each other in space.
+TEST(Normals, ObliqueSupportsAreMadeOrthogonalAndShareTheirForces)
+{
+  const Communicator comm(MPI_COMM_SELF);
+  auto supports = along_normal({0.7, -0.2});
+  supports.push_back({"component", {std::nullopt, 0.3, std::nullopt}});
+  const Point first = Point(std::sqrt(0.75), 0.5, 0), second = Point(0.2, 0.5, std::sqrt(0.71));
+  const std::vector<NodeNormal> normals{{4, 0, {first[0], first[1], first[2]}}, {4, 1, {second[0], second[1], second[2]}}};
+  const std::vector<Held> held{{4, 1, 0.3, 2}};
+  const auto inclined = incline(supports, normals, held, comm);
+  ASSERT_EQ(inclined.size(), 2U);
+  Eigen::Matrix3d directions;
+  directions << 0, 1, 0, vector(inclined[0].direction).transpose(), vector(inclined[1].direction).transpose();
+  EXPECT_LT((directions * directions.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-13);
+  const Point u = directions.inverse() * Point(0.3, inclined[0].value, inclined[1].value);
+  EXPECT_NEAR(first.dot(u), 0.7, 1e-13);
+  EXPECT_NEAR(second.dot(u), -0.2, 1e-13);
+  const std::vector<Point> own{first, second, Point(0, 1, 0)};
+  for (const auto& i : inclined) {
+    Point sum = Point::Zero();
+    for (int k = 0; k < i.share_count; ++k) {
+      const auto& share = i.shares[static_cast<std::size_t>(k)];
+      sum += vector(share.part);
+      EXPECT_LT(vector(share.part).cross(own[static_cast<std::size_t>(share.support)]).norm(), 1e-13);  // along its own normal
+    }
+    EXPECT_LT((sum - vector(i.direction)).norm(), 1e-13);
+  }
+}
+
+TEST(Normals, AlongAnAxisAreComponents)
+{
+  const auto supports = along_normal({0.5});
+  std::vector<NodeNormal> normals{{1, 0, {0, -1, 0}}, {2, 0, {0.6, 0.8, 0}}};
+  const auto held = take_aligned(supports, normals);
+  ASSERT_EQ(held.size(), 1U);
+  EXPECT_EQ(held[0].component, 1);
+  EXPECT_EQ(held[0].value, -0.5);
+  ASSERT_EQ(normals.size(), 1U);
+  EXPECT_EQ(normals[0].node, 2);
+  EXPECT_EQ(hold(supports, std::vector<std::vector<Global>>(1), 3, Communicator(MPI_COMM_SELF), held).size(), 1U);
+}
+
+TEST(Normals, ContradictionNamesBothBoundaries)
+{
+  const Communicator comm(MPI_COMM_SELF);
+  const std::vector<NodeNormal> normals{{3, 0, {0.6, 0.8, 0}}, {3, 1, {-0.6, -0.8, 0}}};
+  EXPECT_EQ(incline(along_normal({0.5, -0.5}), normals, {}, comm).size(), 1U);
+  try {
+    incline(along_normal({0.5, 0.5}), normals, {}, comm);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input);
+    EXPECT_NE(std::string(error.what()).find("\"side 1\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("\"side 0\""), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace mortise::constraint
