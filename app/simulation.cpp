@@ -1,9 +1,12 @@
 #include "simulation.hpp"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "base/error.hpp"
+#include "constraint/normals.hpp"
+#include "constraint/preload.hpp"
 #include "constraint/renewal.hpp"
 #include "constraint/supports.hpp"
 #include "fem/stiffness.hpp"
@@ -124,24 +127,44 @@ Simulation::Simulation(const Deck& deck, const partition::Decomposition& decompo
 {
   const auto scope = context.timers.scope("contact");
   support_nodes_ = model.support_nodes(context.comm);
+  support_surfaces_ = model.support_surfaces();
   constrain(first);
 }
 
 void Simulation::constrain(const LoadState& state)
 {
+  const auto& comm = context_.comm;
   state_ = state;
   supports_ = model_.supports(state);
   pairs_ = model_.contact_pairs(state);
-  constraints_.held = constraint::hold(supports_, support_nodes_, deck_.dimension(), context_.comm);
-  constraints_.contacts = contact::discretize(pairs_, constraints_.held, deck_.kinematics, context_.comm);
+  auto normals = constraint::node_normals(supports_, support_surfaces_, comm);
+  const auto aligned = constraint::take_aligned(supports_, normals);
+  constraints_.held = constraint::hold(supports_, support_nodes_, deck_.dimension(), comm, aligned);
+  constraints_.inclined = constraint::incline(supports_, normals, constraints_.held, comm);
+  constraints_.contacts = contact::discretize(pairs_, constraints_.held, deck_.kinematics, comm, constraints_.inclined);
+  find_cuts();
+}
+
+void Simulation::find_cuts()
+{
+  constraints_.cuts =
+      constraint::find_cuts(constraints_.contacts, model_.preloads(state_, shortenings_), deck_.axisymmetric(), context_.comm);
 }
 
 // The present rows with the bounds of a new state; false if it has other rows.
 bool Simulation::move_constraints(const LoadState& state)
 {
   auto supports = model_.supports(state);
-  auto held = constraint::hold(supports, support_nodes_, deck_.dimension(), context_.comm);
-  if (!constraint::move_supports(constraints_, std::move(held), supports, supports_, context_.comm)) return false;
+  const bool moved = !std::equal(supports.begin(), supports.end(), supports_.begin(), [](const auto& a, const auto& b) {
+    return a.displacement == b.displacement && a.normal == b.normal;
+  });
+  if (moved) {
+    // What is held along normals may stand in many rows.
+    if (std::any_of(deck_.supports.begin(), deck_.supports.end(), [](const auto& s) { return s.normal.has_value(); }))
+      return false;
+    auto held = constraint::hold(supports, support_nodes_, deck_.dimension(), context_.comm);
+    if (!constraint::move_supports(constraints_, std::move(held), supports, supports_, context_.comm)) return false;
+  }
   for (std::size_t c = 0; c < deck_.contacts.size(); ++c) {
     const double overlap = (state.contact[c] - state_.contact[c]) * deck_.contacts[c].interference;
     if (overlap != 0) constraint::add_interference(constraints_.contacts, static_cast<int>(c), overlap);
@@ -149,6 +172,7 @@ bool Simulation::move_constraints(const LoadState& state)
   }
   supports_ = std::move(supports);
   state_ = state;
+  find_cuts();
   return true;
 }
 
@@ -182,13 +206,16 @@ void Simulation::build_problem()
   solver_ = std::make_unique<friction::Solver>(*problem_, model_.friction_laws(), deck_.friction_loop, options);
 }
 
-// A new problem, with the multipliers and the slip of the present one.
-void Simulation::rebuild(const LoadState& state)
+// A new problem, with the multipliers and the slip of the present one; its rows are there already if they were `moved`.
+void Simulation::rebuild(const LoadState& state, bool moved)
 {
   const auto before = std::move(problem_);
-  const auto old = std::exchange(constraints_, {});
-  constrain(state);
-  carry_slip(old.contacts, constraints_.contacts);
+  const auto old = constraints_;
+  if (!moved) {
+    constraints_ = {};
+    constrain(state);
+    carry_slip(old.contacts, constraints_.contacts);
+  }
   build_problem();
   solved_->solution = carry_multipliers(*before, old, solved_->solution, *problem_);
 }
@@ -201,10 +228,13 @@ void Simulation::solve(const LoadState& state, const friction::Observer& observe
     floating_.load = model_.loads(state, comm);
   }
   const auto scope = timers.scope("solve");
-  if (!problem_)
+  if (!problem_) {
     build_problem();
-  else if (!move_constraints(state) || !problem_->renew())
-    rebuild(state);
+  } else {
+    const bool same_cuts = constraints_.cuts.empty() || state.locked == state_.locked;
+    const bool moved = move_constraints(state);
+    if (!moved || !same_cuts || !problem_->renew()) rebuild(state, moved);
+  }
   const auto allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
     const auto estimating = timers.scope("error estimate");
     return algebraic_part *
@@ -217,6 +247,7 @@ void Simulation::solve(const LoadState& state, const friction::Observer& observe
 
 void Simulation::settle(const std::vector<Eigen::VectorXd>& displacement)
 {
+  shortenings_ = problem_->shortenings(solved_->solution.nu);
   const Vector jumps = problem_->jump().apply(displacement);
   const auto& ranges = problem_->jump().ranges();
   const Local count = ranges.extra - ranges.contacts;

@@ -39,7 +39,8 @@ class Simulation {
   void constrain(const LoadState& state);
   bool move_constraints(const LoadState& state);
   void build_problem();
-  void rebuild(const LoadState& state);
+  void find_cuts();
+  void rebuild(const LoadState& state, bool moved);
 
   const Deck& deck_;
   const partition::Decomposition& decomposition_;
@@ -47,6 +48,7 @@ class Simulation {
   const Context& context_;
   LoadState state_;  // the constraints' own
   std::vector<std::vector<Global>> support_nodes_;
+  std::vector<mesh::Surface> support_surfaces_;
   std::vector<constraint::SupportOptions> supports_;
   constraint::Constraints constraints_;
   std::vector<contact::Pair> pairs_;
@@ -56,6 +58,7 @@ class Simulation {
   std::unique_ptr<feti::DualProblem> problem_;
   std::unique_ptr<friction::Solver> solver_;
   std::unique_ptr<friction::Result> solved_;  // of the state before, while a new one is being solved
+  std::vector<double> shortenings_;           // of the preloaded contacts in the state before
   int multiplications_ = 0;
 };
 

@@ -74,9 +74,8 @@ void describe(deck::Description<StepOptions>& d)
   d.help("One load step. What it does not name stays as the step before left it; before the first step every factor is 1.");
   d.key("name", &StepOptions::name, "For results; its number if not given.");
   d.key("scale", &StepOptions::scale,
-        "Factors, reached at the end of the step, of loads, of the displacements of supports and of the interference of "
-        "contacts, by "
-        "their names.");
+        "Factors, reached at the end of the step, of loads, of the displacements of supports and of the interference or preload "
+        "of contacts, by their names. After the first step a preloaded bolt keeps its length but where a step names it here.");
   d.key("off", &StepOptions::off, "Names of loads and supports that cease to act.");
   d.key("on", &StepOptions::on, "Names of loads and supports that act again.");
   d.key("increments", &StepOptions::increments, "Equilibria on the way, between which the factors change linearly.").at_least(1);

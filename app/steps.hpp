@@ -13,10 +13,11 @@ struct Deck;
 
 /// One load step. What it does not name stays as the step before left it; before the first step every factor is 1.
 struct StepOptions {
-  std::string name;                     ///< default: its number
-  std::map<std::string, double> scale;  ///< factor of a load, of a support's displacement, of a contact's interference, by name
-  std::vector<std::string> off, on;     ///< loads and supports that cease to act, or act again
-  int increments = 1;                   ///< equilibria on the way; factors change linearly
+  std::string name;  ///< default: its number
+  std::map<std::string, double>
+      scale;                         ///< factor of a load, a support's displacement, a contact's interference or preload, by name
+  std::vector<std::string> off, on;  ///< loads and supports that cease to act, or act again
+  int increments = 1;                ///< equilibria on the way; factors change linearly
 };
 
 /// The keywords.

@@ -89,6 +89,16 @@ std::string complaint(const std::string& steps)
   return "";
 }
 
+TEST(Steps, ABoltKeepsItsLengthButWhereAStepTightensIt)
+{
+  const auto states = load_states(deck_of("steps: [{}, {}, {scale: {joint: 1.5}}, {}]"));
+  ASSERT_EQ(states.size(), 4U);
+  EXPECT_FALSE(states[0].locked[0]);
+  EXPECT_TRUE(states[1].locked[0]);
+  EXPECT_FALSE(states[2].locked[0]);
+  EXPECT_TRUE(states[3].locked[0]);
+}
+
 TEST(Steps, WrongNamesAreToldWithTheNearest)
 {
   const auto said = complaint("steps: [{scale: {pusch: 0}}, {off: [joint]}, {on: [ram], off: [ram]}, {increments: 0}]");
