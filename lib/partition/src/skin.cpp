@@ -1,0 +1,107 @@
+#include "partition/skin.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "mesh/topology.hpp"
+
+namespace mortise::partition {
+
+namespace {
+
+struct OuterFace {
+  std::array<Global, 4> corners;  // ascending, over all ranks
+  Local subdomain, cell;
+  int face;
+};
+
+// Faces of cells of one subdomain that belong to one cell of it.
+void add_border(const mesh::Mesh& mesh, Local subdomain, std::vector<OuterFace>& border)
+{
+  const auto all = mesh::sorted_faces(mesh.cells);
+  for (std::size_t i = 0; i < all.size();) {
+    std::size_t end = i + 1;
+    while (end < all.size() && all[end].corners == all[i].corners) ++end;
+    if (end == i + 1) {
+      OuterFace face{{-1, -1, -1, -1}, subdomain, all[i].cell, all[i].face};
+      for (std::size_t k = 0; k < 4; ++k)
+        if (all[i].corners[k] >= 0) face.corners[k] = mesh.node_id[static_cast<std::size_t>(all[i].corners[k])];
+      border.push_back(face);  // node_id ascends, and so do the corners
+    }
+    i = end;
+  }
+}
+
+// Which of the faces belong to no cell of another subdomain: those that a rank, chosen by a corner, is told of once. Collective.
+std::vector<bool> told_once(const std::vector<OuterFace>& border, const Communicator& comm)
+{
+  struct Told {
+    std::array<Global, 4> corners;
+    long long index;
+  };
+  const auto ranks = static_cast<std::size_t>(comm.size());
+  std::vector<std::vector<Told>> send(ranks);
+  for (std::size_t i = 0; i < border.size(); ++i)
+    send[static_cast<std::size_t>(border[i].corners[0]) % ranks].push_back({border[i].corners, static_cast<long long>(i)});
+  struct Received {
+    Told told;
+    std::size_t from;
+  };
+  std::vector<Received> all;
+  const auto received = comm.exchange(send);
+  for (std::size_t r = 0; r < ranks; ++r)
+    for (const auto& told : received[r]) all.push_back({told, r});
+  std::sort(all.begin(), all.end(), [](const Received& a, const Received& b) { return a.told.corners < b.told.corners; });
+  std::vector<std::vector<long long>> answer(ranks);
+  for (std::size_t i = 0; i < all.size();) {
+    std::size_t end = i + 1;
+    while (end < all.size() && all[end].told.corners == all[i].told.corners) ++end;
+    if (end == i + 1) answer[all[i].from].push_back(all[i].told.index);
+    i = end;
+  }
+  std::vector<bool> once(border.size(), false);
+  for (const auto& part : comm.exchange(answer))
+    for (const long long i : part) once[static_cast<std::size_t>(i)] = true;
+  return once;
+}
+
+}  // namespace
+
+mesh::Surface outer_surface(const Decomposition& decomposition, const Communicator& comm)
+{
+  std::vector<OuterFace> border;
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
+    add_border(decomposition.subdomains[s].mesh, static_cast<Local>(s), border);
+  const auto once = told_once(border, comm);
+  mesh::Surface surface;
+  const auto nodes_of = [&](const OuterFace& face, const auto& use) {
+    const auto& mesh = decomposition.subdomains[static_cast<std::size_t>(face.subdomain)].mesh;
+    const auto cell = static_cast<std::size_t>(face.cell);
+    for (const int k : mesh::faces(mesh.cells.type[cell])[static_cast<std::size_t>(face.face)].nodes)
+      use(mesh, static_cast<std::size_t>(mesh.cells[cell][static_cast<std::size_t>(k)]));
+  };
+  for (std::size_t i = 0; i < border.size(); ++i)
+    if (once[i])
+      nodes_of(border[i], [&](const mesh::Mesh& mesh, std::size_t node) { surface.node_id.push_back(mesh.node_id[node]); });
+  std::sort(surface.node_id.begin(), surface.node_id.end());
+  surface.node_id.erase(std::unique(surface.node_id.begin(), surface.node_id.end()), surface.node_id.end());
+  surface.points.resize(surface.node_id.size());
+  for (std::size_t i = 0; i < border.size(); ++i) {
+    if (!once[i]) continue;
+    std::vector<Local> nodes;
+    nodes_of(border[i], [&](const mesh::Mesh& mesh, std::size_t node) {
+      const auto at =
+          std::lower_bound(surface.node_id.begin(), surface.node_id.end(), mesh.node_id[node]) - surface.node_id.begin();
+      nodes.push_back(static_cast<Local>(at));
+      surface.points[static_cast<std::size_t>(at)] = mesh.points[node];
+    });
+    const auto& subdomain = decomposition.subdomains[static_cast<std::size_t>(border[i].subdomain)];
+    const auto cell = static_cast<std::size_t>(border[i].cell);
+    surface.faces.add(mesh::faces(subdomain.mesh.cells.type[cell])[static_cast<std::size_t>(border[i].face)].type, nodes);
+    surface.face_id.push_back(6 * subdomain.mesh.cell_id[cell] + border[i].face);
+    surface.body.push_back(subdomain.body);
+  }
+  return surface;
+}
+
+}  // namespace mortise::partition
