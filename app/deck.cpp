@@ -150,6 +150,11 @@ void check_contact_names(const Deck& deck, deck::Document& document)
 {
   for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
     const auto& contact = deck.contacts[i];
+    if (contact.obstacle) {
+      if (const auto why = contact::misfit(*contact.obstacle, deck.kinematics); !why.empty())
+        document.error(fmt::format("contacts[{}].primary", i), why);
+      continue;
+    }
     const auto secondary = parse_boundary(contact.secondary), primary = parse_boundary(contact.primary);
     if (contact.secondary != contact.primary && secondary.boundary == primary.boundary &&
         (secondary.body == primary.body || secondary.body.empty() || primary.body.empty()))
@@ -233,7 +238,8 @@ Deck read_deck(deck::Document& document, const std::string& output)
   Deck deck;
   deck::read(deck, document);
   for (auto& contact : deck.contacts)
-    if (contact.name.empty()) contact.name = contact.secondary + "/" + contact.primary;
+    if (contact.name.empty())
+      contact.name = contact.secondary + "/" + (contact.obstacle ? contact::shape_name(*contact.obstacle) : contact.primary);
   for (auto& support : deck.supports)
     if (support.name.empty()) support.name = support.boundary;
   for (auto& load : deck.loads)
@@ -311,7 +317,7 @@ void check_names(const Deck& deck, deck::Document& document, const mesh::Catalog
   }
   for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
     check(deck.contacts[i].secondary, fmt::format("contacts[{}].secondary", i));
-    check(deck.contacts[i].primary, fmt::format("contacts[{}].primary", i));
+    if (!deck.contacts[i].obstacle) check(deck.contacts[i].primary, fmt::format("contacts[{}].primary", i));
   }
 }
 

@@ -106,7 +106,7 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
     named.emplace_back(deck_.supports[i].boundary, fmt::format("supports[{}].boundary", i));
   for (std::size_t i = 0; i < deck_.contacts.size(); ++i) {
     named.emplace_back(deck_.contacts[i].secondary, fmt::format("contacts[{}].secondary", i));
-    named.emplace_back(deck_.contacts[i].primary, fmt::format("contacts[{}].primary", i));
+    if (!deck_.contacts[i].obstacle) named.emplace_back(deck_.contacts[i].primary, fmt::format("contacts[{}].primary", i));
   }
   std::vector<double> faces;
   for (const auto& [boundary, key] : named) {
@@ -240,6 +240,20 @@ std::vector<mesh::Surface> Model::support_surfaces() const
   return surfaces;
 }
 
+std::vector<bool> Model::supported(const Communicator& comm) const
+{
+  std::vector<double> faces(decomposition_.catalogue.bodies.size(), 0.0);
+  for (const auto& support : deck_.supports) {
+    const auto [boundary, on_body] = select(support.boundary);
+    for (const int body : partition::boundary_surface(decomposition_, boundary, on_body).body)
+      faces[static_cast<std::size_t>(body)] += 1;
+  }
+  comm.sum_in_place(faces);
+  std::vector<bool> result;
+  for (const double count : faces) result.push_back(count > 0);
+  return result;
+}
+
 std::vector<contact::Pair> Model::contact_pairs(const LoadState& state) const
 {
   std::vector<contact::Pair> pairs;
@@ -247,10 +261,15 @@ std::vector<contact::Pair> Model::contact_pairs(const LoadState& state) const
     const auto [boundary, on_body] = select(name);
     return partition::boundary_surface(decomposition_, boundary, on_body);
   };
+  std::map<std::string, std::shared_ptr<const mesh::Surface>> primaries;  // the ring of many rollers stands here once
   for (std::size_t c = 0; c < deck_.contacts.size(); ++c) {
     const auto& contact = deck_.contacts[c];
-    pairs.push_back({contact, surface(contact.secondary), surface(contact.primary)});
+    pairs.push_back({contact, surface(contact.secondary), nullptr});
     pairs.back().options.interference *= state.contact[c];
+    if (contact.obstacle) continue;
+    auto& primary = primaries[contact.primary];
+    if (!primary) primary = std::make_shared<const mesh::Surface>(surface(contact.primary));
+    pairs.back().primary = primary;
   }
   return pairs;
 }

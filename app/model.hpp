@@ -34,6 +34,8 @@ class Model {
   std::vector<std::vector<Global>> support_nodes(const Communicator& comm) const;
   /// The boundaries of those of supports() that hold along normals, this rank's faces; the others are empty.
   std::vector<mesh::Surface> support_surfaces() const;
+  /// For each body whether one of the deck's supports lies on it. Collective.
+  std::vector<bool> supported(const Communicator& comm) const;
   std::vector<contact::Pair> contact_pairs(const LoadState& state) const;
   std::vector<friction::Law> friction_laws() const;
   /// Of the preloaded contacts. Those that are locked are held at `shortenings`, one for each, of the state before.

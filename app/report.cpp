@@ -156,6 +156,7 @@ void warn_of_short_search(const Deck& deck, const std::vector<contact::Pair>& pa
                           const Results& results, const Context& context)
 {
   const auto& contacts = problem.constraints().contacts;
+  const auto reaches = contact::search_distances(pairs, context.comm);
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     if (pairs[c].options.law == contact::Law::bonded) continue;
     double widest = 0;
@@ -163,7 +164,7 @@ void warn_of_short_search(const Deck& deck, const std::vector<contact::Pair>& pa
       if (results.points[i].contact == static_cast<int>(c) && results.points[i].status != contact::Status::open)
         widest = std::max(widest, contacts.points[i].gap + pairs[c].options.interference);
     widest = context.comm.max(widest);
-    const double reach = contact::search_distance(pairs[c], context.comm);
+    const double reach = reaches[c];
     if (widest > 0.7 * reach)
       context.log.warning(
           "contact {} closes over gaps of up to {:.3g}, close to the search distance {:.3g}: set a larger search_distance and "
@@ -291,6 +292,7 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   results.surfaces = contact::surface_states(results.points, pairs, context.comm);
   for (std::size_t c = 0; c < deck.contacts.size(); ++c) {
     const auto& r = results.resultants[c];
+    if (deck.contacts[c].obstacle) results.obstacles += Point(deck.axisymmetric() ? 0 : r.force[0], r.force[1], r.force[2]);
     const auto& pressure = results.surfaces[c].recovered_pressure;
     const double recovered = context.comm.max(pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end()));
     results.summary.contacts.push_back({deck.contacts[c].name,
@@ -311,7 +313,7 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   double size = std::max({results.applied.norm(), results.reaction.norm(), results.rounding_of_force, 1e-300});
   for (const auto& r : results.resultants) size = std::max(size, r.force.norm());
   for (const auto& r : results.summary.reactions) size = std::max(size, std::hypot(r.force[0], r.force[1], r.force[2]));
-  results.imbalance = (results.applied + results.reaction).norm() / size;
+  results.imbalance = (results.applied + results.reaction + results.obstacles).norm() / size;
   results.limit = solved.limit;
   if (results.imbalance > unbalanced && results.summary.converged) {
     results.summary.converged = false;
@@ -347,8 +349,9 @@ void print(const Results& results, const Context& context)
         "  It made no more progress: a looser solver.tolerance may be all that this mesh allows; --set solver.algorithm=smalse "
         "is "
         "the other way.");
-  log.line("  balance of forces   applied {}, supports {}, difference {:.1e} of the largest force", vector(results.applied),
-           vector(results.reaction), results.imbalance);
+  log.line("  balance of forces   applied {}, supports {}, {}difference {:.1e} of the largest force", vector(results.applied),
+           vector(results.reaction), results.obstacles.isZero(0) ? "" : fmt::format("obstacles {}, ", vector(results.obstacles)),
+           results.imbalance);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);
   const auto percent = [](double part) {

@@ -20,8 +20,9 @@ struct Results {
   Point max_von_mises_at = Point::Zero();
   Point applied = Point::Zero(), reaction = Point::Zero();  ///< sums of loads and of support forces
   double rounding_of_force = 0, rounding_of_energy = 0;     ///< what rounding may leave of both where nothing is strained
-  double imbalance = 0;  ///< of the sums of loads and support forces, relative to the largest force
-  std::string limit;     ///< the key that ended the solver early, or ""
+  Point obstacles = Point::Zero();                          ///< sum of what rigid obstacles push the bodies with
+  double imbalance = 0;                                     ///< of the sums of all these forces, relative to the largest one
+  std::string limit;                                        ///< the key that ended the solver early, or ""
   io::Summary summary;
 };
 

@@ -84,7 +84,7 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
   expect_complaint("loads: [{boundary: a.xmax, force: [1, 0]}]\n",
                    "deck.yaml:7: loads[0].force: expected 3 entries, since `dimension` is 3, found 2");
   expect_complaint("contacts: auto\n", "`auto` is not available");
-  expect_complaint("contacts: [{secondary: a.zmax, primary: {plane: {}}}]\n", "rigid obstacles are not available");
+  expect_complaint("contacts: [{secondary: a.zmax, primary: {plane: {}}}]\n", "the key \"normal\" is missing");
   expect_complaint("contacts: [{secondary: a.zmax, primary: a.zmax}]\n", "same boundary");
   expect_complaint("contacts: [{secondary: a.zmax, primary: b.zmin}, {secondary: a.zmax, primary: b.zmin}]\n",
                    "two contacts are called");

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "contact/mortar.hpp"
 #include "face_integrals.hpp"
+#include "near.hpp"
 
 namespace mortise::contact {
 
@@ -117,20 +118,21 @@ Directions directions(const Point& normal, const std::array<bool, 3>& held, std:
 // One contact on its way from faces to rows.
 class Builder {
  public:
-  Builder(const Pair& pair, int index, std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
-          fem::Kinematics kinematics, const Communicator& comm)
-      : pair_(pair),
+  Builder(const Options& options, const NearFaces& near, double reach, int index, std::span<const constraint::Held> held,
+          std::span<const constraint::Inclined> inclined, fem::Kinematics kinematics, const Communicator& comm)
+      : options_(options),
         index_(index),
         dimension_(fem::dimension(kinematics)),
         comm_(comm),
-        secondary_(gather(pair.secondary, kinematics, comm)),
-        primary_(gather(pair.primary, kinematics, comm)),
+        secondary_(gather(near.secondary, kinematics, comm)),
+        primary_(gather(near.primary, kinematics, comm)),
         places_(find_places(secondary_)),
         primary_places_(find_places(primary_)),
         held_(held, inclined, secondary_.node_id, comm),
         primary_held_(held, inclined, primary_.node_id, comm),
-        reach_(search_distance(pair, comm))
+        reach_(reach)
   {
+    if (options.obstacle) stand_on(*options.obstacle);
   }
 
   // Adds the rows of the places that this rank owns. Collective.
@@ -150,7 +152,7 @@ class Builder {
       throw Error(
           ExitStatus::bad_input,
           fmt::format("contact {}: supports hold both sides and push them {:.3g} into each other; change one of the supports",
-                      pair_.options.name, crossing));
+                      options_.name, crossing));
   }
 
  private:
@@ -168,6 +170,17 @@ class Builder {
         .subspan(static_cast<std::size_t>(secondary_.faces.offset[face]), secondary_.faces[face].size());
   }
 
+  // The directions of contact are the obstacle's normals; where a place does not face it, it is out of reach.
+  void stand_on(const Obstacle& obstacle)
+  {
+    for (auto& place : places_.all) {
+      Foot at = foot(obstacle, secondary_.points[static_cast<std::size_t>(place.node)]);
+      if (place.normal.dot(at.normal) > opposed) at.distance = std::numeric_limits<double>::infinity();
+      if (std::isfinite(at.distance)) place.normal = -at.normal;
+      distance_.push_back(at.distance);
+    }
+  }
+
   void integrate_faces()
   {
     std::vector<Box> boxes;
@@ -178,13 +191,39 @@ class Builder {
       boxes.push_back(box);
     }
     tree_ = std::make_unique<Tree>(std::move(boxes));
-    for (std::size_t f = first_face(comm_.rank()); f < first_face(comm_.rank() + 1); ++f)
-      integrals_.push_back(integrate(secondary_, places_, f, primary_, primary_places_, *tree_, reach_));
     face_of_middle_.assign(places_.all.size(), {-1, -1});
     for (std::size_t f = 0; f < secondary_.faces.size(); ++f)
       for (std::size_t k = static_cast<std::size_t>(mesh::corner_count(secondary_.faces.type[f])); k < secondary_.faces[f].size();
            ++k)
         face_of_middle_[static_cast<std::size_t>(node_places(f)[k])] = {static_cast<Local>(f), static_cast<Local>(k)};
+    integrals_.reserve(first_face(comm_.rank() + 1) - first_face(comm_.rank()));
+    for (std::size_t f = first_face(comm_.rank()); f < first_face(comm_.rank() + 1); ++f) integrals_.push_back(integrals_of(f));
+  }
+
+  FaceIntegrals integrals_of(std::size_t face)
+  {
+    if (!options_.obstacle && !nodal()) return integrate(secondary_, places_, face, primary_, primary_places_, *tree_, reach_);
+    FaceIntegrals whole = integrate_whole(secondary_, face);
+    const auto places = node_places(face);
+    if (!nodal()) {  // a face counts if all of it faces the obstacle
+      if (!std::all_of(places.begin(), places.end(), [&](Local p) { return meet(static_cast<std::size_t>(p)).found; }))
+        whole.covered.setZero();
+      return whole;
+    }
+    const Eigen::MatrixXd control = control_values(face);
+    for (Eigen::Index k = 0; k < control.rows(); ++k)
+      for (Eigen::Index l = 0; l < control.cols(); ++l)
+        if (control(k, l) != 0 && !meet(static_cast<std::size_t>(places[static_cast<std::size_t>(l)])).found)
+          whole.covered[k] = 0;
+    return whole;
+  }
+
+  bool nodal() const { return options_.discretization == "node_to_segment"; }
+
+  // What a row of a face's node sees of the values at all its nodes; see multiplier_basis().
+  Eigen::MatrixXd control_values(std::size_t face) const
+  {
+    return multiplier_basis(secondary_.faces.type[face]).transpose().partialPivLu().inverse();
   }
 
   // The gap between the smooth surfaces at the node itself, along its normal, as the rows see it: in the middle of edges and
@@ -193,7 +232,7 @@ class Builder {
   // the primary side.
   double gap_at(std::size_t p, double mean) const
   {
-    const double length = 2 * std::max(std::abs(mean), reach_);
+    const double length = 2 * reach_;
     const auto [face, node] = face_of_middle_[p];
     double gap = 0;
     if (face < 0) {
@@ -209,37 +248,53 @@ class Builder {
     return std::isfinite(gap) ? gap : mean;
   }
 
+  // What lies opposite a place.
+  struct Opposite {
+    bool found = false;
+    double gap = std::numeric_limits<double>::infinity();
+    std::size_t facet = 0;  // of the primary side
+    Hit hit;
+  };
+
   // Along the normal of a place to the primary side; not finite if it meets nothing within `length`.
-  double ray(std::size_t p, double length) const
+  double ray(std::size_t p, double length) const { return options_.obstacle ? distance_[p] : shoot_from(p, length).gap; }
+
+  Opposite shoot_from(std::size_t p, double length) const
   {
     const Place& place = places_.all[p];
     const Point x = secondary_.points[static_cast<std::size_t>(place.node)];
-    const Point margin = Point::Constant(0.02 * length);  // so that the sweep has few pieces
-    double best = std::numeric_limits<double>::infinity();
+    const Point margin = Point::Constant(0.02 * length);  // a hit may lie a little beside its face
+    Opposite best;
     for (const int m : tree_->swept(Box(x - margin, x + margin), length * place.normal)) {
-      const auto face = static_cast<std::size_t>(m);
-      const auto geometry = primary_.geometry(face);
+      const auto facet = static_cast<std::size_t>(m);
+      const auto geometry = primary_.geometry(facet);
       const auto hit = shoot(x, place.normal, geometry);
       if (!hit.found) continue;
-      const double gap = hit.distance - bulge(geometry, corner_normals(primary_, primary_places_, face), hit.shape);
-      if (std::abs(gap) < std::abs(best)) best = gap;
+      const double gap = hit.distance - Bulge(geometry, corner_normals(primary_, primary_places_, facet))(hit.shape);
+      if (std::abs(gap) <= length && std::abs(gap) < std::abs(best.gap)) best = {true, gap, facet, hit};
     }
     return best;
+  }
+
+  // What a place meets within reach; looked up once for each, for nodal rows and obstacles.
+  const Opposite& meet(std::size_t p)
+  {
+    const auto [entry, is_new] = met_.try_emplace(p);
+    if (!is_new) return entry->second;
+    if (options_.obstacle)
+      entry->second.gap = distance_[p];
+    else
+      entry->second = shoot_from(p, reach_);
+    entry->second.found = std::abs(entry->second.gap) <= reach_;
+    return entry->second;
   }
 
   // Which places carry a multiplier: covered enough, and not held along their normal.
   void choose_places()
   {
     const auto count = static_cast<Eigen::Index>(places_.all.size());
-    Eigen::MatrixXd cover = Eigen::MatrixXd::Zero(count, 2);
-    for (std::size_t i = 0; i < integrals_.size(); ++i) {
-      const auto places = node_places(first_face(comm_.rank()) + i);
-      for (std::size_t k = 0; k < places.size(); ++k) {
-        cover(places[k], 0) += integrals_[i].covered[static_cast<Eigen::Index>(k)];
-        cover(places[k], 1) += integrals_[i].whole[static_cast<Eigen::Index>(k)];
-      }
-    }
-    comm_.sum_in_place({cover.data(), static_cast<std::size_t>(cover.size())});
+    const auto covered = over_places([&](std::size_t i) { return integrals_[i].covered; });
+    const auto whole = over_places([&](std::size_t i) { return integrals_[i].whole; });
     for (Eigen::Index p = 0; p < count; ++p) {
       const auto& place = places_.all[static_cast<std::size_t>(p)];
       directions_.push_back(directions(place.normal, held_at(place), inclined_at(place), dimension_));
@@ -260,8 +315,26 @@ class Builder {
       const bool alone = stranded[i] > 0;
       if (alone)
         directions_[i] = directions(places_.all[i].normal, {false, false, false}, {}, dimension_);  // moves() picks the tangents
-      kept_.push_back((directions_[i].free_normal || alone) && cover(p, 0) > least_cover * cover(p, 1));
+      kept_.push_back((directions_[i].free_normal || alone) && covered[p] > least_cover * whole[p]);
     }
+  }
+
+  // Sums over the faces at each place, in the order of the faces whatever the ranks: values(i) are those at the nodes of this
+  // rank's i-th face.
+  template <class Values>
+  Eigen::VectorXd over_places(const Values& values) const
+  {
+    std::vector<double> at(secondary_.faces.nodes.size(), 0.0);
+    for (std::size_t i = 0; i < first_face(comm_.rank() + 1) - first_face(comm_.rank()); ++i) {
+      const Eigen::VectorXd part = values(i);
+      for (Eigen::Index k = 0; k < part.size(); ++k)
+        at[static_cast<std::size_t>(secondary_.faces.offset[first_face(comm_.rank()) + i]) + static_cast<std::size_t>(k)] =
+            part[k];
+    }
+    comm_.sum_in_place(at);
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places_.all.size()));
+    for (std::size_t k = 0; k < at.size(); ++k) sums[places_.of_node[k]] += at[k];
+    return sums;
   }
 
   std::array<bool, 3> held_at(const Place& place) const
@@ -283,18 +356,13 @@ class Builder {
       Global face;
     };
     std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm_.size()));
-    d_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places_.all.size()));
-    rise_ = d_;
+    std::vector<Eigen::VectorXd> d, rise;
     for (std::size_t i = 0; i < integrals_.size(); ++i) {
       const std::size_t face = first_face(comm_.rank()) + i;
-      const auto places = node_places(face);
-      std::vector<bool> kept;
-      for (const Local p : places) kept.push_back(kept_[static_cast<std::size_t>(p)]);
-      const auto rows = dual_rows(integrals_[i], kept, secondary_.faces[face], places);
-      for (std::size_t k = 0; k < places.size(); ++k) {
-        d_[places[k]] += rows.d[static_cast<Eigen::Index>(k)];
-        rise_[places[k]] += rows.rise[static_cast<Eigen::Index>(k)];
-      }
+      auto rows = rows_of(face, integrals_[i]);
+      integrals_[i] = {};
+      d.push_back(std::move(rows.d));
+      rise.push_back(std::move(rows.rise));
       for (const auto& term : rows.terms) {
         int rank = 0;
         while (static_cast<std::size_t>(term.place) >= first_place(rank + 1)) ++rank;
@@ -302,8 +370,8 @@ class Builder {
       }
     }
     integrals_.clear();
-    comm_.sum_in_place({d_.data(), static_cast<std::size_t>(d_.size())});
-    comm_.sum_in_place({rise_.data(), static_cast<std::size_t>(rise_.size())});
+    d_ = over_places([&](std::size_t i) { return d[i]; });
+    rise_ = over_places([&](std::size_t i) { return rise[i]; });
     std::vector<Sent> all;
     for (const auto& part : comm_.exchange(send)) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end(), [](const Sent& a, const Sent& b) {
@@ -321,15 +389,49 @@ class Builder {
     return terms;
   }
 
+  FaceRows rows_of(std::size_t face, const FaceIntegrals& integrals)
+  {
+    const auto places = node_places(face);
+    std::vector<bool> kept;
+    for (const Local p : places) kept.push_back(kept_[static_cast<std::size_t>(p)]);
+    return nodal() ? nodal_rows(face, integrals, kept) : dual_rows(integrals, kept, secondary_.faces[face], places);
+  }
+
+  // u_s - sum_j N_j u_j at what each node meets, weighted with the node's share of the face.
+  FaceRows nodal_rows(std::size_t face, const FaceIntegrals& integrals, const std::vector<bool>& kept)
+  {
+    const auto places = node_places(face);
+    const auto nodes = secondary_.faces[face];
+    const Eigen::MatrixXd control = control_values(face);
+    FaceRows rows{Eigen::VectorXd::Zero(control.rows()), Eigen::VectorXd::Zero(control.rows()), {}};
+    for (Eigen::Index k = 0; k < control.rows(); ++k) {
+      if (!kept[static_cast<std::size_t>(k)]) continue;
+      const double area = rows.d[k] = integrals.covered[k];
+      const Local place = places[static_cast<std::size_t>(k)];
+      for (Eigen::Index l = 0; l < control.cols(); ++l) {
+        const double weight = control(k, l) * area;
+        if (weight == 0) continue;
+        rows.terms.push_back({place, nodes[static_cast<std::size_t>(l)], false, weight});
+        if (options_.obstacle) continue;
+        const Opposite& opposite = meet(static_cast<std::size_t>(places[static_cast<std::size_t>(l)]));
+        const auto other = primary_.faces[static_cast<std::size_t>(primary_.face_of[opposite.facet])];
+        const FaceShape shape = primary_.shape_in_face(opposite.facet, opposite.hit.shape, opposite.hit.frame, Plane::Zero());
+        for (std::size_t j = 0; j < other.size(); ++j)
+          rows.terms.push_back({place, other[j], true, -weight * shape[static_cast<Eigen::Index>(j)]});
+      }
+    }
+    return rows;
+  }
+
   void add_point(std::size_t p, std::span<const Term> terms, constraint::Contacts& contacts)
   {
     const Place& place = places_.all[p];
     const double d = d_[static_cast<Eigen::Index>(p)];
-    const bool bonded = pair_.options.law == Law::bonded;
+    const bool bonded = options_.law == Law::bonded;
     constraint::ContactPoint point{
         index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, place.normal, {}, contacts.rows.size()};
     const bool held = !moves(terms, d, place.normal);  // on both sides
-    if (!held && pair_.options.law != Law::frictionless)
+    if (!held && options_.law != Law::frictionless)
       for (const auto& tangent : directions_[p].tangents)
         if (moves(terms, d, tangent)) point.tangents.push_back(tangent);
 
@@ -346,7 +448,7 @@ class Builder {
     point.at = secondary_.points[static_cast<std::size_t>(place.node)];
     point.gap = bonded ? 0
                        : weight * (gap_at(p, (frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d) / weight) -
-                                   pair_.options.interference);
+                                   options_.interference);
     if (held) {
       if (!bonded) crossing_ = std::max(crossing_, held_part(terms, d, place.normal) - point.gap);
       return;
@@ -435,7 +537,7 @@ class Builder {
     contacts.rows.close(bound);
   }
 
-  const Pair& pair_;
+  const Options& options_;
   int index_;
   int dimension_;
   const Communicator& comm_;
@@ -444,6 +546,8 @@ class Builder {
   HeldNodes held_, primary_held_;
   double reach_;
   double crossing_ = 0;                   // how far supports alone push the two sides into each other, on this rank
+  std::vector<double> distance_;          // of each place from the obstacle, if there is one
+  std::map<std::size_t, Opposite> met_;   // by place
   std::unique_ptr<Tree> tree_;            // of the primary facets
   std::vector<FaceIntegrals> integrals_;  // of this rank's faces
   std::vector<std::pair<Local, Local>> face_of_middle_;  // of each place: a face and the node in it, if that is no corner
@@ -452,46 +556,16 @@ class Builder {
   Eigen::VectorXd d_, rise_;  // of each place: integral psi_i, and of psi_i times the bulge
 };
 
-// Diagonal of the box round a side, over all ranks.
-double extent(const mesh::Surface& side, const Communicator& comm)
-{
-  double square = 0;
-  for (int c = 0; c < 3; ++c) {
-    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    for (const auto& p : side.points) {
-      low = std::min(low, p[c]);
-      high = std::max(high, p[c]);
-    }
-    const double length = comm.max(high) - comm.min(low);
-    square += length > 0 ? length * length : 0;
-  }
-  return std::sqrt(square);
-}
-
-double largest_face(const mesh::Surface& side, const Communicator& comm)
-{
-  double size = 0;
-  for (std::size_t f = 0; f < side.faces.size(); ++f) {
-    size = std::max(size, corners_of(side, f).size());
-  }
-  return comm.max(size);
-}
-
 }  // namespace
-
-double search_distance(const Pair& pair, const Communicator& comm)
-{
-  if (pair.options.search_distance > 0) return pair.options.search_distance;
-  const double tenth = 0.1 * std::min(extent(pair.secondary, comm), extent(pair.primary, comm));
-  return std::max({tenth, largest_face(pair.secondary, comm), largest_face(pair.primary, comm)});
-}
 
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
                                 const Communicator& comm, std::span<const constraint::Inclined> inclined)
 {
   constraint::Contacts contacts;
+  const auto sizes = measure(pairs, comm);
   for (std::size_t c = 0; c < pairs.size(); ++c)
-    Builder(pairs[c], static_cast<int>(c), held, inclined, kinematics, comm).add_rows(contacts);
+    Builder(pairs[c].options, near_faces(pairs[c], sizes[c], comm), sizes[c].reach, static_cast<int>(c), held, inclined, kinematics, comm)
+        .add_rows(contacts);
   return contacts;
 }
 

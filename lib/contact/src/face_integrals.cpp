@@ -10,18 +10,26 @@ namespace mortise::contact {
 
 namespace {
 
-// Integrals of the face's shape functions over one of its facets.
-Eigen::VectorXd whole_facet(const Side& side, std::size_t facet)
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9>;  // of two faces' nodes, without allocation
+
+// Calls add(weight, shape functions of the face) at the integration points of a whole facet.
+template <class Add>
+void over_facet(const Side& side, std::size_t facet, const Add& add)
 {
   const FaceGeometry geometry = side.geometry(facet);
   FaceGeometry mirror = geometry;
   std::reverse(mirror.nodes.begin(), mirror.nodes.end());
-  const auto face = static_cast<std::size_t>(side.face_of[facet]);
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(side.faces[face].size()));
-  const auto all = overlap(geometry, mirror, geometry.size(), side.second_order(face));
+  const auto all = overlap(geometry, mirror, geometry.size(), side.second_order(static_cast<std::size_t>(side.face_of[facet])));
   for (const auto& point : all.points)
-    result +=
-        point.weight * side.thickness(facet, point.secondary) * side.shape_in_face(facet, point.secondary, all.frame, point.at);
+    add(point.weight * side.thickness(facet, point.secondary), side.shape_in_face(facet, point.secondary, all.frame, point.at));
+}
+
+// Integrals of the face's shape functions over one of its facets.
+Eigen::VectorXd whole_facet(const Side& side, std::size_t facet)
+{
+  Eigen::VectorXd result =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(side.faces[static_cast<std::size_t>(side.face_of[facet])].size()));
+  over_facet(side, facet, [&](double weight, const FaceShape& phi) { result += weight * phi; });
   return result;
 }
 
@@ -62,14 +70,16 @@ FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, s
 {
   const Eigen::MatrixXd basis = multiplier_basis(secondary.faces.type[face]);
   const auto n = basis.rows();
-  FaceIntegrals result{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n),
-                       Eigen::VectorXd::Zero(n),    Eigen::VectorXd::Zero(n),    {}};
+  const bool second_order = secondary.second_order(face);
+  Small mass = Small::Zero(n, n), gram = Small::Zero(n, n);
+  FaceShape covered = FaceShape::Zero(n), rise = FaceShape::Zero(n);
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(n);
   std::map<Local, Eigen::VectorXd> opposite;
   for (auto facet = static_cast<std::size_t>(secondary.first_facet[face]);
        facet < static_cast<std::size_t>(secondary.first_facet[face + 1]); ++facet) {
-    const auto own_normals = corner_normals(secondary, secondary_places, facet);
     const FaceGeometry own = secondary.geometry(facet);
-    result.whole += basis * whole_facet(secondary, facet);
+    const Bulge own_bulge(own, corner_normals(secondary, secondary_places, facet));
+    whole += basis * whole_facet(secondary, facet);
     Box box;
     for (const auto& p : own.nodes) box.extend(p);
     const Point margin = Point::Constant(1e-6 * own.size());
@@ -78,25 +88,45 @@ FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, s
     for (const int met : tree.swept(box, reach * own.normal())) {
       const auto m = static_cast<std::size_t>(met), other_face = static_cast<std::size_t>(primary.face_of[m]);
       const FaceGeometry other = primary.geometry(m);
+      const auto common = overlap(own, other, reach, second_order || primary.second_order(other_face));
+      if (common.points.empty()) continue;
+      const Bulge other_bulge(other, corner_normals(primary, primary_places, m));
       const auto nodes = primary.faces[other_face];
-      const auto other_normals = corner_normals(primary, primary_places, m);
-      const auto common = overlap(own, other, reach, secondary.second_order(face) || primary.second_order(other_face));
+      Small across = Small::Zero(n, static_cast<Eigen::Index>(nodes.size()));
       for (const auto& point : common.points) {
         const double weight = point.weight * secondary.thickness(facet, point.secondary);
         const FaceShape phi = secondary.shape_in_face(facet, point.secondary, common.frame, point.at);
-        const FaceShape theta = basis * phi;
-        const FaceShape phi_primary = primary.shape_in_face(m, point.primary, common.frame, point.at);
-        result.mass += weight * theta * phi.transpose();
-        result.gram += weight * theta * theta.transpose();
-        result.covered += weight * theta;
-        result.rise += weight * (bulge(own, own_normals, point.secondary) + bulge(other, other_normals, point.primary)) * theta;
-        for (std::size_t k = 0; k < nodes.size(); ++k)
-          opposite.try_emplace(nodes[k], Eigen::VectorXd::Zero(n)).first->second +=
-              weight * phi_primary[static_cast<Eigen::Index>(k)] * theta;
+        FaceShape theta = phi;
+        if (second_order) theta.noalias() = basis * phi;
+        const FaceShape weighted = weight * theta;
+        mass.noalias() += weighted * phi.transpose();
+        gram.noalias() += weighted * theta.transpose();
+        covered += weighted;
+        rise += (own_bulge(point.secondary) + other_bulge(point.primary)) * weighted;
+        across.noalias() += weighted * primary.shape_in_face(m, point.primary, common.frame, point.at).transpose();
       }
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        opposite.try_emplace(nodes[k], Eigen::VectorXd::Zero(n)).first->second += across.col(static_cast<Eigen::Index>(k));
     }
   }
-  result.opposite.assign(opposite.begin(), opposite.end());
+  return {mass, gram, covered, whole, rise, {opposite.begin(), opposite.end()}};
+}
+
+FaceIntegrals integrate_whole(const Side& secondary, std::size_t face)
+{
+  const Eigen::MatrixXd basis = multiplier_basis(secondary.faces.type[face]);
+  const auto n = basis.rows();
+  FaceIntegrals result{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n),
+                       Eigen::VectorXd::Zero(n),    Eigen::VectorXd::Zero(n),    {}};
+  for (auto facet = static_cast<std::size_t>(secondary.first_facet[face]);
+       facet < static_cast<std::size_t>(secondary.first_facet[face + 1]); ++facet)
+    over_facet(secondary, facet, [&](double weight, const FaceShape& phi) {
+      const FaceShape theta = basis * phi;
+      result.mass += weight * theta * phi.transpose();
+      result.gram += weight * theta * theta.transpose();
+      result.covered += weight * theta;
+    });
+  result.whole = result.covered;
   return result;
 }
 

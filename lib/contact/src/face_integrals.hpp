@@ -31,6 +31,9 @@ struct FaceIntegrals {
 FaceIntegrals integrate(const Side& secondary, const Places& secondary_places, std::size_t face, const Side& primary,
                         const Places& primary_places, const Tree& tree, double reach);
 
+/// The same where a rigid obstacle lies opposite all of the face, which has no nodes.
+FaceIntegrals integrate_whole(const Side& secondary, std::size_t face);
+
 /// The normals of the places at the corners of a facet.
 std::vector<Point> corner_normals(const Side& side, const Places& places, std::size_t facet);
 

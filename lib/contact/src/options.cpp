@@ -83,22 +83,27 @@ void describe(deck::Description<Options>& d)
   d.key("name", &Options::name, "For results; secondary/primary if not given.");
   d.key("secondary", &Options::secondary, "Boundary that carries the multipliers: the finer or softer side.").required();
   d.custom(
-       "primary", "The boundary opposite.",
+       "primary",
+       "The boundary opposite, or a rigid obstacle: {plane: {point: [..], normal: [..]}}, {cylinder: {point: [..], axis: [..], "
+       "radius: .., inside: false}} or {sphere: {center: [..], radius: .., inside: false}}.",
        [](Options& contact, const YAML::Node& node, const std::string& path, deck::Document& document,
           const deck::Limits& limits) {
          if (node.IsMap())
-           document.error(path, "rigid obstacles are not available in this version of Mortise; expected the name of a boundary");
+           read(contact.obstacle.emplace(), node, path, document);
          else
            deck::Codec<std::string>::read(contact.primary, node, path, document, limits);
        },
-       [](const Options& contact) { return YAML::Node(contact.primary); },
-       [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); })
+       [](const Options& contact) { return contact.obstacle ? write(*contact.obstacle) : YAML::Node(contact.primary); },
+       [](const deck::Limits& limits) {
+         return nlohmann::ordered_json{{"anyOf", {deck::Codec<std::string>::schema(limits), obstacle_schema()}}};
+       })
       .required();
   d.custom("friction", "{coulomb: coefficient}, {tresca: slip bound as a traction} or {bonded: true}; absent: frictionless.",
            read_friction, write_friction, friction_schema);
-  d.key("discretization", &Options::discretization, "mortar: dual multipliers, integrated segment by segment.")
-      .one_of({"mortar"})
-      .not_yet({"node_to_segment"});
+  d.key("discretization", &Options::discretization,
+        "mortar: dual multipliers, integrated segment by segment. node_to_segment: each secondary node against the primary face "
+        "opposite; no patch test where the meshes do not match.")
+      .one_of({"mortar", "node_to_segment"});
   d.key("interference", &Options::interference, "Added overlap (press fit); negative opens a gap.");
   d.key("search_distance", &Options::search_distance,
         "Surfaces farther apart than this never meet; 0 chooses a tenth of the smaller side's extent.")
@@ -112,7 +117,7 @@ void describe(deck::Description<Options>& d)
     if (contact.preload && contact.law != Law::bonded)
       document.error(path + ".preload",
                      "only a cut through a bolt, which is bonded, can be preloaded; expected `friction: {bonded: true}` with it");
-    if (contact.secondary == contact.primary)
+    if (!contact.obstacle && contact.secondary == contact.primary)
       document.error(
           path,
           fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available",

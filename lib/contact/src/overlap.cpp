@@ -12,8 +12,6 @@ using mesh::CellType;
 
 namespace {
 
-// Faces whose normals enclose less than about 110 degrees do not look at each other.
-constexpr double opposed = -0.35;
 constexpr double negligible = 1e-10;  // part of the face's area below which an overlap is rounding
 
 Frame frame_of(const FaceGeometry& face)
@@ -224,6 +222,7 @@ Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face)
   hit.shape = shape(face.type, locate(face.type, nodes, Plane::Zero()));
   hit.found = hit.shape.head(static_cast<Eigen::Index>(nodes.size())).minCoeff() >= -margin;
   hit.distance = height_at(face, frame, hit.shape);
+  hit.frame = frame;
   return hit;
 }
 

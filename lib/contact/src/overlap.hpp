@@ -9,6 +9,9 @@
 
 namespace mortise::contact {
 
+/// Cosine: faces whose normals enclose less than about 110 degrees do not look at each other.
+inline constexpr double opposed = -0.35;
+
 /// A facet, that is a face of first order, with its nodes in space.
 struct FaceGeometry {
   mesh::CellType type;
@@ -54,6 +57,7 @@ struct Hit {
   bool found = false;
   double distance = 0;
   Eigen::Vector4d shape = Eigen::Vector4d::Zero();
+  Frame frame;  ///< the line is its normal through its origin
 };
 Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face);
 

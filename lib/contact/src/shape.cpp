@@ -18,6 +18,13 @@ Eigen::Matrix<double, 4, 2> quad_gradient(const Plane& at)
 
 Plane locate_in_quad(std::span<const Plane> nodes, const Plane& x)
 {
+  // A parallelogram's map is affine.
+  const Plane edge = 0.5 * (nodes[1] - nodes[0]), next = 0.5 * (nodes[3] - nodes[0]);
+  if ((nodes[0] - nodes[1] + nodes[2] - nodes[3]).squaredNorm() < 1e-28 * (edge.squaredNorm() + next.squaredNorm())) {
+    Eigen::Matrix2d edges;
+    edges << edge, next;
+    return edges.inverse() * (x - 0.5 * (nodes[0] + nodes[2]));
+  }
   Plane at = Plane::Zero();
   for (int step = 0; step < 30; ++step) {
     const auto n = shape(CellType::quad4, at);
@@ -30,8 +37,8 @@ Plane locate_in_quad(std::span<const Plane> nodes, const Plane& x)
     }
     const Plane change = jacobian.inverse() * (x - value);
     at += change;
-    if (change.squaredNorm() < 1e-30) break;
-    at = at.cwiseMax(-3).cwiseMin(3);  // strays only on badly warped faces
+    if (change.squaredNorm() < 1e-18) break;  // what is left is its square
+    at = at.cwiseMax(-3).cwiseMin(3);         // strays only on badly warped faces
   }
   return at;
 }

@@ -143,22 +143,25 @@ void cut_into_facets(Side& side)
 
 }  // namespace
 
-double bulge(const FaceGeometry& face, std::span<const Point> normals, const Eigen::Vector4d& shape)
+Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals) : n_(face.nodes.size())
 {
-  const auto n = face.nodes.size();
-  const auto rise = [&](std::size_t i, std::size_t j) {
-    return (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8;
-  };
-  if (n == 2) return 4 * shape[0] * shape[1] * rise(0, 1);
+  for (std::size_t i = 0; i < n_; ++i) {
+    const std::size_t j = (i + 1) % n_;
+    rise_[i] = (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8;
+  }
+}
+
+double Bulge::operator()(const Eigen::Vector4d& shape) const
+{
+  if (n_ == 2) return 4 * shape[0] * shape[1] * rise_[0];
   double result = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t j = (i + 1) % n;
-    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
-    if (n == 3) {
-      result += 4 * shape[a] * shape[b] * rise(i, j);
+  for (std::size_t i = 0; i < n_; ++i) {
+    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>((i + 1) % n_);
+    if (n_ == 3) {
+      result += 4 * shape[a] * shape[b] * rise_[i];
     } else {  // on a quad N_i N_j = (1 - t^2)(1 + s)^2 / 16 along edge ij, whose own function is (1 - t^2)(1 + s) / 2
       const double across = shape[a] + shape[b];
-      if (across > 1e-12) result += 4 * shape[a] * shape[b] / across * rise(i, j);
+      if (across > 1e-12) result += 4 * shape[a] * shape[b] / across * rise_[i];
     }
   }
   return result;

@@ -61,6 +61,14 @@ Places find_places(const Side& side);
 /// How far the smooth surface through the nodes stands out of a face (positive outwards) at reference shape values `shape`: the
 /// quadratic that bulges by (x_j - x_i).(n_j - n_i) / 8 at the middle of edge ij. It makes the gaps between facetted cylinders
 /// and spheres exact to fourth order in the size of the facets, while the facets alone are wrong by their sagitta.
-double bulge(const FaceGeometry& face, std::span<const Point> normals, const Eigen::Vector4d& shape);
+class Bulge {
+ public:
+  Bulge(const FaceGeometry& face, std::span<const Point> normals);
+  double operator()(const Eigen::Vector4d& shape) const;
+
+ private:
+  std::size_t n_;
+  std::array<double, 4> rise_{};  // at the middle of each edge
+};
 
 }  // namespace mortise::contact

@@ -1,10 +1,32 @@
 #include "tree.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace mortise::contact {
+
+namespace {
+
+// Whether a box of half size `half` meets `box` on its way from centre - direction to centre + direction: whether that segment
+// meets the box grown by `half`, slab by slab.
+bool meets_sweep(const Box& box, const Point& centre, const Point& half, const Point& direction)
+{
+  double begin = -1, end = 1;
+  for (int c = 0; c < 3; ++c) {
+    const double low = box.min()[c] - half[c] - centre[c], high = box.max()[c] + half[c] - centre[c];
+    if (direction[c] == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    const double first = low / direction[c], last = high / direction[c];
+    begin = std::max(begin, std::min(first, last));
+    end = std::min(end, std::max(first, last));
+    if (begin > end) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 Tree::Tree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size())
 {
@@ -55,21 +77,45 @@ std::vector<int> Tree::meeting(const Box& box) const
   return found;
 }
 
+bool Tree::meets(const Box& box) const
+{
+  std::vector<int> stack;
+  if (!branches_.empty()) stack.push_back(0);
+  while (!stack.empty()) {
+    const Branch& branch = branches_[static_cast<std::size_t>(stack.back())];
+    stack.pop_back();
+    if (!branch.box.intersects(box)) continue;
+    if (branch.left >= 0) {
+      stack.push_back(branch.right);
+      stack.push_back(branch.left);
+      continue;
+    }
+    for (int i = branch.begin; i < branch.end; ++i)
+      if (boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])].intersects(box)) return true;
+  }
+  return false;
+}
+
 std::vector<int> Tree::swept(const Box& box, const Point& direction) const
 {
-  // A slanted sweep in pieces, for its one box would hold much that it does not meet.
-  constexpr double most = 64;
-  const double size = box.sizes().maxCoeff();
-  const auto pieces = static_cast<int>(std::clamp(std::ceil(2 * direction.norm() / std::max(size, 1e-300)), 1.0, most));
-  std::vector<int> found;
-  for (int i = 0; i < pieces; ++i) {
-    Box piece = box.translated(direction * (2.0 * i / pieces - 1));
-    piece.extend(box.translated(direction * (2.0 * (i + 1) / pieces - 1)));
-    const auto part = meeting(piece);
-    found.insert(found.end(), part.begin(), part.end());
+  const Point centre = box.center(), half = 0.5 * box.sizes();
+  std::vector<int> found, stack;
+  if (!branches_.empty()) stack.push_back(0);
+  while (!stack.empty()) {
+    const Branch& branch = branches_[static_cast<std::size_t>(stack.back())];
+    stack.pop_back();
+    if (!meets_sweep(branch.box, centre, half, direction)) continue;
+    if (branch.left >= 0) {
+      stack.push_back(branch.left);
+      stack.push_back(branch.right);
+      continue;
+    }
+    for (int i = branch.begin; i < branch.end; ++i) {
+      const int candidate = order_[static_cast<std::size_t>(i)];
+      if (meets_sweep(boxes_[static_cast<std::size_t>(candidate)], centre, half, direction)) found.push_back(candidate);
+    }
   }
   std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

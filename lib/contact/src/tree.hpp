@@ -16,7 +16,9 @@ class Tree {
   explicit Tree(std::vector<Box> boxes);
   /// Indices of all boxes that meet `box`, ascending.
   std::vector<int> meeting(const Box& box) const;
-  /// The same for what `box` sweeps when it moves by -direction to +direction.
+  /// Whether any box meets `box`.
+  bool meets(const Box& box) const;
+  /// Indices of those that meet what `box` sweeps when it moves by -direction to +direction.
   std::vector<int> swept(const Box& box, const Point& direction) const;
 
  private:

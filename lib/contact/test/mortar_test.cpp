@@ -8,6 +8,7 @@
 #include <map>
 #include <random>
 
+#include "contact/proximity.hpp"
 #include "contact/state.hpp"
 
 namespace mortise::contact {
@@ -126,7 +127,7 @@ constexpr Global primary_ids = 100000;
 std::map<Global, Point> nodes_of(const Pair& pair, const Communicator& comm)
 {
   std::vector<double> flat;
-  for (const auto* side : {&pair.secondary, &pair.primary})
+  for (const auto* side : {&pair.secondary, pair.primary.get()})
     for (std::size_t n = 0; n < side->points.size(); ++n)
       flat.insert(flat.end(),
                   {static_cast<double>(side->node_id[n]), side->points[n][0], side->points[n][1], side->points[n][2]});
@@ -181,7 +182,7 @@ Pair make_pair(const mesh::Surface& secondary, const mesh::Surface& primary, Law
 {
   Options options;
   options.law = law;
-  return {options, secondary, primary};
+  return {options, secondary, std::make_shared<const mesh::Surface>(primary)};
 }
 
 class Patch : public testing::TestWithParam<std::tuple<bool, bool>> {};
@@ -213,7 +214,7 @@ TEST_P(Patch, ConstantPressureIsConsistentOnBothSidesAndLinearFieldsPass)
       force.try_emplace(e.node, Point::Zero()).first->second[e.component] += row.area * e.coefficient;
   }
   EXPECT_NEAR(area, std::sqrt(1 + 0.09 + 0.04), 1e-10);
-  for (const auto* side : {&pair.secondary, &pair.primary})
+  for (const auto* side : {&pair.secondary, pair.primary.get()})
     for (const auto& [node, expected] : consistent(*side, comm))
       EXPECT_LT((force.at(node) - expected).norm(), 1e-10) << "node " << node;
 }
@@ -287,7 +288,7 @@ TEST(Mortar, HeldNodesLeaveTheirPressureToTheOthers)
     auto& sum = force.try_emplace(node, Point::Zero()).first->second;
     for (std::size_t c = 0; c < 3; ++c) sum[static_cast<Eigen::Index>(c)] += supported[3 * static_cast<std::size_t>(node) + c];
   }
-  for (const auto* side : {&pair.secondary, &pair.primary})
+  for (const auto* side : {&pair.secondary, pair.primary.get()})
     for (const auto& [node, expected] : consistent(*side, comm))
       EXPECT_LT((force.at(node) - expected).norm(), 1e-11) << "node " << node;
 }
@@ -338,6 +339,143 @@ TEST(Mortar, FarAndFacingAwayNeverMeet)
   auto far = make_pair(below, surface({4, 4, 0, 1, 0, 1, false, false, primary_ids}, at(0.6), comm), Law::frictionless);
   far.options.search_distance = 1;
   EXPECT_EQ(count(far), 25);
+}
+
+// Rows as plain numbers, in an order that does not depend on the ranks.
+std::vector<std::vector<double>> sorted_rows(const constraint::Contacts& contacts, const Communicator& comm)
+{
+  std::vector<std::vector<double>> result;
+  for (const auto& row : gather_rows(contacts, comm).rows) {
+    result.push_back(
+        {static_cast<double>(row.node), row.normal[0], row.normal[1], row.normal[2], row.area, row.weight, row.bound});
+    for (const auto& e : row.entries)
+      result.back().insert(result.back().end(), {static_cast<double>(e.node), static_cast<double>(e.component), e.coefficient});
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+// A small cap over a part of a wavy sheet, of which only what is near is gathered: what that is depends on the ranks.
+TEST(Mortar, RowsDependOnTheRanksInNoBit)
+{
+  const auto sheet = [](double x, double y) { return Point(x, y, 0.1 * std::sin(5 * x + 3 * y)); };
+  const auto cap = [&](double x, double y) { return Point(x, y, sheet(x, y)[2] + 0.004 + 0.1 * (x - 1) * (x - 1)); };
+  const auto rows = [&](const std::string& discretization, const Communicator& comm) {
+    auto pair = make_pair(surface({9, 7, 0.8, 1.23, 0.7, 1.1, false, false, primary_ids, 0.2}, cap, comm),
+                          surface({40, 40, 0, 2, 0, 2, true, true}, sheet, comm), Law::coulomb);
+    pair.options.search_distance = 0.05;
+    pair.options.discretization = discretization;
+    return sorted_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  };
+  const Communicator all, alone(MPI_COMM_SELF);
+  for (const char* discretization : {"mortar", "node_to_segment"}) {
+    const auto expected = rows(discretization, alone);
+    EXPECT_EQ(expected.size(), 3U * 80U);
+    EXPECT_EQ(rows(discretization, all), expected);
+  }
+}
+
+TEST(NodeToSegment, LinearFieldsPassAndMatchingMeshesGivePairs)
+{
+  const Communicator comm;
+  const auto plane = [](double x, double y) { return Point(x, y, 0.3 * x - 0.2 * y); };
+  auto pair = make_pair(surface({5, 4, 0, 1, 0, 1, true, false, 0, 0.2}, plane, comm),
+                        surface({3, 7, 0, 1, 0, 1, false, true, primary_ids, 0.2}, plane, comm), Law::bonded);
+  pair.options.discretization = "node_to_segment";
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  ASSERT_EQ(rows.rows.size(), 3U * 30U);
+  Eigen::Matrix3d gradient;
+  gradient << 1, 2, 3, -1, 0.5, 2, 0.3, -2, 1;
+  const auto nodes = nodes_of(pair, comm);
+  double area = 0;
+  for (const auto& row : rows.rows) {
+    double jump = 0;
+    int own = 0;
+    for (const auto& e : row.entries) {
+      jump += e.coefficient * (gradient * nodes.at(e.node) + Point(1, 2, 3))[e.component];
+      if (e.node < primary_ids) own += e.node == row.node ? 1 : 100;
+    }
+    EXPECT_NEAR(jump, 0, 1e-12);
+    EXPECT_LE(own, 3);
+    if (row.is_normal) area += row.area;
+  }
+  EXPECT_NEAR(area, std::sqrt(1 + 0.09 + 0.04), 1e-10);
+
+  auto matching = make_pair(surface({4, 4, 0, 1, 0, 1, true}, plane, comm),
+                            surface({4, 4, 0, 1, 0, 1, false, false, primary_ids}, plane, comm), Law::tresca);
+  matching.options.discretization = "node_to_segment";
+  const auto places = nodes_of(matching, comm);
+  const auto pairs = gather_rows(discretize(std::vector<Pair>{matching}, {}, fem::Kinematics::solid, comm), comm);
+  EXPECT_EQ(pairs.rows.size(), 3U * 25U);
+  for (const auto& row : pairs.rows)
+    for (const auto& e : row.entries)
+      EXPECT_TRUE(std::abs(e.coefficient) < 1e-12 || (places.at(e.node) - places.at(row.node)).norm() < 1e-12);
+}
+
+TEST(Obstacles, SignedDistances)
+{
+  using Shape = Obstacle::Shape;
+  const Point x(3, 4, 7);
+  EXPECT_NEAR(foot({Shape::plane, Point(0, 0, 5), Point::UnitZ(), 0, false}, x).distance, 2, 1e-15);
+  EXPECT_NEAR(foot({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, false}, x).distance, 1, 1e-15);
+  EXPECT_NEAR(foot({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).distance, -1, 1e-15);
+  EXPECT_LT((foot({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).normal + Point(0.6, 0.8, 0)).norm(), 1e-15);
+  EXPECT_NEAR(foot({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, true}, x).distance, 1, 1e-15);
+  EXPECT_LT((foot({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, false}, x).normal - Point(0.6, 0.8, 0)).norm(), 1e-15);
+  EXPECT_FALSE(std::isfinite(foot({Shape::sphere, x, Point::UnitY(), 6, false}, x).distance));
+}
+
+// A wavy sheet over a plane: rows of single nodes along the plane's normal, with their heights for gaps; areas of the whole
+// sheet.
+TEST(Obstacles, RowsAreThoseOfNodesAlongTheNormalOfTheObstacle)
+{
+  const Communicator comm;
+  const auto sheet = [](double x, double y) { return Point(x, y, 0.1 * x * x + 0.05 * y); };
+  auto pair = make_pair(surface({5, 4, 0, 1, 0, 1, false, false, 0, 0.2}, sheet, comm), {}, Law::coulomb);
+  pair.primary = nullptr;
+  pair.options.obstacle = Obstacle{Obstacle::Shape::plane, Point(7, 8, -0.01), Point::UnitZ(), 0, false};
+  pair.options.interference = 0.005;
+  const auto contacts = discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm);
+  EXPECT_EQ(comm.sum(static_cast<long long>(contacts.points.size())), 30);
+  std::vector<double> area{0};
+  for (const auto& point : contacts.points) {
+    EXPECT_LT((point.normal + Point::UnitZ()).norm(), 1e-15);
+    EXPECT_NEAR(point.gap, point.at[2] + 0.01 - 0.005, 1e-14);
+    ASSERT_EQ(contacts.rows[point.row].size(), 1U);
+    EXPECT_EQ(contacts.rows[point.row][0].node, point.node);
+    EXPECT_NEAR(contacts.rows[point.row][0].coefficient, -1, 1e-12);
+    area[0] += point.area;
+  }
+  comm.sum_in_place(area);
+  // integral sqrt(1 + (0.2 x)^2 + 0.05^2), x in [0, 1]; facets are smaller by about a twentieth of a per cent.
+  EXPECT_NEAR(area[0], 1.00778, 5e-4);
+}
+
+TEST(Proximity, DistanceOfFacesNotOfNodes)
+{
+  const Communicator comm;
+  const auto at = [](double z) { return [z](double x, double y) { return Point(x, y, z); }; };
+  auto skin = surface({1, 1, 0, 1, 0, 1, true}, at(0), comm);
+  const auto add = [&](const mesh::Surface& other, int body) {
+    const auto base = static_cast<Local>(skin.points.size());
+    skin.points.insert(skin.points.end(), other.points.begin(), other.points.end());
+    skin.node_id.insert(skin.node_id.end(), other.node_id.begin(), other.node_id.end());
+    for (std::size_t f = 0; f < other.faces.size(); ++f) {
+      std::vector<Local> nodes;
+      for (const Local n : other.faces[f]) nodes.push_back(base + n);
+      skin.faces.add(other.faces.type[f], nodes);
+      skin.face_id.push_back(other.face_id[f]);
+      skin.body.push_back(body);
+    }
+  };
+  add(surface({2, 2, 0.4, 0.6, 0.4, 0.6, false, true, primary_ids}, at(0.25), comm), 1);
+  add(surface({2, 2, 3, 4, 0, 1, false, true, 2 * primary_ids}, at(0), comm), 2);
+  const auto found = nearest_bodies(skin, {true, false, true}, comm);
+  EXPECT_EQ(found[0].body, 1);
+  EXPECT_NEAR(found[0].distance, 0.25, 1e-14);
+  EXPECT_EQ(found[1].body, -1);
+  EXPECT_EQ(found[2].body, 0);
+  EXPECT_NEAR(found[2].distance, 2, 1e-14);
 }
 
 TEST(State, SumsAndStatus)

@@ -8,7 +8,9 @@
 // modification].
 #pragma once
 
+#include <memory>
 #include <span>
+#include <vector>
 
 #include "base/communicator.hpp"
 #include "constraint/constraints.hpp"
@@ -18,18 +20,21 @@
 
 namespace mortise::contact {
 
-/// The two sides of contact `index` of the deck, this rank's faces of each.
+/// The two sides of a contact, this rank's faces of each. Contacts that have their primary side in common, as the rollers of a
+/// ring, share it; an obstacle has none.
 struct Pair {
   Options options;
-  mesh::Surface secondary, primary;
+  mesh::Surface secondary;
+  std::shared_ptr<const mesh::Surface> primary;
 };
 
-/// How far apart the two sides of a pair may lie to meet: the deck's search_distance, or a tenth of the extent of the smaller
+/// For each pair how far apart its two sides may lie to meet: the deck's search_distance, or a tenth of the extent of the smaller
 /// side, but at least the size of a face. Collective.
-double search_distance(const Pair& pair, const Communicator& comm);
+std::vector<double> search_distances(std::span<const Pair> pairs, const Communicator& comm);
 
 /// The contact rows of all pairs; contact c of ContactPoint is pairs[c]. Rows stand on any rank, each once; they do not depend on
-/// the number of ranks. `held` and `inclined` are the supports of this rank. Frictionless pairs have normal rows only. In
+/// the number of ranks, to the last bit. `held` and `inclined` are the supports of this rank. Frictionless pairs have normal rows
+/// only. In
 /// axisymmetry areas and forces are those of the whole turn. Collective.
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
                                 const Communicator& comm, std::span<const constraint::Inclined> inclined = {});

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "contact/obstacle.hpp"
 #include "deck/description.hpp"
 
 namespace mortise::contact {
@@ -19,11 +20,12 @@ struct PreloadOptions {
 struct Options {
   std::string name;       ///< default: "secondary/primary"
   std::string secondary;  ///< boundary that carries the multipliers
-  std::string primary;
+  std::string primary;    ///< empty for an obstacle
+  std::optional<Obstacle> obstacle;
   Law law = Law::frictionless;
-  double friction = 0;  ///< tresca: slip bound as a traction; coulomb: coefficient
-  std::string discretization = "mortar";
-  double interference = 0;     ///< added overlap; negative opens a gap
+  double friction = 0;                    ///< tresca: slip bound as a traction; coulomb: coefficient
+  std::string discretization = "mortar";  ///< or "node_to_segment"
+  double interference = 0;                ///< added overlap; negative opens a gap
   double search_distance = 0;  ///< surfaces farther apart than this never meet; 0: a tenth of the smaller side's extent
   std::optional<PreloadOptions> preload = {};  ///< bonded contacts alone
 };

@@ -1,0 +1,43 @@
+// Rigid obstacles without a mesh: planes, cylinders and spheres, solid ones or hollows. The deck's key `primary` of a contact.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "base/types.hpp"
+#include "deck/description.hpp"
+#include "fem/options.hpp"
+
+namespace mortise::contact {
+
+struct Obstacle {
+  enum class Shape { plane, cylinder, sphere };
+  Shape shape = Shape::plane;
+  Point point = Point::Zero();       ///< on the plane or the axis; the centre
+  Point direction = Point::UnitY();  ///< unit: normal of the plane, out of the obstacle; axis of the cylinder
+  double radius = 0;
+  bool inside = false;  ///< bodies are in the hollow of a cylinder or a sphere
+};
+
+/// The point of the surface next to a place.
+struct Foot {
+  double distance = std::numeric_limits<double>::infinity();  ///< signed, negative inside the obstacle
+  Point normal = Point::Zero();                               ///< of the obstacle, unit, towards the bodies
+};
+
+/// The signed distance phi(x) and its gradient; exact for every x but those of the axis or the centre, which have no foot.
+Foot foot(const Obstacle& obstacle, const Point& x);
+
+/// {plane: {point, normal}}, {cylinder: {point, axis, radius, inside}} or {sphere: {center, radius, inside}}.
+void read(Obstacle& obstacle, const YAML::Node& node, const std::string& path, deck::Document& document);
+YAML::Node write(const Obstacle& obstacle);
+nlohmann::ordered_json obstacle_schema();
+
+/// "plane", "cylinder" or "sphere".
+std::string shape_name(const Obstacle& obstacle);
+
+/// What of it does not fit models of this kind: a message, or "". In planes cylinders have the axis z; in axisymmetry obstacles
+/// are bodies of revolution about y.
+std::string misfit(const Obstacle& obstacle, fem::Kinematics kinematics);
+
+}  // namespace mortise::contact
