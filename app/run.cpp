@@ -11,6 +11,7 @@
 #include "partition/decompose.hpp"
 #include "report.hpp"
 #include "simulation.hpp"
+#include "untouched.hpp"
 
 namespace mortise {
 
@@ -169,6 +170,7 @@ ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& co
   stages.end("supports and contact", "contact");
   const auto& constraints = simulation.constraints();
   warn_of_idle_contacts(constraints.contacts, deck, context);
+  judge_untouched(deck, decomposition, model, states.front(), simulation.pairs(), constraints.contacts, context);
   const auto copies = model.congruent();
   const auto memory = foresee_memory(deck, decomposition, model, copies, comm);
   if (command_line.check) print_check(decomposition, constraints, memory, deck, context);
