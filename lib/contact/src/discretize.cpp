@@ -372,7 +372,9 @@ class Builder {
     integrals_.clear();
     d_ = over_places([&](std::size_t i) { return d[i]; });
     rise_ = over_places([&](std::size_t i) { return rise[i]; });
-    std::vector<Sent> all;
+    // Most terms stay on their rank, and are many.
+    std::vector<Sent> all = std::move(send[static_cast<std::size_t>(comm_.rank())]);
+    send[static_cast<std::size_t>(comm_.rank())].clear();
     for (const auto& part : comm_.exchange(send)) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end(), [](const Sent& a, const Sent& b) {
       return std::tie(a.term.place, a.term.on_primary, a.term.node, a.face) <
