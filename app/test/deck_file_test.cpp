@@ -72,6 +72,29 @@ void expect_complaint(const std::string& text, const std::string& expected)
   EXPECT_NE(complaints(blocks + text).find(expected), std::string::npos) << complaints(blocks + text);
 }
 
+TEST(Decks, NamesAndPreloadsAndNormalsReadBackTheSame)
+{
+  const std::string text = std::string(blocks) + R"(supports: [{boundary: a.zmin, displacement: {normal: 0.5, x: 1}}]
+loads: [{boundary: b.zmax, pressure: 1}, {name: weight, body: b, acceleration: [0, 0, 1]}]
+contacts: [{secondary: b.zmin, primary: a.zmax, friction: {bonded: true}, preload: {force: 3}}]
+)";
+  deck::Document document(text, "deck.yaml", {});
+  const auto deck = read_deck(document, "");
+  EXPECT_NO_THROW(document.check());
+  EXPECT_EQ(deck.supports[0].name, "a.zmin");
+  EXPECT_EQ(deck.supports[0].normal, 0.5);
+  EXPECT_EQ(deck.supports[0].displacement[0], 1.0);
+  EXPECT_EQ(deck.loads[0].name, "b.zmax");
+  EXPECT_EQ(deck.loads[1].name, "weight");
+  ASSERT_TRUE(deck.contacts[0].preload.has_value());
+  EXPECT_EQ(deck.contacts[0].preload->force, 3.0);
+  const auto written = write_deck(deck);
+  deck::Document again(written, "deck.yaml", {});
+  const auto copy = read_deck(again, "");
+  EXPECT_NO_THROW(again.check());
+  EXPECT_EQ(write_deck(copy), written);
+}
+
 TEST(Decks, SectionsAreCheckedAgainstEachOther)
 {
   EXPECT_EQ(complaints(blocks), "");
@@ -79,7 +102,7 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
   expect_complaint("decomposition: {method: grid, counts: {a: [2, 2, 2], b: [3, 1, 1]}}\n",
                    "expected 1 to 2 subdomains along x, found 3");
   expect_complaint("loads: [{boundary: a.xmax, pressure: 1, force: [1, 0, 0]}]\n",
-                   "exactly one of pressure, traction, force and acceleration, found 2");
+                   "exactly one of pressure, traction, force, acceleration and temperature_change, found 2");
   expect_complaint("loads: [{boundary: a.xmax, acceleration: [1, 0, 0]}]\n", "an acceleration acts on a `body`");
   expect_complaint("loads: [{boundary: a.xmax, force: [1, 0]}]\n",
                    "deck.yaml:7: loads[0].force: expected 3 entries, since `dimension` is 3, found 2");
