@@ -77,26 +77,9 @@ class NodeNumbers {
   Global count_ = 0;
 };
 
-// First numbers of the block's nodes and cells.
-struct Base {
-  Global node = 0, cell = 0;
-};
-
 Global cells_of(const Index& grid, CellType type)
 {
   return Global{grid[0]} * grid[1] * grid[2] * static_cast<Global>(pieces_of(type).size());
-}
-
-Base base_of(const Options& options, int dimension, int block)
-{
-  Base base;
-  for (int b = 0; b < block; ++b) {
-    const auto grid = grid_of(options, dimension, b);
-    const auto type = type_of(block_at(options, b).second);
-    base.node += NodeNumbers(type, grid, dimension).count();
-    base.cell += cells_of(grid, type);
-  }
-  return base;
 }
 
 // Nodes of a grid cell relative to its lowest corner, in hex8's order; the first four are quad4's.
@@ -151,6 +134,18 @@ std::array<int, 3> grid_of(const Options& options, int dimension, int block)
   return grid;
 }
 
+First first_numbers(const Options& options, int dimension, int block)
+{
+  First base;
+  for (int b = 0; b < block; ++b) {
+    const auto grid = grid_of(options, dimension, b);
+    const auto type = type_of(block_at(options, b).second);
+    base.node += NodeNumbers(type, grid, dimension).count();
+    base.cell += cells_of(grid, type);
+  }
+  return base;
+}
+
 Catalogue block_catalogue(const Options& options, int dimension)
 {
   Catalogue catalogue;
@@ -158,6 +153,7 @@ Catalogue block_catalogue(const Options& options, int dimension)
   for (const auto& [name, block] : options.blocks) {
     const auto grid = grid_of(options, dimension, static_cast<int>(catalogue.bodies.size()));
     catalogue.bodies.push_back({name, name});
+    catalogue.volumes.push_back(name);
     for (int axis = 0; axis < dimension; ++axis)
       for (const char* side : {"min", "max"}) catalogue.boundaries.push_back(name + "." + "xyz"[axis] + side);
     catalogue.node_count += NodeNumbers(type_of(block), grid, dimension).count();
@@ -170,7 +166,7 @@ Mesh generate(const Options& options, int dimension, int block, std::array<int, 
 {
   const BlockOptions& box = block_at(options, block).second;
   const Index grid = grid_of(options, dimension, block);
-  const Base base = base_of(options, dimension, block);
+  const First base = first_numbers(options, dimension, block);
   const CellType type = type_of(box);
   const NodeNumbers whole(type, grid, dimension);
   const NodeNumbers own(type, {last[0] - first[0], last[1] - first[1], last[2] - first[2]}, dimension);

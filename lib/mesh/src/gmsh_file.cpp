@@ -53,10 +53,61 @@ std::string logged_error()
 bool is_geometry(const std::string& file)
 {
   const auto extension = std::filesystem::path(file).extension();
-  return extension == ".geo" || extension == ".step" || extension == ".stp" || extension == ".brep";
+  return extension == ".geo" || is_cad(file);
+}
+
+// The last part of gmsh's label of an entity, "Shapes/assembly/part"; "" if it has none that somebody gave it. What the names of
+// a deck keep for themselves is replaced.
+std::string label_of(int dimension, int tag)
+{
+  std::string label;
+  gmsh::model::getEntityName(dimension, tag, label);
+  label = label.substr(label.find_last_of('/') + 1);
+  for (const char* standard : {"Open CASCADE", "SOLID", "COMPOUND", "SHELL", "FACE"})
+    if (label.rfind(standard, 0) == 0) return "";
+  std::replace_if(
+      label.begin(), label.end(), [](char c) { return c == ':' || c == '*'; }, '_');
+  return label;
+}
+
+// A physical group for each label of the solids (plane models: faces) of a CAD file; those without one are called solid.1,
+// solid.2, .. by their place. Faces of solids have no labels: gmsh does not ask OpenCASCADE for the names of subshapes.
+void name_by_labels(int dimension)
+{
+  gmsh::vectorpair solids;
+  gmsh::model::getEntities(solids, dimension);
+  std::map<std::string, std::vector<int>> named;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    auto label = label_of(dimension, solids[i].second);
+    if (label.empty()) label = fmt::format("{}.{}", dimension == 3 ? "solid" : "surface", i + 1);
+    named[label].push_back(solids[i].second);
+  }
+  for (const auto& [label, tags] : named)
+    gmsh::model::setPhysicalName(dimension, gmsh::model::addPhysicalGroup(dimension, tags), label);
 }
 
 }  // namespace
+
+bool is_cad(const std::string& file)
+{
+  const auto extension = std::filesystem::path(file).extension();
+  return extension == ".step" || extension == ".stp" || extension == ".STEP" || extension == ".STP" || extension == ".brep";
+}
+
+bool is_abaqus(const std::string& file)
+{
+  return std::filesystem::path(file).extension() == ".inp";
+}
+
+void GmshSession::set_sizes(const Options& options)
+{
+  if (options.size.max) gmsh::option::setNumber("Mesh.MeshSizeMax", *options.size.max / options.scale);
+  if (options.size.min) gmsh::option::setNumber("Mesh.MeshSizeMin", *options.size.min / options.scale);
+  if (options.size.curvature) gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", *options.size.curvature);
+  if (!options.order) return;
+  gmsh::option::setNumber("Mesh.ElementOrder", *options.order);
+  gmsh::option::setNumber("Mesh.HighOrderOptimize", 1);  // cells that curved surfaces turn inside out
+}
 
 std::string GmshSession::load(const std::string& file, int dimension) const
 {
@@ -66,6 +117,7 @@ std::string GmshSession::load(const std::string& file, int dimension) const
       std::vector<std::size_t> tags;
       std::vector<double> coordinates, parameters;
       gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+      if (is_cad(file)) name_by_labels(dimension);
       if (tags.empty()) gmsh::model::mesh::generate(dimension);
     }
   } catch (...) {
@@ -108,6 +160,7 @@ void mesh_apart(const Options& options, int dimension, const std::string& target
     error_pipe = pipe_ends[1];
     std::set_terminate(tell_and_exit);
     const GmshSession gmsh_session(options.constants);
+    GmshSession::set_sizes(options);
     std::string error = gmsh_session.load(options.file, dimension);
     if (error.empty()) {
       try {

@@ -11,6 +11,11 @@ namespace mortise::mesh {
 /// Throws Error(bad_input) with the name of the file in front.
 [[noreturn]] void fail(const std::string& file, const std::string& what);
 
+/// A CAD file (.step, .stp, .brep): geometry without physical groups.
+bool is_cad(const std::string& file);
+/// An input file of Abaqus or CalculiX, .inp.
+bool is_abaqus(const std::string& file);
+
 /// gmsh's library is started and stopped around one file; its constants are command line arguments.
 class GmshSession {
  public:
@@ -19,8 +24,11 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
   ~GmshSession();
 
-  /// Opens the file, and meshes it if it is a geometry; returns what went wrong, or "".
+  /// Opens the file, and meshes it if it is a geometry. The solids of a CAD file become physical groups.
+  /// Returns what went wrong, or "".
   std::string load(const std::string& file, int dimension) const;
+  /// Sets gmsh's mesh sizes and the order of cells.
+  static void set_sizes(const Options& options);
 };
 
 /// The file with the mesh: the one that is given, or a temporary one with the mesh of a geometry, removed in the end. Throws as

@@ -25,17 +25,45 @@ void describe(deck::Description<BlockOptions>& d)
   });
 }
 
+void describe(deck::Description<SizeOptions>& d)
+{
+  d.help("How large the cells are that gmsh makes of a geometry.");
+  d.key("max", &SizeOptions::max, "Longest edges, in the unit of the model (after `scale`); absent: gmsh's choice.").positive();
+  d.key("min", &SizeOptions::min, "Shortest edges, where curvature or the geometry asks for finer cells.").positive();
+  d.key("curvature", &SizeOptions::curvature, "Cells round a full turn of a curved surface or edge.").above(1);
+  d.check([](const SizeOptions& size, const std::string& path, deck::Document& document) {
+    if (size.min && size.max && *size.min > *size.max) document.error(path + ".min", "is larger than `max`");
+  });
+}
+
 void describe(deck::Description<Options>& d)
 {
   d.help("Where the mesh comes from: a file that gmsh reads or meshes, or structured blocks.");
-  d.key("file", &Options::file, "A .msh file (2.2 or 4.1), or a .geo, .step or .brep file to be meshed; relative to the deck.");
+  d.key(
+      "file", &Options::file,
+      "A .msh file (2.2 or 4.1); a .geo, .step or .brep file to be meshed; an .inp file of Abaqus or CalculiX; relative to the "
+      "deck. In .step and .brep files each solid is a body, by its name there or solid.1, solid.2, ..; its faces are the "
+      "boundaries NAME.face.1, NAME.face.2, .. (plane models: surface.1, NAME.edge.1): --check lists them with area and centre. "
+      "In .inp files the sets of *SOLID SECTION (without one the ELSETs of cells) are bodies; *SURFACE, *NSET and "
+      "ELSETs of faces are boundaries.");
   d.key("constants", &Options::constants, "Values for the DefineConstant names of a .geo file (gmsh's -setnumber).");
+  d.key("size", &Options::size, "Size of the cells of a geometry, {max, min, curvature}.").hidden();
+  d.key("order", &Options::order, "Order of the cells of a geometry: 1, or 2 for cells with curved sides.").at_least(1).below(3);
   d.key("scale", &Options::scale, "Coordinates are multiplied by this.").positive();
   d.key("blocks", &Options::blocks, "Structured boxes by body name.");
   d.check([](const Options& mesh, const std::string& path, deck::Document& document) {
     if (mesh.file.empty() == mesh.blocks.empty()) document.error(path, "expected either `file` or `blocks`");
     if (mesh.file.empty() && !mesh.constants.empty())
       document.error(path + ".constants", "constants are for a `file` that gmsh meshes");
+    const bool meshed = [&] {
+      for (const char* ending : {".geo", ".step", ".stp", ".STEP", ".STP", ".brep"})
+        if (mesh.file.ends_with(ending)) return true;
+      return false;
+    }();
+    if (meshed) return;
+    if (mesh.size.max || mesh.size.min || mesh.size.curvature)
+      document.error(path + ".size", "sizes are for a geometry (.geo, .step, .brep) that gmsh meshes");
+    if (mesh.order) document.error(path + ".order", "the order is for a geometry (.geo, .step, .brep) that gmsh meshes");
   });
 }
 

@@ -104,6 +104,7 @@ Mesh submesh(const Mesh& mesh, std::span<const Local> cells)
     add(result.cells, mesh.cells.type[i], mesh.cells[i]);
     result.cell_id.push_back(mesh.cell_id[i]);
     result.cell_body.push_back(mesh.cell_body[i]);
+    if (!mesh.cell_volume.empty()) result.cell_volume.push_back(mesh.cell_volume[i]);
   }
   for (std::size_t f = 0; f < mesh.facets.cells.size(); ++f) {
     const auto parent = std::lower_bound(cells.begin(), cells.end(), mesh.facets.parent[f]);

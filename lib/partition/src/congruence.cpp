@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 namespace mortise::partition {
@@ -28,19 +29,22 @@ struct Shape {
   const mesh::Mesh* mesh;
   Point centre;
   double size;
+  double allowed;  // by which points may differ: what rounding makes of coordinates far from the origin included
 };
 
 Shape shape(const mesh::Mesh& mesh)
 {
-  Shape result{&mesh, centroid(mesh.points), 0};
+  Shape result{&mesh, centroid(mesh.points), 0, 0};
   for (const auto& p : mesh.points) result.size = std::max(result.size, (p - result.centre).norm());
+  result.allowed = tolerance * result.size + 16 * std::numeric_limits<double>::epsilon() * result.centre.norm();
   return result;
 }
 
 bool coincide(const Shape& a, const Shape& b, const Eigen::Matrix3d& rotation)
 {
   for (std::size_t n = 0; n < a.mesh->points.size(); ++n)
-    if ((rotation * (a.mesh->points[n] - a.centre) - (b.mesh->points[n] - b.centre)).norm() > tolerance * a.size) return false;
+    if ((rotation * (a.mesh->points[n] - a.centre) - (b.mesh->points[n] - b.centre)).norm() > std::max(a.allowed, b.allowed))
+      return false;
   return true;
 }
 
@@ -48,7 +52,7 @@ bool coincide(const Shape& a, const Shape& b, const Eigen::Matrix3d& rotation)
 bool equally_far(const Shape& a, const Shape& b)
 {
   for (std::size_t n = 0; n < a.mesh->points.size(); ++n)
-    if (std::abs((a.mesh->points[n] - a.centre).norm() - (b.mesh->points[n] - b.centre).norm()) > tolerance * a.size)
+    if (std::abs((a.mesh->points[n] - a.centre).norm() - (b.mesh->points[n] - b.centre).norm()) > std::max(a.allowed, b.allowed))
       return false;
   return true;
 }

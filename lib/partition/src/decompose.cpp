@@ -7,9 +7,11 @@
 #include <limits>
 #include <numeric>
 #include <queue>
+#include <set>
 
 #include "base/error.hpp"
 #include "mesh/blocks.hpp"
+#include "mesh/instances.hpp"
 #include "mesh/read.hpp"
 #include "mesh/topology.hpp"
 #include "transfer.hpp"
@@ -36,8 +38,10 @@ std::vector<Global> deal(const std::vector<long long>& weight, int ranks)
   return first;
 }
 
-// How many subdomains each body gets. A total is met exactly: the next one goes where subdomains are largest.
-std::vector<int> subdomain_counts(const std::vector<long long>& nodes, int dimension, const Options& options)
+// How many subdomains each part gets, of which there are `copies`. A total is met as far as copies allow: the next ones go where
+// subdomains are largest.
+std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std::vector<int>& copies, int dimension,
+                                  const Options& options)
 {
   std::vector<int> counts(nodes.size(), 1);
   if (!options.subdomains) {
@@ -46,11 +50,13 @@ std::vector<int> subdomain_counts(const std::vector<long long>& nodes, int dimen
       counts[b] = std::max(1, static_cast<int>(std::lround(dimension * static_cast<double>(nodes[b]) / aim)));
     return counts;
   }
-  std::priority_queue<std::pair<double, std::size_t>> largest;  // nodes a subdomain, body
+  std::priority_queue<std::pair<double, std::size_t>> largest;  // nodes a subdomain, part
   for (std::size_t b = 0; b < nodes.size(); ++b) largest.emplace(static_cast<double>(nodes[b]), b);
-  for (auto total = static_cast<int>(nodes.size()); total < *options.subdomains; ++total) {
+  for (auto total = std::accumulate(copies.begin(), copies.end(), 0); total < *options.subdomains && !largest.empty();) {
     const auto b = largest.top().second;
     largest.pop();
+    if (total + copies[b] > *options.subdomains) continue;
+    total += copies[b];
     largest.emplace(static_cast<double>(nodes[b]) / ++counts[b], b);
   }
   return counts;
@@ -61,33 +67,55 @@ struct Share {
   std::vector<Global> first;
 };
 
-// Rank 0 cuts the whole mesh and sends each rank its part; the others pass an empty mesh.
-Share distribute(const mesh::Mesh& mesh, std::size_t bodies, int dimension, const Options& options, const Communicator& comm)
+// The cells of every subdomain of each part.
+std::vector<std::vector<std::vector<Local>>> cut_parts(const mesh::Mesh& parts, const mesh::Layout& layout, int dimension,
+                                                       const Options& options)
 {
-  std::vector<std::vector<Local>> cells;  // of each subdomain
-  std::vector<int> body_of;
+  int count = 0;
+  for (const auto& body : layout.bodies) count = std::max(count, body.part + 1);
+  std::vector<int> copies(static_cast<std::size_t>(count), 0);
+  for (const auto& body : layout.bodies) ++copies[static_cast<std::size_t>(body.part)];
+  std::vector<std::vector<Local>> of_part(copies.size());
+  for (std::size_t c = 0; c < parts.cells.size(); ++c)
+    of_part[static_cast<std::size_t>(parts.cell_body[c])].push_back(static_cast<Local>(c));
+  std::vector<mesh::Mesh> pieces;
+  std::vector<long long> nodes;
+  for (const auto& list : of_part) {
+    pieces.push_back(mesh::submesh(parts, list));
+    nodes.push_back(static_cast<long long>(pieces.back().node_count()));
+  }
+  const auto counts = subdomain_counts(nodes, copies, dimension, options);
+  std::vector<std::vector<std::vector<Local>>> cells(copies.size());
+  for (std::size_t p = 0; p < copies.size(); ++p) {
+    const auto label = cut(pieces[p].cells, counts[p]);
+    cells[p].resize(static_cast<std::size_t>(label.empty() ? 0 : 1 + *std::max_element(label.begin(), label.end())));
+    for (std::size_t c = 0; c < label.size(); ++c) cells[p][static_cast<std::size_t>(label[c])].push_back(of_part[p][c]);
+    pieces[p] = {};
+  }
+  return cells;
+}
+
+// Rank 0 cuts the mesh of the parts, once each, and sends each rank its subdomains of their copies; the others pass an empty
+// mesh.
+Share distribute(const mesh::Mesh& parts, const mesh::Layout& layout, int dimension, const Options& options,
+                 const Communicator& comm)
+{
+  std::vector<std::vector<std::vector<Local>>> cells;  // part, subdomain of it
+  struct Piece {
+    int body;
+    std::size_t number;  // among those of the part
+  };
+  std::vector<Piece> pieces;
   std::vector<long long> weight;
+  const auto part_of = [&](int body) { return static_cast<std::size_t>(layout.bodies[static_cast<std::size_t>(body)].part); };
   collectively(comm, [&] {
     if (!comm.root()) return;
-    std::vector<std::vector<Local>> of_body(bodies);
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      of_body[static_cast<std::size_t>(mesh.cell_body[c])].push_back(static_cast<Local>(c));
-    std::vector<mesh::Mesh> pieces;
-    std::vector<long long> nodes;
-    for (const auto& list : of_body) {
-      pieces.push_back(mesh::submesh(mesh, list));
-      nodes.push_back(static_cast<long long>(pieces.back().node_count()));
-    }
-    const auto counts = subdomain_counts(nodes, dimension, options);
-    for (std::size_t b = 0; b < bodies; ++b) {
-      const auto part = cut(pieces[b].cells, counts[b]);
-      const auto base = cells.size();
-      cells.resize(base + static_cast<std::size_t>(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end())));
-      for (std::size_t c = 0; c < part.size(); ++c) cells[base + static_cast<std::size_t>(part[c])].push_back(of_body[b][c]);
-      body_of.resize(cells.size(), static_cast<int>(b));
-      pieces[b] = {};
-    }
-    for (const auto& list : cells) weight.push_back(static_cast<long long>(list.size()));
+    cells = cut_parts(parts, layout, dimension, options);
+    for (int b = 0; b < static_cast<int>(layout.bodies.size()); ++b)
+      for (std::size_t i = 0; i < cells[part_of(b)].size(); ++i) {
+        pieces.push_back({b, i});
+        weight.push_back(static_cast<long long>(cells[part_of(b)][i].size()));
+      }
   });
   comm.broadcast(weight);
   Share share;
@@ -95,9 +123,12 @@ Share distribute(const mesh::Mesh& mesh, std::size_t bodies, int dimension, cons
   for (int rank = 0; rank < comm.size(); ++rank) {  // one rank after the other, so that rank 0 holds one copy at a time
     std::vector<std::vector<char>> send(static_cast<std::size_t>(comm.size()));
     if (comm.root())
-      for (Global s = share.first[static_cast<std::size_t>(rank)]; s < share.first[static_cast<std::size_t>(rank) + 1]; ++s)
-        pack({s, body_of[static_cast<std::size_t>(s)], mesh::submesh(mesh, cells[static_cast<std::size_t>(s)])},
+      for (Global s = share.first[static_cast<std::size_t>(rank)]; s < share.first[static_cast<std::size_t>(rank) + 1]; ++s) {
+        const auto& [body, number] = pieces[static_cast<std::size_t>(s)];
+        auto piece = mesh::submesh(parts, cells[part_of(body)][number]);
+        pack({s, body, mesh::place(std::move(piece), layout.bodies[static_cast<std::size_t>(body)], body)},
              send[static_cast<std::size_t>(rank)]);
+      }
     const auto received = comm.exchange(send);
     if (rank == comm.rank()) share.subdomains = unpack(received[0]);
   }
@@ -110,7 +141,7 @@ int grid_start(int cells, int parts, int i)
   return static_cast<int>(static_cast<long long>(cells) * i / parts);
 }
 
-Share generate_grid(const mesh::Options& mesh, const Options& options, int dimension, const mesh::Catalogue& catalogue,
+Share generate_grid(const mesh::Options& mesh, const Options& options, int dimension, const mesh::Layout& layout,
                     const Communicator& comm)
 {
   struct Box {
@@ -119,9 +150,9 @@ Share generate_grid(const mesh::Options& mesh, const Options& options, int dimen
   };
   std::vector<Box> boxes;
   std::vector<long long> weight;
-  for (int b = 0; b < static_cast<int>(catalogue.bodies.size()); ++b) {
-    const auto grid = mesh::grid_of(mesh, dimension, b);
-    auto parts = options.counts.at(catalogue.bodies[static_cast<std::size_t>(b)].name);
+  for (int b = 0; b < static_cast<int>(layout.bodies.size()); ++b) {
+    const auto grid = mesh::grid_of(mesh, dimension, layout.bodies[static_cast<std::size_t>(b)].part);
+    auto parts = options.counts.at(layout.catalogue.bodies[static_cast<std::size_t>(b)].group);
     if (dimension == 2) parts[2] = 1;
     for (int k = 0; k < parts[2]; ++k)
       for (int j = 0; j < parts[1]; ++j)
@@ -143,7 +174,9 @@ Share generate_grid(const mesh::Options& mesh, const Options& options, int dimen
   const auto rank = static_cast<std::size_t>(comm.rank());
   for (Global s = share.first[rank]; s < share.first[rank + 1]; ++s) {
     const auto& box = boxes[static_cast<std::size_t>(s)];
-    share.subdomains.push_back({s, box.body, mesh::generate(mesh, dimension, box.body, box.first, box.last)});
+    const auto& placed = layout.bodies[static_cast<std::size_t>(box.body)];
+    auto piece = mesh::generate(mesh, dimension, placed.part, box.first, box.last);
+    share.subdomains.push_back({s, box.body, mesh::place(std::move(piece), placed, box.body)});
   }
   return share;
 }
@@ -177,8 +210,12 @@ mesh::Mesh generate_whole(const mesh::Options& options, int dimension, const mes
 void broadcast(mesh::Catalogue& catalogue, const Communicator& comm)
 {
   const auto share = [&](std::string& text) { comm.broadcast(text); };
-  std::vector<long long> head{catalogue.dimension, static_cast<long long>(catalogue.bodies.size()),
-                              static_cast<long long>(catalogue.boundaries.size()), catalogue.node_count, catalogue.cell_count};
+  std::vector<long long> head{catalogue.dimension,
+                              static_cast<long long>(catalogue.bodies.size()),
+                              static_cast<long long>(catalogue.boundaries.size()),
+                              catalogue.node_count,
+                              catalogue.cell_count,
+                              static_cast<long long>(catalogue.volumes.size())};
   comm.broadcast(head);
   catalogue.dimension = static_cast<int>(head[0]);
   catalogue.bodies.resize(static_cast<std::size_t>(head[1]));
@@ -188,8 +225,43 @@ void broadcast(mesh::Catalogue& catalogue, const Communicator& comm)
   for (auto& body : catalogue.bodies) {
     share(body.name);
     share(body.group);
+    share(body.instance);
   }
+  catalogue.volumes.resize(static_cast<std::size_t>(head[5]));
+  for (auto& volume : catalogue.volumes) share(volume);
   for (auto& boundary : catalogue.boundaries) share(boundary);
+}
+
+// Where the copies of the blocks are.
+mesh::Layout layout_of_blocks(const mesh::Options& mesh, int dimension, mesh::Catalogue catalogue)
+{
+  std::vector<Global> nodes, cells;
+  std::set<std::pair<int, int>> on;
+  const auto bodies = static_cast<int>(catalogue.bodies.size()), sides = 2 * dimension;
+  for (int b = 0; b <= bodies; ++b) {
+    const auto first = mesh::first_numbers(mesh, dimension, b);
+    nodes.push_back(first.node);
+    cells.push_back(first.cell);
+    for (int side = 0; b < bodies && side < sides; ++side) on.emplace(b * sides + side, b);
+  }
+  return mesh::lay_out(std::move(catalogue), mesh.instances, nodes, cells, on);
+}
+
+// Where the copies of a file's bodies are.
+mesh::Layout layout_of_file(const mesh::Options& mesh, const mesh::Assembly& assembly)
+{
+  const auto bodies = assembly.catalogue.bodies.size();
+  std::vector<Global> nodes(bodies + 1, 0), cells(bodies + 1, 0);  // bodies stand one after the other
+  const auto& whole = assembly.mesh;
+  for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+    const auto next = static_cast<std::size_t>(whole.cell_body[c]) + 1;
+    cells[next] = static_cast<Global>(c) + 1;
+    for (const Local n : whole.cells[c]) nodes[next] = std::max(nodes[next], static_cast<Global>(n) + 1);
+  }
+  std::set<std::pair<int, int>> on;
+  for (std::size_t f = 0; f < whole.facets.parent.size(); ++f)
+    on.emplace(whole.facets.boundary[f], whole.cell_body[static_cast<std::size_t>(whole.facets.parent[f])]);
+  return mesh::lay_out(assembly.catalogue, mesh.instances, nodes, cells, on);
 }
 
 }  // namespace
@@ -202,7 +274,8 @@ int Decomposition::rank_of(Global subdomain) const
 Decomposition decompose(const mesh::Options& mesh, const Options& options, int dimension, const Context& context)
 {
   const auto& comm = context.comm;
-  mesh::Assembly assembly;
+  mesh::Assembly assembly;  // of the parts
+  mesh::Layout layout;      // of the assembly; of files on rank 0 alone, but for the catalogue
   const bool grid = options.method == "grid";
   {
     const auto scope = context.timers.scope("mesh");
@@ -220,14 +293,18 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
       } else if (comm.root()) {
         assembly = mesh::read(mesh, dimension);
       }
+      if (mesh.file.empty())
+        layout = layout_of_blocks(mesh, dimension, assembly.catalogue);
+      else if (comm.root())
+        layout = layout_of_file(mesh, assembly);
     });
-    broadcast(assembly.catalogue, comm);
+    broadcast(layout.catalogue, comm);
     for (const auto& warning : assembly.warnings) context.log.warning("{}: {}", mesh.file, warning);
   }
   const auto scope = context.timers.scope("partition");
-  auto share = grid ? generate_grid(mesh, options, dimension, assembly.catalogue, comm)
-                    : distribute(assembly.mesh, assembly.catalogue.bodies.size(), dimension, options, comm);
-  return {std::move(assembly.catalogue), std::move(share.subdomains), std::move(share.first)};
+  auto share =
+      grid ? generate_grid(mesh, options, dimension, layout, comm) : distribute(assembly.mesh, layout, dimension, options, comm);
+  return {std::move(layout.catalogue), std::move(share.subdomains), std::move(share.first)};
 }
 
 mesh::Surface boundary_surface(const Decomposition& decomposition, int boundary, const std::vector<bool>& on_body)

@@ -42,6 +42,7 @@ void for_each_part(S& subdomain, const Visit& visit)
   }
   visit(mesh.cell_id);
   visit(mesh.cell_body);
+  visit(mesh.cell_volume);
   visit(mesh.facets.parent);
   visit(mesh.facets.boundary);
 }

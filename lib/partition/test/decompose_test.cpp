@@ -205,5 +205,93 @@ TEST(BoundarySurface, IsWholeOverAllRanks)
   EXPECT_EQ(comm.sum(static_cast<long long>(boundary_surface(d, 4, {false, true}).faces.size())), 0);
 }
 
+// 35 copies of a block, turned by an angle with no finite binary form, far from the origin.
+mesh::Options ring_of_pads(const std::string& element)
+{
+  mesh::Options options;
+  mesh::BlockOptions block;
+  block.origin = {100, 3, -7};
+  block.size = {2, 1, 1};
+  block.cells = {6, 4, 4};
+  block.element = element;
+  options.blocks["pad"] = block;
+  options.blocks["table"] = block;
+  options.blocks["table"].origin = {0, 0, 50};
+  mesh::InstanceOptions row;
+  row.count = 35;
+  row.rotate = mesh::RotationOptions{{1, 2, -0.5}, 360.0 / 35, {-3, 2, 1}};
+  options.instances["pad"] = mesh::motions({row});
+  return options;
+}
+
+TEST(Instances, AreCutAlikeAndFoundCongruent)
+{
+  const Communicator alone(MPI_COMM_SELF);
+  Options metis;
+  metis.unknowns_per_subdomain = 150;
+  Options grid;
+  grid.method = "grid";
+  grid.counts = {{"pad", {2, 1, 2}}, {"table", {1, 1, 1}}};
+  for (const auto& options : {metis, grid}) {
+    const auto d = make(ring_of_pads("tet4"), options, alone);
+    ASSERT_EQ(d.catalogue.bodies.size(), 36U);
+    const auto copies = congruent(d.subdomains, std::vector<int>(d.subdomains.size(), 0));
+    std::map<int, std::vector<std::size_t>> of_body;
+    for (std::size_t s = 0; s < d.subdomains.size(); ++s) of_body[d.subdomains[s].body].push_back(s);
+    const auto& first = of_body.at(0);
+    EXPECT_GT(first.size(), 2U);
+    for (int b = 1; b < 35; ++b) {
+      ASSERT_EQ(of_body.at(b).size(), first.size());
+      for (std::size_t i = 0; i < first.size(); ++i) {
+        const auto& copy = copies[of_body.at(b)[i]];
+        EXPECT_EQ(copy.original, copies[first[i]].original) << "instance " << b + 1;
+        EXPECT_TRUE(copy.rotation);
+      }
+    }
+  }
+}
+
+TEST(Instances, OneBodyEachWithNumbersOfItsOwn)
+{
+  const Communicator comm, alone(MPI_COMM_SELF);
+  Options options;
+  options.unknowns_per_subdomain = 300;
+  const auto d = make(ring_of_pads("hex8"), options, comm);
+  EXPECT_EQ(fingerprint(d, comm), fingerprint(make(ring_of_pads("hex8"), options, alone), alone));
+  EXPECT_EQ(d.catalogue.node_count, 36 * 7 * 5 * 5);
+  EXPECT_EQ(d.catalogue.cell_count, 36 * 96);
+  EXPECT_EQ(d.catalogue.bodies[34].name, "pad.35");
+  std::vector<Global> nodes, cells;
+  for (const auto& s : d.subdomains) {
+    nodes.insert(nodes.end(), s.mesh.node_id.begin(), s.mesh.node_id.end());
+    cells.insert(cells.end(), s.mesh.cell_id.begin(), s.mesh.cell_id.end());
+  }
+  nodes = comm.all_gather(nodes);
+  cells = comm.all_gather(cells);
+  EXPECT_EQ(std::set<Global>(nodes.begin(), nodes.end()).size(), static_cast<std::size_t>(d.catalogue.node_count));
+  EXPECT_EQ(*std::max_element(nodes.begin(), nodes.end()), d.catalogue.node_count - 1);
+  EXPECT_EQ(std::set<Global>(cells.begin(), cells.end()).size(), static_cast<std::size_t>(d.catalogue.cell_count));
+
+  // The side of all pads, and of one: its 6 x 4 faces.
+  const auto& names = d.catalogue.boundaries;
+  const std::vector<bool> everywhere(d.catalogue.bodies.size(), true);
+  const auto faces = [&](const std::string& name) {
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    EXPECT_LT(at, static_cast<std::ptrdiff_t>(names.size())) << name;
+    return comm.sum(static_cast<long long>(boundary_surface(d, static_cast<int>(at), everywhere).faces.size()));
+  };
+  EXPECT_EQ(faces("pad.ymin"), 35 * 24);
+  EXPECT_EQ(faces("pad.7.ymin"), 24);
+  EXPECT_EQ(faces("table.ymin"), 24);
+}
+
+TEST(Instances, ATotalOfSubdomainsIsMetAsFarAsCopiesAllow)
+{
+  const Communicator alone(MPI_COMM_SELF);
+  Options options;
+  options.subdomains = 80;  // 35 pads and a table: two each, and what is left goes to the table
+  EXPECT_EQ(make(ring_of_pads("hex8"), options, alone).subdomain_count(), 80);
+}
+
 }  // namespace
 }  // namespace mortise::partition

@@ -13,8 +13,9 @@ namespace mortise::mesh {
 
 /// A connected set of cells. A physical group of several connected parts makes several bodies, named group.1, group.2, ...
 struct Body {
-  std::string name;   ///< unique; equal to `group` if the group is connected
-  std::string group;  ///< the physical volume (2D: surface) of the file or the block, the name that the deck uses
+  std::string name;           ///< unique; equal to `group` if the group is connected
+  std::string group;          ///< the physical volume (2D: surface) of the file or the block, the name that the deck uses
+  std::string instance = {};  ///< group.i if it belongs to the i-th instance of its group; empty if there are none
 };
 
 /// The names of an assembly, the same on every rank.
@@ -22,6 +23,7 @@ struct Catalogue {
   int dimension = 3;
   std::vector<Body> bodies;
   std::vector<std::string> boundaries;  ///< named surfaces (2D: curves)
+  std::vector<std::string> volumes;     ///< physical volumes of the file or blocks; of a body of one volume equal to its group
   Global node_count = 0;                ///< over all ranks, nodes shared by subdomains counted once
   Global cell_count = 0;
 };
@@ -39,6 +41,8 @@ struct Mesh {
   Cells cells;
   std::vector<Global> cell_id;  ///< global number of each cell
   std::vector<int> cell_body;   ///< index into Catalogue::bodies
+  /// Index into Catalogue::volumes; empty if every body is of one volume.
+  std::vector<int> cell_volume;
   Facets facets;
 
   std::size_t node_count() const { return points.size(); }

@@ -17,9 +17,9 @@ inline constexpr int usual_size = 4000;
 inline constexpr int usual_size_of_rings = 20000;
 
 struct Options {
-  std::string method = "metis";                      ///< metis | grid (blocks only)
-  std::optional<int> unknowns_per_subdomain;         ///< aim, before bodies are rounded to whole subdomains
-  std::optional<int> subdomains;                     ///< total instead of the aim above; neither: usual_size
+  std::string method = "metis";               ///< metis | grid (blocks only)
+  std::optional<int> unknowns_per_subdomain;  ///< aim, before bodies are rounded to whole subdomains
+  std::optional<int> subdomains;  ///< total instead of the aim above (at most, where parts have copies); neither: usual_size
   std::map<std::string, std::array<int, 3>> counts;  ///< grid: subdomains an axis of each block
 };
 

@@ -1,0 +1,312 @@
+// From a mesh as it stands in a file to bodies with nodes of their own.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "gmsh_file.hpp"
+#include "mesh/topology.hpp"
+#include "raw_mesh.hpp"
+
+namespace mortise::mesh {
+
+namespace {
+
+// Six times the volume of the corner tetrahedra added up (2D: twice the area): the sign is the orientation.
+double orientation(CellType type, std::span<const Local> nodes, const std::vector<Point>& points)
+{
+  const auto p = [&](std::size_t i) { return points[static_cast<std::size_t>(nodes[i])]; };
+  if (dimension(type) == 2) {
+    double area = 0;
+    const auto corners = static_cast<std::size_t>(corner_count(type));
+    for (std::size_t i = 0; i < corners; ++i) {
+      const Point a = p(i) - p(0), b = p((i + 1) % corners) - p(0);
+      area += a[0] * b[1] - a[1] * b[0];
+    }
+    return area;
+  }
+  double volume = 0;  // divergence theorem over the faces, each fanned from its first node
+  for (const auto& face : faces(first_order(type)))
+    for (std::size_t i = 1; i + 1 < face.nodes.size(); ++i) {
+      const auto at = [&](std::size_t k) { return Point(p(static_cast<std::size_t>(face.nodes[k])) - p(0)); };
+      volume += at(0).dot(at(i).cross(at(i + 1)));
+    }
+  return volume;
+}
+
+// The corners of a cell turned inside out, as corners of the cell as it is.
+std::vector<int> turned_corners(CellType first_order)
+{
+  using enum CellType;
+  switch (first_order) {
+    case tri3:
+      return {0, 2, 1};
+    case quad4:
+      return {0, 3, 2, 1};
+    case tet4:
+      return {0, 2, 1, 3};
+    case hex8:
+      return {4, 5, 6, 7, 0, 1, 2, 3};
+    case prism6:
+      return {3, 4, 5, 0, 1, 2};
+    default:
+      return {0, 1};
+  }
+}
+
+// The same cell, turned inside out.
+std::vector<Local> turned(CellType type, std::span<const Local> nodes)
+{
+  const auto corner = turned_corners(first_order(type));
+  std::vector<Local> result;
+  for (const int c : corner) result.push_back(nodes[static_cast<std::size_t>(c)]);
+  for (const auto& amid : middles(type)) {
+    std::vector<int> old;
+    for (const int c : amid) old.push_back(corner[static_cast<std::size_t>(c)]);
+    result.push_back(nodes[static_cast<std::size_t>(node_amid(type, old))]);
+  }
+  return result;
+}
+
+// Cells turned inside out are turned back; such without volume are an error.
+void orient(RawMesh& raw, const Options& options, int dimension)
+{
+  Cells right;
+  for (std::size_t c = 0; c < raw.cells.size(); ++c) {
+    const CellType type = raw.cells.type[c];
+    const auto nodes = raw.cells[c];
+    const double volume = orientation(type, nodes, raw.points);
+    Point low = raw.points[static_cast<std::size_t>(nodes[0])], high = low;
+    for (const Local n : nodes) {
+      low = low.cwiseMin(raw.points[static_cast<std::size_t>(n)]);
+      high = high.cwiseMax(raw.points[static_cast<std::size_t>(n)]);
+    }
+    if (std::abs(volume) <= 1e-12 * std::pow((high - low).maxCoeff(), dimension))
+      fail(options.file, fmt::format("element {} ({}) of body \"{}\" has no volume; improve the mesh there", raw.tag[c],
+                                     name(type), raw.volumes[static_cast<std::size_t>(raw.volume[c])]));
+    if (volume < 0)
+      right.add(type, turned(type, nodes));
+    else
+      right.add(type, nodes);
+  }
+  raw.cells = std::move(right);
+}
+
+// The group of each volume and cell: the body of the deck.
+struct Groups {
+  std::vector<std::string> names;
+  std::vector<int> of_cell;
+  std::vector<int> label;  // cells hang together only if theirs agree
+};
+
+Groups group(const RawMesh& raw, const Options& options)
+{
+  Groups groups;
+  std::map<std::string, std::string> owner;  // volume -> body of several volumes
+  for (const auto& [body, volumes] : options.volumes)
+    for (const auto& volume : volumes) owner.emplace(volume, body);
+  std::vector<int> of_volume;
+  for (const auto& volume : raw.volumes) {
+    const auto found = owner.find(volume);
+    const auto& name = found == owner.end() ? volume : found->second;
+    const auto known = std::find(groups.names.begin(), groups.names.end(), name);
+    of_volume.push_back(static_cast<int>(known - groups.names.begin()));
+    if (known == groups.names.end()) groups.names.push_back(name);
+  }
+  const auto count = static_cast<int>(groups.names.size());
+  for (std::size_t c = 0; c < raw.cells.size(); ++c) {
+    const int own = of_volume[static_cast<std::size_t>(raw.volume[c])];
+    const bool united = options.volumes.contains(groups.names[static_cast<std::size_t>(own)]);
+    groups.of_cell.push_back(own);
+    groups.label.push_back(raw.solid.empty() || united ? own : count + raw.solid[c]);
+  }
+  return groups;
+}
+
+// Two cells of one body must meet with the same kind of face: a node in the middle that only one of them has would tear them.
+void require_conforming(const std::string& file, const RawMesh& raw, const Groups& groups)
+{
+  const auto all = sorted_faces(raw.cells);
+  const auto type_of = [&](const CellFace& face) {
+    return faces(raw.cells.type[static_cast<std::size_t>(face.cell)])[static_cast<std::size_t>(face.face)].type;
+  };
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (all[i].corners != all[i + 1].corners || type_of(all[i]) == type_of(all[i + 1])) continue;
+    const int a = groups.of_cell[static_cast<std::size_t>(all[i].cell)],
+              b = groups.of_cell[static_cast<std::size_t>(all[i + 1].cell)];
+    if (a == b)
+      fail(file,
+           fmt::format("in body \"{}\" a face is a {} of one cell and a {} of its neighbour; mesh the whole body with one order "
+                       "and one kind of elements (Mesh.SecondOrderIncomplete)",
+                       groups.names[static_cast<std::size_t>(a)], name(type_of(all[i])), name(type_of(all[i + 1]))));
+  }
+}
+
+// Parts of one body that share nodes, but no face, part there.
+void warn_of_torn_bodies(const RawMesh& raw, const Groups& groups, const std::vector<int>& part, Assembly& assembly)
+{
+  std::map<std::pair<Local, int>, int> first_part;  // node of the file and label -> part
+  std::map<int, std::size_t> torn;                  // group -> nodes
+  for (std::size_t c = 0; c < raw.cells.size(); ++c)
+    for (const Local n : raw.cells[c])
+      if (const auto [at, fresh] = first_part.emplace(std::pair(n, groups.label[c]), part[c]); !fresh && at->second != part[c]) {
+        ++torn[groups.of_cell[c]];
+        at->second = part[c];
+      }
+  for (const auto& [group, count] : torn)
+    assembly.warnings.push_back(
+        fmt::format("parts of body \"{}\" share an edge or a vertex and no face ({} nodes): they are separate bodies there, "
+                    "which nothing ties; "
+                    "give them a common face, or contacts",
+                    groups.names[static_cast<std::size_t>(group)], count));
+}
+
+// Volumes that are to be one body, but do not hang together.
+void warn_of_scattered_volumes(const Groups& groups, const Options& options, const std::vector<int>& parts_in, Assembly& assembly)
+{
+  for (std::size_t g = 0; g < groups.names.size(); ++g)
+    if (parts_in[g] > 1 && options.volumes.contains(groups.names[g]))
+      assembly.warnings.push_back(
+          fmt::format("the volumes of the body \"{0}\" share faces only within {1} parts, which are the bodies {0}.1 to {0}.{1}; "
+                      "nothing ties them: let the volumes share their nodes where they meet, or add contacts",
+                      groups.names[g], parts_in[g]));
+}
+
+// Cells ordered by body, with nodes of its own for each body.
+Assembly separate(const RawMesh& raw, const Groups& groups, const Options& options, int dimension, std::vector<Local>& original,
+                  std::vector<int>& solid_of_cell)
+{
+  const auto part = connected_parts(face_neighbours(raw.cells), groups.label);
+  const int parts = 1 + *std::max_element(part.begin(), part.end());
+  std::vector<int> group_of(static_cast<std::size_t>(parts)), parts_in(groups.names.size(), 0),
+      order(static_cast<std::size_t>(parts));
+  for (std::size_t c = part.size(); c-- > 0;) group_of[static_cast<std::size_t>(part[c])] = groups.of_cell[c];
+  for (int p = 0; p < parts; ++p) order[static_cast<std::size_t>(p)] = p;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return group_of[static_cast<std::size_t>(a)] < group_of[static_cast<std::size_t>(b)]; });
+  for (const int g : group_of) ++parts_in[static_cast<std::size_t>(g)];
+
+  Assembly assembly;
+  assembly.catalogue.dimension = dimension;
+  assembly.catalogue.volumes = raw.volumes;
+  std::vector<std::vector<Local>> cells_of(static_cast<std::size_t>(parts));
+  for (std::size_t c = 0; c < part.size(); ++c) cells_of[static_cast<std::size_t>(part[c])].push_back(static_cast<Local>(c));
+  std::vector<int> numbered(groups.names.size(), 0);
+  Mesh& mesh = assembly.mesh;
+  for (const int p : order) {
+    const auto g = static_cast<std::size_t>(group_of[static_cast<std::size_t>(p)]);
+    const auto& name = groups.names[g];
+    assembly.catalogue.bodies.push_back({parts_in[g] == 1 ? name : fmt::format("{}.{}", name, ++numbered[g]), name});
+    const auto& cells = cells_of[static_cast<std::size_t>(p)];
+    std::vector<Local> used;
+    for (const Local c : cells)
+      used.insert(used.end(), raw.cells[static_cast<std::size_t>(c)].begin(), raw.cells[static_cast<std::size_t>(c)].end());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const auto base = static_cast<Local>(mesh.points.size());
+    for (const Local n : used) {
+      mesh.node_id.push_back(static_cast<Global>(mesh.points.size()));
+      mesh.points.push_back(raw.points[static_cast<std::size_t>(n)]);
+      original.push_back(n);
+    }
+    for (const Local c : cells) {
+      std::vector<Local> cell;
+      for (const Local n : raw.cells[static_cast<std::size_t>(c)])
+        cell.push_back(base + static_cast<Local>(std::lower_bound(used.begin(), used.end(), n) - used.begin()));
+      mesh.cell_id.push_back(static_cast<Global>(mesh.cells.size()));
+      mesh.cells.add(raw.cells.type[static_cast<std::size_t>(c)], cell);
+      mesh.cell_body.push_back(static_cast<int>(assembly.catalogue.bodies.size()) - 1);
+      if (!raw.solid.empty()) solid_of_cell.push_back(raw.solid[static_cast<std::size_t>(c)]);
+      if (!options.volumes.empty()) mesh.cell_volume.push_back(raw.volume[static_cast<std::size_t>(c)]);
+    }
+  }
+  warn_of_torn_bodies(raw, groups, part, assembly);
+  warn_of_scattered_volumes(groups, options, parts_in, assembly);
+  assembly.catalogue.node_count = static_cast<Global>(mesh.points.size());
+  assembly.catalogue.cell_count = static_cast<Global>(mesh.cells.size());
+  return assembly;
+}
+
+// Facets of the boundaries, found on the cells by the nodes of the file.
+void attach_boundaries(const RawMesh& raw, const Options& options, const std::vector<Local>& original,
+                       const std::vector<int>& solid_of_cell, Assembly& assembly)
+{
+  Mesh& mesh = assembly.mesh;
+  Cells in_file = mesh.cells;
+  for (auto& n : in_file.nodes) n = original[static_cast<std::size_t>(n)];
+  const auto all = sorted_faces(in_file);
+  const auto body = [&](const CellFace& face) { return mesh.cell_body[static_cast<std::size_t>(face.cell)]; };
+  const auto volume = [&](const CellFace& face) {
+    return mesh.cell_volume.empty() ? 0 : mesh.cell_volume[static_cast<std::size_t>(face.cell)];
+  };
+  for (const auto& named : raw.boundaries) {
+    const auto boundary = static_cast<int>(assembly.catalogue.boundaries.size());
+    assembly.catalogue.boundaries.push_back(named.name);
+    std::size_t lost = 0, inside = 0;
+    std::set<std::pair<Local, int>> taken;  // files repeat a face for each group that it is in
+    for (const auto& corners : named.faces) {
+      const auto range = std::equal_range(all.begin(), all.end(), CellFace{corners},
+                                          [](const CellFace& a, const CellFace& b) { return a.corners < b.corners; });
+      if (range.first == range.second) {
+        ++lost;
+        continue;
+      }
+      if (range.second - range.first == 2 && body(*range.first) == body(*(range.first + 1))) {
+        ++inside;
+        if (!named.strict || volume(*range.first) != volume(*(range.first + 1))) continue;
+        fail(options.file,
+             fmt::format("boundary \"{}\" runs through the inside of body \"{}\"; only faces on the surface of a body can be a "
+                         "boundary",
+                         named.name, assembly.catalogue.bodies[static_cast<std::size_t>(body(*range.first))].name));
+      }
+      for (auto match = range.first; match != range.second; ++match) {
+        if (named.solid >= 0 && solid_of_cell[static_cast<std::size_t>(match->cell)] != named.solid) continue;
+        if (!taken.emplace(match->cell, match->face).second) continue;
+        const auto cell = static_cast<std::size_t>(match->cell);
+        const auto& face = faces(mesh.cells.type[cell])[static_cast<std::size_t>(match->face)];
+        std::vector<Local> facet;
+        for (const int i : face.nodes) facet.push_back(mesh.cells[cell][static_cast<std::size_t>(i)]);
+        mesh.facets.cells.add(face.type, facet);
+        mesh.facets.parent.push_back(match->cell);
+        mesh.facets.boundary.push_back(boundary);
+      }
+    }
+    if (lost > 0 && named.strict)
+      fail(options.file, fmt::format("boundary \"{}\" has {} facets that lie on no cell of any body", named.name, lost));
+    if (taken.empty())
+      assembly.warnings.push_back(
+          inside > 0 && named.strict
+              ? fmt::format("boundary \"{}\" lies between two volumes of one body; it is empty", named.name)
+              : fmt::format("boundary \"{}\" of the mesh is empty", named.name));
+  }
+}
+
+}  // namespace
+
+void flatten(const std::string& file, std::vector<Point>& points)
+{
+  double extent = 0;
+  for (const auto& point : points) extent = std::max(extent, point.head<2>().cwiseAbs().maxCoeff());
+  for (auto& point : points) {
+    if (std::abs(point[2]) > 1e-9 * extent)
+      fail(file, "a plane model must lie in z = 0, but a node has z = " + std::to_string(point[2]));
+    point[2] = 0;
+  }
+}
+
+Assembly assemble(RawMesh raw, const Options& options, int dimension)
+{
+  orient(raw, options, dimension);
+  const Groups groups = group(raw, options);
+  require_conforming(options.file, raw, groups);
+  std::vector<Local> original;
+  std::vector<int> solid_of_cell;
+  Assembly assembly = separate(raw, groups, options, dimension, original, solid_of_cell);
+  assembly.warnings.insert(assembly.warnings.begin(), raw.warnings.begin(), raw.warnings.end());
+  attach_boundaries(raw, options, original, solid_of_cell, assembly);
+  return assembly;
+}
+
+}  // namespace mortise::mesh
