@@ -52,6 +52,21 @@ double area(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
   return sum;
 }
 
+Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
+{
+  Moments result;
+  for_each_point(mesh, boundary, kinematics,
+                 [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
+                   Point x = Point::Zero();
+                   for (std::size_t i = 0; i < nodes.size(); ++i)
+                     x += shape[static_cast<Eigen::Index>(i)] * mesh.points[static_cast<std::size_t>(nodes[i])];
+                   result.area += normal.norm();
+                   result.first += normal.norm() * x;
+                   result.normal += normal;
+                 });
+  return result;
+}
+
 void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, double pressure, Eigen::VectorXd& f)
 {
   for_each_point(mesh, boundary, kinematics,
@@ -68,27 +83,30 @@ void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, c
                  });
 }
 
-void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double density, const Point& acceleration,
+void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Materials& materials, const Point& acceleration,
                       Eigen::VectorXd& f)
 {
   CellGeometry cell(kinematics);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     cell.gather(mesh, c);
     cell.evaluate();
+    const double density = materials[materials.place(c)].density;
     for (std::size_t q = 0; q < cell.volumes().size(); ++q)
       add(cell.element().shape[q], density * cell.volumes()[q] * acceleration, mesh.cells[c], dimension(kinematics), f);
   }
 }
 
-void add_expansion(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, double free_strain,
+void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, double temperature_change,
                    Eigen::VectorXd& f)
 {
   const int d = dimension(kinematics);
-  const auto [lambda, mu] = lame(material, kinematics);
-  // The stress that takes the free strain back: in plane stress lambda allows for the thickness, which stays free.
-  const double stress = ((kinematics == Kinematics::plane_stress ? 2 : 3) * lambda + 2 * mu) * free_strain;
   CellGeometry cell(kinematics);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto& material = materials[materials.place(c)];
+    const auto [lambda, mu] = lame(material, kinematics);
+    // The stress that takes the free strain back: in plane stress lambda allows for the thickness, which stays free.
+    const double stress =
+        ((kinematics == Kinematics::plane_stress ? 2 : 3) * lambda + 2 * mu) * material.thermal_expansion * temperature_change;
     cell.gather(mesh, c);
     cell.evaluate();
     for (std::size_t q = 0; q < cell.volumes().size(); ++q)
@@ -98,6 +116,14 @@ void add_expansion(const mesh::Mesh& mesh, const Material& material, Kinematics 
         if (cell.axisymmetric()) f[node * d] += stress * cell.volumes()[q] * cell.hoop(q)[i];
       }
   }
+}
+
+void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double density, const Point& acceleration,
+                      Eigen::VectorXd& f)
+{
+  Material material;
+  material.density = density;
+  add_acceleration(mesh, kinematics, material, acceleration, f);
 }
 
 }  // namespace mortise::fem

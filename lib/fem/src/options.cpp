@@ -47,7 +47,28 @@ void describe(deck::Description<Material>& d)
 void describe(deck::Description<BodyOptions>& d)
 {
   d.help("What a body is made of.");
-  d.key("material", &BodyOptions::material, "Name of a material.").required();
+  d.key("material", &BodyOptions::material, "Name of a material; absent where `volumes` is given.");
+  d.key("volumes", &BodyOptions::volumes,
+        "Physical volumes (plane models: surfaces) of the file that form this one body, each with its material: {core: rubber, "
+        "skin: steel}. They must share the nodes of the faces in which they meet.");
+  d.custom(
+      "instances",
+      "Copies of the body: a list of motions, {translate, rotate: {axis, angle, center}}, rotate first, then translate; with "
+      "`count` a row of copies, each moved once more than the one before. The list says where all copies are: the body as it "
+      "lies "
+      "in the mesh is none of them unless a motion leaves it there. Copy i of \"roller\" is the body roller.i with boundaries "
+      "roller.i.NAME; NAME alone means those of all copies.",
+      [](BodyOptions& body, const YAML::Node& node, const std::string& path, deck::Document& document,
+         const deck::Limits& limits) {
+        const auto before = document.error_count();
+        deck::Codec<std::vector<mesh::InstanceOptions>>::read(body.instances, node, path, document, limits);
+        if (document.error_count() == before && body.instances.empty())
+          document.error(path, "expected at least one instance; without this key the body is where it lies in the mesh");
+      },
+      [](const BodyOptions& body) {
+        return body.instances.empty() ? YAML::Node() : deck::Codec<std::vector<mesh::InstanceOptions>>::write(body.instances);
+      },
+      [](const deck::Limits& limits) { return deck::Codec<std::vector<mesh::InstanceOptions>>::schema(limits); });
   d.custom(
        "formulation",
        "standard: full integration; bbar: nearly incompressible materials (hex8, quad4, prism6); incompatible: bending (hex8, "
@@ -66,7 +87,11 @@ void describe(deck::Description<BodyOptions>& d)
        },
        [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); })
       .one_of({"standard", "bbar", "incompatible"});
-  d.unavailable("instances");
+  d.check([](const BodyOptions& body, const std::string& path, deck::Document& document) {
+    if (body.material.empty() == body.volumes.empty())
+      document.error(path, body.volumes.empty() ? "the key \"material\" is missing: Name of a material."
+                                                : "expected either `material` or `volumes`, found both");
+  });
 }
 
 void describe(deck::Description<LoadOptions>& d)

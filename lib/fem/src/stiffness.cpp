@@ -137,24 +137,29 @@ Lame lame(const Material& material, Kinematics kinematics)
   return {lambda, mu};
 }
 
-Sparse stiffness(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, Formulation formulation)
+Sparse stiffness(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, Formulation formulation)
 {
   const int d = dimension(kinematics);
-  CellFormulation cell_formulation(formulation, lame(material, kinematics), kinematics);
+  std::vector<CellFormulation> cell_formulation;
+  for (std::size_t m = 0; m < materials.count(); ++m)
+    cell_formulation.emplace_back(formulation, lame(materials[m], kinematics), kinematics);
   const Adjacency graph = adjacency(mesh);
   Sparse k = pattern(graph, d);
-  // Cells that are translates of the one before, as in every structured mesh, share its matrix.
+  // Cells that are translates of the one before, as in every structured mesh, share its matrix if their material is the same.
   CellGeometry cell(kinematics);
   std::vector<double> local, computed_for;
   const Element* computed_with = nullptr;
+  std::size_t computed_of = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     cell.gather(mesh, c);
-    if (computed_with != &cell.element() || !is_translate(cell.coordinates(), computed_for, kinematics)) {
+    const std::size_t place = materials.place(c);
+    if (computed_with != &cell.element() || computed_of != place || !is_translate(cell.coordinates(), computed_for, kinematics)) {
       cell.evaluate();
       require_positive(cell, mesh.cell_id[c]);
       computed_with = &cell.element();
       computed_for = cell.coordinates();
-      cell_formulation.stiffness(cell, local);
+      computed_of = place;
+      cell_formulation[place].stiffness(cell, local);
     }
     scatter(local, mesh.cells[c], graph, d, k);
   }

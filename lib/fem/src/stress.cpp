@@ -28,12 +28,16 @@ double complementary_energy(const Stress& s, const Material& material)
 
 // Calls visit(c, cell, stress) for every cell c; stress is q x 6.
 template <class Visit>
-void for_each_cell(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, Formulation formulation,
-                   double free_strain, const Eigen::VectorXd& u, const Visit& visit)
+void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, Formulation formulation,
+                   double temperature_change, const Eigen::VectorXd& u, const Visit& visit)
 {
   const int d = dimension(kinematics);
-  const Lame constants = lame(material, kinematics);
-  CellFormulation cell_formulation(formulation, constants, kinematics);
+  std::vector<Lame> constants;
+  std::vector<CellFormulation> cell_formulation;
+  for (std::size_t m = 0; m < materials.count(); ++m) {
+    constants.push_back(lame(materials[m], kinematics));
+    cell_formulation.emplace_back(formulation, constants.back(), kinematics);
+  }
   CellGeometry cell(kinematics);
   Eigen::MatrixXd displacement, stress;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -43,9 +47,11 @@ void for_each_cell(const mesh::Mesh& mesh, const Material& material, Kinematics 
     displacement.resize(d, cell.element().nodes);
     for (int i = 0; i < cell.element().nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
     stress.resize(static_cast<Eigen::Index>(cell.volumes().size()), 6);
-    const auto& gradients = cell_formulation.gradients(cell, displacement);
+    const double free_strain = materials[materials.place(c)].thermal_expansion * temperature_change;
+    const auto& gradients = cell_formulation[materials.place(c)].gradients(cell, displacement);
     for (std::size_t q = 0; q < gradients.size(); ++q)
-      stress.row(static_cast<Eigen::Index>(q)) = stress_of(gradients[q], constants, kinematics, free_strain).transpose();
+      stress.row(static_cast<Eigen::Index>(q)) =
+          stress_of(gradients[q], constants[materials.place(c)], kinematics, free_strain).transpose();
     visit(c, cell, stress);
   }
 }
@@ -58,25 +64,27 @@ double von_mises(const Stress& s)
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                     Formulation formulation, double free_strain)
+StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Eigen::VectorXd& u,
+                     Formulation formulation, double temperature_change, std::size_t blocks)
 {
   StressField field;
-  field.nodal_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), 7);
+  field.nodal_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), 7 * static_cast<Eigen::Index>(blocks));
   field.cell_von_mises.resize(static_cast<Eigen::Index>(mesh.cells.size()));
-  for_each_cell(mesh, material, kinematics, formulation, free_strain, u,
+  for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
                 [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
                   Stress sum = Stress::Zero();
                   double volume = 0;
                   for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
                     sum += cell.volumes()[q] * stress.row(static_cast<Eigen::Index>(q)).transpose();
                     volume += cell.volumes()[q];
-                    field.strain_energy += 0.5 * cell.volumes()[q] *
-                                           complementary_energy(stress.row(static_cast<Eigen::Index>(q)).transpose(), material);
+                    field.strain_energy +=
+                        0.5 * cell.volumes()[q] *
+                        complementary_energy(stress.row(static_cast<Eigen::Index>(q)).transpose(), materials[materials.place(c)]);
                   }
                   field.cell_von_mises[static_cast<Eigen::Index>(c)] = von_mises(sum / volume);
                   for (int i = 0; i < cell.element().nodes; ++i) {
-                    auto row = field.nodal_sums.row(mesh.cells[c][static_cast<std::size_t>(i)]);
+                    auto row = field.nodal_sums.row(mesh.cells[c][static_cast<std::size_t>(i)])
+                                   .segment(7 * static_cast<Eigen::Index>(materials.place(c)), 7);
                     row.head(6) += volume * cell.element().extrapolation.row(i).lazyProduct(stress);
                     row[6] += volume;
                   }
@@ -84,21 +92,24 @@ StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematic
   return field;
 }
 
-Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                               const Eigen::MatrixXd& recovered, Formulation formulation, double free_strain)
+Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                               const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered, Formulation formulation,
+                               double temperature_change)
 {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
   for_each_cell(
-      mesh, material, kinematics, formulation, free_strain, u,
+      mesh, materials, kinematics, formulation, temperature_change, u,
       [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
         double& sum = result[static_cast<Eigen::Index>(c)];
+        const auto& material = materials[materials.place(c)];
+        const auto own = recovered.middleCols(6 * static_cast<Eigen::Index>(materials.place(c)), 6);
         if (cell.volumes().size() == 1) {  // one point misses what is linear in s* - s; that is a simplex with nodes 0 .. n - 1:
           // the integral of a quadratic form q of a linear function is V / (n (n + 1)) (sum of q(f_i) + q(sum of f_i)).
           const int n = cell.element().nodes;
           Stress total = Stress::Zero();
           double energy = 0;
           for (const Local node : mesh.cells[c]) {
-            const Stress difference = (recovered.row(node) - stress.row(0)).transpose();
+            const Stress difference = (own.row(node) - stress.row(0)).transpose();
             total += difference;
             energy += complementary_energy(difference, material);
           }
@@ -108,7 +119,7 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Material& material,
         for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
           Stress difference = -stress.row(static_cast<Eigen::Index>(q)).transpose();
           for (int i = 0; i < cell.element().nodes; ++i)
-            difference += cell.element().shape[q][i] * recovered.row(mesh.cells[c][static_cast<std::size_t>(i)]).transpose();
+            difference += cell.element().shape[q][i] * own.row(mesh.cells[c][static_cast<std::size_t>(i)]).transpose();
           sum += cell.volumes()[q] * complementary_energy(difference, material);
         }
       });

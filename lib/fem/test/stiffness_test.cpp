@@ -114,7 +114,7 @@ TEST(Formulations, IncompatibleModesBend)
     Block block(name, {16, 1, 1}, {length, 1, 0.5});
     const int d = block.dimension;
     const double width = d == 3 ? 0.5 : 1.0;
-    auto k = stiffness(block.mesh, {e, 0.0, 0, 0}, kinematics, Formulation::incompatible);
+    auto k = stiffness(block.mesh, Material{e, 0.0, 0, 0}, kinematics, Formulation::incompatible);
     Eigen::VectorXd f = Eigen::VectorXd::Zero(k.rows());
     add_traction(block.mesh, block.boundary("xmax"), kinematics, Point(0, force / width, 0), f);
     for (std::size_t n = 0; n < block.mesh.node_count(); ++n)
@@ -249,7 +249,7 @@ TEST(Stiffness, CantileverBendsAsBeamTheorySays)
     Block block(kind.element, coarse ? std::array{8, 1, 1} : std::array{32, 4, 2}, {length, 1, 0.5});
     const int d = block.dimension;
     const double width = d == 3 ? 0.5 : 1.0, force = 0.01;
-    auto k = stiffness(block.mesh, {e, 0.0, 0, 0}, kind.kinematics);
+    auto k = stiffness(block.mesh, Material{e, 0.0, 0, 0}, kind.kinematics);
     Eigen::VectorXd f = Eigen::VectorXd::Zero(k.rows());
     add_traction(block.mesh, block.boundary("xmax"), kind.kinematics, Point(0, force / width, 0), f);
     for (std::size_t n = 0; n < block.mesh.node_count(); ++n)

@@ -45,7 +45,7 @@ struct Cube {
     std::vector<SparseMatrix> stiffness;
     for (const auto& s : decomposition.subdomains) {
       const double e = (s.id + s.id / 2 + s.id / 4) % 2 == 0 ? 1.0 : jump;
-      stiffness.push_back(fem::stiffness(s.mesh, {e, 0.3, 0, 0}, fem::Kinematics::solid));
+      stiffness.push_back(fem::stiffness(s.mesh, fem::Material{e, 0.3, 0, 0}, fem::Kinematics::solid));
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness.back(), 3));
       floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.back().cols()));
       fem::add_traction(s.mesh, 5, fem::Kinematics::solid, Point(0.1, 0, 1), floating.load.back());

@@ -28,7 +28,7 @@ TEST_P(Inverse, IsAGeneralisedInverse)
 {
   const auto& [factorization, size] = GetParam();
   const auto mesh = block({4, 3, 3}, size);
-  const auto k = fem::stiffness(mesh, {2e5, 0.3, 0, 0}, fem::Kinematics::solid);
+  const auto k = fem::stiffness(mesh, fem::Material{2e5, 0.3, 0, 0}, fem::Kinematics::solid);
   const ElasticSubdomain subdomain(k, fem::rigid_motions(mesh.points, fem::Kinematics::solid), mesh.points, 3, factorization);
   Eigen::MatrixXd u = Eigen::MatrixXd::Random(subdomain.size(), 3), f(subdomain.size(), 3);
   for (int c = 0; c < 3; ++c) f.col(c) = subdomain.apply(u.col(c));
@@ -48,7 +48,7 @@ TEST(Inverse, GoesThroughSharedFactorsInBlocks)
 {
   const auto mesh = block({3, 2, 2}, {1, 1, 1}), other = block({2, 2, 2}, {1, 1, 1});
   const auto make = [](const mesh::Mesh& m) {
-    return std::make_shared<const ElasticSubdomain>(fem::stiffness(m, {2e5, 0.3, 0, 0}, fem::Kinematics::solid),
+    return std::make_shared<const ElasticSubdomain>(fem::stiffness(m, fem::Material{2e5, 0.3, 0, 0}, fem::Kinematics::solid),
                                                     fem::rigid_motions(m.points, fem::Kinematics::solid), m.points, 3, "cholmod");
   };
   const auto a = make(mesh), b = make(other);
@@ -73,7 +73,7 @@ TEST(Inverse, OfATurnedCopyIsItsOwn)
   auto turned_mesh = mesh;
   for (auto& p : turned_mesh.points) p = rotation * p + Point(3, 1, 4);
   const auto make = [](const mesh::Mesh& m) {
-    return std::make_shared<const ElasticSubdomain>(fem::stiffness(m, {2e5, 0.3, 0, 0}, fem::Kinematics::solid),
+    return std::make_shared<const ElasticSubdomain>(fem::stiffness(m, fem::Material{2e5, 0.3, 0, 0}, fem::Kinematics::solid),
                                                     fem::rigid_motions(m.points, fem::Kinematics::solid), m.points, 3, "cholmod");
   };
   const auto original = make(mesh), own = make(turned_mesh);

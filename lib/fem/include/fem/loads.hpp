@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "fem/options.hpp"
+#include "fem/materials.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise::fem {
@@ -19,13 +19,23 @@ void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, d
 void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& traction, Eigen::VectorXd& f);
 
 /// f_i += integral of density a N_i over all cells.
+void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Materials& materials, const Point& acceleration,
+                      Eigen::VectorXd& f);
+/// The same for one density.
 void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double density, const Point& acceleration,
                       Eigen::VectorXd& f);
 
-/// f_i += integral of B_i' D e over all cells, where e is the strain `free_strain` along every axis, also across a plane: what a
-/// body feels that would expand by it if nothing held it. Every formulation has the same, for mean changes of volume and
-/// incompatible modes do not see a constant stress.
-void add_expansion(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, double free_strain,
+/// f_i += integral of B_i' D e over all cells, where e is the thermal expansion times `temperature_change` along every axis, also
+/// across a plane: what a body feels that would expand by it if nothing held it. Every formulation has the same, for mean changes
+/// of volume and incompatible modes do not see a constant stress.
+void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, double temperature_change,
                    Eigen::VectorXd& f);
+/// Of the facets of a boundary in this piece: area (as area()), integral of x, and integral of the outward normal.
+struct Moments {
+  double area = 0;
+  Point first = Point::Zero();
+  Point normal = Point::Zero();
+};
+Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
 
 }  // namespace mortise::fem

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "deck/description.hpp"
 #include "mesh/cell.hpp"
+#include "mesh/instances.hpp"
 
 namespace mortise::fem {
 
@@ -35,7 +38,9 @@ bool applies(Formulation formulation, mesh::CellType type);
 
 /// What a physical body is made of.
 struct BodyOptions {
-  std::string material;
+  std::string material;                          ///< of the whole body; empty: by `volumes`
+  std::map<std::string, std::string> volumes;    ///< physical volumes that form the body together: the material of each
+  std::vector<mesh::InstanceOptions> instances;  ///< where copies of the body are; empty: the body as it lies in the mesh
   Formulation formulation = Formulation::standard;
 };
 

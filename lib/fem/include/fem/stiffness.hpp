@@ -4,7 +4,7 @@
 #include <Eigen/SparseCore>
 #include <span>
 
-#include "fem/options.hpp"
+#include "fem/materials.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise::fem {
@@ -15,11 +15,11 @@ struct Lame {
 };
 Lame lame(const Material& material, Kinematics kinematics);
 
-/// Lower triangle of K, K_ij = integral of lambda div v_i div v_j + 2 mu e(v_i):e(v_j), full integration, for a mesh of one
-/// material; other formulations as they have it. Unknown d * node + component, d = dimension(kinematics). In axisymmetry the hoop
-/// strain u_r / r counts as well. Throws Error(bad_input) that names the cell if its Jacobian is not positive at an integration
-/// point.
-Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness(const mesh::Mesh& mesh, const Material& material,
+/// Lower triangle of K, K_ij = integral of lambda div v_i div v_j + 2 mu e(v_i):e(v_j), full integration, lambda and mu
+/// those of the cell; other formulations as they have it. Unknown d * node + component, d = dimension(kinematics). In axisymmetry
+/// the hoop strain u_r / r counts as well. Throws Error(bad_input) that names the cell if its Jacobian is not positive at an
+/// integration point.
+Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness(const mesh::Mesh& mesh, const Materials& materials,
                                                             Kinematics kinematics,
                                                             Formulation formulation = Formulation::standard);
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "fem/options.hpp"
+#include "fem/materials.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise::fem {
@@ -16,24 +16,28 @@ double von_mises(const Stress& stress);
 
 /// What one piece knows of the stress.
 struct StressField {
-  /// nodes x 7: sums over the cells of the piece of volume * stress extrapolated to the node, and of the volumes. Added up over
-  /// the copies of a node and divided by the last column this is the recovered nodal stress, which never mixes two bodies.
+  /// nodes x 7 blocks: sums over the cells of the piece of volume * stress extrapolated to the node, and of the volumes; in block
+  /// k, columns 7 k .. 7 k + 6, over cells of the k-th material. Added up over the copies of a node and divided by the last
+  /// column of its block this is the recovered nodal stress, which never mixes two bodies or two materials: stresses jump between
+  /// them.
   Eigen::MatrixXd nodal_sums;
   /// Of each cell, from the volume mean of its stress.
   Eigen::VectorXd cell_von_mises;
   /// Integral of s : C^-1 : s / 2, the energy of the elastic strain: 1/2 u'K u where nothing expands freely.
   double strain_energy = 0;
 };
-/// `free_strain`: what the piece would expand by along every axis if nothing held it (see add_expansion); it has no stress.
-StressField stresses(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                     Formulation formulation = Formulation::standard, double free_strain = 0);
+/// `temperature_change` expands the piece, which has no stress by that alone (see add_expansion). `blocks`: at least the number
+/// of materials.
+StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Eigen::VectorXd& u,
+                     Formulation formulation = Formulation::standard, double temperature_change = 0, std::size_t blocks = 1);
 
 /// For each cell the squared energy norm of s* - s: the integral of (s* - s) : C^-1 : (s* - s), where s is the stress of the
-/// finite elements and s* interpolates `recovered`, nodes x 6, by the shape functions [Zienkiewicz and Zhu, A simple error
-/// estimator and adaptive procedure for practical engineering analysis, IJNME 24 (1987)]. The sum over all cells estimates ||u -
-/// u_h||^2 in the energy norm; in the same norm ||u_h||^2 is twice the strain energy. `free_strain` as in stresses().
-Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Material& material, Kinematics kinematics, const Eigen::VectorXd& u,
-                               const Eigen::MatrixXd& recovered, Formulation formulation = Formulation::standard,
-                               double free_strain = 0);
+/// finite elements and s* interpolates `recovered`, nodes x 6 blocks (of the cell's material), by the shape functions
+/// [Zienkiewicz and Zhu, A simple error estimator and adaptive procedure for practical engineering analysis, IJNME 24 (1987)].
+/// The sum over all cells estimates ||u - u_h||^2 in the energy norm; in the same norm ||u_h||^2 is twice the strain energy.
+/// `temperature_change` as in stresses().
+Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                               const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered,
+                               Formulation formulation = Formulation::standard, double temperature_change = 0);
 
 }  // namespace mortise::fem
