@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "assembly.hpp"
 #include "deck/description.hpp"
+#include "patterns.hpp"
 
 namespace mortise {
 
@@ -64,10 +66,15 @@ std::vector<std::string> names_of(const auto& map)
 // Mesh, bodies and materials.
 void check_bodies(const Deck& deck, deck::Document& document)
 {
-  for (const auto& [name, body] : deck.bodies)
-    if (!body.material.empty() && !deck.materials.contains(body.material))
-      document.error("bodies." + name + ".material", fmt::format("there is no material \"{}\"{}", body.material,
-                                                                 deck::suggestion(body.material, names_of(deck.materials))));
+  const auto check_material = [&](const std::string& material, const std::string& path) {
+    if (!material.empty() && !deck.materials.contains(material))
+      document.error(
+          path, fmt::format("there is no material \"{}\"{}", material, deck::suggestion(material, names_of(deck.materials))));
+  };
+  for (const auto& [name, body] : deck.bodies) {
+    check_material(body.material, "bodies." + name + ".material");
+    for (const auto& [volume, material] : body.volumes) check_material(material, "bodies." + name + ".volumes." + volume);
+  }
   for (const auto& [name, body] : deck.bodies)
     if (body.formulation == fem::Formulation::bbar && deck.kinematics == fem::Kinematics::plane_stress)
       document.error("bodies." + name + ".formulation",
@@ -146,6 +153,8 @@ void check_vectors(const Deck& deck, deck::Document& document)
       document.error(fmt::format("supports[{}].displacement.z", i), "a plane model has no z component");
 }
 
+}  // namespace
+
 void check_contact_names(const Deck& deck, deck::Document& document)
 {
   for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
@@ -158,29 +167,34 @@ void check_contact_names(const Deck& deck, deck::Document& document)
     const auto secondary = parse_boundary(contact.secondary), primary = parse_boundary(contact.primary);
     if (contact.secondary != contact.primary && secondary.boundary == primary.boundary &&
         (secondary.body == primary.body || secondary.body.empty() || primary.body.empty()))
-      document.error(fmt::format("contacts[{}]", i),
+      document.error(deck.contact_path(i),
                      fmt::format("\"{}\" and \"{}\" have faces in common; narrow both to different bodies (body:boundary)",
                                  contact.secondary, contact.primary));
   }
   for (std::size_t i = 0; i < deck.contacts.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (deck.contacts[i].name == deck.contacts[j].name)
-        document.error(fmt::format("contacts[{}]", i),
+        document.error(deck.contact_path(i),
                        fmt::format("two contacts are called \"{}\"; give one of them another `name`", deck.contacts[i].name));
 }
+
+namespace {
 
 // Why a boundary cannot be found, or "".
 std::string missing(const std::string& name, const mesh::Catalogue& catalogue)
 {
   const auto [boundary, body] = parse_boundary(name);
   const auto& known = catalogue.boundaries;
-  if (std::find(known.begin(), known.end(), boundary) == known.end())
-    return fmt::format("the mesh has no boundary \"{}\"{}", boundary, deck::suggestion(boundary, known));
+  if (std::find(known.begin(), known.end(), boundary) == known.end()) {
+    std::vector<std::string> names;  // without those that patterns made
+    std::copy_if(known.begin(), known.end(), std::back_inserter(names), [](const auto& n) { return !is_pattern(n); });
+    return fmt::format("the mesh has no boundary \"{}\"{}", boundary, deck::suggestion(boundary, names));
+  }
   if (body.empty()) return "";
   std::vector<std::string> bodies;
   for (const auto& b : catalogue.bodies)
-    for (const auto& n : {b.name, b.group})
-      if (std::find(bodies.begin(), bodies.end(), n) == bodies.end()) bodies.push_back(n);
+    for (const auto& n : {b.name, b.instance, b.group})
+      if (!n.empty() && std::find(bodies.begin(), bodies.end(), n) == bodies.end()) bodies.push_back(n);
   if (std::find(bodies.begin(), bodies.end(), body) == bodies.end())
     return fmt::format("the mesh has no body \"{}\"{}", body, deck::suggestion(body, bodies));
   return "";
@@ -245,6 +259,7 @@ Deck read_deck(deck::Document& document, const std::string& output)
   for (auto& load : deck.loads)
     if (load.name.empty()) load.name = load.boundary.empty() ? load.body : load.boundary;
   check_bodies(deck, document);
+  describe_assembly(deck, document);
   check_decomposition(deck, document);
   check_vectors(deck, document);
   check_contact_names(deck, document);
@@ -268,7 +283,7 @@ Deck read_deck(deck::Document& document, const std::string& output)
 
 BoundaryName parse_boundary(const std::string& name)
 {
-  const auto colon = name.find(':');
+  const auto colon = is_pattern(name) ? std::string::npos : name.find(':');
   if (colon == std::string::npos) return {name, {}};
   return {name.substr(colon + 1), name.substr(0, colon)};
 }
@@ -285,6 +300,8 @@ void check_names(const Deck& deck, deck::Document& document, const mesh::Catalog
     if (!deck.bodies.contains(group))
       document.error("bodies", fmt::format("the body \"{}\" of the mesh has no entry; give it a material", group));
 
+  check_volumes(deck, document, catalogue);
+
   const auto check = [&](const std::string& name, const std::string& path) {
     if (const auto why = missing(name, catalogue); !why.empty()) document.error(path, why);
   };
@@ -296,28 +313,33 @@ void check_names(const Deck& deck, deck::Document& document, const mesh::Catalog
     if (load.body.empty()) continue;
     const auto at = fmt::format("loads[{}].body", i);
     const bool known = std::any_of(catalogue.bodies.begin(), catalogue.bodies.end(),
-                                   [&](const mesh::Body& b) { return b.name == load.body || b.group == load.body; });
+                                   [&](const mesh::Body& b) { return is_called(b, load.body); });
     if (!known) document.error(at, fmt::format("the mesh has no body \"{}\"{}", load.body, deck::suggestion(load.body, groups)));
     for (const auto& body : catalogue.bodies) {
-      if (body.name != load.body && body.group != load.body) continue;
+      if (!is_called(body, load.body)) continue;
       const auto entry = deck.bodies.find(body.group);
       if (entry == deck.bodies.end()) continue;
-      const auto material = deck.materials.find(entry->second.material);
-      if (material == deck.materials.end()) continue;
-      if (load.acceleration && !(material->second.density > 0)) {
-        document.error(at, fmt::format("an acceleration needs a density > 0 of the material \"{}\"", material->first));
+      const auto of_body = [&](const auto& material) { return is_made_of(entry->second, material.first); };
+      const auto light = std::find_if(deck.materials.begin(), deck.materials.end(),
+                                      [&](const auto& material) { return of_body(material) && !(material.second.density > 0); });
+      if (load.acceleration && light != deck.materials.end()) {
+        document.error(at, fmt::format("an acceleration needs a density > 0 of the material \"{}\"", light->first));
         break;
       }
-      if (load.temperature_change && material->second.thermal_expansion == 0) {
+      const auto any = std::find_if(deck.materials.begin(), deck.materials.end(), of_body);
+      const bool expands = std::any_of(deck.materials.begin(), deck.materials.end(), [&](const auto& material) {
+        return of_body(material) && material.second.thermal_expansion != 0;
+      });
+      if (load.temperature_change && any != deck.materials.end() && !expands) {
         document.error(at, fmt::format("a temperature_change needs a thermal_expansion (strain a degree) of the material \"{}\"",
-                                       material->first));
+                                       any->first));
         break;
       }
     }
   }
   for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
-    check(deck.contacts[i].secondary, fmt::format("contacts[{}].secondary", i));
-    if (!deck.contacts[i].obstacle) check(deck.contacts[i].primary, fmt::format("contacts[{}].primary", i));
+    check(deck.contacts[i].secondary, deck.contact_path(i) + ".secondary");
+    if (!deck.contacts[i].obstacle) check(deck.contacts[i].primary, deck.contact_path(i) + ".primary");
   }
 }
 

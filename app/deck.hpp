@@ -42,6 +42,13 @@ struct Deck {
   io::Options output;
 
   int dimension() const { return fem::dimension(kinematics); }
+  /// Which entry of the deck's section each of `contacts` comes from: a wild card makes many of one. Empty: each from its own.
+  std::vector<std::size_t> contact_entries;
+  /// Where a contact stands in the deck, for messages.
+  std::string contact_path(std::size_t contact) const
+  {
+    return "contacts[" + std::to_string(contact_entries.empty() ? contact : contact_entries[contact]) + "]";
+  }
   bool axisymmetric() const { return kinematics == fem::Kinematics::axisymmetric; }
 };
 
@@ -49,12 +56,16 @@ struct Deck {
 /// the deck's output directory if it is not empty. Errors go to the document.
 Deck read_deck(deck::Document& document, const std::string& output);
 
-/// A boundary by its name in the deck: `boundary`, or `body:boundary` for the part of it that lies on one body or group.
+/// A boundary by its name in the deck: `boundary`, or `body:boundary` for the part of it that lies on one body, instance or
+/// group. A name with wild cards is one boundary: see patterns.hpp.
 struct BoundaryName {
   std::string boundary;
   std::string body;  ///< empty: all bodies
 };
 BoundaryName parse_boundary(const std::string& name);
+
+/// Checks that contacts have names and faces of their own. Errors go to the document.
+void check_contact_names(const Deck& deck, deck::Document& document);
 
 /// Checks all names against the mesh: each body group has an entry, each entry a body, each boundary exists. Errors go to the
 /// document.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fem/stress.hpp"
 #include "io/results.hpp"
 #include "io/vtk.hpp"
 #include "report.hpp"
@@ -17,13 +18,33 @@ bool wanted(const Deck& deck, const std::string& field)
   return std::find(fields.begin(), fields.end(), field) != fields.end();
 }
 
+// The points of the volume's mesh: the nodes and, where stresses jump between materials, one for each material that meets there.
+// Point (n, k) of a subdomain stands at n * materials + k.
+std::vector<bool> points_of(const Results& results, const mesh::Mesh& mesh, std::size_t s, std::size_t materials)
+{
+  if (materials == 1) return std::vector<bool>(mesh.node_count(), true);
+  std::vector<bool> used(mesh.node_count() * materials, false);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (const Local n : mesh.cells[c])
+      used[static_cast<std::size_t>(n) * materials + static_cast<std::size_t>(results.cell_block[s][c])] = true;
+  return used;
+}
+
 // The subdomains of this rank as one mesh, in which the copies of a node are one.
 io::Piece volume_piece(const Deck& deck, const partition::Decomposition& decomposition, const Results& results)
 {
   io::Piece piece;
+  const auto materials =
+      results.material_stress.empty() ? 1 : static_cast<std::size_t>(results.material_stress.front().cols()) / 6;
   std::vector<Global> ids;
-  for (const auto& subdomain : decomposition.subdomains)
-    ids.insert(ids.end(), subdomain.mesh.node_id.begin(), subdomain.mesh.node_id.end());
+  std::vector<std::vector<bool>> used;
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& mesh = decomposition.subdomains[s].mesh;
+    used.push_back(points_of(results, mesh, s, materials));
+    for (std::size_t i = 0; i < used[s].size(); ++i)
+      if (used[s][i])
+        ids.push_back(mesh.node_id[i / materials] * static_cast<Global>(materials) + static_cast<Global>(i % materials));
+  }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   const auto count = ids.size();
@@ -35,20 +56,26 @@ io::Piece volume_piece(const Deck& deck, const partition::Decomposition& decompo
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     const auto& mesh = subdomain.mesh;
-    std::vector<Local> place;
-    for (std::size_t n = 0; n < mesh.node_count(); ++n) {
-      const auto at = static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), mesh.node_id[n]) - ids.begin());
-      place.push_back(static_cast<Local>(at));
+    const auto& nodal = materials == 1 ? results.nodal_stress[s] : results.material_stress[s];
+    std::vector<Local> place(used[s].size(), -1);
+    for (std::size_t i = 0; i < used[s].size(); ++i) {
+      if (!used[s][i]) continue;
+      const std::size_t n = i / materials, block = i % materials;
+      const Global id = mesh.node_id[n] * static_cast<Global>(materials) + static_cast<Global>(block);
+      const auto at = static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+      place[i] = static_cast<Local>(at);
       piece.points[at] = mesh.points[n];
-      const auto row = static_cast<Eigen::Index>(n);
       for (std::size_t c = 0; c < dimension; ++c)
         displacement.values[3 * at + c] = results.displacement[s][static_cast<Eigen::Index>(n * dimension + c)];
-      von_mises.values[at] = results.nodal_von_mises[s][row];
-      for (std::size_t c = 0; c < 6; ++c) stress.values[6 * at + c] = results.nodal_stress[s](row, static_cast<Eigen::Index>(c));
+      const fem::Stress own =
+          nodal.row(static_cast<Eigen::Index>(n)).segment(6 * static_cast<Eigen::Index>(block), 6).transpose();
+      von_mises.values[at] = fem::von_mises(own);
+      for (std::size_t c = 0; c < 6; ++c) stress.values[6 * at + c] = own[static_cast<Eigen::Index>(c)];
     }
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      const auto block = materials == 1 ? 0 : static_cast<std::size_t>(results.cell_block[s][c]);
       std::vector<Local> nodes;
-      for (const Local n : mesh.cells[c]) nodes.push_back(place[static_cast<std::size_t>(n)]);
+      for (const Local n : mesh.cells[c]) nodes.push_back(place[static_cast<std::size_t>(n) * materials + block]);
       piece.cells.add(mesh.cells.type[c], nodes);
       cell_von_mises.values.push_back(results.cell_von_mises[s][static_cast<Eigen::Index>(c)]);
       body.values.push_back(subdomain.body);

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "base/error.hpp"
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
+#include "patterns.hpp"
 
 namespace mortise {
 
@@ -27,8 +29,7 @@ Point point(const std::array<double, 3>& x)
 std::vector<bool> Model::bodies_called(const std::string& name) const
 {
   std::vector<bool> result;
-  for (const auto& body : decomposition_.catalogue.bodies)
-    result.push_back(name.empty() || body.name == name || body.group == name);
+  for (const auto& body : decomposition_.catalogue.bodies) result.push_back(name.empty() || is_called(body, name));
   return result;
 }
 
@@ -39,10 +40,44 @@ Model::Selection Model::select(const std::string& name) const
   return {static_cast<int>(std::find(known.begin(), known.end(), boundary) - known.begin()), bodies_called(body)};
 }
 
-const fem::Material& Model::material(const partition::Subdomain& subdomain) const
+namespace {
+
+// The names of a body's materials, each once.
+std::vector<std::string> material_names(const fem::BodyOptions& body)
 {
-  const auto& group = decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group;
-  return deck_.materials.at(deck_.bodies.at(group).material);
+  if (body.volumes.empty()) return {body.material};
+  std::vector<std::string> names;
+  for (const auto& [volume, material] : body.volumes)
+    if (std::find(names.begin(), names.end(), material) == names.end()) names.push_back(material);
+  return names;
+}
+
+}  // namespace
+
+fem::Materials Model::materials(const partition::Subdomain& subdomain) const
+{
+  const auto& catalogue = decomposition_.catalogue;
+  const auto& body = deck_.bodies.at(catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group);
+  if (body.volumes.empty()) return deck_.materials.at(body.material);
+  // In every subdomain of a body the materials stand in the same order.
+  const auto names = material_names(body);
+  std::vector<fem::Material> materials;
+  for (const auto& name : names) materials.push_back(deck_.materials.at(name));
+  std::vector<int> of_volume, of_cell;
+  for (const auto& volume : catalogue.volumes) {
+    const auto own = body.volumes.find(volume);
+    const auto found = own == body.volumes.end() ? names.begin() : std::find(names.begin(), names.end(), own->second);
+    of_volume.push_back(static_cast<int>(found - names.begin()));
+  }
+  for (const int volume : subdomain.mesh.cell_volume) of_cell.push_back(of_volume[static_cast<std::size_t>(volume)]);
+  return {std::move(materials), std::move(of_cell)};
+}
+
+std::size_t Model::most_materials() const
+{
+  std::size_t most = 1;
+  for (const auto& [name, body] : deck_.bodies) most = std::max(most, material_names(body).size());
+  return most;
 }
 
 fem::Formulation Model::formulation(const partition::Subdomain& subdomain) const
@@ -50,7 +85,7 @@ fem::Formulation Model::formulation(const partition::Subdomain& subdomain) const
   return deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group).formulation;
 }
 
-double Model::free_strain(const partition::Subdomain& subdomain, const LoadState& state) const
+double Model::temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const
 {
   double warmer = 0;
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
@@ -58,7 +93,7 @@ double Model::free_strain(const partition::Subdomain& subdomain, const LoadState
     if (load.temperature_change && bodies_called(load.body)[static_cast<std::size_t>(subdomain.body)])
       warmer += state.load[i] * *load.temperature_change;
   }
-  return warmer == 0 ? 0 : warmer * material(subdomain).thermal_expansion;
+  return warmer;
 }
 
 // The largest |x| of all bodies.
@@ -105,20 +140,41 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
   for (std::size_t i = 0; i < deck_.supports.size(); ++i)
     named.emplace_back(deck_.supports[i].boundary, fmt::format("supports[{}].boundary", i));
   for (std::size_t i = 0; i < deck_.contacts.size(); ++i) {
-    named.emplace_back(deck_.contacts[i].secondary, fmt::format("contacts[{}].secondary", i));
-    if (!deck_.contacts[i].obstacle) named.emplace_back(deck_.contacts[i].primary, fmt::format("contacts[{}].primary", i));
+    named.emplace_back(deck_.contacts[i].secondary, deck_.contact_path(i) + ".secondary");
+    named.emplace_back(deck_.contacts[i].obstacle ? "" : deck_.contacts[i].primary, deck_.contact_path(i) + ".primary");
   }
-  std::vector<double> faces;
-  for (const auto& [boundary, key] : named) {
-    const auto [index, on_body] = select(boundary);
-    faces.push_back(static_cast<double>(partition::boundary_surface(decomposition_, index, on_body).faces.size()));
+  std::vector<double> faces, common;  // of each; of each contact's two sides
+  std::vector<Global> before;
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (named[i].first.empty()) {  // an obstacle
+      faces.push_back(1);
+      common.push_back(0);
+      continue;
+    }
+    const auto [index, on_body] = select(named[i].first);
+    auto ids = partition::boundary_surface(decomposition_, index, on_body).face_id;
+    faces.push_back(static_cast<double>(ids.size()));
+    if (i < deck_.supports.size()) continue;
+    std::sort(ids.begin(), ids.end());
+    std::vector<Global> both;
+    if ((i - deck_.supports.size()) % 2 == 1) {
+      std::set_intersection(before.begin(), before.end(), ids.begin(), ids.end(), std::back_inserter(both));
+      common.push_back(static_cast<double>(both.size()));
+    }
+    before = std::move(ids);
   }
   comm.sum_in_place(faces);
+  comm.sum_in_place(common);
   collectively(comm, [&] {
     for (std::size_t i = 0; i < named.size(); ++i)
       if (faces[i] == 0)
         document.error(named[i].second,
                        fmt::format("\"{}\" has no face: its boundary does not lie on that body", named[i].first));
+    for (std::size_t c = 0; c < common.size(); ++c)
+      if (common[c] > 0)
+        document.error(deck_.contact_path(c),
+                       fmt::format("\"{}\" and \"{}\" have faces in common; contact of a surface with itself is not available",
+                                   deck_.contacts[c].secondary, deck_.contacts[c].primary));
     require_formulations(document);
     if (deck_.axisymmetric()) require_axis(document, rounding);
     document.check();
@@ -127,14 +183,15 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
 
 std::vector<partition::CopyOf> Model::congruent() const
 {
-  std::vector<int> kind;  // place of the material among all, and the formulation
+  std::vector<int> kind;  // which of the different sets of materials of all cells and formulation
+  std::map<std::pair<std::vector<std::string>, std::vector<std::size_t>>, int> kinds;
   for (const auto& subdomain : decomposition_.subdomains) {
-    const auto& materials = deck_.materials;
-    const auto found = std::find_if(materials.begin(), materials.end(),
-                                    [&](const auto& entry) { return &entry.second == &material(subdomain); });
-    constexpr int formulations = 3;
-    kind.push_back(static_cast<int>(std::distance(materials.begin(), found)) * formulations +
-                   static_cast<int>(formulation(subdomain)));
+    const auto& body = deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group);
+    const auto own = materials(subdomain);
+    std::vector<std::size_t> detail{static_cast<std::size_t>(formulation(subdomain))};
+    for (std::size_t c = 0; own.count() > 1 && c < subdomain.mesh.cells.size(); ++c) detail.push_back(own.place(c));
+    kind.push_back(
+        kinds.emplace(std::pair(material_names(body), std::move(detail)), static_cast<int>(kinds.size())).first->second);
   }
   return partition::congruent(decomposition_.subdomains, kind,
                               deck_.axisymmetric() ? partition::Motions::along_y : partition::Motions::rigid);
@@ -146,7 +203,7 @@ std::vector<SparseMatrix> Model::stiffness(const std::vector<partition::CopyOf>&
   for (std::size_t s = 0; s < copies.size(); ++s) {
     if (copies[s].original != s) continue;
     const auto& subdomain = decomposition_.subdomains[s];
-    result[s] = fem::stiffness(subdomain.mesh, material(subdomain), deck_.kinematics, formulation(subdomain));
+    result[s] = fem::stiffness(subdomain.mesh, materials(subdomain), deck_.kinematics, formulation(subdomain));
   }
   return result;
 }
@@ -159,8 +216,8 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
     f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
   for (std::size_t s = 0; s < f.size(); ++s) {
     const auto& subdomain = decomposition_.subdomains[s];
-    if (const double strain = free_strain(subdomain, state); strain != 0)
-      fem::add_expansion(subdomain.mesh, material(subdomain), deck_.kinematics, strain, f[s]);
+    if (const double warmer = temperature_change(subdomain, state); warmer != 0)
+      fem::add_expansion(subdomain.mesh, materials(subdomain), deck_.kinematics, warmer, f[s]);
   }
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
     const auto& load = deck_.loads[i];
@@ -170,8 +227,7 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
       const auto on_body = bodies_called(load.body);
       for (std::size_t s = 0; s < f.size(); ++s)
         if (const auto& subdomain = decomposition_.subdomains[s]; on_body[static_cast<std::size_t>(subdomain.body)])
-          fem::add_acceleration(subdomain.mesh, deck_.kinematics, material(subdomain).density, factor * point(*load.acceleration),
-                                f[s]);
+          fem::add_acceleration(subdomain.mesh, deck_.kinematics, materials(subdomain), factor * point(*load.acceleration), f[s]);
       continue;
     }
     const auto [boundary, on_body] = select(load.boundary);

@@ -4,6 +4,7 @@
 #include "base/context.hpp"
 #include "contact/mortar.hpp"
 #include "deck.hpp"
+#include "fem/materials.hpp"
 #include "feti/dual_problem.hpp"
 #include "friction/friction.hpp"
 #include "partition/congruence.hpp"
@@ -15,13 +16,15 @@ class Model {
  public:
   Model(const Deck& deck, const partition::Decomposition& decomposition) : deck_(deck), decomposition_(decomposition) {}
 
-  const fem::Material& material(const partition::Subdomain& subdomain) const;
+  fem::Materials materials(const partition::Subdomain& subdomain) const;
+  /// The largest number of materials in one body.
+  std::size_t most_materials() const;
   fem::Formulation formulation(const partition::Subdomain& subdomain) const;
   /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for, or reaches beyond
   /// the axis of revolution, or if a support or a contact names a boundary that has no part on its body. Collective.
   void require_fit(deck::Document& document, const Communicator& comm) const;
-  /// Strain along every axis that the body would have if nothing held it: its changes of temperature times the expansion.
-  double free_strain(const partition::Subdomain& subdomain, const LoadState& state) const;
+  /// Degrees, the sum of all loads on its body.
+  double temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const;
   /// For each subdomain the first one of this rank with the same shape and material.
   std::vector<partition::CopyOf> congruent() const;
   /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.

@@ -32,9 +32,9 @@ Peak over_ranks(const Peak& mine, const Communicator& comm)
   return {largest, Point(at[0], at[1], at[2])};
 }
 
-// Stresses averaged at the nodes of each body, and what they differ by from those of the cells.
+// Stresses averaged at the nodes of each body, material by material, and what they differ by from those of the cells.
 struct Recovered {
-  std::vector<Eigen::MatrixXd> nodal_stress;
+  std::vector<Eigen::MatrixXd> nodal_stress;  // nodes x 6 blocks
   std::vector<Eigen::VectorXd> cell_von_mises;
   double squared_error = 0;  // in the energy norm, over all ranks
   double strain_energy = 0;  // of the elastic strain, over all ranks
@@ -45,25 +45,41 @@ Recovered recover(const Deck& deck, const partition::Decomposition& decompositio
                   const Communicator& comm)
 {
   Recovered result;
+  const auto blocks = model.most_materials();
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
-    auto field = fem::stresses(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s],
-                               model.formulation(subdomain), model.free_strain(subdomain, state));
+    auto field = fem::stresses(subdomain.mesh, model.materials(subdomain), deck.kinematics, displacement[s],
+                               model.formulation(subdomain), model.temperature_change(subdomain, state), blocks);
     result.strain_energy += field.strain_energy;
     result.nodal_stress.push_back(std::move(field.nodal_sums));
     result.cell_von_mises.push_back(std::move(field.cell_von_mises));
   }
   partition::sum_over_copies(decomposition, interface, result.nodal_stress, comm);
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    auto& stress = result.nodal_stress[s];
-    stress = (stress.leftCols(6).array().colwise() / stress.col(6).array()).eval();
+    const auto& sums = result.nodal_stress[s];
+    Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(sums.rows(), 6 * static_cast<Eigen::Index>(blocks));
+    for (Eigen::Index n = 0; n < sums.rows(); ++n)
+      for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(blocks); ++k)
+        if (sums(n, 7 * k + 6) > 0) stress.row(n).segment(6 * k, 6) = sums.row(n).segment(7 * k, 6) / sums(n, 7 * k + 6);
     const auto& subdomain = decomposition.subdomains[s];
-    result.squared_error += fem::squared_errors(subdomain.mesh, model.material(subdomain), deck.kinematics, displacement[s],
-                                                stress, model.formulation(subdomain), model.free_strain(subdomain, state))
+    result.squared_error += fem::squared_errors(subdomain.mesh, model.materials(subdomain), deck.kinematics, displacement[s],
+                                                stress, model.formulation(subdomain), model.temperature_change(subdomain, state))
                                 .sum();
+    result.nodal_stress[s] = std::move(stress);
   }
   result.squared_error = comm.sum(result.squared_error);
   result.strain_energy = comm.sum(result.strain_energy);
+  return result;
+}
+
+// Of each node's stresses, one a material, that with the largest von Mises stress.
+Eigen::MatrixXd governing(const Eigen::MatrixXd& stress)
+{
+  Eigen::MatrixXd result = stress.leftCols(6);
+  for (Eigen::Index n = 0; n < stress.rows(); ++n)
+    for (Eigen::Index k = 1; 6 * k < stress.cols(); ++k)
+      if (fem::von_mises(stress.row(n).segment(6 * k, 6).transpose()) > fem::von_mises(result.row(n).transpose()))
+        result.row(n) = stress.row(n).segment(6 * k, 6);
   return result;
 }
 
@@ -71,7 +87,16 @@ void recover_stress(const Deck& deck, const partition::Decomposition& decomposit
                     const partition::Interface& interface, const Communicator& comm, Results& results)
 {
   auto recovered = recover(deck, decomposition, model, state, interface, results.displacement, comm);
-  results.nodal_stress = std::move(recovered.nodal_stress);
+  for (const auto& stress : recovered.nodal_stress) results.nodal_stress.push_back(governing(stress));
+  if (model.most_materials() > 1) {
+    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+      const auto materials = model.materials(decomposition.subdomains[s]);
+      auto& blocks = results.cell_block.emplace_back();
+      for (std::size_t c = 0; c < decomposition.subdomains[s].mesh.cells.size(); ++c)
+        blocks.push_back(static_cast<int>(materials.place(c)));
+    }
+    results.material_stress = std::move(recovered.nodal_stress);
+  }
   results.cell_von_mises = std::move(recovered.cell_von_mises);
   Peak peak;
   for (std::size_t s = 0; s < results.nodal_stress.size(); ++s) {

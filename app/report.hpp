@@ -13,6 +13,10 @@ namespace mortise {
 struct Results {
   std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
   std::vector<Eigen::MatrixXd> nodal_stress;  ///< nodes x 6 of each subdomain, recovered inside the body
+  /// Where bodies have several materials, of each subdomain: nodes x 6 blocks, the stress in each material; at nodes between two
+  /// of them nodal_stress is that with the larger von Mises stress. And the block of each cell. Else empty.
+  std::vector<Eigen::MatrixXd> material_stress;
+  std::vector<std::vector<int>> cell_block;
   std::vector<Eigen::VectorXd> nodal_von_mises, cell_von_mises;
   std::vector<contact::PointState> points;      ///< of this rank's contact points
   std::vector<contact::Resultant> resultants;   ///< of each contact

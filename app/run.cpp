@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "io/files.hpp"
+#include "listing.hpp"
 #include "memory.hpp"
 #include "partition/decompose.hpp"
+#include "patterns.hpp"
 #include "report.hpp"
 #include "simulation.hpp"
 #include "untouched.hpp"
@@ -150,11 +152,14 @@ class Stages {
 
 }  // namespace
 
-ExitStatus run(const Deck& deck, deck::Document& document, const CommandLine& command_line, const Context& context)
+ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& command_line, const Context& context)
 {
   auto& [comm, log, timers] = context;
   const double start = MPI_Wtime();
-  const auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
+  Deck deck = given;
+  auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
+  if (command_line.check) print_listing(decomposition, deck.kinematics, context);
+  resolve_patterns(deck, document, decomposition, comm);
   check_names(deck, document, decomposition.catalogue);
   document.check();
   print_header(deck, decomposition, context);

@@ -87,7 +87,7 @@ TEST(Materials, StressesAreNotAveragedAcrossTheJump)
     const auto kinematics = kinematics_of(layers);
     const Materials without({material(1, 0, 0), material(1e6, 0, 0)}, layers.of_cell);
     const auto u = sample(mesh, layers.block.dimension, [](const Point& x) { return Point(0.01 * x[0], 0, 0); });
-    const auto field = stresses(mesh, without, kinematics, u, Formulation::standard, 3);
+    const auto field = stresses(mesh, without, kinematics, u, Formulation::standard, 0, 3);
     ASSERT_EQ(field.nodal_sums.cols(), 21);
     Eigen::MatrixXd recovered = Eigen::MatrixXd::Zero(field.nodal_sums.rows(), 18);
     int both = 0;
