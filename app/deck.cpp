@@ -254,6 +254,7 @@ Deck read_deck(deck::Document& document, const std::string& output)
   for (auto& contact : deck.contacts)
     if (contact.name.empty())
       contact.name = contact.secondary + "/" + (contact.obstacle ? contact::shape_name(*contact.obstacle) : contact.primary);
+  for (const auto& contact : deck.contacts) deck.contact_names.push_back(contact.name);
   for (auto& support : deck.supports)
     if (support.name.empty()) support.name = support.boundary;
   for (auto& load : deck.loads)

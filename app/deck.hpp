@@ -44,6 +44,8 @@ struct Deck {
   int dimension() const { return fem::dimension(kinematics); }
   /// Which entry of the deck's section each of `contacts` comes from: a wild card makes many of one. Empty: each from its own.
   std::vector<std::size_t> contact_entries;
+  /// Names of the section's entries, which load steps know.
+  std::vector<std::string> contact_names;
   /// Where a contact stands in the deck, for messages.
   std::string contact_path(std::size_t contact) const
   {

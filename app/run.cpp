@@ -222,7 +222,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
       collectively(comm, [&] {
         if (!comm.root()) return;
         io::write_text(deck.output.directory + "/history.csv", history.text());
-        io::write_text(deck.output.directory + "/deck.yaml", write_deck(deck));
+        io::write_text(deck.output.directory + "/deck.yaml", write_deck(given));
       });
     }
     stages.end("output", "output");

@@ -10,13 +10,6 @@ namespace mortise {
 
 namespace {
 
-// Whether any of a list is called `name`.
-template <class T>
-bool contains(const std::vector<T>& list, const std::string& name)
-{
-  return std::any_of(list.begin(), list.end(), [&](const T& item) { return item.name == name; });
-}
-
 template <class T>
 void add_names(const std::vector<T>& list, std::vector<std::string>& names)
 {
@@ -28,12 +21,28 @@ bool named(const std::vector<std::string>& list, const std::string& name)
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-// Factors at the end of a step.
 template <class T>
-void scale(const std::vector<T>& list, const StepOptions& step, std::vector<double>& factors)
+std::vector<std::string> names_of(const std::vector<T>& list)
 {
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (const auto found = step.scale.find(list[i].name); found != step.scale.end()) factors[i] = found->second;
+  std::vector<std::string> names;
+  add_names(list, names);
+  return names;
+}
+
+// Of each contact the name that the deck gives its entry.
+std::vector<std::string> names_of_contacts(const Deck& deck)
+{
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < deck.contacts.size(); ++c)
+    names.push_back(deck.contact_names[deck.contact_entries.empty() ? c : deck.contact_entries[c]]);
+  return names;
+}
+
+// Factors at the end of a step.
+void scale(const std::vector<std::string>& names, const StepOptions& step, std::vector<double>& factors)
+{
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const auto found = step.scale.find(names[i]); found != step.scale.end()) factors[i] = found->second;
 }
 
 template <class T>
@@ -111,19 +120,20 @@ std::vector<LoadState> load_states(const Deck& deck)
               std::vector<bool>(deck.supports.size(), true)};
   const std::vector<bool> none(deck.contacts.size(), false);
   if (deck.steps.empty()) return {{"", 1, now.load, now.support, now.contact, now.held, none}};
+  const auto loads = names_of(deck.loads), supports = names_of(deck.supports), contacts = names_of_contacts(deck);
   std::vector<LoadState> states;
   // The first step comes from nothing: no load, no displacement, no overlap.
   std::vector<double> load(deck.loads.size(), 0.0), support(deck.supports.size(), 0.0), contact(deck.contacts.size(), 0.0);
   for (std::size_t s = 0; s < deck.steps.size(); ++s) {
     const auto& step = deck.steps[s];
-    scale(deck.loads, step, now.load);
-    scale(deck.supports, step, now.support);
-    scale(deck.contacts, step, now.contact);
+    scale(loads, step, now.load);
+    scale(supports, step, now.support);
+    scale(contacts, step, now.contact);
     toggle(deck.loads, step, now.loaded);
     toggle(deck.supports, step, now.held);
     const auto acting = now.acting_load();
     std::vector<bool> locked;
-    for (const auto& contact : deck.contacts) locked.push_back(s > 0 && !step.scale.contains(contact.name));
+    for (const auto& name : contacts) locked.push_back(s > 0 && !step.scale.contains(name));
     for (int i = 1; i <= step.increments; ++i) {
       const double part = static_cast<double>(i) / step.increments;
       states.push_back({step.name.empty() ? std::to_string(s + 1) : step.name, static_cast<double>(s) + part,

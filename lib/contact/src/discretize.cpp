@@ -566,7 +566,8 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
   constraint::Contacts contacts;
   const auto sizes = measure(pairs, comm);
   for (std::size_t c = 0; c < pairs.size(); ++c)
-    Builder(pairs[c].options, near_faces(pairs[c], sizes[c], comm), sizes[c].reach, static_cast<int>(c), held, inclined, kinematics, comm)
+    Builder(pairs[c].options, near_faces(pairs[c], sizes[c], comm), sizes[c].reach, static_cast<int>(c), held, inclined,
+            kinematics, comm)
         .add_rows(contacts);
   return contacts;
 }
