@@ -203,6 +203,7 @@ void Simulation::build_problem()
   log.line("  dual problem: {} multipliers, {} kernel dimensions", problem_->dual_unknowns(), problem_->kernel_dimension());
   auto options = deck_.solver.programme;
   options.max_multiplications -= multiplications_;
+  multiplications_before_ = multiplications_;
   solver_ = std::make_unique<friction::Solver>(*problem_, model_.friction_laws(), deck_.friction_loop, options);
 }
 
@@ -240,7 +241,11 @@ void Simulation::solve(const LoadState& state, const friction::Observer& observe
     return algebraic_part *
            discretization_error(deck_, decomposition_, model_, state_, interface_, problem_->displacement(lambda, nu), comm);
   };
-  auto found = solver_->solve(solved_ ? &solved_->solution : nullptr, allowed_error, observer);
+  const auto count_on = [&](int step, double change, qp::Progress progress) {
+    progress.multiplications += multiplications_before_;
+    observer(step, change, progress);
+  };
+  auto found = solver_->solve(solved_ ? &solved_->solution : nullptr, allowed_error, count_on);
   multiplications_ += found.multiplications;
   solved_ = std::make_unique<friction::Result>(std::move(found));
 }

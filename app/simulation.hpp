@@ -57,9 +57,9 @@ class Simulation {
   feti::Floating floating_;
   std::unique_ptr<feti::DualProblem> problem_;
   std::unique_ptr<friction::Solver> solver_;
-  std::unique_ptr<friction::Result> solved_;  // of the state before, while a new one is being solved
-  std::vector<double> shortenings_;           // of the preloaded contacts in the state before
-  int multiplications_ = 0;
+  std::unique_ptr<friction::Result> solved_;              // of the state before, while a new one is being solved
+  std::vector<double> shortenings_;                       // of the preloaded contacts in the state before
+  int multiplications_ = 0, multiplications_before_ = 0;  // of all problems, of those before this one
 };
 
 }  // namespace mortise

@@ -2,10 +2,10 @@
 """Renders the fields of a run to a PNG file, off screen.
 
     render.py OUTPUT_DIRECTORY PICTURE.png [--field von_mises] [--warp 100] [--view=iso|x|y|z|-x|-y|-z] [--contact] [--edges] [--max VALUE]
-        [--focus X Y Z] [--zoom 1.2]
+        [--focus X Y Z] [--zoom 1.2] [--time 1.5]
 
 --contact shows the contact surfaces (fields contact_pressure, contact_pressure_recovered, gap, slip, contact_status) instead of the volume; --warp multiplies the
-displacements; --max ends the colour scale, since peaks at edges and corners hide the rest.
+displacements; --max ends the colour scale, since peaks at edges and corners hide the rest; --time chooses a load step, the last if not given.
 """
 import argparse
 import pathlib
@@ -13,8 +13,10 @@ import pathlib
 import pyvista
 
 
-def load(directory, name):
-    dataset = pyvista.get_reader(str(directory / f"{name}.pvd")).read()
+def load(directory, name, time):
+    reader = pyvista.get_reader(str(directory / f"{name}.pvd"))
+    reader.set_active_time_value(reader.time_values[-1] if time is None else time)
+    dataset = reader.read()
     while isinstance(dataset, pyvista.MultiBlock):
         dataset = dataset[0] if len(dataset) == 1 else dataset.combine()
     return dataset
@@ -32,9 +34,10 @@ def main():
     parser.add_argument("--max", type=float, default=None)
     parser.add_argument("--focus", type=float, nargs=3, default=None)
     parser.add_argument("--zoom", type=float, default=1.2)
+    parser.add_argument("--time", type=float, default=None)
     arguments = parser.parse_args()
 
-    mesh = load(arguments.directory, "contact" if arguments.contact else "solution")
+    mesh = load(arguments.directory, "contact" if arguments.contact else "solution", arguments.time)
     field = arguments.field or ("contact_pressure_recovered" if arguments.contact else "von_mises")
     if field not in mesh.point_data:
         parser.error(f"there is no point field {field}; there are {', '.join(mesh.point_data.keys())}")

@@ -115,7 +115,8 @@ def of_mortise(directory, contact, field):
     import meshio
 
     groups = []
-    for path in sorted(directory.glob("contact_*.vtu")):
+    last = re.findall(r'file="([^"]+)"', (directory / "contact.pvd").read_text())[-1]  # of all load steps
+    for path in sorted(directory.glob(re.sub(r"(_0\.vtu|\.pvtu)$", "", last) + "_*.vtu")):
         mesh = meshio.read(path)
         for block, number in zip(mesh.cells, mesh.cell_data["contact"]):
             cells = block.data[np.asarray(number).ravel() == contact]

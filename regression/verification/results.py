@@ -75,7 +75,9 @@ class Result:
 
     def grid(self, name):
         if name not in self._grids:
-            self._grids[name] = Grid(sorted(self.directory.glob(f"{name}_*.vtu")))
+            last = re.findall(r'file="([^"]+)"', (self.directory / f"{name}.pvd").read_text())[-1]  # of all load steps
+            stem = re.sub(r"(_0\.vtu|\.pvtu)$", "", last)
+            self._grids[name] = Grid(sorted(self.directory.glob(f"{stem}_*.vtu")))
         return self._grids[name]
 
     @property

@@ -103,6 +103,42 @@ TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
   EXPECT_NEAR(cube.comm.sum(product), problem.jump().apply(u).dot(x), 1e-9 * std::abs(product) + 1e-10);
 }
 
+// Other loads and another prescribed displacement: what renew() makes is what a new problem would have, to rounding.
+TEST(DualProblem, ARenewedOneIsThatOfTheNewLoadsAndBounds)
+{
+  Cube cube(10, true);
+  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {}, cube.context);
+  const auto* linear = &problem.linear();
+  const auto before = problem.equality().right_side();
+  for (auto& f : cube.floating.load) f *= -2.5;
+  for (auto& held : cube.constraints.held) held.value += 0.125 * held.component;
+  ASSERT_TRUE(problem.renew());
+  const DualProblem fresh(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {}, cube.context);
+  EXPECT_EQ(&problem.linear(), linear);  // solvers keep on referring to it
+  Vector difference(problem.linear(), Teuchos::Copy);
+  difference.update(-1, fresh.linear(), 1);
+  EXPECT_LT(difference.norm2(), 1e-12 * fresh.linear().norm2());
+  EXPECT_LT((problem.equality().right_side() - fresh.equality().right_side()).norm(), 1e-12 * before.norm());
+  EXPECT_GT((problem.equality().right_side() - before).norm(), 0.1 * before.norm());
+}
+
+TEST(DualProblem, LoadsThatDriveAFreeMotionLaterAreNoEquilibrium)
+{
+  Cube cube(1, false);
+  auto pulled = cube.floating.load;
+  for (auto& f : cube.floating.load) f.setZero();
+  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {}, cube.context);
+  EXPECT_TRUE(problem.renew());
+  cube.floating.load = pulled;
+  try {
+    problem.renew();
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);
+    EXPECT_NE(std::string(error.what()).find("driven by its loads"), std::string::npos);
+  }
+}
+
 // Every preconditioner is symmetric and positive, and saves products.
 TEST(DualProblem, PreconditionersAreSymmetricAndApproximateTheInverse)
 {

@@ -123,7 +123,7 @@ struct RandomProgramme {
 TEST_P(Obstacle, EqualityAndDiscs)
 {
   RandomProgramme programme;
-  auto& [hessian, b, equality, set] = programme.problem;
+  auto& [hessian, b, equality, set, driven] = programme.problem;
   const Solution solution = GetParam()(programme.problem, {}, 1e-10);
   ASSERT_TRUE(solution.feasible);
   EXPECT_TRUE(solution.converged);

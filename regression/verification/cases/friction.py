@@ -1,8 +1,8 @@
 """Friction: Cattaneo and Mindlin in 2D and 3D, Spence's stick zone, blocks that slide.
 
-Slip counts from the undeformed state, in one step. For equal bodies that is Cattaneo's problem, P first and Q after it: pressing alone
-moves their surfaces by the same amounts sideways, so points that come into contact early or late are no different. It is not P and Q
-growing in proportion: with Q < coefficient * P that sticks everywhere, with q = (Q/P) p, which only steps with a memory can give.
+In one step slip counts from the undeformed state. For equal bodies that is Cattaneo's problem, P first and Q after it: pressing alone
+moves their surfaces by the same amounts sideways, so points that come into contact early or late are no different. What Q leaves behind
+when it goes back (Mindlin and Deresiewicz) takes load steps.
 """
 
 import numpy as np
@@ -42,6 +42,34 @@ def plot_shear(axes, runs):
     _, _, a, c, p0 = line_state(runs[-1][1])
     shear = lambda result: (lambda x, t, w: (x, np.abs(t[:, 0]), w))(*by_x(result, "contact_traction"))
     plot_pressure(axes, runs, lambda x: formulas.cattaneo(x, a, c, 0.3 * p0), 1.2 * a, shear, label="shear")
+
+
+def reversed_state(result):
+    """a, p0 and the ends of the stick zones of the way to Q* and of the way back to Q: q = q(Q*) - 2 q((Q* - Q) / 2)."""
+    p, _, a, _, p0 = line_state(result)
+    there, back = (step["contacts"][0]["force"][0] for step in result.summary["steps"][-2:])
+    part = lambda q: a * np.sqrt(1 - abs(q) / (0.3 * p))
+    return a, p0, part(there), part((there - back) / 2), np.sign(there)
+
+
+def reversed_shear(x, a, p0, c, c_back):
+    return formulas.cattaneo(x, a, c, 0.3 * p0) - 2 * formulas.cattaneo(x, a, c_back, 0.3 * p0)
+
+
+def mindlin_deresiewicz(result, mesh):
+    a, p0, c, c_back, sign = reversed_state(result)
+    x, traction, areas = by_x(result, "contact_traction")
+    exact, found = reversed_shear(x, a, p0, c, c_back), sign * traction[:, 0]
+    return {
+        "pressure": difference(np.abs(traction[:, 1]), formulas.hertz_pressure(x, a, p0), areas),
+        "shear, even part": difference((found + np.interp(-x, x, found)) / 2, exact, areas),
+    }
+
+
+def plot_reversed(axes, runs):
+    a, p0, c, c_back, sign = reversed_state(runs[-1][1])
+    shear = lambda result: (lambda x, t, w: (x, sign * t[:, 0], w))(*by_x(result, "contact_traction"))
+    plot_pressure(axes, runs, lambda x: reversed_shear(x, a, p0, c, c_back), 1.2 * a, shear, label="shear")
 
 
 # The sphere; Poisson's ratio 0.
@@ -214,6 +242,16 @@ CASES = [
         ],
         cattaneo_line,
         plot_shear,
+    ),
+    Case(
+        "reversed",
+        "The same in load steps: pressed, sheared, and back to where it was",
+        "Mindlin and Deresiewicz (1953); Johnson (1985), 7.3; P and both Q are those found",
+        DECKS / "reversed_cylinder.yaml",
+        [Mesh(f"h = {h}", h / 1.31, constants(h=h, growth=3 * h)) for h in (0.2, 0.1, 0.05, 0.025)],
+        [Quantity("pressure", 0.1, 1), Quantity("shear, even part", 0.15, 1, floor=2 * 1.31 / 50)],
+        mindlin_deresiewicz,
+        plot_reversed,
     ),
     Case(
         "mindlin",
