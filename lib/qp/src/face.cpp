@@ -10,6 +10,14 @@ namespace {
 
 constexpr double tiny_disc = 1e-9;  // radii below this, relative to the largest, pin their unknowns
 
+double largest_distance(const FeasibleSet& set, const Eigen::Ref<const Eigen::VectorXd>& w, const Communicator& comm)
+{
+  double largest = 0;
+  for (const auto& bound : set.bounds())
+    if (std::isfinite(bound.lower)) largest = std::max(largest, w[bound.index] - bound.lower);
+  return comm.max(largest);
+}
+
 double largest_radius(const FeasibleSet& set, const Communicator& comm)
 {
   double largest = 0;
@@ -20,14 +28,15 @@ double largest_radius(const FeasibleSet& set, const Communicator& comm)
 
 }  // namespace
 
-Face::Face(Projector& projector, const Vector& argument, double step, double stiffness)
+Face::Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint)
     : equality_(projector.equality()), matrix_(projector.matrix())
 {
   const auto& set = projector.set();
   const auto w = view(argument);
   std::vector<LostBlock> lost;
+  const double nothing = faint * largest_distance(set, w, equality_.communicator());
   for (const auto& bound : set.bounds())
-    if (w[bound.index] <= bound.lower) {
+    if (w[bound.index] <= bound.lower + nothing) {
       fixed_.push_back(bound.index);
       ++active_bounds;
     }

@@ -17,6 +17,9 @@ constexpr double norm_accuracy = 0.4;    // the step only picks the face, and a 
 constexpr int max_inner = 60;            // conjugate gradient steps on one face
 constexpr int max_on_only_face = 1000;   // where there are no others
 constexpr int max_faces = 200;
+constexpr double first_faint = 1e-3;      // distances from bounds, over the largest, that count as none
+constexpr double longer = 4.0;            // from one of the steps that a start is looked for with to the next
+constexpr int max_starts = 10;            // of them
 constexpr int patience = 20;              // faces without a better residual after which it gives up
 constexpr int renewal_patience = 4;       // the same where slip bounds move, for then there is another way
 constexpr std::size_t max_recycled = 40;  // pairs kept from face to face
@@ -145,6 +148,31 @@ bool FaceNewton::descend(const Face& face, double goal, const std::function<void
   return true;
 }
 
+// The feasible point nearest to 0 spreads forces over all points of a contact, also over those with wide gaps. Points nearest to
+// ever longer steps along b know the gaps: z becomes the one of least energy, as long as it falls. One product each.
+void FaceNewton::look_for_start(State& state, double& energy)
+{
+  auto& [z, g, y, gy] = state;
+  const auto& [hessian, linear, equality, set] = problem_;
+  Vector downhill(linear, Teuchos::Copy);
+  equality.project(downhill);
+  double step = step_length / norm_;
+  for (int attempt = 0; attempt < max_starts && !hessian.exhausted(); ++attempt) {
+    step *= longer;
+    Vector trial(downhill, Teuchos::Copy);
+    trial.scale(step);
+    const Projection next = projector_(trial);
+    if (!next.found) break;
+    hessian.apply(next.point, gy);
+    gy.update(-1, linear, 1);
+    const double next_energy = 0.5 * (next.point.dot(gy) - next.point.dot(linear));
+    if (!(next_energy < energy)) break;
+    z.assign(next.point);
+    g.assign(gy);
+    energy = next_energy;
+  }
+}
+
 Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const Renewal* renewal,
                            const Observer& observer)
 {
@@ -174,10 +202,11 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   const auto energy_of = [&](const Vector& at, const Vector& gradient) { return 0.5 * (at.dot(gradient) - at.dot(linear)); };
   z.assign(feasible.point);
   evaluate(z, g);
-  y.assign(z);
-  gy.assign(g);
 
   double energy = energy_of(z, g);
+  if (!start && !only_face_) look_for_start(state, energy);
+  y.assign(z);
+  gy.assign(g);
   double residual = 0, mismatch = 0, best = std::numeric_limits<double>::infinity();
   int since_best = 0;
   FeasibleSet::Active active{};
@@ -189,6 +218,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       start && start->nu.size() == equality.size() ? Eigen::VectorXd(start->nu * (step_length / norm_)) : Eigen::VectorXd();
   bool moved = false;  // y differs from z
   ErrorEstimate estimate;
+  double faint = first_faint;
   double first_error = 0, allowed = -1;  // negative: not asked for yet
   while (true) {
     double step = step_length / norm_;
@@ -250,11 +280,12 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     }
     since_best = worst < 0.9 * best ? 0 : since_best + 1;
     best = std::min(best, worst);
+    if (since_best > 1) faint *= 0.1;  // perhaps it is these that matter
     if (result.converged || hessian.exhausted() || result.outer_iterations >= max_faces ||
         since_best >= (renewal ? renewal_patience : patience) || result.safeguards > max_safeguards)
       break;
 
-    const Face face(projector_, next.argument, step, slip_stiffness * norm_);
+    const Face face(projector_, next.argument, step, slip_stiffness * norm_, faint);
     if (preconditioner_) preconditioner_->fix(face.fixed());
     // The residual to come down to on this face, if inner_reduction does not end it before.
     double enough = 0;

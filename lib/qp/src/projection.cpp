@@ -6,7 +6,7 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr int max_steps = 100;
+constexpr int max_steps = 1000;      // idle rollers of a bearing, which touch without force, took 122
 constexpr int max_search = 60;       // of each line search
 constexpr int max_stalled = 3;       // steps without progress, at rounding level
 constexpr double flat = 0.1;         // part of its first slope at which a line search ends

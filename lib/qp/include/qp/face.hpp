@@ -13,9 +13,10 @@ namespace mortise::qp {
 class Face {
  public:
   /// The face at `argument`, that of a projection by `projector`, after a gradient step of length `step`; `stiffness`, a tenth of
-  /// ||P A P||, is what curvatures are measured against. Factorizes the coarse matrix, and is of use until somebody else does.
-  /// Collective.
-  Face(Projector& projector, const Vector& argument, double step, double stiffness);
+  /// ||P A P||, is what curvatures are measured against. Distances from bounds below `faint` times the largest one count as none:
+  /// bodies that touch without force, like the idle rollers of a bearing, are projected to next to nothing, and where that is
+  /// free the face can pull at them. Factorizes the coarse matrix, and is of use until somebody else does. Collective.
+  Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint);
 
   /// y += Sigma x.
   void add_curvature(const Vector& x, Vector& y) const;

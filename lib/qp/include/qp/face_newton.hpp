@@ -40,6 +40,7 @@ class FaceNewton {
   struct State;
   void precondition(const Face& face, const Vector& residual, Vector& z) const;
   double energy_measure(const Vector& residual) const;
+  void look_for_start(State& state, double& energy);
   bool descend(const Face& face, double goal, const std::function<void()>& report, State& state);
 
   const Problem& problem_;
