@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Forces on the rollers of the bearing, from the contact surfaces of a run.
 
-    roller_forces.py OUTPUT_DIRECTORY [--radius 183] [--rollers 35] [--load 350e3]
+    roller_forces.py OUTPUT_DIRECTORY [--rollers 35] [--load 350e3]
 
 Prints, from the most loaded position upwards, the radial force of the inner and of the outer raceway on each roller, and what the classical theory
 expects: Q(psi) = Q_max (1 - (1 - cos psi) / (2 eps))^(10/9), eps = 1/2 without clearance. The tractions of contact.pvd are integrated over the nodes'
@@ -10,13 +10,14 @@ shares of the facets. Needs numpy and meshio.
 import argparse
 import math
 import pathlib
+import sys
 
 import meshio
 import numpy as np
 
 
 def shares(points, facets):
-    """Of each node, area and outer normal together: a quarter of each facet's area vector."""
+    """Area of each node: a quarter of each facet's."""
     x = points[facets]
     area = 0.5 * np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1)
     result = np.zeros(len(points))
@@ -27,15 +28,18 @@ def shares(points, facets):
 
 def surfaces(directory):
     """Points, facets, number of the contact of each facet, and traction of each point, of all ranks' files."""
-    for path in sorted(directory.glob("contact_*.vtu")):
+    paths = sorted(directory.glob("contact_*.vtu"))
+    if not paths:
+        sys.exit(f"{directory}: no contact_*.vtu; is it the output directory of a finished run?")
+    for path in paths:
         mesh = meshio.read(path)
         for block, contact in zip(mesh.cells, mesh.cell_data["contact"]):
             if block.type == "quad":
                 yield mesh.points, block.data, contact, mesh.point_data["contact_traction"]
 
 
-def forces(directory, contact, radius, rollers):
-    """Radial forces (positive: towards the axis) on the rollers, rows by row of the bearing, from z = 0 up first."""
+def forces(directory, contact, rollers):
+    """Radial forces (positive: towards the axis) on the rollers, a row of the bearing each, that above z = 0 first."""
     result = np.zeros((2, rollers))
     for points, facets, numbers, traction in surfaces(directory):
         mine = facets[numbers == contact]
@@ -51,13 +55,12 @@ def forces(directory, contact, radius, rollers):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", type=pathlib.Path)
-    parser.add_argument("--radius", type=float, default=183.0)
     parser.add_argument("--rollers", type=int, default=35)
     parser.add_argument("--load", type=float, default=350e3)
     arguments = parser.parse_args()
 
-    inner = -forces(arguments.directory, 0, arguments.radius, arguments.rollers)
-    outer = forces(arguments.directory, 1, arguments.radius, arguments.rollers)
+    inner = -forces(arguments.directory, 0, arguments.rollers)
+    outer = forces(arguments.directory, 1, arguments.rollers)
     rows = 2 if inner[1].any() else 1
     psi = 2 * math.pi / arguments.rollers * np.arange(arguments.rollers)
     largest = inner.max()
