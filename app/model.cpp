@@ -349,7 +349,7 @@ std::vector<constraint::Preload> Model::preloads(const LoadState& state, const s
   for (std::size_t c = 0; c < deck_.contacts.size(); ++c) {
     const auto& options = deck_.contacts[c].preload;
     if (!options) continue;
-    constraint::Preload preload{static_cast<int>(c), deck_.contacts[c].name};
+    constraint::Preload preload{static_cast<int>(c), deck_.contacts[c].name, {}, 0};
     if (state.locked[c])
       preload.shortening = shortenings[preloads.size()];
     else if (options->force)

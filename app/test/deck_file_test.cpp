@@ -106,7 +106,6 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
   expect_complaint("loads: [{boundary: a.xmax, acceleration: [1, 0, 0]}]\n", "an acceleration acts on a `body`");
   expect_complaint("loads: [{boundary: a.xmax, force: [1, 0]}]\n",
                    "deck.yaml:7: loads[0].force: expected 3 entries, since `dimension` is 3, found 2");
-  expect_complaint("contacts: auto\n", "`auto` is not available");
   expect_complaint("contacts: [{secondary: a.zmax, primary: {plane: {}}}]\n", "the key \"normal\" is missing");
   expect_complaint("contacts: [{secondary: a.zmax, primary: a.zmax}]\n", "same boundary");
   expect_complaint("contacts: [{secondary: a.zmax, primary: b.zmin}, {secondary: a.zmax, primary: b.zmin}]\n",
@@ -114,7 +113,7 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
   expect_complaint("contacts: [{secondary: a.zmax, primary: b.zmin, friction: {coulomb: -1}}]\n", "expected a number >= 0");
   expect_complaint("dimension: plane_strain\n", "does not fit a model of dimension 2");
   expect_complaint("dimension: axisymmetric\nloads: [{body: a, acceleration: [1, 0]}]\n", "along its axis, y, alone");
-  expect_complaint("steps: []\n", "not available in this version");
+  expect_complaint("steps: [{scale: {nothing: 1}}]\n", "there is no load, support or contact of that name");
 }
 
 TEST(Decks, ResultsNeverReplaceTheDeck)

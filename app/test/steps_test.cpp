@@ -10,7 +10,7 @@ namespace {
 std::string text(const std::string& steps)
 {
   return R"(
-mesh: {blocks: {lower: {}, upper: {origin: [0, 0, 1]}}}
+mesh: {blocks: {lower: {size: [1, 1, 1], cells: [1, 1, 1]}, upper: {origin: [0, 0, 1], size: [1, 1, 1], cells: [1, 1, 1]}}}
 materials: {steel: {young_modulus: 1, poisson_ratio: 0.3}}
 bodies: {lower: {material: steel}, upper: {material: steel}}
 supports:

@@ -41,7 +41,7 @@ struct Column {
     options.counts["upper"] = {1, 1, 3};
     decomposition = partition::decompose(mesh, options, 3, context);
     for (const auto& s : decomposition.subdomains) {
-      auto stiffness = fem::stiffness(s.mesh, {young, 0.3, 0, 0}, fem::Kinematics::solid);
+      auto stiffness = fem::stiffness(s.mesh, fem::Material{young, 0.3, 0, 0}, fem::Kinematics::solid);
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
       floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
       floating.subdomains.push_back(std::make_shared<ElasticSubdomain>(

@@ -19,7 +19,8 @@ constexpr int max_on_only_face = 1000;   // where there are no others
 constexpr int max_faces = 200;
 constexpr double first_faint = 1e-3;      // distances from bounds, over the largest, that count as none
 constexpr double longer = 4.0;            // from one of the steps that a start is looked for with to the next
-constexpr int max_starts = 10;            // of them
+constexpr double soft = 0.25;             // curvature along the first step over ||P A P|| below which one is looked for
+constexpr int max_starts = 10;            // attempts
 constexpr int patience = 20;              // faces without a better residual after which it gives up
 constexpr int renewal_patience = 4;       // the same where slip bounds move, for then there is another way
 constexpr std::size_t max_recycled = 40;  // pairs kept from face to face
@@ -148,15 +149,27 @@ bool FaceNewton::descend(const Face& face, double goal, const std::function<void
   return true;
 }
 
+// Whether the curvature of A from a to b, where A x - b is ga and gb, is far below ||P A P||.
+bool FaceNewton::soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const
+{
+  Vector d(b, Teuchos::Copy), ad(gb, Teuchos::Copy);
+  d.update(-1, a, 1);
+  ad.update(-1, ga, 1);
+  return d.dot(ad) < soft * norm_ * d.dot(d);
+}
+
 // The feasible point nearest to 0 spreads forces over all points of a contact, also over those with wide gaps. Points nearest to
-// ever longer steps along b know the gaps: z becomes the one of least energy, as long as it falls. One product each.
-void FaceNewton::look_for_start(State& state, double& energy)
+// ever longer steps along b know the gaps: z becomes the one of least energy, as long as it falls below `energy`. One product
+// each. Returns whether there is one.
+bool FaceNewton::look_for_start(State& state, double energy)
 {
   auto& [z, g, y, gy] = state;
-  const auto& [hessian, linear, equality, set] = problem_;
+  auto& hessian = problem_.hessian;
+  const auto& linear = problem_.linear;
   Vector downhill(linear, Teuchos::Copy);
-  equality.project(downhill);
+  problem_.equality.project(downhill);
   double step = step_length / norm_;
+  bool found = false;
   for (int attempt = 0; attempt < max_starts && !hessian.exhausted(); ++attempt) {
     step *= longer;
     Vector trial(downhill, Teuchos::Copy);
@@ -170,7 +183,9 @@ void FaceNewton::look_for_start(State& state, double& energy)
     z.assign(next.point);
     g.assign(gy);
     energy = next_energy;
+    found = true;
   }
+  return found;
 }
 
 Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const Renewal* renewal,
@@ -204,7 +219,6 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   evaluate(z, g);
 
   double energy = energy_of(z, g);
-  if (!start && !only_face_) look_for_start(state, energy);
   y.assign(z);
   gy.assign(g);
   double residual = 0, mismatch = 0, best = std::numeric_limits<double>::infinity();
@@ -238,6 +252,16 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     Vector gradient(map);
     evaluate(next.point, gradient);
     double next_energy = energy_of(next.point, gradient);
+    if (!start && !only_face_ && result.outer_iterations == 0 && soft_between(z, g, next.point, gradient) &&
+        look_for_start(state, next_energy)) {
+      trial.update(1, z, -step, g, 0);
+      next = projector_(trial);
+      evaluate(next.point, gradient);
+      next_energy = energy_of(next.point, gradient);
+      energy = energy_of(z, g);
+      y.assign(z);
+      gy.assign(g);
+    }
     // Where the face was picked badly the minimiser on it is far away: go back towards z until the function falls.
     double part = 1;
     for (int attempt = 0; !renewal && moved && next_energy > energy + 1e-9 * std::abs(energy) && !hessian.exhausted();

@@ -40,7 +40,8 @@ class FaceNewton {
   struct State;
   void precondition(const Face& face, const Vector& residual, Vector& z) const;
   double energy_measure(const Vector& residual) const;
-  void look_for_start(State& state, double& energy);
+  bool soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const;
+  bool look_for_start(State& state, double energy);
   bool descend(const Face& face, double goal, const std::function<void()>& report, State& state);
 
   const Problem& problem_;
