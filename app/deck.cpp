@@ -47,15 +47,6 @@ nlohmann::ordered_json dimension_schema(const deck::Limits& limits)
   return {{"enum", names}};
 }
 
-void read_contacts(Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document,
-                   const deck::Limits& limits)
-{
-  if (node.IsScalar() && node.Scalar() == "auto")
-    document.error(path, "`auto` is not available in this version of Mortise; list the pairs of boundaries");
-  else
-    deck::Codec<std::vector<contact::Options>>::read(deck.contacts, node, path, document, limits);
-}
-
 std::vector<std::string> names_of(const auto& map)
 {
   std::vector<std::string> names;
@@ -237,9 +228,14 @@ void describe(deck::Description<Deck>& d)
   d.key("supports", &Deck::supports, "Prescribed displacements.");
   d.key("loads", &Deck::loads, "Loads.");
   d.custom(
-      "contacts", "Pairs of boundaries that may touch; a pair that is not named passes through each other.", read_contacts,
-      [](const Deck& deck) { return deck::Codec<std::vector<contact::Options>>::write(deck.contacts); },
-      [](const deck::Limits& limits) { return deck::Codec<std::vector<contact::Options>>::schema(limits); });
+      "contacts",
+      "Pairs of boundaries that may touch; a pair that is not named passes through each other. `auto`, or an entry {auto: true} "
+      "among others, finds them.",
+      [](Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits&) {
+        contact::read_section(deck.contacts, node, path, document);
+      },
+      [](const Deck& deck) { return contact::write_section(deck.contacts); },
+      [](const deck::Limits&) { return contact::section_schema(); });
   d.key("steps", &Deck::steps, "Load steps, one after the other; without any all loads act at once.");
   d.key("decomposition", &Deck::decomposition, "How bodies are cut into subdomains.");
   d.key("solver", &Deck::solver, "How the problem is solved.");
@@ -253,7 +249,9 @@ Deck read_deck(deck::Document& document, const std::string& output)
   deck::read(deck, document);
   for (auto& contact : deck.contacts)
     if (contact.name.empty())
-      contact.name = contact.secondary + "/" + (contact.obstacle ? contact::shape_name(*contact.obstacle) : contact.primary);
+      contact.name = contact.automatic ? "auto"
+                                       : contact.secondary + "/" +
+                                             (contact.obstacle ? contact::shape_name(*contact.obstacle) : contact.primary);
   for (const auto& contact : deck.contacts) deck.contact_names.push_back(contact.name);
   for (auto& support : deck.supports)
     if (support.name.empty()) support.name = support.boundary;
@@ -339,6 +337,7 @@ void check_names(const Deck& deck, deck::Document& document, const mesh::Catalog
     }
   }
   for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
+    if (deck.contacts[i].automatic) continue;
     check(deck.contacts[i].secondary, deck.contact_path(i) + ".secondary");
     if (!deck.contacts[i].obstacle) check(deck.contacts[i].primary, deck.contact_path(i) + ".primary");
   }

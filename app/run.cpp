@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "auto_contacts.hpp"
 #include "io/files.hpp"
 #include "listing.hpp"
 #include "memory.hpp"
@@ -162,10 +163,13 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   resolve_patterns(deck, document, decomposition, comm);
   check_names(deck, document, decomposition.catalogue);
   document.check();
+  const auto meetings = resolve_auto(deck, document, decomposition, context);
+  document.check();
   print_header(deck, decomposition, context);
   Stages stages(context);
   stages.end("mesh", "mesh");
   stages.end("partition", "partition");
+  print_meetings(meetings, given, deck, decomposition, command_line.check, context);
   if (!command_line.check) io::prepare_directory(deck.output.directory, comm);
 
   const Model model(deck, decomposition);

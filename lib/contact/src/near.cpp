@@ -61,6 +61,48 @@ double diagonal(const Extent& extent)
   return std::sqrt(square);
 }
 
+// Boxes round the parts of a surface, of all ranks. Collective.
+Tree parts_of(const std::vector<Box>& boxes, const Communicator& comm)
+{
+  std::vector<int> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<std::array<double, 6>> sent;
+  halve(boxes, order, std::max<std::size_t>(4, 2 * boxes.size() / most_boxes), [&](const Box& box, std::span<const int>) {
+    sent.push_back({box.min()[0], box.min()[1], box.min()[2], box.max()[0], box.max()[1], box.max()[2]});
+  });
+  std::vector<Box> all;
+  for (const auto& b : comm.all_gather(sent)) all.emplace_back(Point(b[0], b[1], b[2]), Point(b[3], b[4], b[5]));
+  return Tree(std::move(all));
+}
+
+mesh::Surface select(const mesh::Surface& side, const std::vector<Box>& boxes, const Tree& others, double distance)
+{
+  std::vector<std::size_t> chosen;
+  const Point margin = Point::Constant(distance);
+  for (std::size_t f = 0; f < boxes.size(); ++f)
+    if (others.meets(Box(boxes[f].min() - margin, boxes[f].max() + margin))) chosen.push_back(f);
+  return part_of(side, chosen);
+}
+
+}  // namespace
+
+void halve(const std::vector<Box>& boxes, std::span<int> order, std::size_t most,
+           const std::function<void(const Box&, std::span<const int>)>& use)
+{
+  if (order.empty()) return;
+  Box all;
+  for (const int i : order) all.extend(boxes[static_cast<std::size_t>(i)]);
+  if (order.size() <= most) return use(all, order);
+  Eigen::Index axis = 0;
+  all.sizes().maxCoeff(&axis);
+  const std::size_t middle = order.size() / 2;
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle), order.end(), [&](int a, int b) {
+    return boxes[static_cast<std::size_t>(a)].center()[axis] < boxes[static_cast<std::size_t>(b)].center()[axis];
+  });
+  halve(boxes, order.first(middle), most, use);
+  halve(boxes, order.subspan(middle), most, use);
+}
+
 std::vector<Box> boxes_of_faces(const mesh::Surface& side)
 {
   std::vector<Box> boxes(side.faces.size());
@@ -69,51 +111,11 @@ std::vector<Box> boxes_of_faces(const mesh::Surface& side)
   return boxes;
 }
 
-// Halves the boxes `order` at the median of their longest side until no part has more than `most`; adds a box round each part.
-void halve(const std::vector<Box>& boxes, std::span<int> order, std::size_t most, std::vector<Box>& parts)
-{
-  if (order.empty()) return;
-  Box all;
-  for (const int i : order) all.extend(boxes[static_cast<std::size_t>(i)]);
-  if (order.size() <= most) {
-    parts.push_back(all);
-    return;
-  }
-  Eigen::Index axis = 0;
-  all.sizes().maxCoeff(&axis);
-  const std::size_t middle = order.size() / 2;
-  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle), order.end(), [&](int a, int b) {
-    return boxes[static_cast<std::size_t>(a)].center()[axis] < boxes[static_cast<std::size_t>(b)].center()[axis];
-  });
-  halve(boxes, order.first(middle), most, parts);
-  halve(boxes, order.subspan(middle), most, parts);
-}
-
-// Boxes round the parts of a surface, of all ranks. Collective.
-Tree parts_of(const std::vector<Box>& boxes, const Communicator& comm)
-{
-  std::vector<int> order(boxes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::vector<Box> parts;
-  halve(boxes, order, std::max<std::size_t>(4, 2 * boxes.size() / most_boxes), parts);
-  std::vector<std::array<double, 6>> sent;
-  for (const auto& box : parts)
-    sent.push_back({box.min()[0], box.min()[1], box.min()[2], box.max()[0], box.max()[1], box.max()[2]});
-  std::vector<Box> all;
-  for (const auto& b : comm.all_gather(sent)) all.emplace_back(Point(b[0], b[1], b[2]), Point(b[3], b[4], b[5]));
-  return Tree(std::move(all));
-}
-
-mesh::Surface select(const mesh::Surface& side, const std::vector<Box>& boxes, const Tree& others, double distance)
+mesh::Surface part_of(const mesh::Surface& side, std::span<const std::size_t> chosen)
 {
   std::vector<Local> local(side.points.size(), -1);
-  std::vector<std::size_t> chosen;
-  const Point margin = Point::Constant(distance);
-  for (std::size_t f = 0; f < boxes.size(); ++f) {
-    if (!others.meets(Box(boxes[f].min() - margin, boxes[f].max() + margin))) continue;
-    chosen.push_back(f);
+  for (const std::size_t f : chosen)
     for (const Local n : side.faces[f]) local[static_cast<std::size_t>(n)] = 0;
-  }
   mesh::Surface result;
   for (std::size_t n = 0; n < local.size(); ++n) {
     if (local[n] < 0) continue;
@@ -130,8 +132,6 @@ mesh::Surface select(const mesh::Surface& side, const std::vector<Box>& boxes, c
   }
   return result;
 }
-
-}  // namespace
 
 std::vector<PairSize> measure(std::span<const Pair> pairs, const Communicator& comm)
 {

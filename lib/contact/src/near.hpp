@@ -1,7 +1,10 @@
 // Of two surfaces the parts that can meet: a roller sees a seventieth of its ring.
 #pragma once
 
+#include <functional>
+
 #include "contact/mortar.hpp"
+#include "tree.hpp"
 
 namespace mortise::contact {
 
@@ -20,5 +23,16 @@ struct NearFaces {
 };
 /// Collective.
 NearFaces near_faces(const Pair& pair, const PairSize& size, const Communicator& comm);
+
+/// Boxes round the nodes of faces.
+std::vector<Box> boxes_of_faces(const mesh::Surface& side);
+
+/// Halves the boxes `order` at the median of their longest side until no part has more than `most`; `use` gets the box round each
+/// part and its members.
+void halve(const std::vector<Box>& boxes, std::span<int> order, std::size_t most,
+           const std::function<void(const Box&, std::span<const int>)>& use);
+
+/// The faces `chosen`, ascending, of a surface, as a surface of their own.
+mesh::Surface part_of(const mesh::Surface& side, std::span<const std::size_t> chosen);
 
 }  // namespace mortise::contact

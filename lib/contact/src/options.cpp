@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace mortise::contact {
 
 namespace {
@@ -117,12 +119,102 @@ void describe(deck::Description<Options>& d)
     if (contact.preload && contact.law != Law::bonded)
       document.error(path + ".preload",
                      "only a cut through a bolt, which is bonded, can be preloaded; expected `friction: {bonded: true}` with it");
-    if (!contact.obstacle && contact.secondary == contact.primary)
+    if (!contact.automatic && !contact.obstacle && contact.secondary == contact.primary)
       document.error(
           path,
           fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available",
                       contact.primary));
   });
+}
+
+void describe(deck::Description<AutoOptions>& d)
+{
+  d.help(
+      "Finds all pairs of bodies whose outer faces face each other, named or not, and makes a contact body/body "
+      "(secondary/primary; "
+      "body/body.1, ... if they meet in several patches) of each. Pairs of bodies that another entry names are left to it. The "
+      "secondary side is the finer one, else the flatter one.");
+  d.custom(
+       "auto", "true.",
+       [](AutoOptions& options, const YAML::Node& node, const std::string& path, deck::Document& document,
+          const deck::Limits& limits) {
+         options.contact.automatic = true;
+         bool wanted = true;
+         deck::Codec<bool>::read(wanted, node, path, document, limits);
+         if (!wanted) document.error(path, "expected true, or no such entry");
+       },
+       [](const AutoOptions&) { return YAML::Node(true); },
+       [](const deck::Limits&) {
+         return nlohmann::ordered_json{{"const", true}};
+       })
+      .required();
+  const auto adopt = [&d](const std::string& name, const std::string& help) {
+    for (const auto& key : deck::description<Options>().keys()) {
+      if (key->name != name) continue;
+      const auto* source = key.get();
+      d.custom(
+           name, help.empty() ? source->help : help,
+           [source](AutoOptions& value, const YAML::Node& node, const std::string& path, deck::Document& document,
+                    const deck::Limits& limits) { source->read(value.contact, node, path, document, limits); },
+           [source](const AutoOptions& value) { return source->write(value.contact); }, source->schema)
+          .limits = source->limits;
+    }
+  };
+  adopt("name", "Of this entry, which load steps know: auto if not given; if it is given, contacts are called name.body/body.");
+  adopt("friction", "");
+  adopt("discretization", "");
+  adopt("interference", "Added overlap of all these contacts; gaps that it closes are found as well.");
+  adopt("search_distance",
+        "Faces farther apart, or overlapping by more, are no pair, and never meet. 0: half the size (longest distance of two "
+        "corners) "
+        "of the smaller face; faces round those may come from as far away as the largest of these faces is long, or a fiftieth "
+        "of the "
+        "smaller body's diagonal.");
+  d.check([](const AutoOptions& options, const std::string& path, deck::Document& document) {
+    deck::description<Options>().whole_check()(options.contact, path, document);
+  });
+}
+
+void read_section(std::vector<Options>& contacts, const YAML::Node& node, const std::string& path, deck::Document& document)
+{
+  contacts.clear();
+  if (node.IsNull()) return;
+  if (node.IsScalar() && node.Scalar() == "auto") {
+    contacts.emplace_back().automatic = true;
+    return;
+  }
+  if (!node.IsSequence()) {
+    document.error(path, "expected a list or `auto`, found " + deck::found(node));
+    return;
+  }
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const YAML::Node entry = node[i];
+    const auto at = path + "[" + std::to_string(i) + "]";
+    document.locate(at, entry);
+    if (entry.IsMap() && entry["auto"]) {
+      AutoOptions found;
+      deck::Codec<AutoOptions>::read(found, entry, at, document, {});
+      if (std::any_of(contacts.begin(), contacts.end(), [](const Options& other) { return other.automatic; }))
+        document.error(at, "a second `auto` finds the same pairs as the first; list those that differ by their boundaries");
+      contacts.push_back(std::move(found.contact));
+    } else {
+      deck::Codec<Options>::read(contacts.emplace_back(), entry, at, document, {});
+    }
+  }
+}
+
+YAML::Node write_section(const std::vector<Options>& contacts)
+{
+  YAML::Node node(YAML::NodeType::Sequence);
+  for (const auto& contact : contacts)
+    node.push_back(contact.automatic ? deck::Codec<AutoOptions>::write({contact}) : deck::Codec<Options>::write(contact));
+  return node;
+}
+
+nlohmann::ordered_json section_schema()
+{
+  const nlohmann::ordered_json entry{{"anyOf", {deck::Codec<Options>::schema({}), deck::Codec<AutoOptions>::schema({})}}};
+  return {{"anyOf", {{{"const", "auto"}}, {{"type", "array"}, {"items", entry}}}}};
 }
 
 }  // namespace mortise::contact

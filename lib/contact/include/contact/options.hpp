@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "contact/obstacle.hpp"
 #include "deck/description.hpp"
@@ -28,10 +29,22 @@ struct Options {
   double interference = 0;                ///< added overlap; negative opens a gap
   double search_distance = 0;  ///< surfaces farther apart than this never meet; 0: a tenth of the smaller side's extent
   std::optional<PreloadOptions> preload = {};  ///< bonded contacts alone
+  bool automatic = false;                      ///< stands for all pairs of bodies that face each other: pairing.hpp
+};
+
+/// The deck's entry {auto: true}: what all contacts have in common that are found.
+struct AutoOptions {
+  Options contact;
 };
 
 /// The keywords.
 void describe(deck::Description<PreloadOptions>& d);
 void describe(deck::Description<Options>& d);
+void describe(deck::Description<AutoOptions>& d);
+
+/// The section: the word auto, or a list of entries of both kinds.
+void read_section(std::vector<Options>& contacts, const YAML::Node& node, const std::string& path, deck::Document& document);
+YAML::Node write_section(const std::vector<Options>& contacts);
+nlohmann::ordered_json section_schema();
 
 }  // namespace mortise::contact
