@@ -119,9 +119,9 @@ std::vector<contact::Meeting> resolve_auto(Deck& deck, deck::Document& document,
   std::vector<std::pair<std::string, const std::vector<Global>*>> boundaries;
   for (const auto& meeting : meetings) {
     auto& contact = found.emplace_back(entry);
-    contact.name = (entry.name == "auto" ? "" : entry.name + ".") + bodies[static_cast<std::size_t>(meeting.secondary)].name +
-                   "/" + bodies[static_cast<std::size_t>(meeting.primary)].name +
-                   (meeting.patch > 0 ? "." + std::to_string(meeting.patch) : "");
+    contact.name = fmt::format(
+        "{}{}/{}{}", entry.name == "auto" ? "" : entry.name + ".", bodies[static_cast<std::size_t>(meeting.secondary)].name,
+        bodies[static_cast<std::size_t>(meeting.primary)].name, meeting.patch > 0 ? fmt::format(".{}", meeting.patch) : "");
     contact.secondary = contact.name + ".secondary";
     contact.primary = contact.name + ".primary";
     contact.search_distance = meeting.reach;

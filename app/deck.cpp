@@ -164,7 +164,7 @@ void check_contact_names(const Deck& deck, deck::Document& document)
   }
   for (std::size_t i = 0; i < deck.contacts.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (deck.contacts[i].name == deck.contacts[j].name)
+      if (deck.contacts[i].name == deck.contacts[j].name && !(deck.contacts[i].automatic && deck.contacts[j].automatic))
         document.error(deck.contact_path(i),
                        fmt::format("two contacts are called \"{}\"; give one of them another `name`", deck.contacts[i].name));
 }

@@ -126,7 +126,7 @@ TEST(Pairing, Distance)
   for (const double gap : {-0.2, -0.17, 0.17, 0.2}) {
     const auto found = two_blocks(gap).meetings();
     ASSERT_EQ(found.size(), std::abs(gap) < 0.1767 ? 1u : 0u) << gap;
-    if (!found.empty()) EXPECT_NEAR(found[0].least_gap, gap, 1e-14);
+    for (const auto& meeting : found) EXPECT_NEAR(meeting.least_gap, gap, 1e-14);
   }
   EXPECT_EQ(two_blocks(0.5).meetings(within(0.6)).size(), 1u);
   EXPECT_EQ(two_blocks(-0.5).meetings(within(0.6)).size(), 1u);
