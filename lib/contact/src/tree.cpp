@@ -56,65 +56,50 @@ int Tree::build(int begin, int end)
   return index;
 }
 
-std::vector<int> Tree::meeting(const Box& box) const
-{
-  std::vector<int> found, stack;
-  if (!branches_.empty()) stack.push_back(0);
-  while (!stack.empty()) {
-    const Branch& branch = branches_[static_cast<std::size_t>(stack.back())];
-    stack.pop_back();
-    if (!branch.box.intersects(box)) continue;
-    if (branch.left >= 0) {
-      stack.push_back(branch.left);
-      stack.push_back(branch.right);
-      continue;
-    }
-    for (int i = branch.begin; i < branch.end; ++i)
-      if (boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])].intersects(box))
-        found.push_back(order_[static_cast<std::size_t>(i)]);
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-bool Tree::meets(const Box& box) const
+// Calls visit(index) for all boxes for which meets(box) holds, which must hold for every box round such a one, until it returns
+// false.
+template <class Meets, class Visit>
+void Tree::walk(const Meets& meets, const Visit& visit) const
 {
   std::vector<int> stack;
   if (!branches_.empty()) stack.push_back(0);
   while (!stack.empty()) {
     const Branch& branch = branches_[static_cast<std::size_t>(stack.back())];
     stack.pop_back();
-    if (!branch.box.intersects(box)) continue;
+    if (!meets(branch.box)) continue;
     if (branch.left >= 0) {
       stack.push_back(branch.right);
       stack.push_back(branch.left);
       continue;
     }
-    for (int i = branch.begin; i < branch.end; ++i)
-      if (boxes_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])].intersects(box)) return true;
+    for (int i = branch.begin; i < branch.end; ++i) {
+      const int candidate = order_[static_cast<std::size_t>(i)];
+      if (meets(boxes_[static_cast<std::size_t>(candidate)]) && !visit(candidate)) return;
+    }
   }
-  return false;
+}
+
+std::vector<int> Tree::meeting(const Box& box) const
+{
+  std::vector<int> found;
+  walk([&](const Box& other) { return other.intersects(box); }, [&](int i) { return found.push_back(i), true; });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool Tree::meets(const Box& box) const
+{
+  bool any = false;
+  walk([&](const Box& other) { return other.intersects(box); }, [&](int) { return any = true, false; });
+  return any;
 }
 
 std::vector<int> Tree::swept(const Box& box, const Point& direction) const
 {
   const Point centre = box.center(), half = 0.5 * box.sizes();
-  std::vector<int> found, stack;
-  if (!branches_.empty()) stack.push_back(0);
-  while (!stack.empty()) {
-    const Branch& branch = branches_[static_cast<std::size_t>(stack.back())];
-    stack.pop_back();
-    if (!meets_sweep(branch.box, centre, half, direction)) continue;
-    if (branch.left >= 0) {
-      stack.push_back(branch.left);
-      stack.push_back(branch.right);
-      continue;
-    }
-    for (int i = branch.begin; i < branch.end; ++i) {
-      const int candidate = order_[static_cast<std::size_t>(i)];
-      if (meets_sweep(boxes_[static_cast<std::size_t>(candidate)], centre, half, direction)) found.push_back(candidate);
-    }
-  }
+  std::vector<int> found;
+  walk([&](const Box& other) { return meets_sweep(other, centre, half, direction); },
+       [&](int i) { return found.push_back(i), true; });
   std::sort(found.begin(), found.end());
   return found;
 }

@@ -28,6 +28,8 @@ class Tree {
     int left = -1, right = -1;
   };
   int build(int begin, int end);
+  template <class Meets, class Visit>
+  void walk(const Meets& meets, const Visit& visit) const;
 
   std::vector<Box> boxes_;
   std::vector<int> order_;

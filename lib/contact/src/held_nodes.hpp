@@ -1,0 +1,40 @@
+// What supports hold at the nodes of a side, and what they leave free there.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "constraint/constraints.hpp"
+
+namespace mortise::contact {
+
+/// The supports at the nodes of a side.
+class HeldNodes {
+ public:
+  /// `held` and `inclined` of this rank, `nodes` ascending. Collective.
+  HeldNodes(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
+            const std::vector<Global>& nodes, const Communicator& comm);
+
+  /// Null where the component is free.
+  const constraint::Held* find(Global node, int component) const;
+  /// The directions that are held there and are no axes.
+  std::span<const constraint::Inclined> inclined(Global node) const;
+
+ private:
+  std::vector<constraint::Held> held_;
+  std::vector<constraint::Inclined> inclined_;
+};
+
+Point along(const constraint::Inclined& inclined);
+
+/// The frame of a place: the tangents that supports leave free; nothing if the normal itself is held.
+struct Directions {
+  bool free_normal = true;
+  std::vector<Point> tangents;
+};
+Directions directions(const Point& normal, const std::array<bool, 3>& held, std::span<const constraint::Inclined> inclined,
+                      int dimension);
+
+}  // namespace mortise::contact
