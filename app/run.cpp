@@ -230,8 +230,11 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
       });
     }
     stages.end("output", "output");
-    if (!results.summary.converged) break;
     if (i + 1 == states.size()) break;
+    if (!results.summary.converged) {
+      log.line("Step {} did not converge; the {} states after it are not solved.", state.step, states.size() - i - 1);
+      break;
+    }
     print_step(results, context);
     write_summary();
     simulation.settle(results.displacement);

@@ -254,13 +254,13 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     double next_energy = energy_of(next.point, gradient);
     if (!start && !only_face_ && result.outer_iterations == 0 && soft_between(z, g, next.point, gradient) &&
         look_for_start(state, next_energy)) {
-      trial.update(1, z, -step, g, 0);
-      next = projector_(trial);
-      evaluate(next.point, gradient);
-      next_energy = energy_of(next.point, gradient);
       energy = energy_of(z, g);
-      y.assign(z);
-      gy.assign(g);
+      trial.update(1, z, -step, g, 0);
+      if (Projection onward = projector_(trial); onward.found) {
+        next = std::move(onward);
+        evaluate(next.point, gradient);
+        next_energy = energy_of(next.point, gradient);
+      }
     }
     // Where the face was picked badly the minimiser on it is far away: go back towards z until the function falls.
     double part = 1;
