@@ -23,14 +23,14 @@ std::size_t auto_entry(const std::vector<contact::Options>& contacts)
   return static_cast<std::size_t>(found - contacts.begin());
 }
 
-// The bodies that the two sides of contacts lie on. Collective.
+// The bodies that the two sides of contacts lie on; the cuts of a sector say nothing of those that meet within it. Collective.
 std::set<contact::Bodies> pairs_that_are_named(const std::vector<contact::Options>& contacts,
                                                const partition::Decomposition& decomposition, const Communicator& comm)
 {
   const auto& catalogue = decomposition.catalogue;
   std::map<std::pair<std::string, std::string>, std::vector<int>> sides;  // boundary, body: contact and side
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (contacts[c].automatic || contacts[c].obstacle) continue;
+    if (contacts[c].automatic || contacts[c].obstacle || contacts[c].cyclic) continue;
     int side = 2 * static_cast<int>(c);
     for (const auto& name : {contacts[c].secondary, contacts[c].primary}) {
       const auto [boundary, body] = parse_boundary(name);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "assembly.hpp"
+#include "contact/cyclic.hpp"
 #include "deck/description.hpp"
 #include "patterns.hpp"
 
@@ -155,6 +156,9 @@ void check_contact_names(const Deck& deck, deck::Document& document)
         document.error(fmt::format("contacts[{}].primary", i), why);
       continue;
     }
+    if (contact.cyclic)
+      if (const auto why = contact::misfit(*contact.cyclic, deck.kinematics); !why.empty())
+        document.error(deck.contact_path(i) + ".cyclic", why);
     const auto secondary = parse_boundary(contact.secondary), primary = parse_boundary(contact.primary);
     if (contact.secondary != contact.primary && secondary.boundary == primary.boundary &&
         (secondary.body == primary.body || secondary.body.empty() || primary.body.empty()))

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "contact/cyclic.hpp"
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
 #include "patterns.hpp"
@@ -323,6 +324,10 @@ std::vector<contact::Pair> Model::contact_pairs(const LoadState& state) const
     pairs.push_back({contact, surface(contact.secondary), nullptr});
     pairs.back().options.interference *= state.contact[c];
     if (contact.obstacle) continue;
+    if (contact.cyclic) {
+      pairs.back().primary = std::make_shared<const mesh::Surface>(contact::turned(surface(contact.primary), contact));
+      continue;
+    }
     auto& primary = primaries[contact.primary];
     if (!primary) primary = std::make_shared<const mesh::Surface>(surface(contact.primary));
     pairs.back().primary = primary;

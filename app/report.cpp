@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/cyclic.hpp"
 #include "fem/stress.hpp"
 
 namespace mortise {
@@ -317,6 +318,8 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   results.surfaces = contact::surface_states(results.points, pairs, context.comm);
   for (std::size_t c = 0; c < deck.contacts.size(); ++c) {
     const auto& r = results.resultants[c];
+    if (const auto turn = contact::turn_of(deck.contacts[c]))
+      results.neighbours += r.force - turn->rotation.transpose() * r.force;
     if (deck.contacts[c].obstacle) results.obstacles += Point(deck.axisymmetric() ? 0 : r.force[0], r.force[1], r.force[2]);
     const auto& pressure = results.surfaces[c].recovered_pressure;
     const double recovered = context.comm.max(pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end()));
@@ -338,7 +341,7 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   double size = std::max({results.applied.norm(), results.reaction.norm(), results.rounding_of_force, 1e-300});
   for (const auto& r : results.resultants) size = std::max(size, r.force.norm());
   for (const auto& r : results.summary.reactions) size = std::max(size, std::hypot(r.force[0], r.force[1], r.force[2]));
-  results.imbalance = (results.applied + results.reaction + results.obstacles).norm() / size;
+  results.imbalance = (results.applied + results.reaction + results.obstacles + results.neighbours).norm() / size;
   results.limit = solved.limit;
   if (results.imbalance > unbalanced && results.summary.converged) {
     results.summary.converged = false;
@@ -374,8 +377,11 @@ void print(const Results& results, const Context& context)
         "  It made no more progress: a looser solver.tolerance may be all that this mesh allows; --set solver.algorithm=smalse "
         "is "
         "the other way.");
-  log.line("  balance of forces   applied {}, supports {}, {}difference {:.1e} of the largest force", vector(results.applied),
-           vector(results.reaction), results.obstacles.isZero(0) ? "" : fmt::format("obstacles {}, ", vector(results.obstacles)),
+  const auto part = [&](const char* name, const Point& force) {
+    return force.isZero(0) ? "" : fmt::format("{} {}, ", name, vector(force));
+  };
+  log.line("  balance of forces   applied {}, supports {}, {}{}difference {:.1e} of the largest force", vector(results.applied),
+           vector(results.reaction), part("obstacles", results.obstacles), part("sectors beside", results.neighbours),
            results.imbalance);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);

@@ -25,6 +25,7 @@ struct Results {
   Point applied = Point::Zero(), reaction = Point::Zero();  ///< sums of loads and of support forces
   double rounding_of_force = 0, rounding_of_energy = 0;     ///< what rounding may leave of both where nothing is strained
   Point obstacles = Point::Zero();                          ///< sum of what rigid obstacles push the bodies with
+  Point neighbours = Point::Zero();                         ///< sum of what the sectors beside a cyclic one pull with
   double imbalance = 0;                                     ///< of the sums of all these forces, relative to the largest one
   std::string limit;                                        ///< the key that ended the solver early, or ""
   io::Summary summary;

@@ -2,10 +2,11 @@
 """Renders the fields of a run to a PNG file, off screen.
 
     render.py OUTPUT_DIRECTORY PICTURE.png [--field von_mises] [--warp 100] [--view=iso|x|y|z|-x|-y|-z] [--contact] [--edges] [--max VALUE]
-        [--focus X Y Z] [--zoom 1.2] [--time 1.5]
+        [--focus X Y Z] [--zoom 1.2] [--time 1.5] [--sectors 9]
 
 --contact shows the contact surfaces (fields contact_pressure, contact_pressure_recovered, gap, slip, contact_status) instead of the volume; --warp multiplies the
-displacements; --max ends the colour scale, since peaks at edges and corners hide the rest; --time chooses a load step, the last if not given.
+displacements; --max ends the colour scale, since peaks at edges and corners hide the rest; --time chooses a load step, the last if not given; --sectors shows one of n equal sectors about z with all
+the others.
 """
 import argparse
 import pathlib
@@ -35,6 +36,7 @@ def main():
     parser.add_argument("--focus", type=float, nargs=3, default=None)
     parser.add_argument("--zoom", type=float, default=1.2)
     parser.add_argument("--time", type=float, default=None)
+    parser.add_argument("--sectors", type=int, default=1)
     arguments = parser.parse_args()
 
     mesh = load(arguments.directory, "contact" if arguments.contact else "solution", arguments.time)
@@ -43,6 +45,10 @@ def main():
         parser.error(f"there is no point field {field}; there are {', '.join(mesh.point_data.keys())}")
     if arguments.warp and "displacement" in mesh.point_data:
         mesh = mesh.warp_by_vector("displacement", factor=arguments.warp)
+
+    if arguments.sectors > 1:  # the outer faces, which turn cheaply; vectors stay as they are
+        face = mesh.extract_surface()
+        mesh = pyvista.merge([face.rotate_z(360 * k / arguments.sectors) for k in range(arguments.sectors)], merge_points=False)
 
     plotter = pyvista.Plotter(off_screen=True, window_size=(1000, 750))
     limits = None if arguments.max is None else (0, arguments.max)

@@ -27,7 +27,7 @@ std::vector<fs::path> example_decks()
   std::vector<fs::path> decks;
   for (const auto& folder : {"inputs", "regression/cases"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(MORTISE_SOURCE_DIR) / folder))
-      if (entry.path().extension() == ".yaml") decks.push_back(entry.path());
+      if (entry.path().extension() == ".yaml" && entry.path().parent_path().extension() != ".out") decks.push_back(entry.path());
   return decks;
 }
 
@@ -76,7 +76,9 @@ TEST(Decks, NamesAndPreloadsAndNormalsReadBackTheSame)
 {
   const std::string text = std::string(blocks) + R"(supports: [{boundary: a.zmin, displacement: {normal: 0.5, x: 1}}]
 loads: [{boundary: b.zmax, pressure: 1}, {name: weight, body: b, acceleration: [0, 0, 1]}]
-contacts: [{secondary: b.zmin, primary: a.zmax, friction: {bonded: true}, preload: {force: 3}}]
+contacts:
+  - {secondary: b.zmin, primary: a.zmax, friction: {bonded: true}, preload: {force: 3}}
+  - {secondary: a.xmin, primary: a.ymin, friction: {bonded: true}, cyclic: {axis: [0, 0, -2], angle: 360/7, center: [1, 2, 3]}}
 )";
   deck::Document document(text, "deck.yaml", {});
   const auto deck = read_deck(document, "");
@@ -88,6 +90,8 @@ contacts: [{secondary: b.zmin, primary: a.zmax, friction: {bonded: true}, preloa
   EXPECT_EQ(deck.loads[1].name, "weight");
   ASSERT_TRUE(deck.contacts[0].preload.has_value());
   EXPECT_EQ(deck.contacts[0].preload->force, 3.0);
+  ASSERT_TRUE(deck.contacts[1].cyclic.has_value());
+  EXPECT_EQ(deck.contacts[1].cyclic->angle, 360.0 / 7);
   const auto written = write_deck(deck);
   deck::Document again(written, "deck.yaml", {});
   const auto copy = read_deck(again, "");

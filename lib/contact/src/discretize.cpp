@@ -3,16 +3,18 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <memory>
 #include <tuple>
 
 #include "base/error.hpp"
+#include "by_node.hpp"
+#include "contact/cyclic.hpp"
 #include "contact/mortar.hpp"
 #include "face_integrals.hpp"
 #include "held_nodes.hpp"
-#include "near.hpp"
+#include "opposite.hpp"
+#include "rows.hpp"
+#include "sector_cuts.hpp"
+#include "share.hpp"
 
 namespace mortise::contact {
 
@@ -21,447 +23,330 @@ namespace {
 // A place covered by less than this part of its surroundings gets no multiplier.
 constexpr double least_cover = 0.05;
 
-// One contact on its way from faces to rows.
+Tree tree_of_facets(const Side& side)
+{
+  std::vector<Box> boxes(side.facets.size());
+  for (std::size_t f = 0; f < boxes.size(); ++f)
+    for (const Local n : side.facets[f]) boxes[f].extend(side.points[static_cast<std::size_t>(n)]);
+  return Tree(std::move(boxes));
+}
+
+// A node that has rows of a contact that is not bonded.
+struct Pressed {
+  Global node;
+};
+
+// One contact on its way from faces to rows: those of the nodes that are this rank's.
 class Builder {
  public:
-  Builder(const Options& options, const NearFaces& near, double reach, int index, std::span<const constraint::Held> held,
-          std::span<const constraint::Inclined> inclined, fem::Kinematics kinematics, const Communicator& comm)
+  // `pressed`: nodes of share.secondary that have rows of contacts that are not bonded.
+  Builder(const Options& options, const Share& share, double reach, int index, const HeldDirectory& held,
+          const std::vector<Pressed>& pressed, fem::Kinematics kinematics, const Communicator& comm)
       : options_(options),
         index_(index),
         dimension_(fem::dimension(kinematics)),
-        comm_(comm),
-        secondary_(gather(near.secondary, kinematics, comm)),
-        primary_(gather(near.primary, kinematics, comm)),
+        share_(share),
+        secondary_(share.secondary),
+        primary_(share.primary),
+        pressed_(pressed),
         places_(find_places(secondary_)),
         primary_places_(find_places(primary_)),
-        held_(held, inclined, secondary_.node_id, comm),
-        primary_held_(held, inclined, primary_.node_id, comm),
+        tree_(tree_of_facets(primary_)),
+        rays_(secondary_, places_, primary_, primary_places_, tree_, options.obstacle, reach),
+        held_(held, secondary_.node_id, comm),
+        primary_held_(held, primary_.node_id, comm),
+        writer_(secondary_, primary_, held_, primary_held_, dimension_, turn_of(options)),
         reach_(reach)
   {
-    if (options.obstacle) stand_on(*options.obstacle);
   }
 
-  // Adds the rows of the places that this rank owns. Collective.
+  // Of this rank's places.
+  double covered_area() const { return covered_area_; }
+
+  // How far supports alone push the two sides into each other.
+  double crossing() const { return crossing_; }
+
+  // How far the two sides are apart, at this rank's places that carry a multiplier.
+  double widest_gap() const
+  {
+    double widest = 0;
+    for (std::size_t p = 0; p < places_.all.size(); ++p)
+      if (const double gap = own(p) && kept_[p] ? std::abs(rays_.gap(p)) : 0; std::isfinite(gap)) widest = std::max(widest, gap);
+    return widest;
+  }
+
   void add_rows(constraint::Contacts& contacts)
   {
+    choose_faces();
     integrate_faces();
     choose_places();
-    const auto terms = exchange_terms();
-    auto term = terms.begin();
-    for (std::size_t p = first_place(comm_.rank()); p < first_place(comm_.rank() + 1); ++p) {
-      const auto begin = term;
-      while (term != terms.end() && term->place == static_cast<Local>(p)) ++term;
-      if (kept_[p] && d_[static_cast<Eigen::Index>(p)] > 0) add_point(p, {begin, term}, contacts);
-    }
-    const double crossing = comm_.max(crossing_);
-    if (crossing > 1e-9 * reach_)
-      throw Error(
-          ExitStatus::bad_input,
-          fmt::format("contact {}: supports hold both sides and push them {:.3g} into each other; change one of the supports",
-                      options_.name, crossing));
+    if (!nodal()) make_faces_dual();
+    sort_by_places();
+    for (std::size_t p = 0; p < places_.all.size(); ++p)
+      if (own(p) && kept_[p]) add_place(p, contacts);
   }
 
  private:
-  std::size_t first_face(int rank) const
-  {
-    return secondary_.faces.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm_.size());
-  }
-  std::size_t first_place(int rank) const
-  {
-    return places_.all.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm_.size());
-  }
+  bool nodal() const { return options_.discretization == "node_to_segment"; }
+  bool own(std::size_t place) const { return share_.own[static_cast<std::size_t>(places_.all[place].node)] != 0; }
   std::span<const Local> node_places(std::size_t face) const
   {
     return std::span(places_.of_node)
         .subspan(static_cast<std::size_t>(secondary_.faces.offset[face]), secondary_.faces[face].size());
   }
+  double covered(std::size_t face, std::size_t k) { return integrals_[slot(face)].covered[static_cast<Eigen::Index>(k)]; }
+  std::size_t slot(std::size_t face) const { return static_cast<std::size_t>(slot_[face]); }
 
-  // The directions of contact are the obstacle's normals; where a place does not face it, it is out of reach.
-  void stand_on(const Obstacle& obstacle)
+  // The faces round this rank's nodes, whose share of the rows is needed, and those round their nodes, whose integrals are.
+  void choose_faces()
   {
-    for (auto& place : places_.all) {
-      Foot at = foot(obstacle, secondary_.points[static_cast<std::size_t>(place.node)]);
-      if (place.normal.dot(at.normal) > opposed) at.distance = std::numeric_limits<double>::infinity();
-      if (std::isfinite(at.distance)) place.normal = -at.normal;
-      distance_.push_back(at.distance);
-    }
+    std::vector<char> touched = share_.own;
+    const auto touches = [&](std::size_t f) {
+      const auto nodes = secondary_.faces[f];
+      return std::any_of(nodes.begin(), nodes.end(), [&](Local n) { return touched[static_cast<std::size_t>(n)] != 0; });
+    };
+    for (std::size_t f = 0; f < secondary_.faces.size(); ++f)
+      if (touches(f)) near_.push_back(f);
+    for (const std::size_t f : near_)
+      for (const Local n : secondary_.faces[f]) touched[static_cast<std::size_t>(n)] = 1;
+    for (std::size_t f = 0; f < secondary_.faces.size(); ++f)
+      if (touches(f)) round_.push_back(f);
   }
 
   void integrate_faces()
   {
-    std::vector<Box> boxes;
-    for (std::size_t f = 0; f < primary_.facets.size(); ++f) {
-      const auto face = primary_.geometry(f);
-      Box box;
-      for (const auto& p : face.nodes) box.extend(p);
-      boxes.push_back(box);
+    Integrator integrator(secondary_, places_, primary_, primary_places_, tree_, reach_);
+    slot_.assign(secondary_.faces.size(), -1);
+    for (const std::size_t f : round_) {
+      slot_[f] = static_cast<Local>(integrals_.size());
+      const bool mortar = !options_.obstacle && !nodal();
+      integrals_.add(mortar ? integrator.integrate(f) : integrator.integrate_whole(f));
+      if (!mortar) uncover(f);
     }
-    tree_ = std::make_unique<Tree>(std::move(boxes));
-    face_of_middle_.assign(places_.all.size(), {-1, -1});
-    for (std::size_t f = 0; f < secondary_.faces.size(); ++f)
-      for (std::size_t k = static_cast<std::size_t>(mesh::corner_count(secondary_.faces.type[f])); k < secondary_.faces[f].size();
-           ++k)
-        face_of_middle_[static_cast<std::size_t>(node_places(f)[k])] = {static_cast<Local>(f), static_cast<Local>(k)};
-    integrals_.reserve(first_face(comm_.rank() + 1) - first_face(comm_.rank()));
-    for (std::size_t f = first_face(comm_.rank()); f < first_face(comm_.rank() + 1); ++f) integrals_.push_back(integrals_of(f));
   }
 
-  FaceIntegrals integrals_of(std::size_t face)
+  // Takes out what does not meet the other side: over an obstacle all of a face unless all its nodes face it, nodes one by one.
+  void uncover(std::size_t face)
   {
-    if (!options_.obstacle && !nodal()) return integrate(secondary_, places_, face, primary_, primary_places_, *tree_, reach_);
-    FaceIntegrals whole = integrate_whole(secondary_, face);
+    auto covered = integrals_[slot(face)].covered;
     const auto places = node_places(face);
-    if (!nodal()) {  // a face counts if all of it faces the obstacle
-      if (!std::all_of(places.begin(), places.end(), [&](Local p) { return meet(static_cast<std::size_t>(p)).found; }))
-        whole.covered.setZero();
-      return whole;
+    if (!nodal()) {
+      if (!std::all_of(places.begin(), places.end(), [&](Local p) { return rays_.meets(static_cast<std::size_t>(p)); }))
+        covered.setZero();
+      return;
     }
-    const Eigen::MatrixXd control = control_values(face);
+    const auto& control = control_values(secondary_.faces.type[face]);
     for (Eigen::Index k = 0; k < control.rows(); ++k)
       for (Eigen::Index l = 0; l < control.cols(); ++l)
-        if (control(k, l) != 0 && !meet(static_cast<std::size_t>(places[static_cast<std::size_t>(l)])).found)
-          whole.covered[k] = 0;
-    return whole;
-  }
-
-  bool nodal() const { return options_.discretization == "node_to_segment"; }
-
-  // What a row of a face's node sees of the values at all its nodes; see multiplier_basis().
-  Eigen::MatrixXd control_values(std::size_t face) const
-  {
-    return multiplier_basis(secondary_.faces.type[face]).transpose().partialPivLu().inverse();
-  }
-
-  // The gap between the smooth surfaces at the node itself, along its normal, as the rows see it: in the middle of edges and
-  // faces as a control value. Its mean over the dual basis, which has negative parts, would see an overlap of a twelfth of
-  // curvature times cell size squared between surfaces that only touch; that mean is left for nodes which look past the border of
-  // the primary side.
-  double gap_at(std::size_t p, double mean) const
-  {
-    const double length = 2 * reach_;
-    const auto [face, node] = face_of_middle_[p];
-    double gap = 0;
-    if (face < 0) {
-      gap = ray(p, length);
-    } else {
-      const Eigen::MatrixXd basis = multiplier_basis(secondary_.faces.type[static_cast<std::size_t>(face)]);
-      const Eigen::VectorXd control = basis.transpose().partialPivLu().inverse().row(node);
-      for (Eigen::Index k = 0; k < control.size(); ++k)
-        if (control[k] != 0)
-          gap += control[k] *
-                 ray(static_cast<std::size_t>(node_places(static_cast<std::size_t>(face))[static_cast<std::size_t>(k)]), length);
-    }
-    return std::isfinite(gap) ? gap : mean;
-  }
-
-  // What lies opposite a place.
-  struct Opposite {
-    bool found = false;
-    double gap = std::numeric_limits<double>::infinity();
-    std::size_t facet = 0;  // of the primary side
-    Hit hit;
-  };
-
-  // Along the normal of a place to the primary side; not finite if it meets nothing within `length`.
-  double ray(std::size_t p, double length) const { return options_.obstacle ? distance_[p] : shoot_from(p, length).gap; }
-
-  Opposite shoot_from(std::size_t p, double length) const
-  {
-    const Place& place = places_.all[p];
-    const Point x = secondary_.points[static_cast<std::size_t>(place.node)];
-    const Point margin = Point::Constant(0.02 * length);  // a hit may lie a little beside its face
-    Opposite best;
-    for (const int m : tree_->swept(Box(x - margin, x + margin), length * place.normal)) {
-      const auto facet = static_cast<std::size_t>(m);
-      const auto geometry = primary_.geometry(facet);
-      const auto hit = shoot(x, place.normal, geometry);
-      if (!hit.found) continue;
-      const double gap = hit.distance - Bulge(geometry, corner_normals(primary_, primary_places_, facet))(hit.shape);
-      if (std::abs(gap) <= length && std::abs(gap) < std::abs(best.gap)) best = {true, gap, facet, hit};
-    }
-    return best;
-  }
-
-  // What a place meets within reach; looked up once for each, for nodal rows and obstacles.
-  const Opposite& meet(std::size_t p)
-  {
-    const auto [entry, is_new] = met_.try_emplace(p);
-    if (!is_new) return entry->second;
-    if (options_.obstacle)
-      entry->second.gap = distance_[p];
-    else
-      entry->second = shoot_from(p, reach_);
-    entry->second.found = std::abs(entry->second.gap) <= reach_;
-    return entry->second;
+        if (control(k, l) != 0 && !rays_.meets(static_cast<std::size_t>(places[static_cast<std::size_t>(l)]))) covered[k] = 0;
   }
 
   // Which places carry a multiplier: covered enough, and not held along their normal.
   void choose_places()
   {
-    const auto count = static_cast<Eigen::Index>(places_.all.size());
-    const auto covered = over_places([&](std::size_t i) { return integrals_[i].covered; });
-    const auto whole = over_places([&](std::size_t i) { return integrals_[i].whole; });
-    for (Eigen::Index p = 0; p < count; ++p) {
-      const auto& place = places_.all[static_cast<std::size_t>(p)];
-      directions_.push_back(directions(place.normal, held_at(place), inclined_at(place), dimension_));
-    }
-    // Places held along their normal leave their share to the others of the face. Where a face has no others, as on a surface
-    // that a support moves as a whole, they stay: their rows are felt by the primary side alone (and dropped in add_point if that
-    // is held, too).
-    std::vector<double> stranded(places_.all.size(), 0.0);
-    for (std::size_t i = 0; i < integrals_.size(); ++i) {
-      const auto places = node_places(first_face(comm_.rank()) + i);
-      const auto is_held = [&](Local p) { return !directions_[static_cast<std::size_t>(p)].free_normal; };
-      if (std::all_of(places.begin(), places.end(), is_held))
-        for (const Local p : places) stranded[static_cast<std::size_t>(p)] = 1;
-    }
-    comm_.sum_in_place(stranded);
-    for (Eigen::Index p = 0; p < count; ++p) {
-      const auto i = static_cast<std::size_t>(p);
-      const bool alone = stranded[i] > 0;
-      if (alone)
-        directions_[i] = directions(places_.all[i].normal, {false, false, false}, {}, dimension_);  // moves() picks the tangents
-      kept_.push_back((directions_[i].free_normal || alone) && covered[p] > least_cover * whole[p]);
-    }
-  }
-
-  // Sums over the faces at each place, in the order of the faces whatever the ranks: values(i) are those at the nodes of this
-  // rank's i-th face.
-  template <class Values>
-  Eigen::VectorXd over_places(const Values& values) const
-  {
-    std::vector<double> at(secondary_.faces.nodes.size(), 0.0);
-    for (std::size_t i = 0; i < first_face(comm_.rank() + 1) - first_face(comm_.rank()); ++i) {
-      const Eigen::VectorXd part = values(i);
-      for (Eigen::Index k = 0; k < part.size(); ++k)
-        at[static_cast<std::size_t>(secondary_.faces.offset[first_face(comm_.rank()) + i]) + static_cast<std::size_t>(k)] =
-            part[k];
-    }
-    comm_.sum_in_place(at);
-    Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places_.all.size()));
-    for (std::size_t k = 0; k < at.size(); ++k) sums[places_.of_node[k]] += at[k];
-    return sums;
-  }
-
-  std::array<bool, 3> held_at(const Place& place) const
-  {
-    const Global node = secondary_.node_id[static_cast<std::size_t>(place.node)];
-    return {held_.find(node, 0) != nullptr, held_.find(node, 1) != nullptr, held_.find(node, 2) != nullptr};
-  }
-
-  std::span<const constraint::Inclined> inclined_at(const Place& place) const
-  {
-    return held_.inclined(secondary_.node_id[static_cast<std::size_t>(place.node)]);
-  }
-
-  // Terms of this rank's places, ordered by place, side, node and face. Also sums D.
-  std::vector<Term> exchange_terms()
-  {
-    struct Sent {
-      Term term;
-      Global face;
-    };
-    std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm_.size()));
-    std::vector<Eigen::VectorXd> d, rise;
-    for (std::size_t i = 0; i < integrals_.size(); ++i) {
-      const std::size_t face = first_face(comm_.rank()) + i;
-      auto rows = rows_of(face, integrals_[i]);
-      integrals_[i] = {};
-      d.push_back(std::move(rows.d));
-      rise.push_back(std::move(rows.rise));
-      for (const auto& term : rows.terms) {
-        int rank = 0;
-        while (static_cast<std::size_t>(term.place) >= first_place(rank + 1)) ++rank;
-        send[static_cast<std::size_t>(rank)].push_back({term, static_cast<Global>(face)});
+    const auto count = places_.all.size();
+    std::vector<double> covered(count, 0.0), whole(count, 0.0);
+    for (const std::size_t f : round_) {  // in the order of the faces, whatever the ranks
+      const auto face = integrals_[slot(f)];
+      const auto places = node_places(f);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        covered[static_cast<std::size_t>(places[k])] += face.covered[static_cast<Eigen::Index>(k)];
+        whole[static_cast<std::size_t>(places[k])] += face.whole[static_cast<Eigen::Index>(k)];
       }
     }
-    integrals_.clear();
-    d_ = over_places([&](std::size_t i) { return d[i]; });
-    rise_ = over_places([&](std::size_t i) { return rise[i]; });
-    // Most terms stay on their rank, and are many.
-    std::vector<Sent> all = std::move(send[static_cast<std::size_t>(comm_.rank())]);
-    send[static_cast<std::size_t>(comm_.rank())].clear();
-    for (const auto& part : comm_.exchange(send)) all.insert(all.end(), part.begin(), part.end());
-    std::sort(all.begin(), all.end(), [](const Sent& a, const Sent& b) {
-      return std::tie(a.term.place, a.term.on_primary, a.term.node, a.face) <
-             std::tie(b.term.place, b.term.on_primary, b.term.node, b.face);
-    });
-    std::vector<Term> terms;
-    for (const auto& sent : all) {
-      if (!terms.empty() && terms.back().place == sent.term.place && terms.back().on_primary == sent.term.on_primary &&
-          terms.back().node == sent.term.node)
-        terms.back().value += sent.term.value;
-      else
-        terms.push_back(sent.term);
+    for (std::size_t p = 0; p < count; ++p)
+      if (own(p)) covered_area_ += covered[p];
+    directions_.reserve(count);
+    for (const auto& place : places_.all) {
+      const Global node = secondary_.node_id[static_cast<std::size_t>(place.node)];
+      const std::array<bool, 3> held{held_.find(node, 0) != nullptr, held_.find(node, 1) != nullptr,
+                                     held_.find(node, 2) != nullptr};
+      directions_.push_back(directions(place.normal, held, held_.inclined(node), dimension_));
     }
-    return terms;
+    // Where a bonded seam ends at a contact, both sides of the seam have rows of that contact, each of which says what the other
+    // and the seam say: pressures that nothing shares out. As the mortar method does where multipliers meet, the seam has none
+    // there.
+    std::vector<char> crossing(count, 0);
+    for (std::size_t p = 0; p < count && !nodal(); ++p)
+      crossing[p] = std::binary_search(pressed_.begin(), pressed_.end(),
+                                       Pressed{secondary_.node_id[static_cast<std::size_t>(places_.all[p].node)]},
+                                       [](const Pressed& a, const Pressed& b) { return a.node < b.node; });
+    const auto left_out = [&](std::size_t p) { return !directions_[p].free_normal || crossing[p]; };
+    // They and places held along their normal leave their share to the others of the face. Where a face has no others, as on a
+    // surface that a support moves as a whole, they stay: their rows are felt by the primary side alone (and dropped in
+    // add_place() if that is held, too).
+    std::vector<char> stranded(count, 0);
+    for (const std::size_t f : round_) {
+      const auto places = node_places(f);
+      if (std::all_of(places.begin(), places.end(), [&](Local p) { return left_out(static_cast<std::size_t>(p)); }))
+        for (const Local p : places) stranded[static_cast<std::size_t>(p)] = 1;
+    }
+    kept_.assign(count, 0);
+    for (std::size_t p = 0; p < count; ++p) {
+      if (stranded[p] && !directions_[p].free_normal)
+        directions_[p] = directions(places_.all[p].normal, {false, false, false}, {}, dimension_);  // moves() picks the tangents
+      kept_[p] = (!left_out(p) || stranded[p]) && covered[p] > least_cover * whole[p];
+    }
   }
 
-  FaceRows rows_of(std::size_t face, const FaceIntegrals& integrals)
+  Few<char, 9> kept_of(std::size_t face) const
   {
-    const auto places = node_places(face);
-    std::vector<bool> kept;
-    for (const Local p : places) kept.push_back(kept_[static_cast<std::size_t>(p)]);
-    return nodal() ? nodal_rows(face, integrals, kept) : dual_rows(integrals, kept, secondary_.faces[face], places);
+    Few<char, 9> kept;
+    for (const Local p : node_places(face)) kept.push_back(kept_[static_cast<std::size_t>(p)]);
+    return kept;
+  }
+
+  void make_faces_dual()
+  {
+    for (const std::size_t f : near_) {
+      auto face = integrals_[slot(f)];
+      make_dual(face, kept_of(f));
+    }
+  }
+
+  // The nodes of faces that lie at each place, ascending by face.
+  void sort_by_places()
+  {
+    first_.assign(places_.all.size() + 1, 0);
+    for (const std::size_t f : near_)
+      for (const Local p : node_places(f)) ++first_[static_cast<std::size_t>(p) + 1];
+    for (std::size_t p = 0; p < places_.all.size(); ++p) first_[p + 1] += first_[p];
+    at_.resize(first_.back());
+    auto next = first_;
+    for (const std::size_t f : near_) {
+      const auto places = node_places(f);
+      for (std::size_t k = 0; k < places.size(); ++k) at_[next[static_cast<std::size_t>(places[k])]++] = {f, k};
+    }
+  }
+
+  // The coefficients of the rows that a face's k-th node gets from this face.
+  void add_terms(std::size_t face, std::size_t k)
+  {
+    const auto row = static_cast<Eigen::Index>(k);
+    const auto nodes = secondary_.faces[face];
+    const auto add = [&](Local node, bool on_primary, double value) {
+      if (value != 0) terms_.push_back({node, on_primary, value});
+    };
+    if (nodal()) return add_nodal_terms(face, row);
+    const auto integrals = integrals_[slot(face)];
+    for (std::size_t j = 0; j < nodes.size(); ++j) add(nodes[j], false, integrals.mass(row, static_cast<Eigen::Index>(j)));
+    for (std::size_t j = 0; j < integrals.nodes.size(); ++j)
+      add(integrals.nodes[j], true, integrals.opposite(row, static_cast<Eigen::Index>(j)));
   }
 
   // u_s - sum_j N_j u_j at what each node meets, weighted with the node's share of the face.
-  FaceRows nodal_rows(std::size_t face, const FaceIntegrals& integrals, const std::vector<bool>& kept)
+  void add_nodal_terms(std::size_t face, Eigen::Index k)
   {
     const auto places = node_places(face);
     const auto nodes = secondary_.faces[face];
-    const Eigen::MatrixXd control = control_values(face);
-    FaceRows rows{Eigen::VectorXd::Zero(control.rows()), Eigen::VectorXd::Zero(control.rows()), {}};
-    for (Eigen::Index k = 0; k < control.rows(); ++k) {
-      if (!kept[static_cast<std::size_t>(k)]) continue;
-      const double area = rows.d[k] = integrals.covered[k];
-      const Local place = places[static_cast<std::size_t>(k)];
-      for (Eigen::Index l = 0; l < control.cols(); ++l) {
-        const double weight = control(k, l) * area;
-        if (weight == 0) continue;
-        rows.terms.push_back({place, nodes[static_cast<std::size_t>(l)], false, weight});
-        if (options_.obstacle) continue;
-        const Opposite& opposite = meet(static_cast<std::size_t>(places[static_cast<std::size_t>(l)]));
-        const auto other = primary_.faces[static_cast<std::size_t>(primary_.face_of[opposite.facet])];
-        const FaceShape shape = primary_.shape_in_face(opposite.facet, opposite.hit.shape, opposite.hit.frame, Plane::Zero());
-        for (std::size_t j = 0; j < other.size(); ++j)
-          rows.terms.push_back({place, other[j], true, -weight * shape[static_cast<Eigen::Index>(j)]});
-      }
+    const auto& control = control_values(secondary_.faces.type[face]);
+    for (Eigen::Index l = 0; l < control.cols(); ++l) {
+      const double weight = control(k, l) * covered(face, static_cast<std::size_t>(k));
+      if (weight == 0) continue;
+      terms_.push_back({nodes[static_cast<std::size_t>(l)], false, weight});
+      if (options_.obstacle) continue;
+      const Opposite& opposite = rays_.meet(static_cast<std::size_t>(places[static_cast<std::size_t>(l)]));
+      const auto other = primary_.faces[static_cast<std::size_t>(primary_.face_of[opposite.facet])];
+      const FaceShape shape = primary_.shape_in_face(opposite.facet, opposite.hit.shape, opposite.hit.frame, Plane::Zero());
+      for (std::size_t j = 0; j < other.size(); ++j)
+        terms_.push_back({other[j], true, -weight * shape[static_cast<Eigen::Index>(j)]});
     }
-    return rows;
   }
 
-  void add_point(std::size_t p, std::span<const Term> terms, constraint::Contacts& contacts)
+  // One term a node, summed in the order of the faces.
+  void merge_terms()
+  {
+    std::stable_sort(terms_.begin(), terms_.end(), [](const Term& a, const Term& b) {
+      return std::tie(a.on_primary, a.node) < std::tie(b.on_primary, b.node);
+    });
+    std::size_t end = 0;
+    for (const auto& term : terms_) {
+      if (end > 0 && terms_[end - 1].on_primary == term.on_primary && terms_[end - 1].node == term.node)
+        terms_[end - 1].value += term.value;
+      else
+        terms_[end++] = term;
+    }
+    terms_.resize(end);
+  }
+
+  void add_place(std::size_t p, constraint::Contacts& contacts)
+  {
+    terms_.clear();
+    double d = 0, rise = 0;
+    for (std::size_t i = first_[p]; i < first_[p + 1]; ++i) {
+      const auto [face, k] = at_[i];
+      const auto integrals = integrals_[slot(face)];
+      d += integrals.covered[static_cast<Eigen::Index>(k)];
+      if (!nodal()) rise += integrals.rise[static_cast<Eigen::Index>(k)];
+      add_terms(face, k);
+    }
+    if (!(d > 0)) return;
+    merge_terms();
+    add_point(p, d, rise, contacts);
+  }
+
+  void add_point(std::size_t p, double d, double rise, constraint::Contacts& contacts)
   {
     const Place& place = places_.all[p];
-    const double d = d_[static_cast<Eigen::Index>(p)];
     const bool bonded = options_.law == Law::bonded;
     constraint::ContactPoint point{
         index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, place.normal, {}, contacts.rows.size()};
-    const bool held = !moves(terms, d, place.normal);  // on both sides
+    const bool held = !writer_.moves(terms_, d, place.normal);  // on both sides
     if (!held && options_.law != Law::frictionless)
       for (const auto& tangent : directions_[p].tangents)
-        if (moves(terms, d, tangent)) point.tangents.push_back(tangent);
+        if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
 
-    std::vector<Point> frame{place.normal};
-    frame.insert(frame.end(), point.tangents.begin(), point.tangents.end());
     Point separation = Point::Zero();  // of the two sides in the mesh, weighted as the row is
     double weight = 0;
-    for (const auto& term : terms) {
+    for (const auto& term : terms_) {
       const Side& side = term.on_primary ? primary_ : secondary_;
       separation -= term.value / d * side.points[static_cast<std::size_t>(term.node)];
       if (!term.on_primary) weight += term.value / d;
     }
     point.weight = weight;
     point.at = secondary_.points[static_cast<std::size_t>(place.node)];
-    point.gap = bonded ? 0
-                       : weight * (gap_at(p, (frame[0].dot(separation) - rise_[static_cast<Eigen::Index>(p)] / d) / weight) -
-                                   options_.interference);
+    point.gap = bonded ? 0 : weight * (gap_at(p, (place.normal.dot(separation) - rise / d) / weight) - options_.interference);
     if (held) {
-      if (!bonded) crossing_ = std::max(crossing_, held_part(terms, d, place.normal) - point.gap);
+      if (!bonded) crossing_ = std::max(crossing_, writer_.held_part(terms_, d, place.normal) - point.gap);
       return;
     }
-    for (std::size_t axis = 0; axis < frame.size(); ++axis) add_row(terms, d, frame[axis], axis == 0 ? point.gap : 0.0, contacts);
+    writer_.add(terms_, d, place.normal, point.gap, contacts);
+    for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
     contacts.points.push_back(std::move(point));
     contacts.bonded.push_back(bonded);
   }
 
-  static bool counts(const Term& term, double d, const Point& axis, int c)
+  // The gap between the smooth surfaces at the node itself, along its normal. Its mean over the dual basis, which has negative
+  // parts, would see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch; that mean is
+  // left for nodes which look past the border of the primary side.
+  double gap_at(std::size_t p, double mean) const
   {
-    return std::abs(term.value) > 1e-12 * d && std::abs(axis[c]) > 1e-14;
-  }
-  Global node_of(const Term& term) const
-  {
-    return (term.on_primary ? primary_ : secondary_).node_id[static_cast<std::size_t>(term.node)];
-  }
-  const constraint::Held* support_of(const Term& term, int c) const
-  {
-    return (term.on_primary ? primary_held_ : held_).find(node_of(term), c);
-  }
-
-  std::span<const constraint::Inclined> inclined_of(const Term& term) const
-  {
-    return (term.on_primary ? primary_held_ : held_).inclined(node_of(term));
-  }
-  // What inclined supports at the node of a term leave of an axis; parts that are rounding are 0.
-  Point free_of_inclined(const Term& term, const Point& axis) const
-  {
-    const auto inclined = inclined_of(term);
-    if (inclined.empty()) return axis;
-    Point rest = axis;
-    for (const auto& i : inclined) rest -= axis.dot(along(i)) * along(i);
-    return (rest.array().abs() < 1e-9).select(0.0, rest);
-  }
-
-  // Whether supports leave anything of the row.
-  bool moves(std::span<const Term> terms, double d, const Point& whole) const
-  {
-    return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
-      const Point axis = free_of_inclined(term, whole);
-      for (int c = 0; c < dimension_; ++c)
-        if (counts(term, d, axis, c) && !support_of(term, c)) return true;
-      return false;
-    });
-  }
-
-  // What supports contribute to sum_k value_k / d axis . u(node_k).
-  double held_part(std::span<const Term> terms, double d, const Point& whole) const
-  {
-    double sum = 0;
-    for (const auto& term : terms) {
-      for (const auto& i : inclined_of(term)) sum += term.value / d * whole.dot(along(i)) * i.value;
-      const Point axis = free_of_inclined(term, whole);
-      for (int c = 0; c < dimension_; ++c)
-        if (counts(term, d, axis, c))
-          if (const auto* held = support_of(term, c)) sum += term.value / d * axis[c] * held->value;
-    }
-    return sum;
-  }
-
-  // sum_k value_k / d axis . u(node_k) <= bound, without what supports hold.
-  void add_row(std::span<const Term> terms, double d, const Point& whole, double bound, constraint::Contacts& contacts) const
-  {
-    for (const auto& term : terms) {
-      for (const auto& i : inclined_of(term)) {
-        const double coefficient = term.value / d * whole.dot(along(i));
-        bound -= coefficient * i.value;
-        for (const auto& share : std::span(i.shares).first(static_cast<std::size_t>(i.share_count)))
-          for (int c = 0; c < dimension_; ++c)
-            if (const double part = coefficient * share.part[static_cast<std::size_t>(c)]; part != 0)
-              contacts.held.push_back({contacts.rows.size(), c, share.support, part});
-      }
-      const Point axis = free_of_inclined(term, whole);
-      for (int c = 0; c < dimension_; ++c) {
-        if (!counts(term, d, axis, c)) continue;
-        const double coefficient = term.value / d * axis[c];
-        if (const auto* held = support_of(term, c)) {
-          bound -= coefficient * held->value;
-          contacts.held.push_back({contacts.rows.size(), c, held->support, coefficient});
-        } else {
-          contacts.rows.entries.push_back({node_of(term), c, coefficient});
-        }
-      }
-    }
-    contacts.rows.close(bound);
+    const double gap = rays_.gap(p);
+    return std::isfinite(gap) ? gap : mean;
   }
 
   const Options& options_;
   int index_;
   int dimension_;
-  const Communicator& comm_;
-  Side secondary_, primary_;
+  const Share& share_;
+  const Side &secondary_, &primary_;
+  const std::vector<Pressed>& pressed_;
   Places places_, primary_places_;
+  Tree tree_;  // of the primary facets
+  Rays rays_;
   HeldNodes held_, primary_held_;
+  RowWriter writer_;
   double reach_;
-  double crossing_ = 0;                   // how far supports alone push the two sides into each other, on this rank
-  std::vector<double> distance_;          // of each place from the obstacle, if there is one
-  std::map<std::size_t, Opposite> met_;   // by place
-  std::unique_ptr<Tree> tree_;            // of the primary facets
-  std::vector<FaceIntegrals> integrals_;  // of this rank's faces
-  std::vector<std::pair<Local, Local>> face_of_middle_;  // of each place: a face and the node in it, if that is no corner
-  std::vector<Directions> directions_;                   // of each place
-  std::vector<bool> kept_;
-  Eigen::VectorXd d_, rise_;  // of each place: integral psi_i, and of psi_i times the bulge
+  double crossing_ = 0;
+  double covered_area_ = 0;
+  std::vector<std::size_t> near_, round_;  // faces; see choose_faces()
+  FaceStore integrals_;                    // of the faces in round_; once dual, those in near_ have their share of the rows
+  std::vector<Local> slot_;                // of each face its place in integrals_
+  std::vector<Directions> directions_;     // of each place
+  std::vector<char> kept_;                 // of each place
+  std::vector<std::size_t> first_;         // of each place its first entry in at_
+  std::vector<std::pair<std::size_t, std::size_t>> at_;  // face and node in it
+  std::vector<Term> terms_;                              // of the place at work
 };
 
 }  // namespace
@@ -471,10 +356,32 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
 {
   constraint::Contacts contacts;
   const auto sizes = measure(pairs, comm);
+  const HeldDirectory directory(held, inclined, comm);
+  std::vector<Pressed> pressed;  // this rank's nodes by number, not by place; see by_node()
+  const auto add = [&](std::size_t c) {
+    const auto& options = pairs[c].options;
+    const Share share = share_out(pairs[c], sizes[c], kinematics, comm);
+    std::vector<Pressed> crossed;
+    if (options.law == Law::bonded && comm.any(!pressed.empty()))
+      crossed = answer(pressed, ask(share.secondary.node_id, comm), comm);
+    Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, crossed, kinematics, comm);
+    builder.add_rows(contacts);
+    if (options.cyclic && options.law == Law::bonded)
+      require_one_surface(pairs[c], sizes[c], builder.widest_gap(), builder.covered_area(), comm);
+    if (const double crossing = comm.max(builder.crossing()); crossing > 1e-9 * sizes[c].reach)
+      throw Error(
+          ExitStatus::bad_input,
+          fmt::format("contact {}: supports hold both sides and push them {:.3g} into each other; change one of the supports",
+                      options.name, crossing));
+  };
+  const auto is_bonded = [](const Pair& pair) { return pair.options.law == Law::bonded; };
   for (std::size_t c = 0; c < pairs.size(); ++c)
-    Builder(pairs[c].options, near_faces(pairs[c], sizes[c], comm), sizes[c].reach, static_cast<int>(c), held, inclined,
-            kinematics, comm)
-        .add_rows(contacts);
+    if (!is_bonded(pairs[c])) add(c);
+  if (std::none_of(pairs.begin(), pairs.end(), is_bonded)) return contacts;
+  for (const auto& point : contacts.points) pressed.push_back({point.node});
+  pressed = by_node<Pressed>(pressed, comm);
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    if (is_bonded(pairs[c])) add(c);
   return contacts;
 }
 

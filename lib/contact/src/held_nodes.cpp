@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "by_node.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -15,19 +17,18 @@ bool before(const constraint::Held& a, const constraint::Held& b)
 
 }  // namespace
 
-HeldNodes::HeldNodes(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
-                     const std::vector<Global>& nodes, const Communicator& comm)
+HeldDirectory::HeldDirectory(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
+                             const Communicator& comm)
+    : held_(by_node(held, comm)), inclined_(by_node(inclined, comm))
 {
-  std::vector<constraint::Inclined> along;
-  for (const auto& i : inclined)
-    if (std::binary_search(nodes.begin(), nodes.end(), i.node)) along.push_back(i);
-  inclined_ = comm.all_gather(along);
-  std::stable_sort(inclined_.begin(), inclined_.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+}
 
-  std::vector<constraint::Held> found;
-  for (const auto& h : held)
-    if (std::binary_search(nodes.begin(), nodes.end(), h.node)) found.push_back(h);
-  held_ = comm.all_gather(found);
+HeldNodes::HeldNodes(const HeldDirectory& directory, const std::vector<Global>& nodes, const Communicator& comm)
+{
+  if (!comm.any(!directory.held_.empty() || !directory.inclined_.empty())) return;
+  const auto asked = ask(nodes, comm);
+  held_ = answer(directory.held_, asked, comm);
+  inclined_ = answer(directory.inclined_, asked, comm);
   std::sort(held_.begin(), held_.end(), before);
 }
 

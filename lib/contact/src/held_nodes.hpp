@@ -10,12 +10,23 @@
 
 namespace mortise::contact {
 
+/// The supports of all ranks, those of a node on rank node % ranks.
+class HeldDirectory {
+ public:
+  /// `held` and `inclined` of this rank. Collective.
+  HeldDirectory(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined, const Communicator& comm);
+
+ private:
+  friend class HeldNodes;
+  std::vector<constraint::Held> held_;
+  std::vector<constraint::Inclined> inclined_;
+};
+
 /// The supports at the nodes of a side.
 class HeldNodes {
  public:
-  /// `held` and `inclined` of this rank, `nodes` ascending. Collective.
-  HeldNodes(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
-            const std::vector<Global>& nodes, const Communicator& comm);
+  /// `nodes` are those that this rank asks about. Collective.
+  HeldNodes(const HeldDirectory& directory, const std::vector<Global>& nodes, const Communicator& comm);
 
   /// Null where the component is free.
   const constraint::Held* find(Global node, int component) const;

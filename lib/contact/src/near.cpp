@@ -15,12 +15,6 @@ namespace {
 
 // Boxes that a rank tells the others of its part of a surface.
 constexpr std::size_t most_boxes = 64;
-// The normal of a node depends on no face farther away than this many faces: those round it, and at a border those round the
-// nodes that its curvature is continued from, which may have been continued themselves; see find_places().
-constexpr double rings = 6;
-// Faces of second order stand out of their corners.
-constexpr double slack = 1.5;
-
 struct Extent {
   std::array<double, 3> low, high;
   double face = 0;
@@ -148,8 +142,9 @@ std::vector<PairSize> measure(std::span<const Pair> pairs, const Communicator& c
       secondary = joined(secondary, all[2 * (pairs.size() * r + c)]);
       primary = joined(primary, all[2 * (pairs.size() * r + c) + 1]);
     }
-    const double tenth = 0.1 * std::min(diagonal(secondary), diagonal(primary)), given = pairs[c].options.search_distance;
-    sizes.push_back({given > 0 ? given : std::max({tenth, secondary.face, primary.face}), secondary.face, primary.face});
+    const double extent = std::min(diagonal(secondary), diagonal(primary)), given = pairs[c].options.search_distance;
+    sizes.push_back(
+        {given > 0 ? given : std::max({0.1 * extent, secondary.face, primary.face}), extent, secondary.face, primary.face});
   }
   return sizes;
 }
@@ -161,16 +156,12 @@ std::vector<double> search_distances(std::span<const Pair> pairs, const Communic
   return result;
 }
 
-NearFaces near_faces(const Pair& pair, const PairSize& size, const Communicator& comm)
+mesh::Surface near_secondary(const Pair& pair, const PairSize& size, const Communicator& comm)
 {
-  if (!pair.primary) return {pair.secondary, {}};
-  const auto secondary = boxes_of_faces(pair.secondary), primary = boxes_of_faces(*pair.primary);
+  if (!pair.primary) return pair.secondary;
   const double margin = slack * rings * std::max(size.secondary_face, size.primary_face);
-  NearFaces near;
-  // Rays go twice as far as the search.
-  near.primary = select(*pair.primary, primary, parts_of(secondary, comm), 2 * size.reach + margin);
-  near.secondary = select(pair.secondary, secondary, parts_of(boxes_of_faces(near.primary), comm), size.reach + margin);
-  return near;
+  return select(pair.secondary, boxes_of_faces(pair.secondary), parts_of(boxes_of_faces(*pair.primary), comm),
+                size.reach + margin);
 }
 
 }  // namespace mortise::contact

@@ -112,7 +112,18 @@ void describe(deck::Description<Options>& d)
       .at_least(0);
   d.key("preload", &Options::preload,
         "{force: tension} or {shortening: length} of a bolt that is cut into two bodies, bonded here: bonded contacts alone.");
+  d.key(
+      "cyclic", &Options::cyclic,
+      "{axis: [..], angle: 360/n, center: [..]}: the model is one of n equal sectors, and this turn of 360/n degrees, either way "
+      "round, brings the primary boundary to the secondary one, where the next sector begins. With `friction: {bonded: true}` "
+      "the "
+      "two are the cuts through the material, whose meshes need not match; with other laws sectors touch their neighbours "
+      "there.");
   d.check([](const Options& contact, const std::string& path, deck::Document& document) {
+    if (contact.cyclic && contact.obstacle)
+      document.error(path + ".cyclic", "a rigid obstacle is no sector's boundary; expected the name of one as primary");
+    if (contact.cyclic && contact.preload)
+      document.error(path + ".preload", "the cuts of a sector are no cut through a bolt; expected either cyclic or preload");
     if (contact.law == Law::bonded && contact.interference != 0)
       document.error(path + ".interference",
                      "bonded surfaces are tied where they are; expected another friction law, or no interference");

@@ -1,7 +1,6 @@
 #include "overlap.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,53 +21,21 @@ Frame frame_of(const FaceGeometry& face)
   return frame;
 }
 
-double cross(const Plane& a, const Plane& b)
-{
-  return a[0] * b[1] - a[1] * b[0];
-}
-
-double area_of(const std::vector<Plane>& polygon)
-{
-  double twice = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
-  return 0.5 * twice;
-}
-
 // Part of `subject` inside the convex, counter-clockwise `clip` [Sutherland and Hodgman].
-std::vector<Plane> clip_polygon(std::vector<Plane> subject, const std::vector<Plane>& clip)
+Polygon clip_polygon(Polygon subject, const Few<Plane, 4>& clip)
 {
   for (std::size_t e = 0; e < clip.size() && !subject.empty(); ++e) {
     const Plane a = clip[e], edge = clip[(e + 1) % clip.size()] - a;
-    std::vector<Plane> kept;
+    Polygon kept;
     for (std::size_t i = 0; i < subject.size(); ++i) {
       const Plane &p = subject[i], &q = subject[(i + 1) % subject.size()];
       const double dp = cross(edge, p - a), dq = cross(edge, q - a);
       if (dp >= 0) kept.push_back(p);
       if ((dp > 0 && dq < 0) || (dp < 0 && dq > 0)) kept.push_back(p + dp / (dp - dq) * (q - p));
     }
-    subject = std::move(kept);
+    subject = kept;
   }
   return subject;
-}
-
-// Gauss-Legendre points and weights on [0, 1].
-struct Rule {
-  std::vector<double> at, weight;
-};
-
-Rule gauss(int n)
-{
-  // Golub and Welsch: eigenvalues of the Jacobi matrix.
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n), next(std::max(n - 1, 1));
-  for (int k = 1; k < n; ++k) next[k - 1] = k / std::sqrt(4.0 * k * k - 1);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
-  eigen.computeFromTridiagonal(diagonal, next.head(n - 1));
-  Rule rule;
-  for (int k = 0; k < n; ++k) {
-    rule.at.push_back(0.5 * (1 + eigen.eigenvalues()[k]));
-    rule.weight.push_back(eigen.eigenvectors()(0, k) * eigen.eigenvectors()(0, k));
-  }
-  return rule;
 }
 
 bool parallelogram(const FaceGeometry& face)
@@ -88,39 +55,11 @@ bool flat(const FaceGeometry& a, const FaceGeometry& b)
   return planar(a) && planar(b);
 }
 
-struct Sample {
-  Plane at;
-  double weight;
-};
-
-// Products of bilinear functions of two parallelograms have degree 4 in the plane, of biquadratic ones 8; other quads make them
-// rational, and only many points keep the patch test at rounding.
-std::vector<Sample> samples(const std::vector<Plane>& polygon, bool polynomial, bool second_order)
+// Products of bilinear functions are polynomials in the plane where the faces are parallelograms.
+Integrand integrand(const FaceGeometry& secondary, const FaceGeometry& primary, bool second_order)
 {
-  static const Rule low = gauss(4), middle = gauss(6), high = gauss(9);
-  const Rule& rule = !polynomial ? high : second_order ? middle : low;
-  Plane centre = Plane::Zero();
-  for (const auto& p : polygon) centre += p / static_cast<double>(polygon.size());
-  std::vector<Sample> result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Plane a = polygon[i] - centre, b = polygon[(i + 1) % polygon.size()] - centre;
-    const double twice = cross(a, b);
-    if (!(twice > 0)) continue;
-    for (std::size_t k = 0; k < rule.at.size(); ++k)  // the square collapsed to a triangle at the centre
-      for (std::size_t l = 0; l < rule.at.size(); ++l)
-        result.push_back(
-            {centre + rule.at[k] * (a + rule.at[l] * (b - a)), twice * rule.at[k] * rule.weight[k] * rule.weight[l]});
-  }
-  return result;
-}
-
-std::vector<Sample> samples_on_line(double begin, double end)
-{
-  static const Rule rule = gauss(3);
-  std::vector<Sample> result;
-  for (std::size_t k = 0; k < rule.at.size(); ++k)
-    result.push_back({{begin + rule.at[k] * (end - begin), 0}, (end - begin) * rule.weight[k]});
-  return result;
+  const bool polynomial = (parallelogram(secondary) && parallelogram(primary)) || !flat(secondary, primary);
+  return !polynomial ? Integrand::rational : second_order ? Integrand::second_order : Integrand::first_order;
 }
 
 double height_at(const FaceGeometry& face, const Frame& frame, const Eigen::Vector4d& shape)
@@ -170,39 +109,36 @@ FaceGeometry corners_of(const mesh::Surface& surface, std::size_t face)
   return result;
 }
 
-Overlap overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach, bool second_order)
+bool overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach, bool second_order, Overlap& result)
 {
-  const Frame frame = frame_of(secondary);
-  if (frame.normal.dot(primary.normal()) > opposed) return {};
-  std::vector<Plane> own, other;
+  result.points.clear();
+  const Frame frame = result.frame = frame_of(secondary);
+  if (frame.normal.dot(primary.normal()) > opposed) return false;
+  Few<Plane, 4> own, other;
   for (const auto& p : secondary.nodes) own.push_back(frame.project(p));
   for (const auto& p : primary.nodes) other.push_back(frame.project(p));
 
-  std::vector<Sample> points;
   Plane middle = Plane::Zero();
   if (secondary.type == CellType::line2) {
     const double begin = std::max(std::min(own[0][0], own[1][0]), std::min(other[0][0], other[1][0]));
     const double end = std::min(std::max(own[0][0], own[1][0]), std::max(other[0][0], other[1][0]));
-    if (end - begin <= negligible * secondary.area()) return {};
-    points = samples_on_line(begin, end);
+    if (end - begin <= negligible * secondary.area()) return false;
+    sample(begin, end, result.samples);
     middle[0] = 0.5 * (begin + end);
   } else {
-    std::vector<Plane> subject(other.rbegin(), other.rend());  // it looks the other way
-    if (area_of(subject) < 0) return {};
+    Polygon subject;  // it looks the other way
+    for (std::size_t i = other.size(); i > 0; --i) subject.push_back(other[i - 1]);
+    if (area_of(subject) < 0) return false;
     const auto common = clip_polygon(subject, own);
-    if (common.size() < 3 || area_of(common) <= negligible * secondary.area()) return {};
-    const bool polynomial = (parallelogram(secondary) && parallelogram(primary)) || !flat(secondary, primary);
-    points = samples(common, polynomial, second_order);
+    if (common.size() < 3 || area_of(common) <= negligible * secondary.area()) return false;
+    sample(common, integrand(secondary, primary, second_order), result.samples);
     for (const auto& p : common) middle += p / static_cast<double>(common.size());
   }
-  const double distance = height_at(primary, frame, shape(primary.type, locate(primary.type, other, middle))) -
-                          height_at(secondary, frame, shape(secondary.type, locate(secondary.type, own, middle)));
-  if (std::abs(distance) > reach) return {};
-  Overlap result{frame, {}};
-  for (const auto& sample : points)
-    result.points.push_back({sample.weight, sample.at, shape(secondary.type, locate(secondary.type, own, sample.at)),
-                             shape(primary.type, locate(primary.type, other, sample.at))});
-  return result;
+  const Locator in_secondary(secondary.type, own), in_primary(primary.type, other);
+  const double distance = height_at(primary, frame, in_primary(middle)) - height_at(secondary, frame, in_secondary(middle));
+  if (std::abs(distance) > reach) return false;
+  for (const auto& at : result.samples) result.points.push_back({at.weight, at.at, in_secondary(at.at), in_primary(at.at)});
+  return true;
 }
 
 Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face)
@@ -216,10 +152,10 @@ Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face)
     frame.first = direction.unitOrthogonal();
     frame.second = direction.cross(frame.first);
   }
-  std::vector<Plane> nodes;
+  Few<Plane, 4> nodes;
   for (const auto& p : face.nodes) nodes.push_back(frame.project(p));
   Hit hit;
-  hit.shape = shape(face.type, locate(face.type, nodes, Plane::Zero()));
+  hit.shape = Locator(face.type, nodes)(Plane::Zero());
   hit.found = hit.shape.head(static_cast<Eigen::Index>(nodes.size())).minCoeff() >= -margin;
   hit.distance = height_at(face, frame, hit.shape);
   hit.frame = frame;

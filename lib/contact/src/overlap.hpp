@@ -5,6 +5,7 @@
 
 #include "base/types.hpp"
 #include "mesh/mesh.hpp"
+#include "quadrature.hpp"
 #include "shape.hpp"
 
 namespace mortise::contact {
@@ -15,7 +16,7 @@ inline constexpr double opposed = -0.35;
 /// A facet, that is a face of first order, with its nodes in space.
 struct FaceGeometry {
   mesh::CellType type;
-  std::vector<Point> nodes;
+  Few<Point, 4> nodes;
 
   Point centre() const;
   Point normal() const;  ///< unit, at the centre
@@ -43,13 +44,14 @@ struct OverlapPoint {
 struct Overlap {
   Frame frame;
   std::vector<OverlapPoint> points;
+  std::vector<Sample> samples;  ///< for the work on it
 };
 
 /// The secondary facet's auxiliary plane through its centre is where both are projected along its normal and clipped [Puso and
-/// Laursen, CMAME 193 (2004); Popp et al., IJNME 83 (2010)]. Empty if the faces do not look at each other, or lie farther apart
+/// Laursen, CMAME 193 (2004); Popp et al., IJNME 83 (2010)]. False if the faces do not look at each other, or lie farther apart
 /// than `reach` (the distance is taken at the centre of the common part). The rule is exact for products of the shape functions
-/// of parallelograms, or of faces of second order if `second_order`.
-Overlap overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach, bool second_order = false);
+/// of parallelograms, or of faces of second order if `second_order`. `result` may be used again and again.
+bool overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double reach, bool second_order, Overlap& result);
 
 /// Where the line through `from` along the unit vector `direction` meets a face: the distance along it and the face's shape
 /// functions there.

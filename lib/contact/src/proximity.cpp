@@ -71,9 +71,9 @@ std::vector<Face> faces_of(const std::vector<Sent>& sent)
   for (const auto& s : sent) {
     FaceGeometry geometry{s.type, {}};
     for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k)
-      geometry.nodes.emplace_back(s.x[3 * k], s.x[3 * k + 1], s.x[3 * k + 2]);
+      geometry.nodes.push_back({s.x[3 * k], s.x[3 * k + 1], s.x[3 * k + 2]});
     const Box box = box_of(geometry);
-    faces.push_back({std::move(geometry), box, s.body});
+    faces.push_back({geometry, box, s.body});
   }
   return faces;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "mesh/cell.hpp"
+#include "small.hpp"
 
 namespace mortise::contact {
 
@@ -12,8 +13,21 @@ using Plane = Eigen::Vector2d;  ///< coordinates in an auxiliary plane; on an au
 /// Values of up to four shape functions at reference coordinates: line2 and quad4 in [-1, 1], tri3 in the unit triangle.
 Eigen::Vector4d shape(mesh::CellType type, const Plane& at);
 
-/// Reference coordinates of the point `x` in a face whose nodes lie at `nodes` in the plane: the inverse of the isoparametric
-/// map.
-Plane locate(mesh::CellType type, std::span<const Plane> nodes, const Plane& x);
+/// Values of the shape functions of a facet at points of the plane in which its nodes lie at `nodes`: the inverse of the
+/// isoparametric map.
+class Locator {
+ public:
+  Locator(mesh::CellType type, const Few<Plane, 4>& nodes);
+  Eigen::Vector4d operator()(const Plane& x) const { return shape(type_, locate(x)); }
+  /// Reference coordinates.
+  Plane locate(const Plane& x) const;
+
+ private:
+  mesh::CellType type_;
+  Few<Plane, 4> nodes_;
+  bool affine_ = true;
+  Plane origin_;  // x = origin + inverse^-1 at, of a quadrilateral that is no parallelogram about its centre
+  Eigen::Matrix2d inverse_;
+};
 
 }  // namespace mortise::contact

@@ -1,89 +1,14 @@
 #include "side.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 
 #include "mesh/shape_functions.hpp"
 
 namespace mortise::contact {
 
 namespace {
-
-constexpr double kink = 0.766;  // cosine of the angle from which neighbouring faces make a kink
-
-// Nelson Max's weight times normal at corner k of a face.
-Point corner_normal(const FaceGeometry& face, std::size_t k)
-{
-  const auto n = face.nodes.size();
-  if (face.type == mesh::CellType::line2) return face.normal() / face.area();
-  const Point next = face.nodes[(k + 1) % n] - face.nodes[k], last = face.nodes[(k + n - 1) % n] - face.nodes[k];
-  return next.cross(last) / (next.squaredNorm() * last.squaredNorm());
-}
-
-// Places of a border that goes on nearly straight there: its two edges turn by less than 45 degrees.
-std::vector<bool> between_two_faces(const Side& side, const Places& places, const std::map<std::pair<Local, Local>, int>& edges)
-{
-  std::vector<std::vector<Point>> along(places.all.size());
-  const auto at = [&](Local place) -> const Point& {
-    return side.points[static_cast<std::size_t>(places.all[static_cast<std::size_t>(place)].node)];
-  };
-  for (const auto& [edge, count] : edges)
-    if (count == 1) along[static_cast<std::size_t>(edge.first)].push_back((at(edge.second) - at(edge.first)).normalized());
-  std::vector<bool> result;
-  for (const auto& directions : along) result.push_back(directions.size() == 2 && directions[0].dot(directions[1]) < -0.7);
-  return result;
-}
-
-// Corrects the normals of places on a border; see find_places().
-void continue_curvature(const Side& side, Places& places)
-{
-  // Edges from place to place and how many faces have them.
-  std::map<std::pair<Local, Local>, int> edges;
-  for (std::size_t f = 0; f < side.facets.size(); ++f) {
-    const auto begin = static_cast<std::size_t>(side.facets.offset[f]), n = side.facets[f].size();
-    for (std::size_t k = 0; k < n; ++k) {
-      const Local a = places.of_corner[begin + k], b = places.of_corner[begin + (k + 1) % n];
-      if (n == 2 && k == 1) continue;
-      ++edges[{a, b}];
-      ++edges[{b, a}];
-    }
-  }
-  const bool plane = side.facets.size() > 0 && side.facets.type[0] == mesh::CellType::line2;
-  std::vector<int> degree(places.all.size(), 0);
-  std::vector<bool> border(places.all.size(), false);
-  for (const auto& [edge, count] : edges) {
-    ++degree[static_cast<std::size_t>(edge.first)];
-    if (!plane && count == 1) border[static_cast<std::size_t>(edge.first)] = true;
-  }
-  if (plane)
-    for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
-
-  // First from edges that lead inside; then corners, which have none, from their neighbours on the border. On a surface one cell
-  // wide all places are on the border: there those between two faces have the normal that the ends continue.
-  const auto smooth = plane ? std::vector<bool>(border.size(), false) : between_two_faces(side, places, edges);
-  std::vector<bool> known(border.size());
-  for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];
-  for (int pass = 0; pass < 2; ++pass) {
-    std::vector<bool> reached = known;
-    const auto leads = [&](std::size_t b, std::size_t a) { return known[b] || (pass == 1 && smooth[b] && !smooth[a]); };
-    for (int sweep = 0; sweep < 10; ++sweep)
-      for (const auto& [edge, count] : edges) {
-        const auto a = static_cast<std::size_t>(edge.first), b = static_cast<std::size_t>(edge.second);
-        if (known[a] || !leads(b, a)) continue;
-        auto& place = places.all[a];
-        const Place& inner = places.all[b];
-        const Point along =
-            (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(place.node)]).normalized();
-        place.normal = (place.normal - (place.normal.dot(along) + inner.normal.dot(along)) * along).normalized();
-        reached[a] = true;
-      }
-    known = reached;
-  }
-}
 
 // How a face is cut into facets between its nodes.
 struct Facet {
@@ -107,7 +32,7 @@ const std::vector<Facet>& facets_of_face(mesh::CellType type)
 }
 
 // Whether all nodes lie where an affine map of the reference face puts them.
-bool is_affine(mesh::CellType type, const std::vector<Point>& nodes)
+bool is_affine(mesh::CellType type, const Few<Point, 9>& nodes)
 {
   double size = 0, error = 0;
   for (const auto& p : nodes) size = std::max(size, (p - nodes[0]).norm());
@@ -126,11 +51,11 @@ void cut_into_facets(Side& side)
   side.first_facet.push_back(0);
   for (std::size_t f = 0; f < side.faces.size(); ++f) {
     const auto nodes = side.faces[f];
-    std::vector<Point> points;
+    Few<Point, 9> points;
     for (const Local n : nodes) points.push_back(side.points[static_cast<std::size_t>(n)]);
     side.affine.push_back(is_affine(side.faces.type[f], points));
     for (const auto& facet : facets_of_face(side.faces.type[f])) {
-      std::vector<Local> corners;
+      Few<Local, 4> corners;
       for (int k = 0; k < mesh::node_count(facet.type); ++k)
         corners.push_back(nodes[static_cast<std::size_t>(facet.nodes[static_cast<std::size_t>(k)])]);
       side.facets.add(facet.type, corners);
@@ -143,30 +68,6 @@ void cut_into_facets(Side& side)
 
 }  // namespace
 
-Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals) : n_(face.nodes.size())
-{
-  for (std::size_t i = 0; i < n_; ++i) {
-    const std::size_t j = (i + 1) % n_;
-    rise_[i] = (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8;
-  }
-}
-
-double Bulge::operator()(const Eigen::Vector4d& shape) const
-{
-  if (n_ == 2) return 4 * shape[0] * shape[1] * rise_[0];
-  double result = 0;
-  for (std::size_t i = 0; i < n_; ++i) {
-    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>((i + 1) % n_);
-    if (n_ == 3) {
-      result += 4 * shape[a] * shape[b] * rise_[i];
-    } else {  // on a quad N_i N_j = (1 - t^2)(1 + s)^2 / 16 along edge ij, whose own function is (1 - t^2)(1 + s) / 2
-      const double across = shape[a] + shape[b];
-      if (across > 1e-12) result += 4 * shape[a] * shape[b] / across * rise_[i];
-    }
-  }
-  return result;
-}
-
 FaceGeometry Side::geometry(std::size_t facet) const
 {
   FaceGeometry result{facets.type[facet], {}};
@@ -176,6 +77,7 @@ FaceGeometry Side::geometry(std::size_t facet) const
 
 double Side::thickness(std::size_t facet, const Eigen::Vector4d& shape) const
 {
+  if (kinematics != fem::Kinematics::axisymmetric) return fem::thickness(kinematics, 0);
   double x = 0;
   for (std::size_t k = 0; k < facets[facet].size(); ++k)
     x += shape[static_cast<Eigen::Index>(k)] * points[static_cast<std::size_t>(facets[facet][k])][0];
@@ -214,32 +116,26 @@ FaceShape Side::shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, c
   return value;
 }
 
-Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Communicator& comm)
+SentNode pack_node(const mesh::Surface& surface, std::size_t node)
 {
-  struct Node {
-    Global id;
-    double x[3];
-  };
-  struct Face {
-    Global id;
-    Global nodes[9];
-    mesh::CellType type;
-  };
-  std::vector<Node> nodes;
-  for (std::size_t i = 0; i < surface.node_id.size(); ++i)
-    nodes.push_back({surface.node_id[i], {surface.points[i][0], surface.points[i][1], surface.points[i][2]}});
-  std::vector<Face> faces;
-  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    Face face{surface.face_id[f], {-1, -1, -1, -1, -1, -1, -1, -1, -1}, surface.faces.type[f]};
-    const auto local = surface.faces[f];
-    for (std::size_t k = 0; k < local.size(); ++k) face.nodes[k] = surface.node_id[static_cast<std::size_t>(local[k])];
-    faces.push_back(face);
-  }
-  nodes = comm.all_gather(nodes);
-  faces = comm.all_gather(faces);
-  std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.id < b.id; });
-  nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.id == b.id; }), nodes.end());
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.id < b.id; });
+  const Point& x = surface.points[node];
+  return {surface.node_id[node], {x[0], x[1], x[2]}};
+}
+
+SentFace pack_face(const mesh::Surface& surface, std::size_t face)
+{
+  SentFace sent{surface.face_id[face], {-1, -1, -1, -1, -1, -1, -1, -1, -1}, surface.faces.type[face]};
+  const auto local = surface.faces[face];
+  for (std::size_t k = 0; k < local.size(); ++k) sent.nodes[k] = surface.node_id[static_cast<std::size_t>(local[k])];
+  return sent;
+}
+
+Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Kinematics kinematics)
+{
+  std::sort(nodes.begin(), nodes.end(), [](const SentNode& a, const SentNode& b) { return a.id < b.id; });
+  nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const SentNode& a, const SentNode& b) { return a.id == b.id; }),
+              nodes.end());
+  std::sort(faces.begin(), faces.end(), [](const SentFace& a, const SentFace& b) { return a.id < b.id; });
 
   Side side;
   side.kinematics = kinematics;
@@ -248,7 +144,7 @@ Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Comm
     side.points.emplace_back(node.x[0], node.x[1], node.x[2]);
   }
   for (const auto& face : faces) {
-    std::vector<Local> local;
+    Few<Local, 9> local;
     for (const Global id : face.nodes)
       if (id >= 0)
         local.push_back(
@@ -259,57 +155,14 @@ Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Comm
   return side;
 }
 
-Places find_places(const Side& side)
+Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Communicator& comm)
 {
-  struct Corner {
-    Local face;
-    std::size_t k;
-  };
-  std::vector<std::vector<Corner>> round(side.points.size());
-  for (std::size_t f = 0; f < side.facets.size(); ++f)
-    for (std::size_t k = 0; k < side.facets[f].size(); ++k)
-      round[static_cast<std::size_t>(side.facets[f][k])].push_back({static_cast<Local>(f), k});
-
-  Places places;
-  places.of_corner.resize(side.facets.nodes.size());
-  for (std::size_t n = 0; n < round.size(); ++n) {
-    const auto& corners = round[n];
-    std::vector<FaceGeometry> faces;
-    std::vector<Point> normals;
-    for (const auto& corner : corners) {
-      faces.push_back(side.geometry(static_cast<std::size_t>(corner.face)));
-      normals.push_back(faces.back().normal());
-    }
-    std::vector<std::size_t> group(corners.size());
-    std::iota(group.begin(), group.end(), 0U);
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (std::size_t a = 0; a < corners.size(); ++a)
-        for (std::size_t b = 0; b < a; ++b)
-          if (group[a] != group[b] && normals[a].dot(normals[b]) > kink) {
-            group[a] = group[b] = std::min(group[a], group[b]);
-            changed = true;
-          }
-    }
-    for (std::size_t g = 0; g < corners.size(); ++g) {
-      Point normal = Point::Zero();
-      for (std::size_t a = 0; a < corners.size(); ++a) {
-        if (group[a] != g) continue;
-        normal += corner_normal(faces[a], corners[a].k);
-        places.of_corner[static_cast<std::size_t>(side.facets.offset[static_cast<std::size_t>(corners[a].face)]) + corners[a].k] =
-            static_cast<Local>(places.all.size());
-      }
-      if (normal.squaredNorm() > 0) places.all.push_back({static_cast<Local>(n), normal.normalized()});
-    }
-  }
-  continue_curvature(side, places);
-  places.of_node.resize(side.faces.nodes.size());
-  for (std::size_t f = 0; f < side.facets.size(); ++f)
-    for (std::size_t k = 0; k < side.facets[f].size(); ++k)
-      places
-          .of_node[static_cast<std::size_t>(side.faces.offset[static_cast<std::size_t>(side.face_of[f])] + side.corners[f][k])] =
-          places.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k];
-  return places;
+  std::vector<SentNode> nodes;
+  for (std::size_t i = 0; i < surface.node_id.size(); ++i) nodes.push_back(pack_node(surface, i));
+  std::vector<SentFace> faces;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) faces.push_back(pack_face(surface, f));
+  faces = comm.all_gather(faces);
+  return assemble(comm.all_gather(nodes), faces, kinematics);
 }
 
 }  // namespace mortise::contact

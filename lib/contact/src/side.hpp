@@ -1,5 +1,4 @@
-// One side of a contact, whole on every rank, with its faces in an order that does not depend on the ranks. Surfaces are small
-// beside the bodies; the work on them is shared out face by face.
+// One side of a contact, or the part of it that a rank works on, with its faces in an order that does not depend on the ranks.
 #pragma once
 
 #include <array>
@@ -37,38 +36,24 @@ struct Side {
   FaceShape shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, const Frame& frame, const Plane& at) const;
 };
 
-/// Collective.
+/// Nodes and faces of a surface as plain bytes, to be sent.
+struct SentNode {
+  Global id;
+  std::array<double, 3> x;
+};
+struct SentFace {
+  Global id;
+  std::array<Global, 9> nodes;  ///< -1: none
+  mesh::CellType type;
+  int owner = 0;  ///< the rank whose share it is in; see share.hpp
+};
+SentNode pack_node(const mesh::Surface& surface, std::size_t node);
+SentFace pack_face(const mesh::Surface& surface, std::size_t face);
+
+/// A side of these nodes, which may come more than once, and faces; `faces` are brought in order.
+Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Kinematics kinematics);
+
+/// The whole surface on every rank. Collective.
 Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Communicator& comm);
-
-/// A place that may carry a multiplier: a node and the faces on one side of a kink there.
-struct Place {
-  Local node;
-  Point normal;  ///< unit; exact where the faces inscribe a sphere or cylinder [weights of Max, J. Graph. Tools 4 (1999)]
-};
-
-/// The places of a side, and the place that each corner of a facet (at facets.offset[f] + corner) and each node of a face (at
-/// faces.offset[f] + node) belongs to. Facets round a node belong together if a chain of them turns by less than about 40 degrees
-/// from one to the next.
-struct Places {
-  std::vector<Place> all;
-  std::vector<Local> of_corner, of_node;
-};
-///
-/// At the border of a surface, where faces lie on one side only, normals continue the curvature of the edges that lead inside: an
-/// arc has opposite slopes at its ends.
-Places find_places(const Side& side);
-
-/// How far the smooth surface through the nodes stands out of a face (positive outwards) at reference shape values `shape`: the
-/// quadratic that bulges by (x_j - x_i).(n_j - n_i) / 8 at the middle of edge ij. It makes the gaps between facetted cylinders
-/// and spheres exact to fourth order in the size of the facets, while the facets alone are wrong by their sagitta.
-class Bulge {
- public:
-  Bulge(const FaceGeometry& face, std::span<const Point> normals);
-  double operator()(const Eigen::Vector4d& shape) const;
-
- private:
-  std::size_t n_;
-  std::array<double, 4> rise_{};  // at the middle of each edge
-};
 
 }  // namespace mortise::contact

@@ -1,6 +1,7 @@
 #include "tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace mortise::contact {
@@ -61,15 +62,15 @@ int Tree::build(int begin, int end)
 template <class Meets, class Visit>
 void Tree::walk(const Meets& meets, const Visit& visit) const
 {
-  std::vector<int> stack;
-  if (!branches_.empty()) stack.push_back(0);
-  while (!stack.empty()) {
-    const Branch& branch = branches_[static_cast<std::size_t>(stack.back())];
-    stack.pop_back();
+  std::array<int, 64> stack;  // halving goes no deeper
+  std::size_t waiting = 0;
+  if (!branches_.empty()) stack[waiting++] = 0;
+  while (waiting > 0) {
+    const Branch& branch = branches_[static_cast<std::size_t>(stack[--waiting])];
     if (!meets(branch.box)) continue;
     if (branch.left >= 0) {
-      stack.push_back(branch.right);
-      stack.push_back(branch.left);
+      stack[waiting++] = branch.right;
+      stack[waiting++] = branch.left;
       continue;
     }
     for (int i = branch.begin; i < branch.end; ++i) {
@@ -79,11 +80,17 @@ void Tree::walk(const Meets& meets, const Visit& visit) const
   }
 }
 
+void Tree::meeting(const Box& box, std::vector<int>& found) const
+{
+  found.clear();
+  walk([&](const Box& other) { return other.intersects(box); }, [&](int i) { return found.push_back(i), true; });
+  std::sort(found.begin(), found.end());
+}
+
 std::vector<int> Tree::meeting(const Box& box) const
 {
   std::vector<int> found;
-  walk([&](const Box& other) { return other.intersects(box); }, [&](int i) { return found.push_back(i), true; });
-  std::sort(found.begin(), found.end());
+  meeting(box, found);
   return found;
 }
 
@@ -94,13 +101,19 @@ bool Tree::meets(const Box& box) const
   return any;
 }
 
-std::vector<int> Tree::swept(const Box& box, const Point& direction) const
+void Tree::swept(const Box& box, const Point& direction, std::vector<int>& found) const
 {
   const Point centre = box.center(), half = 0.5 * box.sizes();
-  std::vector<int> found;
+  found.clear();
   walk([&](const Box& other) { return meets_sweep(other, centre, half, direction); },
        [&](int i) { return found.push_back(i), true; });
   std::sort(found.begin(), found.end());
+}
+
+std::vector<int> Tree::swept(const Box& box, const Point& direction) const
+{
+  std::vector<int> found;
+  swept(box, direction, found);
   return found;
 }
 

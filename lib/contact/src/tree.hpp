@@ -20,6 +20,8 @@ class Tree {
   bool meets(const Box& box) const;
   /// Indices of those that meet what `box` sweeps when it moves by -direction to +direction.
   std::vector<int> swept(const Box& box, const Point& direction) const;
+  void swept(const Box& box, const Point& direction, std::vector<int>& found) const;  ///< the same, into `found`
+  void meeting(const Box& box, std::vector<int>& found) const;
 
  private:
   struct Branch {

@@ -6,137 +6,13 @@
 
 #include <cmath>
 #include <map>
-#include <random>
 
-#include "contact/proximity.hpp"
-#include "contact/state.hpp"
+#include "surfaces.hpp"
 
 namespace mortise::contact {
 namespace {
 
 using mesh::CellType;
-
-// A grid of nx x ny faces over [x0, x1] x [y0, y1] at height z(x, y), looking up or down; each rank holds every ranks-th face.
-struct Grid {
-  int nx, ny;
-  double x0, x1, y0, y1;
-  bool up;
-  bool triangles = false;
-  Global first_id = 0;
-  double disturb = 0;  // of the inner nodes, part of the cell size
-};
-
-template <class Height>
-mesh::Surface surface(const Grid& g, const Height& height, const Communicator& comm)
-{
-  std::vector<Point> points;
-  std::mt19937 generator(static_cast<unsigned>(g.nx));
-  std::uniform_real_distribution<double> shift(-g.disturb, g.disturb);
-  for (int j = 0; j <= g.ny; ++j)
-    for (int i = 0; i <= g.nx; ++i) {
-      const bool inner = i > 0 && i < g.nx && j > 0 && j < g.ny;
-      const double x = g.x0 + (g.x1 - g.x0) * (i + (inner ? shift(generator) : 0)) / g.nx,
-                   y = g.y0 + (g.y1 - g.y0) * (j + (inner ? shift(generator) : 0)) / g.ny;
-      points.push_back(height(x, y));
-    }
-  std::vector<std::vector<int>> faces;
-  for (int j = 0; j < g.ny; ++j)
-    for (int i = 0; i < g.nx; ++i) {
-      const int a = i + (g.nx + 1) * j, b = a + 1, c = b + g.nx + 1, d = a + g.nx + 1;
-      if (g.triangles) {
-        faces.push_back({a, b, c});
-        faces.push_back({a, c, d});
-      } else {
-        faces.push_back({a, b, c, d});
-      }
-    }
-  mesh::Surface result;
-  std::map<int, Local> local;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (static_cast<int>(f) % comm.size() != comm.rank()) continue;
-    for (const int n : faces[f]) local.emplace(n, 0);
-  }
-  for (auto& [n, index] : local) {
-    index = static_cast<Local>(result.points.size());
-    result.points.push_back(points[static_cast<std::size_t>(n)]);
-    result.node_id.push_back(g.first_id + n);
-  }
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (static_cast<int>(f) % comm.size() != comm.rank()) continue;
-    std::vector<Local> nodes;
-    for (const int n : faces[f]) nodes.push_back(local.at(n));
-    if (!g.up) std::reverse(nodes.begin(), nodes.end());
-    result.faces.add(g.triangles ? CellType::tri3 : CellType::quad4, nodes);
-    result.face_id.push_back(g.first_id + static_cast<Global>(f));
-    result.body.push_back(0);
-  }
-  return result;
-}
-
-// All points and rows on every rank.
-struct Gathered {
-  struct Entry {
-    Global node;
-    int component;
-    double coefficient;
-  };
-  struct Row {
-    std::vector<Entry> entries;
-    double bound;
-    Global node;
-    double area, weight;
-    Point normal;
-    bool is_normal;
-  };
-  std::vector<Row> rows;
-};
-
-Gathered gather_rows(const constraint::Contacts& contacts, const Communicator& comm)
-{
-  std::vector<double> stream;
-  for (const auto& point : contacts.points)
-    for (std::size_t r = point.row; r <= point.row + point.tangents.size(); ++r) {
-      stream.insert(stream.end(),
-                    {static_cast<double>(contacts.rows[r].size()), contacts.rows.bound[r], static_cast<double>(point.node),
-                     point.area, point.weight, point.normal[0], point.normal[1], point.normal[2], r == point.row ? 1.0 : 0.0});
-      for (const auto& e : contacts.rows[r])
-        stream.insert(stream.end(), {static_cast<double>(e.node), static_cast<double>(e.component), e.coefficient});
-    }
-  stream = comm.all_gather(stream);
-  Gathered result;
-  for (std::size_t at = 0; at < stream.size();) {
-    Gathered::Row row;
-    const auto count = static_cast<std::size_t>(stream[at]);
-    row.bound = stream[at + 1];
-    row.node = static_cast<Global>(stream[at + 2]);
-    row.area = stream[at + 3];
-    row.weight = stream[at + 4];
-    row.normal = Point(stream[at + 5], stream[at + 6], stream[at + 7]);
-    row.is_normal = stream[at + 8] == 1;
-    at += 9;
-    for (std::size_t e = 0; e < count; ++e, at += 3)
-      row.entries.push_back({static_cast<Global>(stream[at]), static_cast<int>(stream[at + 1]), stream[at + 2]});
-    result.rows.push_back(row);
-  }
-  return result;
-}
-
-constexpr Global primary_ids = 100000;
-
-// Coordinates of every node, whole.
-std::map<Global, Point> nodes_of(const Pair& pair, const Communicator& comm)
-{
-  std::vector<double> flat;
-  for (const auto* side : {&pair.secondary, pair.primary.get()})
-    for (std::size_t n = 0; n < side->points.size(); ++n)
-      flat.insert(flat.end(),
-                  {static_cast<double>(side->node_id[n]), side->points[n][0], side->points[n][1], side->points[n][2]});
-  std::map<Global, Point> result;
-  flat = comm.all_gather(flat);
-  for (std::size_t i = 0; i < flat.size(); i += 4)
-    result[static_cast<Global>(flat[i])] = Point(flat[i + 1], flat[i + 2], flat[i + 3]);
-  return result;
-}
 
 // Nodal forces of a constant unit pressure on the faces of one side, integrated with many points.
 std::map<Global, Point> consistent(const mesh::Surface& side, const Communicator& comm)
@@ -176,13 +52,6 @@ std::map<Global, Point> consistent(const mesh::Surface& side, const Communicator
   for (std::size_t i = 0; i < flat.size(); i += 4)
     result.try_emplace(static_cast<Global>(flat[i]), Point::Zero()).first->second += Point(flat[i + 1], flat[i + 2], flat[i + 3]);
   return result;
-}
-
-Pair make_pair(const mesh::Surface& secondary, const mesh::Surface& primary, Law law)
-{
-  Options options;
-  options.law = law;
-  return {options, secondary, std::make_shared<const mesh::Surface>(primary)};
 }
 
 class Patch : public testing::TestWithParam<std::tuple<bool, bool>> {};
@@ -375,151 +244,47 @@ TEST(Mortar, RowsDependOnTheRanksInNoBit)
   }
 }
 
-TEST(NodeToSegment, LinearFieldsPassAndMatchingMeshesGivePairs)
-{
-  const Communicator comm;
-  const auto plane = [](double x, double y) { return Point(x, y, 0.3 * x - 0.2 * y); };
-  auto pair = make_pair(surface({5, 4, 0, 1, 0, 1, true, false, 0, 0.2}, plane, comm),
-                        surface({3, 7, 0, 1, 0, 1, false, true, primary_ids, 0.2}, plane, comm), Law::bonded);
-  pair.options.discretization = "node_to_segment";
-  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
-  ASSERT_EQ(rows.rows.size(), 3U * 30U);
-  Eigen::Matrix3d gradient;
-  gradient << 1, 2, 3, -1, 0.5, 2, 0.3, -2, 1;
-  const auto nodes = nodes_of(pair, comm);
-  double area = 0;
-  for (const auto& row : rows.rows) {
-    double jump = 0;
-    int own = 0;
-    for (const auto& e : row.entries) {
-      jump += e.coefficient * (gradient * nodes.at(e.node) + Point(1, 2, 3))[e.component];
-      if (e.node < primary_ids) own += e.node == row.node ? 1 : 100;
-    }
-    EXPECT_NEAR(jump, 0, 1e-12);
-    EXPECT_LE(own, 3);
-    if (row.is_normal) area += row.area;
-  }
-  EXPECT_NEAR(area, std::sqrt(1 + 0.09 + 0.04), 1e-10);
-
-  auto matching = make_pair(surface({4, 4, 0, 1, 0, 1, true}, plane, comm),
-                            surface({4, 4, 0, 1, 0, 1, false, false, primary_ids}, plane, comm), Law::tresca);
-  matching.options.discretization = "node_to_segment";
-  const auto places = nodes_of(matching, comm);
-  const auto pairs = gather_rows(discretize(std::vector<Pair>{matching}, {}, fem::Kinematics::solid, comm), comm);
-  EXPECT_EQ(pairs.rows.size(), 3U * 25U);
-  for (const auto& row : pairs.rows)
-    for (const auto& e : row.entries)
-      EXPECT_TRUE(std::abs(e.coefficient) < 1e-12 || (places.at(e.node) - places.at(row.node)).norm() < 1e-12);
-}
-
-TEST(Obstacles, SignedDistances)
-{
-  using Shape = Obstacle::Shape;
-  const Point x(3, 4, 7);
-  EXPECT_NEAR(foot({Shape::plane, Point(0, 0, 5), Point::UnitZ(), 0, false}, x).distance, 2, 1e-15);
-  EXPECT_NEAR(foot({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, false}, x).distance, 1, 1e-15);
-  EXPECT_NEAR(foot({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).distance, -1, 1e-15);
-  EXPECT_LT((foot({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).normal + Point(0.6, 0.8, 0)).norm(), 1e-15);
-  EXPECT_NEAR(foot({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, true}, x).distance, 1, 1e-15);
-  EXPECT_LT((foot({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, false}, x).normal - Point(0.6, 0.8, 0)).norm(), 1e-15);
-  EXPECT_FALSE(std::isfinite(foot({Shape::sphere, x, Point::UnitY(), 6, false}, x).distance));
-}
-
-// A wavy sheet over a plane: rows of single nodes along the plane's normal, with their heights for gaps; areas of the whole
-// sheet.
-TEST(Obstacles, RowsAreThoseOfNodesAlongTheNormalOfTheObstacle)
-{
-  const Communicator comm;
-  const auto sheet = [](double x, double y) { return Point(x, y, 0.1 * x * x + 0.05 * y); };
-  auto pair = make_pair(surface({5, 4, 0, 1, 0, 1, false, false, 0, 0.2}, sheet, comm), {}, Law::coulomb);
-  pair.primary = nullptr;
-  pair.options.obstacle = Obstacle{Obstacle::Shape::plane, Point(7, 8, -0.01), Point::UnitZ(), 0, false};
-  pair.options.interference = 0.005;
-  const auto contacts = discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm);
-  EXPECT_EQ(comm.sum(static_cast<long long>(contacts.points.size())), 30);
-  std::vector<double> area{0};
-  for (const auto& point : contacts.points) {
-    EXPECT_LT((point.normal + Point::UnitZ()).norm(), 1e-15);
-    EXPECT_NEAR(point.gap, point.at[2] + 0.01 - 0.005, 1e-14);
-    ASSERT_EQ(contacts.rows[point.row].size(), 1U);
-    EXPECT_EQ(contacts.rows[point.row][0].node, point.node);
-    EXPECT_NEAR(contacts.rows[point.row][0].coefficient, -1, 1e-12);
-    area[0] += point.area;
-  }
-  comm.sum_in_place(area);
-  // integral sqrt(1 + (0.2 x)^2 + 0.05^2), x in [0, 1]; facets are smaller by about a twentieth of a per cent.
-  EXPECT_NEAR(area[0], 1.00778, 5e-4);
-}
-
-TEST(Proximity, DistanceOfFacesNotOfNodes)
-{
-  const Communicator comm;
-  const auto at = [](double z) { return [z](double x, double y) { return Point(x, y, z); }; };
-  auto skin = surface({1, 1, 0, 1, 0, 1, true}, at(0), comm);
-  const auto add = [&](const mesh::Surface& other, int body) {
-    const auto base = static_cast<Local>(skin.points.size());
-    skin.points.insert(skin.points.end(), other.points.begin(), other.points.end());
-    skin.node_id.insert(skin.node_id.end(), other.node_id.begin(), other.node_id.end());
-    for (std::size_t f = 0; f < other.faces.size(); ++f) {
-      std::vector<Local> nodes;
-      for (const Local n : other.faces[f]) nodes.push_back(base + n);
-      skin.faces.add(other.faces.type[f], nodes);
-      skin.face_id.push_back(other.face_id[f]);
-      skin.body.push_back(body);
-    }
-  };
-  add(surface({2, 2, 0.4, 0.6, 0.4, 0.6, false, true, primary_ids}, at(0.25), comm), 1);
-  add(surface({2, 2, 3, 4, 0, 1, false, true, 2 * primary_ids}, at(0), comm), 2);
-  const auto found = nearest_bodies(skin, {true, false, true}, comm);
-  EXPECT_EQ(found[0].body, 1);
-  EXPECT_NEAR(found[0].distance, 0.25, 1e-14);
-  EXPECT_EQ(found[1].body, -1);
-  EXPECT_EQ(found[2].body, 0);
-  EXPECT_NEAR(found[2].distance, 2, 1e-14);
-}
-
-TEST(State, SumsAndStatus)
-{
-  const Communicator comm;
-  constraint::ContactPoint point{0, 7, 0.5, Point(0, 0, 1), {Point(1, 0, 0), Point(0, 1, 0)}, 0};
-  const auto slip = state_of(point, false, std::vector<double>{10, 3, 0}, std::vector<double>{0.1, 0.2, 0.0}, 0.1, 3.0, 0);
-  EXPECT_EQ(slip.status, Status::slip);
-  EXPECT_LT((slip.force_on_secondary - Point(-3, 0, -10)).norm(), 1e-14);
-  EXPECT_NEAR(slip.gap, 0, 1e-15);
-  EXPECT_EQ(state_of(point, false, std::vector<double>{10, 1, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 0).status, Status::stick);
-  EXPECT_EQ(state_of(point, false, std::vector<double>{1e-6, 0, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 1e-3).status,
-            Status::open);
-  EXPECT_EQ(state_of(point, false, std::vector<double>{0, 0, 0}, std::vector<double>{0, 0, 0}, 0.2, 0.0, 0).status, Status::open);
-  const auto sums = resultants(std::vector<PointState>{slip}, 1, comm);
-  EXPECT_NEAR(sums[0].force[2], -10.0 * comm.size(), 1e-12);
-  EXPECT_NEAR(sums[0].max_pressure, 20, 1e-12);
-  EXPECT_EQ(sums[0].slip, comm.size());
-}
-
-// Scatter that alternates from node to node goes, a constant stays, and so does a slope inside.
-TEST(State, RecoveredPressureIsSmooth)
+// Two halves that are bonded at x = 1 and pressed on a plate at z = 0, where nodes 2, 5 and 8 are on both surfaces of the first
+// one.
+TEST(Mortar, SeamsHaveNoMultipliersWhereTheyEndAtAContact)
 {
   const Communicator comm;
   const auto flat = [](double x, double y) { return Point(x, y, 0); };
-  const auto pair = make_pair(surface({4, 4, 0, 1, 0, 1, true}, flat, comm),
-                              surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::frictionless);
-  const auto pressure = [](double x, double scatter) { return 10 + x + scatter; };
-  std::vector<PointState> points;
-  if (comm.root())
-    for (Global node = 0; node < 25; ++node) {
-      const bool edge_x = node % 5 == 0 || node % 5 == 4, edge_y = node / 5 == 0 || node / 5 == 4;
-      PointState point;
-      point.node = node;
-      point.area = (edge_x ? 0.5 : 1.0) * (edge_y ? 0.5 : 1.0);
-      point.force = point.area * pressure(0.25 * static_cast<double>(node % 5), (node % 5 + node / 5) % 2 == 0 ? 1 : -1);
-      points.push_back(point);
+  const auto upright = [](double y, double z) { return Point(1, y, z); };
+  for (const int high : {1, 3}) {
+    auto seam = surface({2, high, 0, 1, 0, 1, true, false, 100}, upright, comm);
+    for (auto& node : seam.node_id)
+      if (node < 103) node = 2 + 3 * (node - 100);
+    const std::vector<Pair> pairs{
+        make_pair(seam, surface({3, 4, 0, 1, 0, 1, false, false, 2 * primary_ids}, upright, comm), Law::bonded),
+        make_pair(surface({2, 2, 0, 1, 0, 1, false}, flat, comm),
+                  surface({3, 3, 0, 2, 0, 1, true, false, primary_ids}, flat, comm), Law::frictionless)};
+    const auto contacts = discretize(pairs, {}, fem::Kinematics::solid, comm);
+    std::vector<double> count(2, 0.0);  // points of the seam, and those of them at the plate
+    for (const auto& point : contacts.points) {
+      if (point.contact != 0) continue;
+      count[0] += 1;
+      if (point.node < 100) count[1] += 1;
+      double weight = 0;
+      for (const auto& e : contacts.rows[point.row]) weight += e.node < primary_ids && e.component == 0 ? e.coefficient : 0;
+      EXPECT_NEAR(weight, point.weight, 1e-12);
     }
-  const auto state = surface_states(points, std::vector<Pair>{pair}, comm).front();
-  for (std::size_t n = 0; n < pair.secondary.node_id.size(); ++n) {
-    const Point& x = pair.secondary.points[n];
-    const bool inside = x[0] > 0.1 && x[0] < 0.9 && x[1] > 0.1 && x[1] < 0.9;
-    EXPECT_NEAR(state.recovered_pressure[n], pressure(x[0], 0), inside ? 1e-12 : 0.13);
-    EXPECT_NEAR(std::abs(state.pressure[n] - pressure(x[0], 0)), 1, 1e-12);
+    comm.sum_in_place(count);
+    // The others take over, also those of the upper end alone.
+    EXPECT_EQ(count[0], 3.0 * high);
+    EXPECT_EQ(count[1], 0);
+    double felt = 0;  // of a linear field
+    const auto nodes = nodes_of(pairs[0], comm);
+    for (const auto& point : contacts.points)
+      for (std::size_t r = point.row; point.contact == 0 && r <= point.row + 2; ++r) {
+        double sum = 0;
+        for (const auto& e : contacts.rows[r]) {
+          const Point& x = nodes.at(e.node);
+          sum += e.coefficient * Point(1 + x[1], 2 * x[2] - x[1], 3 - x[2])[e.component];
+        }
+        felt = std::max(felt, std::abs(sum));
+      }
+    EXPECT_LT(comm.max(felt), 1e-12);
   }
 }
 

@@ -21,7 +21,7 @@
 namespace mortise::contact {
 
 /// The two sides of a contact, this rank's faces of each. Contacts that have their primary side in common, as the rollers of a
-/// ring, share it; an obstacle has none.
+/// ring, share it; an obstacle has none; that of a cyclic pair is turned to where it meets the secondary side (see cyclic.hpp).
 struct Pair {
   Options options;
   mesh::Surface secondary;
@@ -34,8 +34,8 @@ std::vector<double> search_distances(std::span<const Pair> pairs, const Communic
 
 /// The contact rows of all pairs; contact c of ContactPoint is pairs[c]. Rows stand on any rank, each once; they do not depend on
 /// the number of ranks, to the last bit. `held` and `inclined` are the supports of this rank. Frictionless pairs have normal rows
-/// only. In
-/// axisymmetry areas and forces are those of the whole turn. Collective.
+/// only. Throws Error(bad_input) if the cuts of a sector do not lie on each other. In axisymmetry areas and forces are those of
+/// the whole turn. Collective.
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
                                 const Communicator& comm, std::span<const constraint::Inclined> inclined = {});
 

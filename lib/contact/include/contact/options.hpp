@@ -7,6 +7,7 @@
 
 #include "contact/obstacle.hpp"
 #include "deck/description.hpp"
+#include "mesh/instances.hpp"
 
 namespace mortise::contact {
 
@@ -28,8 +29,9 @@ struct Options {
   std::string discretization = "mortar";  ///< or "node_to_segment"
   double interference = 0;                ///< added overlap; negative opens a gap
   double search_distance = 0;  ///< surfaces farther apart than this never meet; 0: a tenth of the smaller side's extent
-  std::optional<PreloadOptions> preload = {};  ///< bonded contacts alone
-  bool automatic = false;                      ///< stands for all pairs of bodies that face each other: pairing.hpp
+  std::optional<PreloadOptions> preload = {};        ///< bonded contacts alone
+  std::optional<mesh::RotationOptions> cyclic = {};  ///< the turn that brings the primary side of a sector to the secondary one
+  bool automatic = false;                            ///< stands for all pairs of bodies that face each other: pairing.hpp
 };
 
 /// The deck's entry {auto: true}: what all contacts have in common that are found.

@@ -1,0 +1,208 @@
+#include "places.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+namespace mortise::contact {
+
+namespace {
+
+constexpr double kink = 0.766;  // cosine of the angle from which neighbouring faces make a kink
+
+// Nelson Max's weight times normal at corner k of a face.
+Point corner_normal(const FaceGeometry& face, std::size_t k)
+{
+  const auto n = face.nodes.size();
+  if (face.type == mesh::CellType::line2) return face.normal() / face.area();
+  const Point next = face.nodes[(k + 1) % n] - face.nodes[k], last = face.nodes[(k + n - 1) % n] - face.nodes[k];
+  return next.cross(last) / (next.squaredNorm() * last.squaredNorm());
+}
+
+// An edge from place to place and how many faces have it. Every edge stands there both ways.
+struct Edge {
+  Local from, to;
+  int count;
+};
+
+// Ascending.
+std::vector<Edge> edges_of(const Side& side, const Places& places)
+{
+  std::vector<std::pair<Local, Local>> all;
+  all.reserve(2 * side.facets.nodes.size());
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto begin = static_cast<std::size_t>(side.facets.offset[f]), n = side.facets[f].size();
+    for (std::size_t k = 0; k < n; ++k) {
+      if (n == 2 && k == 1) continue;
+      const Local a = places.of_corner[begin + k], b = places.of_corner[begin + (k + 1) % n];
+      all.emplace_back(a, b);
+      all.emplace_back(b, a);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<Edge> edges;
+  for (const auto& [from, to] : all) {
+    if (edges.empty() || edges.back().from != from || edges.back().to != to) edges.push_back({from, to, 0});
+    ++edges.back().count;
+  }
+  return edges;
+}
+
+// Places of a border that goes on nearly straight there: its two edges turn by less than 45 degrees.
+std::vector<bool> between_two_faces(const Side& side, const Places& places, const std::vector<Edge>& edges)
+{
+  std::vector<Few<Point, 2>> along(places.all.size());
+  std::vector<int> ends(places.all.size(), 0);
+  const auto at = [&](Local place) -> const Point& {
+    return side.points[static_cast<std::size_t>(places.all[static_cast<std::size_t>(place)].node)];
+  };
+  for (const auto& [from, to, count] : edges)
+    if (count == 1 && ++ends[static_cast<std::size_t>(from)] <= 2)
+      along[static_cast<std::size_t>(from)].push_back((at(to) - at(from)).normalized());
+  std::vector<bool> result;
+  for (std::size_t p = 0; p < ends.size(); ++p) result.push_back(ends[p] == 2 && along[p][0].dot(along[p][1]) < -0.7);
+  return result;
+}
+
+// Corrects the normals of places on a border; see find_places().
+void continue_curvature(const Side& side, Places& places)
+{
+  const auto edges = edges_of(side, places);
+  const bool plane = side.facets.size() > 0 && side.facets.type[0] == mesh::CellType::line2;
+  std::vector<int> degree(places.all.size(), 0);
+  std::vector<bool> border(places.all.size(), false);
+  for (const auto& edge : edges) {
+    ++degree[static_cast<std::size_t>(edge.from)];
+    if (!plane && edge.count == 1) border[static_cast<std::size_t>(edge.from)] = true;
+  }
+  if (plane)
+    for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
+
+  // First from edges that lead inside; then corners, which have none, from their neighbours on the border. On a surface one cell
+  // wide all places are on the border: there those between two faces have the normal that the ends continue.
+  const auto smooth = plane ? std::vector<bool>(border.size(), false) : between_two_faces(side, places, edges);
+  std::vector<bool> known(border.size());
+  for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];
+  std::vector<Edge> outer;  // those that start on a border
+  std::copy_if(edges.begin(), edges.end(), std::back_inserter(outer),
+               [&](const Edge& edge) { return border[static_cast<std::size_t>(edge.from)]; });
+  for (int pass = 0; pass < 2; ++pass) {
+    std::vector<bool> reached = known;
+    const auto leads = [&](std::size_t b, std::size_t a) { return known[b] || (pass == 1 && smooth[b] && !smooth[a]); };
+    for (int sweep = 0; sweep < 10; ++sweep)
+      for (const auto& edge : outer) {
+        const auto a = static_cast<std::size_t>(edge.from), b = static_cast<std::size_t>(edge.to);
+        if (known[a] || !leads(b, a)) continue;
+        auto& place = places.all[a];
+        const Place& inner = places.all[b];
+        const Point along =
+            (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(place.node)]).normalized();
+        place.normal = (place.normal - (place.normal.dot(along) + inner.normal.dot(along)) * along).normalized();
+        reached[a] = true;
+      }
+    known = reached;
+  }
+}
+
+// The normals of the places at the corners of a facet.
+Few<Point, 4> corner_normals(const Side& side, const Places& places, std::size_t facet)
+{
+  Few<Point, 4> normals;
+  for (std::size_t k = 0; k < side.facets[facet].size(); ++k)
+    normals.push_back(
+        places.all[static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.facets.offset[facet]) + k])].normal);
+  return normals;
+}
+
+}  // namespace
+
+Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals) : n_(face.nodes.size())
+{
+  for (std::size_t i = 0; i < n_; ++i) {
+    const std::size_t j = (i + 1) % n_;
+    rise_[i] = (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8;
+  }
+}
+
+Bulge::Bulge(const Side& side, const Places& places, std::size_t facet)
+    : Bulge(side.geometry(facet), corner_normals(side, places, facet))
+{
+}
+
+double Bulge::operator()(const Eigen::Vector4d& shape) const
+{
+  if (n_ == 2) return 4 * shape[0] * shape[1] * rise_[0];
+  double result = 0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>((i + 1) % n_);
+    if (n_ == 3) {
+      result += 4 * shape[a] * shape[b] * rise_[i];
+    } else {  // on a quad N_i N_j = (1 - t^2)(1 + s)^2 / 16 along edge ij, whose own function is (1 - t^2)(1 + s) / 2
+      const double across = shape[a] + shape[b];
+      if (across > 1e-12) result += 4 * shape[a] * shape[b] / across * rise_[i];
+    }
+  }
+  return result;
+}
+
+Places find_places(const Side& side)
+{
+  // The corners of facets round each node, in the order of the facets, and the normal and its weight there.
+  const std::size_t nodes = side.points.size(), count = side.facets.nodes.size();
+  std::vector<std::size_t> offset(nodes + 1, 0), round(count);
+  std::vector<Point> normals(side.facets.size()), weighted(count);
+  std::vector<Local> facet_of(count);
+  for (const Local n : side.facets.nodes) ++offset[static_cast<std::size_t>(n) + 1];
+  for (std::size_t n = 0; n < nodes; ++n) offset[n + 1] += offset[n];
+  auto next = offset;
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto face = side.geometry(f);
+    normals[f] = face.normal();
+    for (std::size_t k = 0; k < face.nodes.size(); ++k) {
+      const auto corner = static_cast<std::size_t>(side.facets.offset[f]) + k;
+      weighted[corner] = corner_normal(face, k);
+      facet_of[corner] = static_cast<Local>(f);
+      round[next[static_cast<std::size_t>(side.facets.nodes[corner])]++] = corner;
+    }
+  }
+
+  Places places;
+  places.of_corner.resize(count);
+  std::vector<std::size_t> group;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const std::span corners(round.data() + offset[n], offset[n + 1] - offset[n]);
+    const auto normal_at = [&](std::size_t a) -> const Point& { return normals[static_cast<std::size_t>(facet_of[corners[a]])]; };
+    group.resize(corners.size());
+    std::iota(group.begin(), group.end(), 0U);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t a = 0; a < corners.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+          if (group[a] != group[b] && normal_at(a).dot(normal_at(b)) > kink) {
+            group[a] = group[b] = std::min(group[a], group[b]);
+            changed = true;
+          }
+    }
+    for (std::size_t g = 0; g < corners.size(); ++g) {
+      Point normal = Point::Zero();
+      for (std::size_t a = 0; a < corners.size(); ++a) {
+        if (group[a] != g) continue;
+        normal += weighted[corners[a]];
+        places.of_corner[corners[a]] = static_cast<Local>(places.all.size());
+      }
+      if (normal.squaredNorm() > 0) places.all.push_back({static_cast<Local>(n), normal.normalized()});
+    }
+  }
+  continue_curvature(side, places);
+  places.of_node.resize(side.faces.nodes.size());
+  for (std::size_t f = 0; f < side.facets.size(); ++f)
+    for (std::size_t k = 0; k < side.facets[f].size(); ++k)
+      places
+          .of_node[static_cast<std::size_t>(side.faces.offset[static_cast<std::size_t>(side.face_of[f])] + side.corners[f][k])] =
+          places.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k];
+  return places;
+}
+
+}  // namespace mortise::contact

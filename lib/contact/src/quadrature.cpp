@@ -1,0 +1,110 @@
+#include "quadrature.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace mortise::contact {
+
+namespace {
+
+// Gauss-Legendre points and weights on [0, 1].
+struct Rule {
+  std::vector<double> at, weight;
+};
+
+Rule gauss(int n)
+{
+  // Golub and Welsch: eigenvalues of the Jacobi matrix.
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n), next(std::max(n - 1, 1));
+  for (int k = 1; k < n; ++k) next[k - 1] = k / std::sqrt(4.0 * k * k - 1);
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
+  eigen.computeFromTridiagonal(diagonal, next.head(n - 1));
+  Rule rule;
+  for (int k = 0; k < n; ++k) {
+    rule.at.push_back(0.5 * (1 + eigen.eigenvalues()[k]));
+    rule.weight.push_back(eigen.eigenvectors()(0, k) * eigen.eigenvectors()(0, k));
+  }
+  return rule;
+}
+
+// A point of a rule for triangles by two of its barycentric coordinates; the weights sum to 1.
+struct TrianglePoint {
+  double first, second, weight;
+};
+
+// All places that differ by the order of the barycentric coordinates a, b, 1 - a - b.
+void add_orbit(double a, double b, double weight, std::vector<TrianglePoint>& rule)
+{
+  const double c = 1 - a - b;
+  for (const auto& [x, y] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) rule.push_back({x, y, weight});
+  if (a == b) return;
+  for (const auto& [x, y] : {std::pair(b, a), std::pair(c, b), std::pair(a, c)}) rule.push_back({x, y, weight});
+}
+
+std::vector<TrianglePoint> of_degree_4()
+{
+  std::vector<TrianglePoint> rule;
+  add_orbit(0.44594849091596488632, 0.44594849091596488632, 0.22338158967801146570, rule);
+  add_orbit(0.09157621350977074345, 0.09157621350977074345, 0.10995174365532186764, rule);
+  return rule;
+}
+
+std::vector<TrianglePoint> of_degree_8()
+{
+  std::vector<TrianglePoint> rule{{1.0 / 3, 1.0 / 3, 0.144315607677787}};
+  add_orbit(0.459292588292723, 0.459292588292723, 0.095091634267285, rule);
+  add_orbit(0.170569307751760, 0.170569307751760, 0.103217370534718, rule);
+  add_orbit(0.050547228317031, 0.050547228317031, 0.032458497623198, rule);
+  add_orbit(0.263112829634638, 0.728492392955404, 0.027230314174435, rule);
+  return rule;
+}
+
+void sample_rational(const Polygon& polygon, std::vector<Sample>& points)
+{
+  static const Rule rule = gauss(9);
+  Plane centre = Plane::Zero();
+  for (const auto& p : polygon) centre += p / static_cast<double>(polygon.size());
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Plane a = polygon[i] - centre, b = polygon[(i + 1) % polygon.size()] - centre;
+    const double twice = cross(a, b);
+    if (!(twice > 0)) continue;
+    for (std::size_t k = 0; k < rule.at.size(); ++k)  // the square collapsed to a triangle at the centre
+      for (std::size_t l = 0; l < rule.at.size(); ++l)
+        points.push_back(
+            {centre + rule.at[k] * (a + rule.at[l] * (b - a)), twice * rule.at[k] * rule.weight[k] * rule.weight[l]});
+  }
+}
+
+}  // namespace
+
+double area_of(const Polygon& polygon)
+{
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return 0.5 * twice;
+}
+
+void sample(const Polygon& polygon, Integrand integrand, std::vector<Sample>& points)
+{
+  static const auto low = of_degree_4(), high = of_degree_8();
+  points.clear();
+  if (integrand == Integrand::rational) return sample_rational(polygon, points);
+  const auto& rule = integrand == Integrand::first_order ? low : high;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Plane a = polygon[i] - polygon[0], b = polygon[i + 1] - polygon[0];
+    const double area = 0.5 * cross(a, b);
+    if (!(area > 0)) continue;
+    for (const auto& point : rule) points.push_back({polygon[0] + point.first * a + point.second * b, area * point.weight});
+  }
+}
+
+void sample(double begin, double end, std::vector<Sample>& points)
+{
+  static const Rule rule = gauss(3);
+  points.clear();
+  for (std::size_t k = 0; k < rule.at.size(); ++k)
+    points.push_back({{begin + rule.at[k] * (end - begin), 0}, (end - begin) * rule.weight[k]});
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,95 @@
+#include "rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace mortise::contact {
+
+namespace {
+
+constexpr double negligible = 1e-12;  // of a coefficient
+
+}  // namespace
+
+const std::vector<RowWriter::Coefficient>& RowWriter::coefficients(std::span<const Term> terms, double d, const Point& axis)
+{
+  coefficients_.clear();
+  for (const auto& term : terms) {
+    if (!(std::abs(term.value) > negligible * d)) continue;
+    const Global node = node_of(term);
+    const auto& supports = term.on_primary ? primary_held_ : held_;
+    Point rest = axis_of(term, axis);
+    // What inclined supports leave of the axis; parts that are rounding are 0.
+    if (const auto inclined = supports.inclined(node); !inclined.empty()) {
+      const Point whole = rest;
+      for (const auto& i : inclined) rest -= whole.dot(along(i)) * along(i);
+      rest = (rest.array().abs() < 1e-9).select(0.0, rest);
+    }
+    for (int c = 0; c < dimension_; ++c)
+      if (std::abs(rest[c]) > 1e-14) coefficients_.push_back({node, c, term.value / d * rest[c], supports.find(node, c)});
+  }
+  if (turn_) merge();
+  return coefficients_;
+}
+
+// Nodes on the axis of a cyclic pair are on both of its sides.
+void RowWriter::merge()
+{
+  std::stable_sort(coefficients_.begin(), coefficients_.end(), [](const Coefficient& a, const Coefficient& b) {
+    return std::tie(a.node, a.component) < std::tie(b.node, b.component);
+  });
+  std::size_t end = 0;
+  for (const auto& c : coefficients_) {
+    if (end > 0 && coefficients_[end - 1].node == c.node && coefficients_[end - 1].component == c.component)
+      coefficients_[end - 1].value += c.value;
+    else
+      coefficients_[end++] = c;
+  }
+  coefficients_.resize(end);
+  std::erase_if(coefficients_, [](const Coefficient& c) { return std::abs(c.value) < negligible; });
+}
+
+bool RowWriter::moves(std::span<const Term> terms, double d, const Point& axis)
+{
+  if (!terms.empty() && !turn_) {  // mostly the first term says it
+    if (const auto& first = coefficients(terms.first(1), d, axis); !first.empty() && !first[0].held) return true;
+  }
+  const auto& all = coefficients(terms, d, axis);
+  return std::any_of(all.begin(), all.end(), [](const Coefficient& c) { return !c.held; });
+}
+
+double RowWriter::held_part(std::span<const Term> terms, double d, const Point& axis)
+{
+  double sum = 0;
+  for (const auto& term : terms)
+    for (const auto& i : inclined_of(term)) sum += term.value / d * axis_of(term, axis).dot(along(i)) * i.value;
+  for (const auto& c : coefficients(terms, d, axis))
+    if (c.held) sum += c.value * c.held->value;
+  return sum;
+}
+
+void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts)
+{
+  const auto row = contacts.rows.size();
+  for (const auto& term : terms)
+    for (const auto& i : inclined_of(term)) {
+      const double coefficient = term.value / d * axis_of(term, axis).dot(along(i));
+      bound -= coefficient * i.value;
+      for (const auto& share : std::span(i.shares).first(static_cast<std::size_t>(i.share_count)))
+        for (int c = 0; c < dimension_; ++c)
+          if (const double part = coefficient * share.part[static_cast<std::size_t>(c)]; part != 0)
+            contacts.held.push_back({row, c, share.support, part});
+    }
+  for (const auto& c : coefficients(terms, d, axis)) {
+    if (c.held) {
+      bound -= c.value * c.held->value;
+      contacts.held.push_back({row, c.component, c.held->support, c.value});
+    } else {
+      contacts.rows.entries.push_back({c.node, c.component, c.value});
+    }
+  }
+  contacts.rows.close(bound);
+}
+
+}  // namespace mortise::contact

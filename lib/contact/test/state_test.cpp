@@ -1,0 +1,87 @@
+// What is read on surfaces: pressures, slip and status, and how far bodies are from each other.
+#include "contact/state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/proximity.hpp"
+#include "surfaces.hpp"
+
+namespace mortise::contact {
+namespace {
+
+TEST(Proximity, DistanceOfFacesNotOfNodes)
+{
+  const Communicator comm;
+  const auto at = [](double z) { return [z](double x, double y) { return Point(x, y, z); }; };
+  auto skin = surface({1, 1, 0, 1, 0, 1, true}, at(0), comm);
+  const auto add = [&](const mesh::Surface& other, int body) {
+    const auto base = static_cast<Local>(skin.points.size());
+    skin.points.insert(skin.points.end(), other.points.begin(), other.points.end());
+    skin.node_id.insert(skin.node_id.end(), other.node_id.begin(), other.node_id.end());
+    for (std::size_t f = 0; f < other.faces.size(); ++f) {
+      std::vector<Local> nodes;
+      for (const Local n : other.faces[f]) nodes.push_back(base + n);
+      skin.faces.add(other.faces.type[f], nodes);
+      skin.face_id.push_back(other.face_id[f]);
+      skin.body.push_back(body);
+    }
+  };
+  add(surface({2, 2, 0.4, 0.6, 0.4, 0.6, false, true, primary_ids}, at(0.25), comm), 1);
+  add(surface({2, 2, 3, 4, 0, 1, false, true, 2 * primary_ids}, at(0), comm), 2);
+  const auto found = nearest_bodies(skin, {true, false, true}, comm);
+  EXPECT_EQ(found[0].body, 1);
+  EXPECT_NEAR(found[0].distance, 0.25, 1e-14);
+  EXPECT_EQ(found[1].body, -1);
+  EXPECT_EQ(found[2].body, 0);
+  EXPECT_NEAR(found[2].distance, 2, 1e-14);
+}
+
+TEST(State, SumsAndStatus)
+{
+  const Communicator comm;
+  constraint::ContactPoint point{0, 7, 0.5, Point(0, 0, 1), {Point(1, 0, 0), Point(0, 1, 0)}, 0};
+  const auto slip = state_of(point, false, std::vector<double>{10, 3, 0}, std::vector<double>{0.1, 0.2, 0.0}, 0.1, 3.0, 0);
+  EXPECT_EQ(slip.status, Status::slip);
+  EXPECT_LT((slip.force_on_secondary - Point(-3, 0, -10)).norm(), 1e-14);
+  EXPECT_NEAR(slip.gap, 0, 1e-15);
+  EXPECT_EQ(state_of(point, false, std::vector<double>{10, 1, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 0).status, Status::stick);
+  EXPECT_EQ(state_of(point, false, std::vector<double>{1e-6, 0, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 1e-3).status,
+            Status::open);
+  EXPECT_EQ(state_of(point, false, std::vector<double>{0, 0, 0}, std::vector<double>{0, 0, 0}, 0.2, 0.0, 0).status, Status::open);
+  const auto sums = resultants(std::vector<PointState>{slip}, 1, comm);
+  EXPECT_NEAR(sums[0].force[2], -10.0 * comm.size(), 1e-12);
+  EXPECT_NEAR(sums[0].max_pressure, 20, 1e-12);
+  EXPECT_EQ(sums[0].slip, comm.size());
+}
+
+// Scatter that alternates from node to node goes, a constant stays, and so does a slope inside.
+TEST(State, RecoveredPressureIsSmooth)
+{
+  const Communicator comm;
+  const auto flat = [](double x, double y) { return Point(x, y, 0); };
+  const auto pair = make_pair(surface({4, 4, 0, 1, 0, 1, true}, flat, comm),
+                              surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::frictionless);
+  const auto pressure = [](double x, double scatter) { return 10 + x + scatter; };
+  std::vector<PointState> points;
+  if (comm.root())
+    for (Global node = 0; node < 25; ++node) {
+      const bool edge_x = node % 5 == 0 || node % 5 == 4, edge_y = node / 5 == 0 || node / 5 == 4;
+      PointState point;
+      point.node = node;
+      point.area = (edge_x ? 0.5 : 1.0) * (edge_y ? 0.5 : 1.0);
+      point.force = point.area * pressure(0.25 * static_cast<double>(node % 5), (node % 5 + node / 5) % 2 == 0 ? 1 : -1);
+      points.push_back(point);
+    }
+  const auto state = surface_states(points, std::vector<Pair>{pair}, comm).front();
+  for (std::size_t n = 0; n < pair.secondary.node_id.size(); ++n) {
+    const Point& x = pair.secondary.points[n];
+    const bool inside = x[0] > 0.1 && x[0] < 0.9 && x[1] > 0.1 && x[1] < 0.9;
+    EXPECT_NEAR(state.recovered_pressure[n], pressure(x[0], 0), inside ? 1e-12 : 0.13);
+    EXPECT_NEAR(std::abs(state.pressure[n] - pressure(x[0], 0)), 1, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace mortise::contact

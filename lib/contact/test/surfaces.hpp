@@ -1,0 +1,143 @@
+// Surfaces to search, and all rows that come of them.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "contact/mortar.hpp"
+
+namespace mortise::contact {
+
+// A grid of nx x ny faces over [x0, x1] x [y0, y1] at height z(x, y), looking up or down; each rank holds every ranks-th face.
+struct Grid {
+  int nx, ny;
+  double x0, x1, y0, y1;
+  bool up;
+  bool triangles = false;
+  Global first_id = 0;
+  double disturb = 0;  // of the inner nodes, part of the cell size
+};
+
+template <class Height>
+mesh::Surface surface(const Grid& g, const Height& height, const Communicator& comm)
+{
+  std::vector<Point> points;
+  std::mt19937 generator(static_cast<unsigned>(g.nx));
+  std::uniform_real_distribution<double> shift(-g.disturb, g.disturb);
+  for (int j = 0; j <= g.ny; ++j)
+    for (int i = 0; i <= g.nx; ++i) {
+      const bool inner = i > 0 && i < g.nx && j > 0 && j < g.ny;
+      const double x = g.x0 + (g.x1 - g.x0) * (i + (inner ? shift(generator) : 0)) / g.nx,
+                   y = g.y0 + (g.y1 - g.y0) * (j + (inner ? shift(generator) : 0)) / g.ny;
+      points.push_back(height(x, y));
+    }
+  std::vector<std::vector<int>> faces;
+  for (int j = 0; j < g.ny; ++j)
+    for (int i = 0; i < g.nx; ++i) {
+      const int a = i + (g.nx + 1) * j, b = a + 1, c = b + g.nx + 1, d = a + g.nx + 1;
+      if (g.triangles) {
+        faces.push_back({a, b, c});
+        faces.push_back({a, c, d});
+      } else {
+        faces.push_back({a, b, c, d});
+      }
+    }
+  mesh::Surface result;
+  std::map<int, Local> local;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (static_cast<int>(f) % comm.size() != comm.rank()) continue;
+    for (const int n : faces[f]) local.emplace(n, 0);
+  }
+  for (auto& [n, index] : local) {
+    index = static_cast<Local>(result.points.size());
+    result.points.push_back(points[static_cast<std::size_t>(n)]);
+    result.node_id.push_back(g.first_id + n);
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (static_cast<int>(f) % comm.size() != comm.rank()) continue;
+    std::vector<Local> nodes;
+    for (const int n : faces[f]) nodes.push_back(local.at(n));
+    if (!g.up) std::reverse(nodes.begin(), nodes.end());
+    result.faces.add(g.triangles ? mesh::CellType::tri3 : mesh::CellType::quad4, nodes);
+    result.face_id.push_back(g.first_id + static_cast<Global>(f));
+    result.body.push_back(0);
+  }
+  return result;
+}
+
+// All points and rows on every rank.
+struct Gathered {
+  struct Entry {
+    Global node;
+    int component;
+    double coefficient;
+  };
+  struct Row {
+    std::vector<Entry> entries;
+    double bound;
+    Global node;
+    double area, weight;
+    Point normal;
+    bool is_normal;
+  };
+  std::vector<Row> rows;
+};
+
+inline Gathered gather_rows(const constraint::Contacts& contacts, const Communicator& comm)
+{
+  std::vector<double> stream;
+  for (const auto& point : contacts.points)
+    for (std::size_t r = point.row; r <= point.row + point.tangents.size(); ++r) {
+      stream.insert(stream.end(),
+                    {static_cast<double>(contacts.rows[r].size()), contacts.rows.bound[r], static_cast<double>(point.node),
+                     point.area, point.weight, point.normal[0], point.normal[1], point.normal[2], r == point.row ? 1.0 : 0.0});
+      for (const auto& e : contacts.rows[r])
+        stream.insert(stream.end(), {static_cast<double>(e.node), static_cast<double>(e.component), e.coefficient});
+    }
+  stream = comm.all_gather(stream);
+  Gathered result;
+  for (std::size_t at = 0; at < stream.size();) {
+    Gathered::Row row;
+    const auto count = static_cast<std::size_t>(stream[at]);
+    row.bound = stream[at + 1];
+    row.node = static_cast<Global>(stream[at + 2]);
+    row.area = stream[at + 3];
+    row.weight = stream[at + 4];
+    row.normal = Point(stream[at + 5], stream[at + 6], stream[at + 7]);
+    row.is_normal = stream[at + 8] == 1;
+    at += 9;
+    for (std::size_t e = 0; e < count; ++e, at += 3)
+      row.entries.push_back({static_cast<Global>(stream[at]), static_cast<int>(stream[at + 1]), stream[at + 2]});
+    result.rows.push_back(row);
+  }
+  return result;
+}
+
+inline constexpr Global primary_ids = 100000;
+
+// Coordinates of every node, whole.
+inline std::map<Global, Point> nodes_of(const Pair& pair, const Communicator& comm)
+{
+  std::vector<double> flat;
+  for (const auto* side : {&pair.secondary, pair.primary.get()})
+    for (std::size_t n = 0; n < side->points.size(); ++n)
+      flat.insert(flat.end(),
+                  {static_cast<double>(side->node_id[n]), side->points[n][0], side->points[n][1], side->points[n][2]});
+  std::map<Global, Point> result;
+  flat = comm.all_gather(flat);
+  for (std::size_t i = 0; i < flat.size(); i += 4)
+    result[static_cast<Global>(flat[i])] = Point(flat[i + 1], flat[i + 2], flat[i + 3]);
+  return result;
+}
+
+inline Pair make_pair(const mesh::Surface& secondary, const mesh::Surface& primary, Law law)
+{
+  Options options;
+  options.law = law;
+  return {options, secondary, std::make_shared<const mesh::Surface>(primary)};
+}
+
+}  // namespace mortise::contact
