@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "auto_contacts.hpp"
+#include "base/traffic.hpp"
 #include "io/files.hpp"
 #include "listing.hpp"
 #include "memory.hpp"
@@ -133,6 +134,53 @@ void add_up(const LoadState& state, const io::Summary& before, Results& results)
   summary.hessian_multiplications += before.hessian_multiplications;
 }
 
+io::Summary::Spread over_ranks(const Traffic& mine, const Communicator& comm)
+{
+  io::Summary::Spread result;
+  const auto spread = [&](long long x, double& largest, double& mean) {
+    largest = static_cast<double>(comm.max(x));
+    mean = static_cast<double>(comm.sum(x)) / comm.size();
+  };
+  spread(mine.messages, result.largest.messages, result.mean.messages);
+  spread(mine.bytes, result.largest.bytes, result.mean.bytes);
+  spread(mine.collectives, result.largest.collectives, result.mean.collectives);
+  spread(mine.collective_bytes, result.largest.collective_bytes, result.mean.collective_bytes);
+  return result;
+}
+
+// What is neither solution nor output sets up.
+void note_communication(const Timers& timers, const Traffic& total, const Communicator& comm, io::Summary& summary)
+{
+  const Traffic solve = timers.traffic("solve");
+  summary.communication["total"] = over_ranks(total, comm);
+  summary.communication["set_up"] = over_ranks(total - solve - timers.traffic("output"), comm);
+  summary.communication["solve"] = over_ranks(solve, comm);
+  summary.communication["multiplication"] = over_ranks(timers.traffic("multiplication"), comm);
+}
+
+std::string bytes(double count)
+{
+  const char* unit = "B";
+  for (const char* larger : {"kB", "MB", "GB"})
+    if (count >= 1000) {
+      count /= 1000;
+      unit = larger;
+    }
+  return fmt::format("{:.3g} {}", count, unit);
+}
+
+// Of the rank that sends most; nothing where there is one rank.
+void print_communication(const io::Summary& summary, Log& log)
+{
+  if (summary.ranks == 1) return;
+  const auto& [total, mean] = summary.communication.at("total");
+  const auto& product = summary.communication.at("multiplication").largest;
+  const double products = std::max(summary.hessian_multiplications, 1);
+  log.line("  sent by a rank      {} in {:.0f} messages, {} in {:.0f} collective calls; a product with F: {} in {:.3g} messages",
+           bytes(total.bytes), total.messages, bytes(total.collective_bytes), total.collectives, bytes(product.bytes / products),
+           product.messages / products);
+}
+
 // The stages of a run, which end with a line and its time.
 class Stages {
  public:
@@ -157,6 +205,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
 {
   auto& [comm, log, timers] = context;
   const double start = MPI_Wtime();
+  const Traffic before_all = traffic();
   Deck deck = given;
   auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
   if (command_line.check) print_listing(decomposition, deck.kinematics, context);
@@ -239,12 +288,14 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
     write_summary();
     simulation.settle(results.displacement);
   }
+  note_communication(timers, traffic() - before_all, comm, results.summary);
   const auto spreads = timers.spread(comm);
   for (const auto& spread : spreads) results.summary.time[spread.stage] = spread.max;
   write_summary();
   print(results, context);
   log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", results.summary.time["total"],
            results.summary.peak_memory_bytes / 1e9, deck.output.directory);
+  print_communication(results.summary, log);
   log.line("  seconds on the ranks       min     mean      max");
   for (const auto& spread : spreads)
     log.line("    {:<18} {:8.2f} {:8.2f} {:8.2f}", spread.stage, spread.min, spread.mean, spread.max);

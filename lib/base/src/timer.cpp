@@ -11,15 +11,21 @@ namespace mortise {
 
 double Timers::seconds(const std::string& stage) const
 {
-  const auto found = seconds_.find(stage);
-  return found == seconds_.end() ? 0.0 : found->second;
+  const auto found = stages_.find(stage);
+  return found == stages_.end() ? 0.0 : found->second.seconds;
+}
+
+Traffic Timers::traffic(const std::string& stage) const
+{
+  const auto found = stages_.find(stage);
+  return found == stages_.end() ? Traffic{} : found->second.traffic;
 }
 
 std::vector<Timers::Spread> Timers::spread(const Communicator& comm) const
 {
   std::vector<Spread> result;
-  for (const auto& [stage, seconds] : seconds_)
-    result.push_back({stage, comm.min(seconds), comm.sum(seconds) / comm.size(), comm.max(seconds)});
+  for (const auto& [name, stage] : stages_)
+    result.push_back({name, comm.min(stage.seconds), comm.sum(stage.seconds) / comm.size(), comm.max(stage.seconds)});
   return result;
 }
 

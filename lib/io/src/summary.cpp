@@ -18,6 +18,14 @@ Json vector(const std::array<double, 3>& x)
   return Json::array({number(x[0]), number(x[1]), number(x[2])});
 }
 
+Json communication(const Summary::Communication& c)
+{
+  return {{"messages", number(c.messages)},
+          {"bytes", number(c.bytes)},
+          {"collectives", number(c.collectives)},
+          {"collective_bytes", number(c.collective_bytes)}};
+}
+
 void add_work(const StateSummary& s, Json& json)
 {
   json["friction_steps"] = s.friction_steps;
@@ -83,6 +91,12 @@ std::string to_json(const Summary& s)
     json["time"][stage] = found == s.time.end() ? Json(0.0) : number(found->second);
   }
   json["peak_memory_bytes"] = std::llround(s.peak_memory_bytes);
+  json["communication"] = Json::object();
+  for (const char* stage : {"total", "set_up", "solve", "multiplication"}) {
+    const auto found = s.communication.find(stage);
+    const auto spread = found == s.communication.end() ? Summary::Spread{} : found->second;
+    json["communication"][stage] = {{"largest", communication(spread.largest)}, {"mean", communication(spread.mean)}};
+  }
   // A title need not be valid UTF-8; it must not cost the user the summary.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

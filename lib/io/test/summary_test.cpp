@@ -29,6 +29,7 @@ Summary sample()
   s.contacts.push_back({"interface", {4, 5, 6}, 7, 8, 9, 10, 11, 6.5});
   s.time["solve"] = 1.5;
   s.peak_memory_bytes = 3e10;
+  s.communication["solve"] = {{10, 20, 30, 40}, {5, 6, 7.5, 8}};
   return s;
 }
 
@@ -57,7 +58,8 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "reactions",
                                "contacts",
                                "time",
-                               "peak_memory_bytes"}));
+                               "peak_memory_bytes",
+                               "communication"}));
   EXPECT_EQ(keys(json["residuals"]), (Names{"projected_gradient", "equality", "equilibrium", "penetration", "complementarity"}));
   EXPECT_EQ(keys(json["error_estimate"]), (Names{"discretization", "algebraic"}));
   EXPECT_EQ(keys(json["reactions"][0]), (Names{"boundary", "force"}));
@@ -65,6 +67,9 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
             (Names{"name", "force", "max_pressure", "area", "open", "stick", "slip", "max_recovered_pressure"}));
   EXPECT_EQ(keys(json["time"]),
             (Names{"total", "mesh", "partition", "assembly", "contact", "factorization", "solve", "multiplication", "output"}));
+  EXPECT_EQ(keys(json["communication"]), (Names{"total", "set_up", "solve", "multiplication"}));
+  EXPECT_EQ(keys(json["communication"]["solve"]), (Names{"largest", "mean"}));
+  EXPECT_EQ(keys(json["communication"]["solve"]["mean"]), (Names{"messages", "bytes", "collectives", "collective_bytes"}));
 }
 
 TEST(Summary, ValuesComeBack)
@@ -80,6 +85,9 @@ TEST(Summary, ValuesComeBack)
   EXPECT_EQ(json["time"]["mesh"], 0);
   EXPECT_TRUE(json["peak_memory_bytes"].is_number_integer());
   EXPECT_EQ(json["peak_memory_bytes"], 30'000'000'000);
+  EXPECT_EQ(json["communication"]["solve"]["largest"]["bytes"], 20);
+  EXPECT_EQ(json["communication"]["solve"]["mean"]["collectives"], 7.5);
+  EXPECT_EQ(json["communication"]["set_up"]["largest"]["messages"], 0);
 }
 
 TEST(Summary, WhatIsNotFiniteOrNotEstimatedIsNull)

@@ -1,4 +1,5 @@
-// A scope is a timer: `auto scope = timers.scope("assembly");`. The names are the keys of `time` in summary.json.
+// A scope is a timer, and counts what is sent while it is open: `auto scope = timers.scope("assembly");`. The names are the keys
+// of `time` in summary.json.
 #pragma once
 
 #include <map>
@@ -6,29 +7,42 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "base/traffic.hpp"
 
 namespace mortise {
 
-/// Wall seconds a stage, summed over its scopes. Stages may nest; each counts its own whole time.
+/// Wall seconds and traffic a stage, summed over its scopes. Stages may nest; each counts all that is within.
 class Timers {
+  struct Stage {
+    double seconds = 0;
+    Traffic traffic = {};
+  };
+
  public:
   class Scope {
    public:
-    explicit Scope(double& sum) : sum_(sum), start_(MPI_Wtime()) {}
+    explicit Scope(Stage& sum) : sum_(sum), start_(MPI_Wtime()), before_(mortise::traffic()) {}
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
-    ~Scope() { sum_ += MPI_Wtime() - start_; }
+    ~Scope()
+    {
+      sum_.seconds += MPI_Wtime() - start_;
+      sum_.traffic += mortise::traffic() - before_;
+    }
 
    private:
-    double& sum_;
+    Stage& sum_;
     double start_;
+    Traffic before_;
   };
 
   /// Times until the returned object dies, which must be before the Timers.
-  [[nodiscard]] Scope scope(const std::string& stage) { return Scope(seconds_[stage]); }
+  [[nodiscard]] Scope scope(const std::string& stage) { return Scope(stages_[stage]); }
 
   /// Seconds of a stage on this rank so far, scopes still open excluded; 0 for a stage that never ran.
   double seconds(const std::string& stage) const;
+  /// The same of what this rank sent.
+  Traffic traffic(const std::string& stage) const;
 
   struct Spread {
     std::string stage;
@@ -38,7 +52,7 @@ class Timers {
   std::vector<Spread> spread(const Communicator& comm) const;
 
  private:
-  std::map<std::string, double> seconds_;
+  std::map<std::string, Stage> stages_;
 };
 
 /// Peak resident memory of this process in bytes.

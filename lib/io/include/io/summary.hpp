@@ -55,6 +55,14 @@ struct Summary : StateSummary {
   std::vector<Step> steps;             ///< if the deck has load steps: all states that were solved
   std::map<std::string, double> time;  ///< seconds a stage, the largest over the ranks
   double peak_memory_bytes = 0;        ///< summed over the ranks
+  /// What one rank sends, as base/traffic.hpp counts it.
+  struct Communication {
+    double messages = 0, bytes = 0, collectives = 0, collective_bytes = 0;
+  };
+  struct Spread {
+    Communication largest, mean;  ///< over the ranks, each figure for itself
+  };
+  std::map<std::string, Spread> communication;  ///< a stage
 };
 
 /// The text of summary.json; numbers that are not finite become null.
