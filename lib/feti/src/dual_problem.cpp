@@ -177,7 +177,9 @@ void DualProblem::make_set()
       bounds.push_back({rows.normal, 0});
       if (rows.tangents > 0) {
         rows.disc = static_cast<Local>(discs.size());
-        discs.push_back({{rows.normal + 1, rows.tangents == 2 ? rows.normal + 2 : -1}});
+        qp::Disc disc{{rows.normal + 1, rows.tangents == 2 ? rows.normal + 2 : -1}};
+        disc.normal = rows.normal;
+        discs.push_back(disc);
       }
     }
     points_.push_back(rows);

@@ -2,16 +2,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "base/submatrix.hpp"
-#include "partition/node_directory.hpp"
 
 namespace mortise::feti {
 
 namespace {
 
-constexpr std::size_t block_columns = 64;  // copies that go through one matrix together
+constexpr std::size_t block_columns = 64;    // copies that go through one matrix together
+constexpr std::size_t most_interfaces = 32;  // of the copies of one subdomain; where they differ more all get what any needs
+
+using Nodes = std::vector<Local>;
+
+// The nodes of a subdomain that a row of B touches, in ascending order.
+Nodes interface_nodes(const JumpOperator::Block& block, int dimension)
+{
+  std::set<Local> nodes;
+  for (const Local unknown : block.unknown) nodes.insert(unknown / dimension);
+  return {nodes.begin(), nodes.end()};
+}
+
+// Subdomains that share a matrix and the nodes of their interfaces: {nodes, members}.
+std::vector<std::pair<Nodes, std::vector<std::size_t>>> by_interface(const JumpOperator& jump, const Subdomains& subdomains,
+                                                                     int dimension)
+{
+  std::vector<std::pair<Nodes, std::vector<std::size_t>>> groups;
+  for (const auto& [original, members] : by_original(subdomains)) {
+    std::map<Nodes, std::vector<std::size_t>> alike;
+    for (const std::size_t s : members) alike[interface_nodes(jump.blocks()[s], dimension)].push_back(s);
+    if (alike.size() <= most_interfaces) {
+      groups.insert(groups.end(), alike.begin(), alike.end());
+      continue;
+    }
+    std::set<Local> any;
+    for (const auto& [nodes, list] : alike) any.insert(nodes.begin(), nodes.end());
+    groups.emplace_back(Nodes(any.begin(), any.end()), members);
+  }
+  return groups;
+}
 
 }  // namespace
 
@@ -21,11 +53,11 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
     : jump_(jump), subdomains_(subdomains), comm_(comm), timers_(timers)
 {
   const int dimension = decomposition.catalogue.dimension;
-  for (auto& [original, members] : by_original(subdomains)) {
+  for (auto& [nodes, members] : by_interface(jump, subdomains, dimension)) {
     const std::size_t s = members.front();
-    const SparseMatrix& stiffness = original->stiffness();
+    const SparseMatrix& stiffness = subdomains[s]->original().stiffness();
     Surface surface;
-    for (const Local node : partition::surface_nodes(decomposition.subdomains[s].mesh))
+    for (const Local node : nodes)
       for (int c = 0; c < dimension; ++c) surface.unknowns.push_back(dimension * node + c);
     const auto size = static_cast<int>(surface.unknowns.size());
     surface.weight.resize(size);
@@ -42,7 +74,7 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
         surface.coupling = submatrix(stiffness, inside, surface.unknowns, false);
       }
     }
-    groups_.push_back({std::move(surface), members});
+    groups_.push_back({std::move(surface), std::move(members)});
   }
 }
 

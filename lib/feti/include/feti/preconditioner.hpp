@@ -4,9 +4,10 @@
 //
 // where D is the stiffness of the nodes, so that M F is near the identity (B is orthonormal in D^-1, and C the identity, but for
 // contact rows that share nodes; of these only those that are free on the face at hand count) [Klawonn and Widlund, Comm. Pure
-// Appl. Math. 54 (2001)], and S acts on the surface of each subdomain: its block K_bb of the stiffness matrix (lumped) or the
-// Schur complement K_bb - K_bi K_ii^-1 K_ib (Dirichlet) [Farhat and Roux, Int. J. Numer. Methods Eng. 32 (1991); Farhat, Mandel
-// and Roux, Comput. Methods Appl. Mech. Eng. 115 (1994)].
+// Appl. Math. 54 (2001)], and S acts on the nodes of each subdomain that rows of B touch: their block K_bb of the stiffness
+// matrix (lumped) or the Schur complement K_bb - K_bi K_ii^-1 K_ib (Dirichlet; free surfaces move like the inside, or thin parts
+// would seem as stiff as with K_bb) [Farhat and Roux, Int. J. Numer. Methods Eng. 32 (1991); Farhat, Mandel and Roux, Comput.
+// Methods Appl. Mech. Eng. 115 (1994)].
 #pragma once
 
 #include <memory>
@@ -54,7 +55,7 @@ class Preconditioner : public qp::FacePreconditioner {
   const Subdomains& subdomains_;
   struct Group {
     Surface surface;
-    std::vector<std::size_t> members;  // the subdomains that are copies of one
+    std::vector<std::size_t> members;  // copies of one subdomain, and alike in which nodes are touched
   };
   std::vector<Group> groups_;
   SparseMatrix gram_;               // B D^-1 B' of the contact rows of all ranks, lower triangle; empty if it is the identity
