@@ -191,12 +191,19 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
       driven_(problem.linear().getMap()),
       programme_{hessian_, problem.linear(), problem.equality(), problem.set(), problem.pull() ? &driven_ : nullptr}
 {
+  std::vector<double> coefficients(problem.set().discs().size(), 0.0);
+  const auto& points = problem.constraints().contacts.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const Law& law = laws_[static_cast<std::size_t>(points[i].contact)];
+        law.kind == Law::Kind::coulomb && problem.points()[i].disc >= 0)
+      coefficients[static_cast<std::size_t>(problem.points()[i].disc)] = law.value;
+  problem.set().set_coefficients(coefficients);
   if (solver.algorithm == "face_newton") newton_ = std::make_unique<qp::FaceNewton>(programme_, problem.preconditioner());
 }
 
 Solver::~Solver() = default;
 
-// Bounds renewed at every face. Where that does not settle, the fixed point goes on from there.
+// Bounds and forces together, face by face. Where that does not settle, the fixed point goes on from there.
 void Solver::renew_at_faces(Run& run)
 {
   run.step = 1;

@@ -9,30 +9,63 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr int largest_dense = 2000;  // above this the sparse factorization of all rows is the faster one
+constexpr int small = 300;  // touched rows up to which dense matrices are quick in any case
 constexpr int columns_at_once = 64;
+
+// Where the entry (row, column) of a compressed matrix with sorted columns is stored, looked for from `from` on.
+int place_of(const SparseMatrix& matrix, int row, int column, int from)
+{
+  const int* rows = matrix.innerIndexPtr();
+  if (rows[from] == row) return from;
+  return static_cast<int>(std::lower_bound(rows + from, rows + matrix.outerIndexPtr()[column + 1], row) - rows);
+}
+
+// Where G D G' may differ from G G', lower triangle: the rows of G that meet in a block of any rank.
+SparseMatrix meetings(const EqualityConstraint& equality, std::span<const BlockIndex> blocks)
+{
+  const SparseMatrix& g = equality.local();
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (std::size_t c = 0; c < blocks.size(); ++c)
+    for (const Local unknown : blocks[c])
+      if (unknown >= 0)
+        for (SparseMatrix::InnerIterator it(g, unknown); it; ++it)
+          triplets.emplace_back(static_cast<int>(it.row()), static_cast<int>(c), 1.0);
+  SparseMatrix columns(g.rows(), static_cast<Eigen::Index>(blocks.size()));
+  columns.setFromTriplets(triplets.begin(), triplets.end());
+  const SparseMatrix transpose = columns.transpose();
+  return sum_over_ranks(SparseMatrix((columns * transpose).triangularView<Eigen::Lower>()), equality.communicator());
+}
 
 }  // namespace
 
-CoarseMatrix::CoarseMatrix(const EqualityConstraint& equality, std::span<const Local> constrained) : equality_(equality)
+CoarseMatrix::CoarseMatrix(const EqualityConstraint& equality, std::span<const BlockIndex> blocks, int largest_dense)
+    : equality_(equality), changing_(meetings(equality, blocks))
 {
-  const auto size = static_cast<std::size_t>(equality.size());
-  std::vector<double> touched(size, 0.0);
-  for (const Local column : constrained)
-    for (SparseMatrix::InnerIterator it(equality.local(), column); it; ++it) touched[static_cast<std::size_t>(it.row())] = 1;
-  equality.communicator().sum_in_place(touched);
-  place_.assign(size, -1);
-  for (std::size_t i = 0; i < size; ++i) {
-    auto& list = touched[i] > 0 ? touched_ : others_;
-    if (touched[i] > 0) place_[i] = static_cast<int>(list.size());
-    list.push_back(static_cast<int>(i));
+  place_.assign(static_cast<std::size_t>(equality.size()), -1);
+  for (int i = 0; i < equality.size(); ++i) {
+    const bool touched = changing_.outerIndexPtr()[i + 1] > changing_.outerIndexPtr()[i];  // its diagonal entry changes
+    auto& list = touched ? touched_ : others_;
+    if (touched) place_[static_cast<std::size_t>(i)] = static_cast<int>(list.size());
+    list.push_back(i);
   }
+  if (equality.size() == 0) return;
   dense_ = this->touched() <= largest_dense;
-  if (size == 0) return;
-  if (dense_)
+  if (dense_ && this->touched() > small) {
+    const double entries = 0.5 * this->touched() * this->touched();
+    dense_ = entries <= static_cast<double>(Cholesky(equality.gram()).factor_bytes()) / sizeof(double);
+  }
+  if (dense_) {
     eliminate();
-  else
-    factor_ = std::make_unique<Cholesky>(equality.gram());
+    return;
+  }
+  whole_ = equality.gram() + 0.0 * changing_;
+  matrix_ = whole_;
+  factor_ = std::make_unique<Cholesky>(matrix_);
+  for (int column = 0; column < changing_.outerSize(); ++column) {
+    int from = whole_.outerIndexPtr()[column];
+    for (SparseMatrix::InnerIterator it(changing_, column); it; ++it)
+      in_whole_.push_back(from = place_of(whole_, static_cast<int>(it.row()), column, from));
+  }
 }
 
 void CoarseMatrix::eliminate()
@@ -54,43 +87,51 @@ void CoarseMatrix::eliminate()
   }
 }
 
+// G (I - D) G' over the entries of changing_, summed over the ranks.
+Eigen::VectorXd CoarseMatrix::taken(std::span<const LostBlock> lost) const
+{
+  const SparseMatrix& g = equality_.local();
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(changing_.nonZeros());
+  const auto add = [&](Local a, Local b, double factor) {
+    for (SparseMatrix::InnerIterator j(g, b); j; ++j) {
+      int at = changing_.outerIndexPtr()[j.row()];
+      for (SparseMatrix::InnerIterator i(g, a); i; ++i)
+        if (i.row() >= j.row()) {
+          at = place_of(changing_, static_cast<int>(i.row()), static_cast<int>(j.row()), at);
+          result[at++] += factor * i.value() * j.value();
+        }
+    }
+  };
+  for (const auto& [index, matrix] : lost)
+    for (std::size_t a = 0; a < index.size(); ++a)
+      for (std::size_t b = 0; b < index.size(); ++b)
+        if (index[a] >= 0 && index[b] >= 0 && matrix(static_cast<int>(a), static_cast<int>(b)) != 0)
+          add(index[a], index[b], matrix(static_cast<int>(a), static_cast<int>(b)));
+  equality_.communicator().sum_in_place({result.data(), static_cast<std::size_t>(result.size())});
+  return result;
+}
+
 bool CoarseMatrix::factorize(std::span<const LostBlock> lost, double regularisation)
 {
   if (touched_.empty() && dense_) return true;
-  const SparseMatrix& g = equality_.local();
   const SparseMatrix& gram = equality_.gram();
-  // Every pair of entries of G that a block joins: row, row, value.
-  const auto visit = [&](const auto& add) {
-    for (const auto& entry : lost)
-      for (int a = 0; a < 2 && entry.index[static_cast<std::size_t>(a)] >= 0; ++a)
-        for (int b = 0; b < 2 && entry.index[static_cast<std::size_t>(b)] >= 0; ++b) {
-          if (entry.matrix(a, b) == 0) continue;
-          for (SparseMatrix::InnerIterator i(g, entry.index[static_cast<std::size_t>(a)]); i; ++i)
-            for (SparseMatrix::InnerIterator j(g, entry.index[static_cast<std::size_t>(b)]); j; ++j)
-              if (i.row() >= j.row())
-                add(static_cast<int>(i.row()), static_cast<int>(j.row()), entry.matrix(a, b) * i.value() * j.value());
-        }
-  };
+  const Eigen::VectorXd change = taken(lost);
   if (!dense_) {
-    std::vector<Eigen::Triplet<double>> triplets;
-    visit([&](int row, int column, double value) { triplets.emplace_back(row, column, value); });
-    SparseMatrix local(gram.rows(), gram.cols());
-    local.setFromTriplets(triplets.begin(), triplets.end());
-    SparseMatrix matrix = gram - sum_over_ranks(local, equality_.communicator());
-    for (const int i : touched_) matrix.coeffRef(i, i) += regularisation * gram.coeff(i, i);
-    return factor_->factorize(matrix);
+    std::copy(whole_.valuePtr(), whole_.valuePtr() + whole_.nonZeros(), matrix_.valuePtr());
+    for (std::size_t i = 0; i < in_whole_.size(); ++i) matrix_.valuePtr()[in_whole_[i]] -= change[static_cast<Eigen::Index>(i)];
+    for (const int i : touched_) matrix_.coeffRef(i, i) += regularisation * gram.coeff(i, i);
+    return factor_->factorize(matrix_);
   }
-  Eigen::MatrixXd taken = Eigen::MatrixXd::Zero(schur_.rows(), schur_.cols());
-  visit([&](int row, int column, double value) {
-    taken(place_[static_cast<std::size_t>(row)], place_[static_cast<std::size_t>(column)]) += value;
-  });
-  equality_.communicator().sum_in_place({taken.data(), static_cast<std::size_t>(taken.size())});
-  taken = schur_ - taken;
+  Eigen::MatrixXd schur = schur_;
+  Eigen::Index next = 0;
+  for (int column = 0; column < changing_.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator it(changing_, column); it; ++it)
+      schur(place_[static_cast<std::size_t>(it.row())], place_[static_cast<std::size_t>(column)]) -= change[next++];
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    taken(at, at) += regularisation * gram.coeff(touched_[i], touched_[i]);
+    schur(at, at) += regularisation * gram.coeff(touched_[i], touched_[i]);
   }
-  schur_factor_.compute(taken);
+  schur_factor_.compute(schur);
   return schur_factor_.info() == Eigen::Success;
 }
 

@@ -1,6 +1,8 @@
 #include "qp/face.hpp"
 
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include "base/error.hpp"
 
@@ -26,9 +28,16 @@ double largest_radius(const FeasibleSet& set, const Communicator& comm)
   return comm.max(largest);
 }
 
+// Rows of G that no free direction feels make the matrix singular; a trace of G G' does no harm, for sweeps are repeated.
+void factorize(CoarseMatrix& matrix, const std::vector<LostBlock>& lost)
+{
+  for (double regularisation = 1e-13; !matrix.factorize(lost, regularisation); regularisation *= 100)
+    if (regularisation > 1e-3) throw Error(ExitStatus::not_converged, "the coarse matrix of a face cannot be factorized");
+}
+
 }  // namespace
 
-Face::Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint)
+Face::Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint, bool coupled)
     : equality_(projector.equality()), matrix_(projector.matrix())
 {
   const auto& set = projector.set();
@@ -40,12 +49,16 @@ Face::Face(Projector& projector, const Vector& argument, double step, double sti
       fixed_.push_back(bound.index);
       ++active_bounds;
     }
+  const std::set<Local> open(fixed_.begin(), fixed_.end());
   const double tiny = tiny_disc * largest_radius(set, equality_.communicator());
   for (const auto& disc : set.discs()) {
     const Eigen::Vector2d y = from_centre(disc, w);
     const double r = y.norm();
     if (r <= disc.radius && disc.radius > tiny) continue;
     ++slipping;
+    const Eigen::Vector2d normal = y / std::max(r, std::numeric_limits<double>::min());
+    const bool follows = coupled && disc.coefficient > 0 && disc.radius > tiny && !open.contains(disc.normal);
+    if (follows) couplings_.push_back({disc.normal, disc.index, disc.coefficient * normal});
     if (disc.size() == 1 || disc.radius <= tiny) {
       fixed_.insert(fixed_.end(), disc.index.begin(), disc.index.begin() + disc.size());
       continue;
@@ -60,12 +73,23 @@ Face::Face(Projector& projector, const Vector& argument, double step, double sti
   }
   for (const auto& slip : slips_) {
     auto& block = lost.emplace_back();
-    block.index = slip.index;
-    block.matrix = Eigen::Matrix2d::Identity() - slip.weight * slip.weight * slip.tangent * slip.tangent.transpose();
+    block.index = {slip.index[0], slip.index[1], -1};
+    block.matrix.topLeftCorner<2, 2>() =
+        Eigen::Matrix2d::Identity() - slip.weight * slip.weight * slip.tangent * slip.tangent.transpose();
   }
-  // Rows of G that no free direction feels make the matrix singular; a trace of G G' does no harm, for sweeps are repeated.
-  for (double regularisation = 1e-13; !matrix_.factorize(lost, regularisation); regularisation *= 100)
-    if (regularisation > 1e-3) throw Error(ExitStatus::not_converged, "the coarse matrix of a face cannot be factorized");
+  factorize(matrix_, lost);
+  coupled_ = coupled && equality_.communicator().sum(static_cast<long long>(couplings_.size())) > 0;
+  if (!coupled_) return;
+  // I - T w^2 T': what I - w^2 Pi takes away, less the rest of (1, c)(1, c)'.
+  for (const auto& coupling : couplings_) {
+    const Eigen::Vector3d e(coupling.direction[0], 1, coupling.direction[1]);
+    auto& block = lost.emplace_back();
+    block.index = {coupling.index[0], coupling.normal, coupling.index[1]};
+    block.matrix = -e * e.transpose();
+    block.matrix(1, 1) = 0;
+  }
+  trial_matrix_ = &projector.trial_matrix();
+  factorize(*trial_matrix_, lost);
 }
 
 void Face::restrict(Vector& x, int power) const
@@ -77,6 +101,55 @@ void Face::restrict(Vector& x, int power) const
         (values[slip.index[0]] * slip.tangent[0] + values[slip.index[1]] * slip.tangent[1]) * std::pow(slip.weight, power);
     values[slip.index[0]] = along * slip.tangent[0];
     values[slip.index[1]] = along * slip.tangent[1];
+  }
+}
+
+Vector Face::reduce(Vector& x) const
+{
+  Vector part(x, Teuchos::Copy);
+  for (int repeat = 0; repeat < 2 && equality_.size() > 0; ++repeat) {
+    restrict(part, 2);
+    equality_.add_transpose(-1, matrix_.solve(equality_.apply(part)), x);
+    part.assign(x);
+  }
+  restrict(part, 0);
+  auto values = view(part);
+  for (const auto& slip : slips_) values[slip.index[0]] = values[slip.index[1]] = 0;
+  return part;
+}
+
+void Face::extend(Vector& x) const
+{
+  auto values = view(x);
+  for (const auto& coupling : couplings_)
+    for (std::size_t k = 0; k < 2; ++k)
+      if (coupling.index[k] >= 0)
+        values[coupling.index[k]] += coupling.direction[static_cast<Eigen::Index>(k)] * values[coupling.normal];
+}
+
+void Face::extend_transpose(Vector& x) const
+{
+  auto values = view(x);
+  for (const auto& coupling : couplings_)
+    for (std::size_t k = 0; k < 2; ++k)
+      if (coupling.index[k] >= 0)
+        values[coupling.normal] += coupling.direction[static_cast<Eigen::Index>(k)] * values[coupling.index[k]];
+}
+
+void Face::project_trial(Vector& x, int sweeps) const
+{
+  restrict(x, 0);
+  extend(x);
+  if (equality_.size() == 0) return;
+  Vector part(x.getMap());
+  for (int repeat = 0; repeat < sweeps; ++repeat) {
+    const Eigen::VectorXd nu = trial_matrix_->solve(equality_.apply(x));
+    part.putScalar(0);
+    equality_.add_transpose(1, nu, part);
+    extend_transpose(part);
+    restrict(part, 2);
+    extend(part);
+    x.update(-1, part, 1);
   }
 }
 

@@ -9,27 +9,26 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double step_length = 2.0;      // of the gradient step that picks the face, over ||P A P||
-constexpr double safe_length = 1.5;      // of the step that is sure to descend
-constexpr double slip_stiffness = 0.1;   // curvatures of slip directions are measured against this part of ||P A P||
-constexpr double inner_reduction = 0.2;  // of the projected gradient on one face
-constexpr double norm_accuracy = 0.4;    // the step only picks the face, and a descent is checked
-constexpr int max_inner = 60;            // conjugate gradient steps on one face
-constexpr int max_on_only_face = 1000;   // where there are no others
+constexpr double longer_step = 20;      // times step_length: where bounds follow the solution, on what is not free
+constexpr double safe_length = 1.5;     // of the step that is sure to descend
+constexpr double slip_stiffness = 0.1;  // curvatures of slip directions are measured against this part of ||P A P||
+constexpr double norm_accuracy = 0.4;   // the step only picks the face, and a descent is checked
 constexpr int max_faces = 200;
-constexpr double first_faint = 1e-3;      // distances from bounds, over the largest, that count as none
-constexpr double longer = 4.0;            // from one of the steps that a start is looked for with to the next
-constexpr double soft = 0.25;             // curvature along the first step over ||P A P|| below which one is looked for
-constexpr int max_starts = 10;            // attempts
-constexpr int patience = 20;              // faces without a better residual after which it gives up
-constexpr int renewal_patience = 4;       // the same where slip bounds move, for then there is another way
-constexpr std::size_t max_recycled = 40;  // pairs kept from face to face
-constexpr double recycled_bytes = 1e9;    // that they may take of each rank; at least 10 are kept
-constexpr int max_retreats = 8;           // of slip bounds
-constexpr int max_retreats_to_z = 2;      // quarters of the way back, before the step becomes a gradient projection
-constexpr int max_safeguards = 12;        // after which another algorithm will do better
-constexpr double finest = 1e-7;           // residual over ||P b|| that is enough where no error is allowed
-constexpr double first_look = 0.1;        // part of the first error at which the allowed one is asked for
+constexpr double first_faint = 1e-3;          // distances from bounds, over the largest, that count as none
+constexpr double first_faint_renewed = 1e-5;  // the same where bounds follow the solution: the longer step picks better
+constexpr double longer = 4.0;                // from one of the steps that a start is looked for with to the next
+constexpr double soft = 0.25;                 // curvature along the first step over ||P A P|| below which one is looked for
+constexpr int max_starts = 10;                // attempts
+constexpr int patience = 20;                  // faces without a better residual after which it gives up
+constexpr int renewal_patience = 4;           // the same where slip bounds move, for then there is another way
+constexpr std::size_t max_recycled = 40;      // pairs kept from face to face
+constexpr double recycled_bytes = 1e9;        // that they may take of each rank; at least 10 are kept
+constexpr int settlings = 2;                  // renewals of slip bounds by a projection's own normal forces
+constexpr int max_retreats = 8;               // of slip bounds
+constexpr int max_retreats_to_z = 2;          // quarters of the way back, before the step becomes a gradient projection
+constexpr int max_safeguards = 12;            // after which another algorithm will do better
+constexpr double finest = 1e-7;               // residual over ||P b|| that is enough where no error is allowed
+constexpr double first_look = 0.1;            // part of the first error at which the allowed one is asked for
 
 // ||x - x*||_A from residuals and energies. With M near A^-1 the residual's r'Mr is near its square but for a factor, and that
 // is known of the point before: its squared error is at least twice the energy that has been gained since, and little more where
@@ -55,12 +54,6 @@ class ErrorEstimate {
 
 }  // namespace
 
-struct FaceNewton::State {
-  explicit State(const Teuchos::RCP<const Map>& map) : z(map), g(map), y(map), gy(map) {}
-  Vector z, g;   // a point of C and A z - b
-  Vector y, gy;  // the minimiser on its face, which may lie outside Omega, and A y - b
-};
-
 FaceNewton::FaceNewton(const Problem& problem, FacePreconditioner* preconditioner)
     : problem_(problem), preconditioner_(preconditioner), projector_(problem.equality, problem.set)
 {
@@ -68,31 +61,6 @@ FaceNewton::FaceNewton(const Problem& problem, FacePreconditioner* preconditione
   only_face_ = problem.equality.communicator().sum(constraints) == 0;
   const double pair = 16.0 * static_cast<double>(problem.linear.getGlobalLength()) / problem.equality.communicator().size();
   kept_ = static_cast<std::size_t>(std::clamp(recycled_bytes / std::max(pair, 1.0), 10.0, static_cast<double>(max_recycled)));
-}
-
-// z = M residual: the preconditioner between the projectors of the face, improved by all that is known of A from earlier
-// directions [Morales and Nocedal, Automatic preconditioning by limited memory quasi-Newton updating, SIAM J. Optim. 10 (2000)].
-void FaceNewton::precondition(const Face& face, const Vector& residual, Vector& z) const
-{
-  Vector q(residual, Teuchos::Copy);
-  std::vector<double> part(recycled_.size());
-  for (std::size_t i = recycled_.size(); i-- > 0;) {
-    part[i] = recycled_[i].direction.dot(q) / recycled_[i].energy;
-    q.update(-part[i], recycled_[i].image, 1);
-  }
-  if (!recycled_.empty()) face.project_gradient(q, 1);  // once is enough for what is projected again at the end
-  face.scale(q);
-  if (preconditioner_) {
-    preconditioner_->apply(q, z);
-    ++preconditionings_;
-  } else {
-    z.update(step_length / norm_, q, 0);
-  }
-  face.scale(z);
-  if (!recycled_.empty()) face.project(z, 1);
-  for (std::size_t i = 0; i < recycled_.size(); ++i)
-    z.update(part[i] - recycled_[i].image.dot(z) / recycled_[i].energy, recycled_[i].direction, 1);
-  face.project(z);
 }
 
 // r'Mr, about the square of the error that the residual stands for.
@@ -105,48 +73,18 @@ double FaceNewton::energy_measure(const Vector& residual) const
   return residual.dot(z);
 }
 
-// Conjugate gradients for min 1/2 d'(A + Sigma) d + g'd over the free directions d of the face; sets y and gy. Returns false if
-// there was nothing to do.
-bool FaceNewton::descend(const Face& face, double goal, const std::function<void()>& report, State& state)
+// Where the next projection begins if bounds follow the solution: y less a step along its gradient that is long where the face
+// says what x is and short where x is free. What y takes out of Omega is made up for by forces at all points of a subdomain, as
+// if they were nearer by as much over the length of the step: the longer it is, the fewer points without force are caught. Along
+// free unknowns it would only carry on what conjugate residuals have left.
+Vector FaceNewton::look_beyond(const Face& face, const State& state) const
 {
-  auto& [z, g, y, gy] = state;
-  const auto map = z.getMap();
-  y.assign(z);
-  gy.assign(g);
-  Vector r(g, Teuchos::Copy), scaled(map), direction(map), product(map);
-  r.scale(-1);
-  face.project_gradient(r);
-  const auto size = [&] {
-    scaled.assign(r);
-    face.scale(scaled);
-    return scaled.norm2();
-  };
-  const double start = size();
-  if (start <= 1e-2 * goal) return false;
-  if (!only_face_) goal = std::max(goal, inner_reduction * start);
-  std::deque<Pair> fresh;
-  for (int step = 0; step < (only_face_ ? max_on_only_face : max_inner) && !problem_.hessian.exhausted(); ++step) {
-    precondition(face, r, direction);
-    for (const auto& pair : fresh) direction.update(-pair.image.dot(direction) / pair.energy, pair.direction, 1);
-    problem_.hessian.apply(direction, product);
-    Vector image(product, Teuchos::Copy);
-    face.add_curvature(direction, image);
-    const double energy = direction.dot(image);
-    if (!(energy > 0)) break;
-    const double length = direction.dot(r) / energy;
-    y.update(length, direction, 1);
-    gy.update(length, product, 1);
-    r.update(-length, image, 1);
-    face.project_gradient(r, 1);
-    problem_.equality.project(image);
-    fresh.push_back({Vector(direction, Teuchos::Copy), std::move(image), energy});
-    if (fresh.size() > kept_) fresh.pop_front();
-    report();
-    if (size() <= goal) break;
-  }
-  for (auto& pair : fresh) recycled_.push_back(std::move(pair));
-  while (recycled_.size() > kept_) recycled_.pop_front();
-  return true;
+  const double step = step_length / norm_;
+  Vector reaction(state.gy, Teuchos::Copy);
+  const Vector felt = face.reduce(reaction);
+  Vector beyond(state.y, Teuchos::Copy);
+  beyond.update(-longer_step * step, reaction, (longer_step - 1) * step, felt, 1);
+  return beyond;
 }
 
 // Whether the curvature of A from a to b, where A x - b is ga and gb, is far below ||P A P||.
@@ -230,16 +168,25 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   };
   Eigen::VectorXd nu =
       start && start->nu.size() == equality.size() ? Eigen::VectorXd(start->nu * (step_length / norm_)) : Eigen::VectorXd();
-  bool moved = false;  // y differs from z
+  bool moved = false;            // y differs from z
+  std::optional<Vector> beyond;  // y after a longer step, where bounds follow the solution
   ErrorEstimate estimate;
-  double faint = first_faint;
+  double faint = renewal ? first_faint_renewed : first_faint;
   double first_error = 0, allowed = -1;  // negative: not asked for yet
   while (true) {
     double step = step_length / norm_;
     Vector trial(y, Teuchos::Copy);
-    trial.update(-step, gy, 1);
+    if (beyond)
+      trial.assign(*beyond);
+    else
+      trial.update(-step, gy, 1);
     if (renewal && result.outer_iterations > 0) renewal->renew(y, true);
     Projection next = projector_(trial, nu);
+    // The normal forces that the projection changes change the bounds once more.
+    for (int settling = 0; renewal && result.outer_iterations > 0 && next.found && settling < settlings; ++settling) {
+      renewal->renew(next.point, true);
+      next = projector_(trial, next.nu);
+    }
     for (int retreat = 0; renewal && !next.found && retreat < max_retreats; ++retreat) {
       renewal->retreat();
       next = projector_(trial, nu);
@@ -309,7 +256,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
         since_best >= (renewal ? renewal_patience : patience) || result.safeguards > max_safeguards)
       break;
 
-    const Face face(projector_, next.argument, step, slip_stiffness * norm_, faint);
+    const Face face(projector_, next.argument, beyond ? longer_step * step : step, slip_stiffness * norm_, faint,
+                    renewal != nullptr);
     if (preconditioner_) preconditioner_->fix(face.fixed());
     // The residual to come down to on this face, if inner_reduction does not end it before.
     double enough = 0;
@@ -319,8 +267,12 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       enough = 0.3 * worst * allowed / result.error;
     else if (only_face_)
       enough = inner_reduction * worst;
-    moved = descend(
-        face, enough, [&] { report("inner"); }, state);
+    const auto watch = [&] { report("inner"); };
+    moved = face.coupled() ? descend_coupled(face, enough, watch, state) : descend(face, enough, watch, state);
+    if (renewal) {
+      beyond.emplace(look_beyond(face, state));
+      nu.setZero();  // it has gone into that
+    }
   }
   result.x.assign(z);
   result.gradient.assign(g);

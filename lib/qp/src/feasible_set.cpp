@@ -74,6 +74,12 @@ FeasibleSet FeasibleSet::compact() const
   return result;
 }
 
+void FeasibleSet::set_coefficients(std::span<const double> coefficients)
+{
+  assert(coefficients.size() == discs_.size());
+  for (std::size_t i = 0; i < discs_.size(); ++i) discs_[i].coefficient = coefficients[i];
+}
+
 FeasibleSet FeasibleSet::shifted(const Eigen::Ref<const Eigen::VectorXd>& shift) const
 {
   FeasibleSet result = *this;

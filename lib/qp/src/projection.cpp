@@ -1,19 +1,33 @@
 #include "qp/projection.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mortise::qp {
 
 namespace {
 
-constexpr int max_steps = 1000;      // idle rollers of a bearing, which touch without force, took 122
+constexpr int max_steps = 1000;
 constexpr int max_search = 60;       // of each line search
-constexpr int max_stalled = 3;       // steps without progress, at rounding level
 constexpr double flat = 0.1;         // part of its first slope at which a line search ends
+constexpr double far = 0.25;         // part of a step below which it was much too long
 constexpr double runaway = 1e10;     // of ||G' nu|| over ||e|| and ||y||, at which C counts as empty
 constexpr double target = 1e-13;     // of the residual
-constexpr double acceptable = 1e-9;  // at which a projection that makes no more progress counts as found
-constexpr int max_repairs = 5;       // with the residual e - G x taken from x itself
+constexpr double acceptable = 1e-8;  // at which a projection that makes no more progress counts as found
+constexpr int max_tries = 10;        // steps that do not halve it
+constexpr double settled = 1e-9;     // at which fewer steps are tried
+constexpr int max_stalled = 3;
+constexpr int max_repairs = 5;  // with the residual e - G x taken from x itself
+
+// What constraints may take away; `coupled`: of discs together with the unknown that their radius follows.
+std::vector<BlockIndex> blocks_of(const FeasibleSet& set, bool coupled)
+{
+  std::vector<BlockIndex> blocks;
+  for (const auto& bound : set.bounds()) blocks.push_back({bound.index, -1, -1});
+  for (const auto& disc : set.discs()) blocks.push_back({disc.index[0], disc.index[1], coupled ? disc.normal : -1});
+  return blocks;
+}
 
 SparseMatrix columns_of(const SparseMatrix& g, std::span<const Local> columns)
 {
@@ -41,7 +55,7 @@ Projector::Projector(const EqualityConstraint& equality, const FeasibleSet& set)
       set_(set),
       constrained_(set.constrained()),
       columns_(columns_of(equality.local(), constrained_)),
-      matrix_(equality, constrained_)
+      matrix_(equality, blocks_of(set, false))
 {
 }
 
@@ -63,6 +77,36 @@ Projector::Evaluation Projector::evaluate(const Eigen::VectorXd& y, const Eigen:
   return result;
 }
 
+// The step from `now` along `direction`, of which `full` is the end, at which the slope of theta has nearly vanished. theta is
+// convex: its slope rises, piecewise linearly, from below 0, and is known more exactly than theta. Each trial sums one number
+// over the ranks.
+double Projector::search(const Evaluation& now, const Evaluation& full, const Eigen::VectorXd& direction,
+                         const FeasibleSet& set) const
+{
+  const double slope = now.gradient.dot(direction), end = full.gradient.dot(direction);
+  if (end < 0 || end <= flat * std::abs(slope)) return 1;
+  // gradient(t) = gradient(0) + t G G' direction - G (moved(t) - moved(0)), moved = P_Omega(w) - w.
+  const Eigen::VectorXd along = -(columns_.transpose() * direction);
+  const double curvature = direction.dot(equality_.gram().selfadjointView<Eigen::Lower>() * direction);
+  const auto moved_along = [&](const Eigen::VectorXd& w) {
+    Eigen::VectorXd moved = w;
+    set.project(moved);
+    moved -= w;
+    return moved.dot(along);
+  };
+  const double start = moved_along(now.w);
+  double low = 0, high = 1, slope_low = slope, slope_high = end, t = 1;
+  for (int trial = 0; trial < max_search; ++trial) {
+    // Secant and bisection in turn: the slope is flat as long as no constraint changes, and steep beyond.
+    t = trial % 2 == 0 ? low - slope_low * (high - low) / (slope_high - slope_low) : 0.5 * (low + high);
+    const double here = slope + t * curvature + equality_.communicator().sum(moved_along(now.w + t * along) - start);
+    if (std::abs(here) <= flat * std::abs(slope)) break;
+    (here < 0 ? low : high) = t;
+    (here < 0 ? slope_low : slope_high) = here;
+  }
+  return t;
+}
+
 // I - D with the derivative D of P_Omega at w.
 std::vector<LostBlock> Projector::lost(const Eigen::VectorXd& w) const
 {
@@ -81,11 +125,12 @@ std::vector<LostBlock> Projector::lost(const Eigen::VectorXd& w) const
     if (distance <= disc.radius) continue;
     const Eigen::Vector2d n = y / distance;
     auto& block = blocks.emplace_back();
-    block.index = disc.index;
+    block.index = {disc.index[0], disc.index[1], -1};
     if (disc.size() == 1)
       block.matrix(0, 0) = 1;
     else
-      block.matrix = Eigen::Matrix2d::Identity() - disc.radius / distance * (Eigen::Matrix2d::Identity() - n * n.transpose());
+      block.matrix.topLeftCorner<2, 2>() =
+          Eigen::Matrix2d::Identity() - disc.radius / distance * (Eigen::Matrix2d::Identity() - n * n.transpose());
   }
   return blocks;
 }
@@ -105,42 +150,37 @@ Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
   const auto size_of = [&](const Evaluation& at) { return equality_.norm(at.gradient) / scale; };
   Evaluation now = evaluate(constrained_y, gy, start.size() == equality_.size() ? start : result.nu, compact);
   result.residual = size_of(now);
-  double regularisation = 1e-1;
+  Evaluation best = now;
+  double regularisation = 1e-1, residual = result.residual;
   int stalled = 0;
   for (int step = 0; step < max_steps && result.residual > target && now.pull < runaway * scale; ++step) {
-    if (!matrix_.factorize(lost(now.w), std::max(regularisation * std::min(result.residual, 1.0), 1e-14))) {
+    if (!matrix_.factorize(lost(now.w), std::clamp(regularisation * std::min(residual, 1.0), 1e-14, 1.0))) {
       regularisation *= 10;
       continue;
     }
     const Eigen::VectorXd direction = -matrix_.solve(now.gradient);
-    // theta is convex: its slope along the direction rises, piecewise linearly, from below 0, and is known more exactly than
-    // theta.
-    const double slope = now.gradient.dot(direction);
-    double low = 0, high = 1, slope_low = slope, slope_high = 0, t = 1;
     Evaluation next = evaluate(constrained_y, gy, now.nu + direction, compact);
-    for (int search = 0; search < max_search; ++search) {
-      const double here = next.gradient.dot(direction);
-      if (size_of(next) <= 0.5 * result.residual) break;
-      if (std::abs(here) <= flat * std::abs(slope) || (t == 1 && here < 0)) break;
-      if (here < 0) {
-        low = t;
-        slope_low = here;
-      } else {
-        high = t;
-        slope_high = here;
-      }
-      // Secant and bisection in turn: the slope is flat as long as no constraint changes, and steep beyond.
-      t = search % 2 == 0 ? low - slope_low * (high - low) / (slope_high - slope_low) : 0.5 * (low + high);
-      next = evaluate(constrained_y, gy, now.nu + t * direction, compact);
+    double t = 1;
+    if (size_of(next) > 0.5 * residual) {
+      t = search(now, next, direction, compact);
+      if (t != 1) next = evaluate(constrained_y, gy, now.nu + t * direction, compact);
     }
-    const double residual = size_of(next);
+    const double before = std::exchange(residual, size_of(next));
     // A residual that does not fall while full steps are taken wants larger steps.
-    if (t == 1 && residual > 0.5 * result.residual) regularisation *= 0.1;
-    stalled = residual < 0.99 * result.residual ? 0 : stalled + 1;
+    if (t == 1 && residual > 0.5 * before) regularisation *= 0.1;
+    // Where hardly any of the step can be taken, some body went much too far; the others must not wait for it.
+    if (t < far) regularisation *= 10;
     now = std::move(next);
-    result.residual = residual;
-    if (stalled > max_stalled && residual <= acceptable) break;
+    // Bodies that touch without force drift about at rounding level, and what they meet undoes what was gained; a ring between
+    // rollers turns far before a trace of a moment finds its balance.
+    stalled = residual < 0.5 * result.residual ? 0 : stalled + 1;
+    if (residual < result.residual) {
+      result.residual = residual;
+      best = now;
+    }
+    if (stalled > (result.residual <= settled ? max_stalled : max_tries) && result.residual <= acceptable) break;
   }
+  if (now.pull < runaway * scale) now = std::move(best);
   // G G' nu - G (P(w) - w) loses, where stiffnesses differ by 1e6, what the kernels of soft bodies need; G P(w) does not.
   result.nu = now.nu;
   for (int repair = 0; repair <= max_repairs; ++repair) {
@@ -163,6 +203,12 @@ Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
   equality_.add_transpose(-1, result.nu, result.argument);
   result.found = result.residual <= acceptable;
   return result;
+}
+
+CoarseMatrix& Projector::trial_matrix()
+{
+  if (!trial_matrix_) trial_matrix_ = std::make_unique<CoarseMatrix>(equality_, blocks_of(set_, true));
+  return *trial_matrix_;
 }
 
 Projection project(const Vector& y, const EqualityConstraint& equality, const FeasibleSet& set)

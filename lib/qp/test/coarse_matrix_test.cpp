@@ -1,4 +1,4 @@
-// The coarse matrix against G D G' formed densely, both where it eliminates rows and where all of them are touched.
+// The coarse matrix against G D G' formed densely: few touched rows and all, by the Schur complement and sparsely.
 #include "qp/coarse_matrix.hpp"
 
 #include <gtest/gtest.h>
@@ -8,36 +8,87 @@
 namespace mortise::qp {
 namespace {
 
-TEST(CoarseMatrix, SolvesWhatBlocksLeave)
+constexpr int unknowns = 40, rows = 8;
+
+// Row r of G lives on the unknowns 5 r .. 5 r + 9, so that constraints on the first few touch few rows.
+Eigen::MatrixXd staggered()
+{
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(rows, unknowns);
+  for (int r = 0; r < rows; ++r)
+    for (int k = 0; k < 10; ++k) g(r, (5 * r + k) % unknowns) = std::sin(1.0 + r * 10 + k);
+  return g;
+}
+
+// The solution of (G D G') x = r against Eigen's.
+void expect_solved(const Eigen::MatrixXd& g, const Eigen::MatrixXd& d, const CoarseMatrix& matrix)
+{
+  const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(rows, -1, 2);
+  const Eigen::VectorXd expected = (g * d * g.transpose()).ldlt().solve(r);
+  EXPECT_LT((matrix.solve(r) - expected).norm(), 1e-11 * expected.norm());
+}
+
+class Coarse : public testing::TestWithParam<int> {};
+
+TEST_P(Coarse, SolvesWhatConstraintsLeave)
 {
   const Communicator comm;
-  constexpr int n = 40, rows = 8;
-  const auto map = even_map(n, comm);
-  // Row r of G lives on the unknowns 5 r .. 5 r + 9, so that constraints on the first few touch few rows.
-  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(rows, n);
-  for (int r = 0; r < rows; ++r)
-    for (int k = 0; k < 10; ++k) g(r, (5 * r + k) % n) = std::sin(1.0 + r * 10 + k);
-  for (const int constrained : {0, 7, n}) {
-    Eigen::MatrixXd d = Eigen::MatrixXd::Identity(n, n);
-    std::vector<Local> unknowns;
-    std::vector<LostBlock> lost;
-    for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i)
-      if (map->getGlobalElement(i) < constrained) unknowns.push_back(i);
+  const auto map = even_map(unknowns, comm);
+  const auto g = staggered();
+  for (const int constrained : {0, 7, unknowns}) {
+    Eigen::MatrixXd d = Eigen::MatrixXd::Identity(unknowns, unknowns);
     for (int i = 0; i < constrained; i += 3) d(i, i) = 0.3;
-    for (const Local i : unknowns)
-      if (map->getGlobalElement(i) % 3 == 0) {
-        lost.emplace_back().index[0] = i;
-        lost.back().matrix(0, 0) = 0.7;
-      }
+    std::vector<BlockIndex> blocks;
+    std::vector<LostBlock> lost;
+    for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) {
+      if (map->getGlobalElement(i) >= constrained) continue;
+      blocks.push_back({i, -1, -1});
+      if (map->getGlobalElement(i) % 3 != 0) continue;
+      lost.emplace_back().index[0] = i;
+      lost.back().matrix(0, 0) = 0.7;
+    }
     const EqualityConstraint equality(local_columns(g, *map), Eigen::VectorXd::Ones(rows), comm);
-    CoarseMatrix matrix(equality, unknowns);
+    CoarseMatrix matrix(equality, blocks, GetParam());
     EXPECT_EQ(matrix.touched(), constrained == 0 ? 0 : constrained == 7 ? 3 : rows);
-    ASSERT_TRUE(matrix.factorize(lost, 0));
-    const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(rows, -1, 2);
-    const Eigen::VectorXd expected = (g * d * g.transpose()).ldlt().solve(r);
-    EXPECT_LT((matrix.solve(r) - expected).norm(), 1e-11 * expected.norm()) << constrained;
+    for (int time = 0; time < 2; ++time) {  // nothing of the first stays
+      ASSERT_TRUE(matrix.factorize(lost, 0));
+      expect_solved(g, d, matrix);
+    }
+    ASSERT_TRUE(matrix.factorize({}, 0));
+    expect_solved(g, Eigen::MatrixXd::Identity(unknowns, unknowns), matrix);
   }
 }
+
+// Two unknowns of one disc that no row of G joins: the block joins rows that are apart in G G'.
+TEST_P(Coarse, BlockJoinsRowsThatAreApart)
+{
+  const Communicator comm;
+  const auto map = even_map(unknowns, comm);
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(rows, unknowns);
+  for (int r = 0; r < rows; ++r) g.row(r).segment(5 * r, 5).setLinSpaced(1, 2 + r);
+  g(0, 1) = 0;
+  g(1, 0) = 1;  // row 0 has unknown 0, row 2 unknown 1
+  g(2, 1) = 3;
+  Eigen::Matrix2d block;
+  block << 0.5, 0.2, 0.2, 0.6;
+  Eigen::MatrixXd d = Eigen::MatrixXd::Identity(unknowns, unknowns);
+  d.topLeftCorner(2, 2) -= block;
+  std::vector<BlockIndex> blocks;
+  std::vector<LostBlock> lost;
+  if (const Local i = map->getLocalElement(0); comm.root()) {
+    blocks.push_back({i, i + 1, -1});
+    auto& entry = lost.emplace_back();
+    entry.index = {i, i + 1, -1};
+    entry.matrix.topLeftCorner<2, 2>() = block;
+  }
+  const EqualityConstraint equality(local_columns(g, *map), Eigen::VectorXd::Ones(rows), comm);
+  CoarseMatrix matrix(equality, blocks, GetParam());
+  EXPECT_EQ(matrix.touched(), 3);
+  ASSERT_TRUE(matrix.factorize(lost, 0));
+  expect_solved(g, d, matrix);
+}
+
+// All by the Schur complement, and all sparsely but where nothing is touched.
+INSTANTIATE_TEST_SUITE_P(DenseAndSparse, Coarse, testing::Values(rows, 0));
 
 }  // namespace
 }  // namespace mortise::qp

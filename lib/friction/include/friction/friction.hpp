@@ -2,8 +2,8 @@
 //
 // Tresca: the bound of a point is a given traction times its area; one quadratic programme gives the answer. Coulomb: the bound
 // is the coefficient times the point's normal force, which is found by repeating Tresca problems, each solved only as exactly as
-// the bounds are known and started from the one before. Face Newton renews the bounds at each of its faces instead, and falls
-// back to the fixed point where that does not settle. The first step lets every Coulomb point stick, so that a floating body that
+// the bounds are known and started from the one before. Face Newton solves for bounds and forces together instead, and falls back
+// to the fixed point where that does not settle. The first step lets every Coulomb point stick, so that a floating body that
 // is pushed sideways has an equilibrium from the start; a later load step begins with the bounds that the one before ended with.
 #pragma once
 

@@ -10,18 +10,22 @@
 
 namespace mortise::qp {
 
-/// One symmetric block of I - D: what a constraint takes away from one unknown (index[1] is -1) or from two.
+/// The unknowns of one constraint: one, two or three (others are -1).
+using BlockIndex = std::array<Local, 3>;
+
+/// One symmetric block of I - D: what a constraint takes away from its unknowns.
 struct LostBlock {
-  std::array<Local, 2> index{-1, -1};
-  Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
+  BlockIndex index{-1, -1, -1};
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
 };
 
 /// Only the rows of G that touch a constrained unknown feel D. With few of them all others are eliminated once and each
 /// factorization is that of a small dense Schur complement; with many the whole is factorized sparsely. Every rank holds it.
 class CoarseMatrix {
  public:
-  /// `constrained`: the unknowns of this rank that blocks may name. `equality` outlives it. Collective.
-  CoarseMatrix(const EqualityConstraint& equality, std::span<const Local> constrained);
+  /// `blocks`: all that may be lost on this rank; parts of a block may. `equality` outlives it. Collective.
+  /// Above `largest_dense` touched rows, and where the sparse factor is the smaller one, it does not go by the Schur complement.
+  CoarseMatrix(const EqualityConstraint& equality, std::span<const BlockIndex> blocks, int largest_dense = 2000);
 
   /// Factorizes G D G' + `regularisation` diag(G G') over the touched rows. Returns false if that is not positive definite.
   /// `lost`: the blocks of this rank. Collective.
@@ -33,11 +37,15 @@ class CoarseMatrix {
 
  private:
   void eliminate();
+  Eigen::VectorXd taken(std::span<const LostBlock> lost) const;
 
   const EqualityConstraint& equality_;
+  SparseMatrix changing_;              // where G D G' may differ from G G': the pattern counts
   std::vector<int> touched_, others_;  // rows of G
   std::vector<int> place_;             // of each row among `touched_`, -1 for the others
   bool dense_ = true;
+  SparseMatrix whole_, matrix_;       // sparse: G G' with room for what changes, and what is factorized
+  std::vector<int> in_whole_;         // sparse: of each entry of changing_, where it stands in these
   std::unique_ptr<Cholesky> factor_;  // dense: of the rows of others_ alone; else of all
   SparseMatrix coupling_;             // dense: touched x others
   Eigen::MatrixXd schur_;             // dense: with D = I, lower triangle

@@ -15,8 +15,16 @@ class Face {
   /// The face at `argument`, that of a projection by `projector`, after a gradient step of length `step`; `stiffness`, a tenth of
   /// ||P A P||, is what curvatures are measured against. Distances from bounds below `faint` times the largest one count as none:
   /// bodies that touch without force, like the idle rollers of a bearing, are projected to next to nothing, and where that is
-  /// free the face can pull at them. Factorizes the coarse matrix, and is of use until somebody else does. Collective.
-  Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint);
+  /// free the face can pull at them. `coupled`: radii follow the discs' normal unknowns. Factorizes the coarse matrices, and is
+  /// of use until somebody else does. Collective.
+  Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint, bool coupled = false);
+
+  /// Whether any disc, on any rank, slips whose radius follows a normal unknown that is free. Then what moves is T x, and what
+  /// is felt of a gradient is what x feels: the face is not symmetric.
+  bool coupled() const { return coupled_; }
+  /// x becomes T d with G T d = 0, T d = d + coefficient d[normal] n at discs that slip in the direction n, and d nearly the free
+  /// part of x. Collective.
+  void project_trial(Vector& x, int sweeps = 2) const;
 
   /// y += Sigma x.
   void add_curvature(const Vector& x, Vector& y) const;
@@ -30,6 +38,10 @@ class Face {
   /// The transpose of project(): the part of a gradient that free directions feel. Collective.
   void project_gradient(Vector& x, int sweeps = 2) const { sweep(x, false, sweeps); }
 
+  /// x becomes x + G'nu with the nu that leaves least of it to free directions: the reaction of the constraints, to the gradient
+  /// x. Returns the part of it that unknowns which are free without curvature feel still. Collective.
+  Vector reduce(Vector& x) const;
+
   /// Unknowns of this rank that are not free at all.
   const std::vector<Local>& fixed() const { return fixed_; }
 
@@ -42,6 +54,13 @@ class Face {
     Eigen::Vector2d tangent;
     double curvature, weight;
   };
+  struct Coupling {
+    Local normal;
+    std::array<Local, 2> index;
+    Eigen::Vector2d direction;  // coefficient n
+  };
+  void extend(Vector& x) const;               // x = T x
+  void extend_transpose(Vector& x) const;     // x = T' x, but for restrict()
   void restrict(Vector& x, int power) const;  // x = w^power Pi x
   void sweep(Vector& x, bool direction, int sweeps) const;
 
@@ -49,6 +68,9 @@ class Face {
   CoarseMatrix& matrix_;
   std::vector<Local> fixed_;
   std::vector<Slip> slips_;
+  std::vector<Coupling> couplings_;
+  bool coupled_ = false;
+  CoarseMatrix* trial_matrix_ = nullptr;
 };
 
 }  // namespace mortise::qp

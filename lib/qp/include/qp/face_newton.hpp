@@ -37,11 +37,21 @@ class FaceNewton {
     Vector direction, image;  // image: P (A + Sigma) direction
     double energy;            // direction . image
   };
-  struct State;
+  static constexpr double step_length = 2.0;      // of the gradient step that picks the face, over ||P A P||
+  static constexpr double inner_reduction = 0.2;  // of the projected gradient on one face
+
+  struct State {
+    explicit State(const Teuchos::RCP<const Map>& map) : z(map), g(map), y(map), gy(map) {}
+    Vector z, g;   // a point of C and A z - b
+    Vector y, gy;  // the solution on its face, which may lie outside Omega, and A y - b
+  };
   void precondition(const Face& face, const Vector& residual, Vector& z) const;
   double energy_measure(const Vector& residual) const;
   bool soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const;
   bool look_for_start(State& state, double energy);
+  Vector look_beyond(const Face& face, const State& state) const;
+  void recycle(std::deque<Pair> fresh);
+  bool descend_coupled(const Face& face, double goal, const std::function<void()>& report, State& state);
   bool descend(const Face& face, double goal, const std::function<void()>& report, State& state);
 
   const Problem& problem_;

@@ -25,6 +25,8 @@ struct Disc {
   std::array<Local, 2> index{-1, -1};  ///< the second is -1 for an interval
   double radius = std::numeric_limits<double>::infinity();
   std::array<double, 2> centre{0, 0};
+  Local normal = -1;       ///< Coulomb friction: the unknown that the radius follows,
+  double coefficient = 0;  ///< radius = coefficient * x[normal], from one set of radii to the next
 
   int size() const { return index[1] < 0 ? 1 : 2; }
 };
@@ -40,6 +42,8 @@ class FeasibleSet {
 
   /// New radii, one for each disc.
   void set_radii(std::span<const double> radii);
+  /// The coefficients of Coulomb friction, one for each disc; 0 where the radius is given.
+  void set_coefficients(std::span<const double> coefficients);
 
   /// Omega - shift: the set of all x - shift.
   FeasibleSet shifted(const Eigen::Ref<const Eigen::VectorXd>& shift) const;

@@ -31,12 +31,15 @@ class Projector {
 
   /// Its matrix, which a caller may factorize for its own purposes between two projections.
   CoarseMatrix& matrix() { return matrix_; }
+  /// A second one, made when it is asked for first. Collective.
+  CoarseMatrix& trial_matrix();
   const EqualityConstraint& equality() const { return equality_; }
   const FeasibleSet& set() const { return set_; }
 
  private:
   struct Evaluation;
   Evaluation evaluate(const Eigen::VectorXd& y, const Eigen::VectorXd& gy, Eigen::VectorXd nu, const FeasibleSet& set) const;
+  double search(const Evaluation& now, const Evaluation& full, const Eigen::VectorXd& direction, const FeasibleSet& set) const;
   std::vector<LostBlock> lost(const Eigen::VectorXd& w) const;
 
   const EqualityConstraint& equality_;
@@ -44,6 +47,7 @@ class Projector {
   std::vector<Local> constrained_;  // unknowns of this rank
   SparseMatrix columns_;            // G over them
   CoarseMatrix matrix_;
+  std::unique_ptr<CoarseMatrix> trial_matrix_;
 };
 
 /// One projection. Collective.

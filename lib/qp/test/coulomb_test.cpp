@@ -1,0 +1,98 @@
+// Face Newton where the radii of discs follow other unknowns, and the face that it then works on.
+#include <gtest/gtest.h>
+
+#include "qp/face_newton.hpp"
+#include "random_programme.hpp"
+
+namespace mortise::qp {
+namespace {
+
+std::vector<double> radii(const FeasibleSet& set, const Vector& x)
+{
+  std::vector<double> result;
+  for (const auto& disc : set.discs()) result.push_back(disc.coefficient * std::max(view(x)[disc.normal], 0.0));
+  return result;
+}
+
+// Coulomb's law: radii that the normal unknowns ask for.
+class CoulombRenewal {
+ public:
+  explicit CoulombRenewal(FeasibleSet& set) : set_(set) {}
+  Renewal renewal()
+  {
+    return {[this](const Vector& x, bool apply) { return renew(x, apply); }, [] {}};
+  }
+
+ private:
+  double renew(const Vector& x, bool apply)
+  {
+    const auto wanted = radii(set_, x);
+    double square = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) square += std::pow(wanted[i] - set_.discs()[i].radius, 2);
+    if (apply) set_.set_radii(wanted);
+    return std::sqrt(world().sum(square));
+  }
+  FeasibleSet& set_;
+};
+
+// At a solution every tangential unknown lies in the disc that its own normal unknown gives, and the KKT conditions hold there.
+TEST(Coulomb, RadiiBelongToTheSolution)
+{
+  constexpr double coefficient =
+      0.3;  // faces can take turns for ever with others; friction::Solver then goes on by Tresca problems
+  RandomProgramme programme;
+  auto& set = programme.set;
+  Eigen::VectorXd pressed = Eigen::VectorXd::Zero(RandomProgramme::n);  // feasible whatever the coefficient
+  for (Eigen::Index i = 0; i < pressed.size(); i += 3) pressed[i] = 1;
+  programme.equality.set_right_side(programme.g * pressed);
+  set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
+  set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
+  CoulombRenewal law(set);
+  const Renewal renewal = law.renewal();
+  // Normal and tangential unknowns of bodies have little to do with each other; those of a random matrix have.
+  const Eigen::MatrixXd dense = programme.dense + Eigen::MatrixXd::Identity(RandomProgramme::n, RandomProgramme::n);
+  const DenseOperator a(dense, programme.map, world());
+  Hessian hessian(a, 20000);
+  const Problem problem{hessian, programme.b, programme.equality, set};
+  const Solution solution = FaceNewton(problem, nullptr).solve({}, {1e-9, {}}, &renewal, {});
+  ASSERT_TRUE(solution.feasible);
+  EXPECT_TRUE(solution.converged);
+  set.set_radii(radii(set, solution.x));
+  EXPECT_LT(kkt(solution, problem), 1e-6);
+  const auto active = set.active(view(solution.x));
+  EXPECT_GE(world().sum(active.discs), 3);  // else nothing slips, and this tells nothing
+  EXPECT_LT(hessian.count(), 60);
+}
+
+// Where a disc slips whose radius follows x[normal], what moves goes along with it: x_t . n = coefficient x[normal].
+TEST(Face, WhatMovesKeepsToTheLawOfFriction)
+{
+  constexpr double coefficient = 0.4;
+  RandomProgramme programme;
+  auto& set = programme.set;
+  set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
+  Projector projector(programme.equality, set);
+  Vector argument = local_part(10 * programme.random(RandomProgramme::n, 1), programme.map);
+  const Face face(projector, argument, 1, 1, 0, true);
+  ASSERT_TRUE(face.coupled());
+  Vector moved = local_part(programme.random(RandomProgramme::n, 1), programme.map);
+  face.project_trial(moved);
+  EXPECT_LT(programme.equality.norm(programme.equality.apply(moved)), 1e-11);
+  const auto x = view(std::as_const(moved));
+  const auto w = view(std::as_const(argument));
+  long long following = 0;
+  for (const auto& disc : set.discs()) {
+    const Eigen::Vector2d tangential(w[disc.index[0]], w[disc.index[1]]);
+    if (w[disc.normal] <= 0) {
+      EXPECT_EQ(x[disc.normal], 0);
+    } else if (tangential.norm() > disc.radius) {
+      const double along = (x[disc.index[0]] * tangential[0] + x[disc.index[1]] * tangential[1]) / tangential.norm();
+      EXPECT_NEAR(along, coefficient * x[disc.normal], 1e-12);
+      ++following;
+    }
+  }
+  EXPECT_GE(world().sum(following), 3);
+}
+
+}  // namespace
+}  // namespace mortise::qp

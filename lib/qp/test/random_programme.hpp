@@ -1,0 +1,74 @@
+// A random quadratic programme with contact points, and what tells whether it is solved.
+#pragma once
+
+#include <random>
+
+#include "dense_operator.hpp"
+#include "qp/problem.hpp"
+#include "qp/solution.hpp"
+
+namespace mortise::qp {
+
+inline const Communicator& world()
+{
+  static const Communicator comm;
+  return comm;
+}
+
+// ||x - P_Omega(x - (g + G'nu))||: zero exactly at a solution.
+inline double kkt(const Solution& solution, const Problem& problem)
+{
+  Vector moved(solution.x, Teuchos::Copy);
+  Vector gradient(solution.gradient, Teuchos::Copy);
+  if (problem.equality.size() > 0) problem.equality.add_transpose(1, solution.nu, gradient);
+  moved.update(-1, gradient, 1);
+  problem.set.project(view(moved));
+  moved.update(-1, solution.x, 1);
+  return moved.norm2();
+}
+
+// A random programme with five equalities, bounds and discs; a point inside makes it feasible.
+struct RandomProgramme {
+  static constexpr int n = 48;
+  std::mt19937 generator{7};
+  std::normal_distribution<double> normal;
+
+  Eigen::MatrixXd random(Eigen::Index rows, Eigen::Index columns)
+  {
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) { return normal(generator); });
+  }
+  static Eigen::MatrixXd definite(const Eigen::MatrixXd& root)
+  {
+    return root * root.transpose() / n + 0.05 * Eigen::MatrixXd::Identity(n, n);
+  }
+  // In blocks of three: a bound and a disc; blocks never straddle two ranks.
+  static Teuchos::RCP<const Map> blocks_of_three()
+  {
+    const Local blocks = n / 3 / world().size() + (world().rank() < n / 3 % world().size() ? 1 : 0);
+    return Teuchos::rcp(new Map(n, static_cast<std::size_t>(3 * blocks), 0, teuchos(world())));
+  }
+  static FeasibleSet bounds_and_discs(Local size)
+  {
+    std::vector<Bound> bounds;
+    std::vector<Disc> discs;
+    for (Local i = 0; i < size; i += 3) {
+      bounds.push_back({i, 0});
+      discs.push_back({{i + 1, i + 2}, 0.6, {0, 0}});
+      discs.back().normal = i;
+    }
+    return {bounds, discs};
+  }
+
+  Eigen::MatrixXd dense = definite(random(n, n));
+  Eigen::MatrixXd g = random(5, n);
+  Eigen::VectorXd inside = 0.1 * random(n, 1).cwiseAbs();
+  Teuchos::RCP<const Map> map = blocks_of_three();
+  FeasibleSet set = bounds_and_discs(static_cast<Local>(map->getNodeNumElements()));
+  DenseOperator a{dense, map, world()};
+  EqualityConstraint equality{local_columns(g, *map), g* inside, world()};
+  Hessian hessian{a, 20000};
+  Vector b = local_part(random(n, 1), map);
+  Problem problem{hessian, b, equality, set};
+};
+
+}  // namespace mortise::qp
