@@ -267,8 +267,10 @@ void Solver::fixed_point(Run& run)
   int infeasible = 0;
   while (!run.settled) {
     ++run.step;
-    // Looser again would bring swings of its own.
-    const double tolerance = std::max(run.goal.residual, std::min(loose, 0.1 * run.least_change));
+    // Looser again would bring swings of its own; and bounds that rest but for a loose tolerance would stay where they are.
+    const double tightest = run.goal.allowed_error ? 0.1 * options_.tolerance : run.goal.residual;
+    const double tolerance =
+        run.least_change <= options_.tolerance ? tightest : std::max(tightest, std::min(loose, 0.1 * run.least_change));
     const bool first = !run.solved;
     if (!solve_tresca({tolerance, {}}, run)) {
       // Bounds from inexact normal forces may fall short by as much: go half way back before giving up.

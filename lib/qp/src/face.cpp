@@ -38,7 +38,7 @@ void factorize(CoarseMatrix& matrix, const std::vector<LostBlock>& lost)
 }  // namespace
 
 Face::Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint, bool coupled)
-    : equality_(projector.equality()), matrix_(projector.matrix())
+    : equality_(projector.equality()), matrix_(projector.matrix()), trial_matrix_(&matrix_)
 {
   const auto& set = projector.set();
   const auto w = view(argument);
@@ -78,8 +78,7 @@ Face::Face(Projector& projector, const Vector& argument, double step, double sti
         Eigen::Matrix2d::Identity() - slip.weight * slip.weight * slip.tangent * slip.tangent.transpose();
   }
   factorize(matrix_, lost);
-  coupled_ = coupled && equality_.communicator().sum(static_cast<long long>(couplings_.size())) > 0;
-  if (!coupled_) return;
+  if (!coupled || equality_.communicator().sum(static_cast<long long>(couplings_.size())) == 0) return;
   // I - T w^2 T': what I - w^2 Pi takes away, less the rest of (1, c)(1, c)'.
   for (const auto& coupling : couplings_) {
     const Eigen::Vector3d e(coupling.direction[0], 1, coupling.direction[1]);
@@ -136,13 +135,22 @@ void Face::extend_transpose(Vector& x) const
         values[coupling.normal] += coupling.direction[static_cast<Eigen::Index>(k)] * values[coupling.index[k]];
 }
 
-void Face::project_trial(Vector& x, int sweeps) const
+void Face::keep_held(Vector& x) const
+{
+  Vector moved(x, Teuchos::Copy);
+  restrict(moved, 0);
+  extend(moved);
+  x.update(-1, moved, 1);
+}
+
+void Face::project_trial(Vector& x, const Vector& held) const
 {
   restrict(x, 0);
   extend(x);
+  x.update(1, held, 1);
   if (equality_.size() == 0) return;
   Vector part(x.getMap());
-  for (int repeat = 0; repeat < sweeps; ++repeat) {
+  for (int repeat = 0; repeat < 2; ++repeat) {
     const Eigen::VectorXd nu = trial_matrix_->solve(equality_.apply(x));
     part.putScalar(0);
     equality_.add_transpose(1, nu, part);

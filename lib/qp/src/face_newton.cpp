@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "qp/norm.hpp"
 
@@ -20,9 +21,9 @@ constexpr double longer = 4.0;                // from one of the steps that a st
 constexpr double soft = 0.25;                 // curvature along the first step over ||P A P|| below which one is looked for
 constexpr int max_starts = 10;                // attempts
 constexpr int patience = 20;                  // faces without a better residual after which it gives up
-constexpr int renewal_patience = 4;           // the same where slip bounds move, for then there is another way
-constexpr std::size_t max_recycled = 40;      // pairs kept from face to face
-constexpr double recycled_bytes = 1e9;        // that they may take of each rank; at least 10 are kept
+constexpr int renewal_patience = 10;          // the same where slip bounds move, for then there is another way
+constexpr std::size_t max_known = 60;         // products kept from face to face
+constexpr double known_bytes = 1e9;           // that they may take of each rank; at least 10 are kept
 constexpr int settlings = 2;                  // renewals of slip bounds by a projection's own normal forces
 constexpr int max_retreats = 8;               // of slip bounds
 constexpr int max_retreats_to_z = 2;          // quarters of the way back, before the step becomes a gradient projection
@@ -59,8 +60,9 @@ FaceNewton::FaceNewton(const Problem& problem, FacePreconditioner* preconditione
 {
   const auto constraints = static_cast<long long>(problem.set.bounds().size() + problem.set.discs().size());
   only_face_ = problem.equality.communicator().sum(constraints) == 0;
-  const double pair = 16.0 * static_cast<double>(problem.linear.getGlobalLength()) / problem.equality.communicator().size();
-  kept_ = static_cast<std::size_t>(std::clamp(recycled_bytes / std::max(pair, 1.0), 10.0, static_cast<double>(max_recycled)));
+  // Three vectors each, and three more while a face uses them.
+  const double pair = 48.0 * static_cast<double>(problem.linear.getGlobalLength()) / problem.equality.communicator().size();
+  kept_ = static_cast<std::size_t>(std::clamp(known_bytes / std::max(pair, 1.0), 10.0, static_cast<double>(max_known)));
 }
 
 // r'Mr, about the square of the error that the residual stands for.
@@ -84,6 +86,17 @@ Vector FaceNewton::look_beyond(const Face& face, const State& state) const
   const Vector felt = face.reduce(reaction);
   Vector beyond(state.y, Teuchos::Copy);
   beyond.update(-longer_step * step, reaction, (longer_step - 1) * step, felt, 1);
+  // Slip that goes back sticks first: nobody crosses the disc to slip in the opposite direction.
+  const auto from = view(std::as_const(state.y));
+  auto to = view(beyond);
+  for (const auto& disc : problem_.set.discs()) {
+    if (!(disc.coefficient > 0)) continue;
+    const Eigen::Vector2d start = from_centre(disc, from), way = from_centre(disc, to) - start;
+    const double part = -start.dot(way) / std::max(way.squaredNorm(), std::numeric_limits<double>::min());
+    const Eigen::Vector2d nearest = start + part * way;
+    if (part <= 0 || part >= 1 || nearest.norm() >= disc.coefficient * std::max(from[disc.normal], 0.0)) continue;
+    for (int k = 0; k < disc.size(); ++k) to[disc.index[static_cast<std::size_t>(k)]] -= (1 - part) * way[k];
+  }
   return beyond;
 }
 
@@ -123,6 +136,8 @@ bool FaceNewton::look_for_start(State& state, double energy)
     energy = next_energy;
     found = true;
   }
+  y.assign(z);
+  gy.assign(g);
   return found;
 }
 
@@ -268,7 +283,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     else if (only_face_)
       enough = inner_reduction * worst;
     const auto watch = [&] { report("inner"); };
-    moved = face.coupled() ? descend_coupled(face, enough, watch, state) : descend(face, enough, watch, state);
+    moved = only_face_ ? descend_alone(face, enough, watch, state) : descend(face, enough, watch, state);
     if (renewal) {
       beyond.emplace(look_beyond(face, state));
       nu.setZero();  // it has gone into that

@@ -74,9 +74,8 @@ TEST(Face, WhatMovesKeepsToTheLawOfFriction)
   Projector projector(programme.equality, set);
   Vector argument = local_part(10 * programme.random(RandomProgramme::n, 1), programme.map);
   const Face face(projector, argument, 1, 1, 0, true);
-  ASSERT_TRUE(face.coupled());
-  Vector moved = local_part(programme.random(RandomProgramme::n, 1), programme.map);
-  face.project_trial(moved);
+  Vector moved = local_part(programme.random(RandomProgramme::n, 1), programme.map), held(programme.map);
+  face.project_trial(moved, held);
   EXPECT_LT(programme.equality.norm(programme.equality.apply(moved)), 1e-11);
   const auto x = view(std::as_const(moved));
   const auto w = view(std::as_const(argument));
@@ -92,6 +91,19 @@ TEST(Face, WhatMovesKeepsToTheLawOfFriction)
     }
   }
   EXPECT_GE(world().sum(following), 3);
+  held.assign(moved);
+  face.keep_held(held);
+  EXPECT_LT(held.normInf(), 1e-12);
+
+  // What leads off the constraints stays as it is wanted.
+  Vector wanted = local_part(programme.random(RandomProgramme::n, 1), programme.map);
+  face.keep_held(wanted);
+  EXPECT_GT(wanted.norm2(), 0.1);
+  face.project_trial(moved, wanted);
+  EXPECT_LT(programme.equality.norm(programme.equality.apply(moved)), 1e-11);
+  face.keep_held(moved);
+  moved.update(-1, wanted, 1);
+  EXPECT_LT(moved.normInf(), 1e-12);
 }
 
 }  // namespace

@@ -15,16 +15,18 @@ class Face {
   /// The face at `argument`, that of a projection by `projector`, after a gradient step of length `step`; `stiffness`, a tenth of
   /// ||P A P||, is what curvatures are measured against. Distances from bounds below `faint` times the largest one count as none:
   /// bodies that touch without force, like the idle rollers of a bearing, are projected to next to nothing, and where that is
-  /// free the face can pull at them. `coupled`: radii follow the discs' normal unknowns. Factorizes the coarse matrices, and is
-  /// of use until somebody else does. Collective.
+  /// free the face can pull at them. `coupled`: radii follow the discs' normal unknowns; then
+  /// what moves is T x, and what is felt of a gradient is what x feels, so that the face is not symmetric. Factorizes the coarse
+  /// matrices, and is of use until somebody else does. Collective.
   Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint, bool coupled = false);
 
-  /// Whether any disc, on any rank, slips whose radius follows a normal unknown that is free. Then what moves is T x, and what
-  /// is felt of a gradient is what x feels: the face is not symmetric.
-  bool coupled() const { return coupled_; }
-  /// x becomes T d with G T d = 0, T d = d + coefficient d[normal] n at discs that slip in the direction n, and d nearly the free
-  /// part of x. Collective.
-  void project_trial(Vector& x, int sweeps = 2) const;
+  /// x becomes its free part, without held unknowns and with the tangents alone of discs that slip.
+  void keep_free(Vector& x) const { restrict(x, 0); }
+  /// x becomes x - T d, d its free part: how far it leads off the constraints. T d = d + coefficient d[normal] n at discs that
+  /// slip in the direction n and follow a normal unknown.
+  void keep_held(Vector& x) const;
+  /// x becomes T d + held with G x = 0, d nearly its free part; `held` as keep_held() leaves it. Collective.
+  void project_trial(Vector& x, const Vector& held) const;
 
   /// y += Sigma x.
   void add_curvature(const Vector& x, Vector& y) const;
@@ -69,8 +71,7 @@ class Face {
   std::vector<Local> fixed_;
   std::vector<Slip> slips_;
   std::vector<Coupling> couplings_;
-  bool coupled_ = false;
-  CoarseMatrix* trial_matrix_ = nullptr;
+  CoarseMatrix* trial_matrix_;  // of T w^2 T'; matrix_ where nothing is coupled
 };
 
 }  // namespace mortise::qp

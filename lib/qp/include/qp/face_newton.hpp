@@ -34,8 +34,9 @@ class FaceNewton {
 
  private:
   struct Pair {
-    Vector direction, image;  // image: P (A + Sigma) direction
-    double energy;            // direction . image
+    Vector direction, product, image;  // product: A direction, image: P (A + Sigma) direction
+    double energy;                     // direction . image
+    bool step;                         // of a descent, and so of use to the preconditioner; else that of a projection
   };
   static constexpr double step_length = 2.0;      // of the gradient step that picks the face, over ||P A P||
   static constexpr double inner_reduction = 0.2;  // of the projected gradient on one face
@@ -50,14 +51,14 @@ class FaceNewton {
   bool soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const;
   bool look_for_start(State& state, double energy);
   Vector look_beyond(const Face& face, const State& state) const;
-  void recycle(std::deque<Pair> fresh);
-  bool descend_coupled(const Face& face, double goal, const std::function<void()>& report, State& state);
+  void learn(const Face& face, const Vector& direction, const Vector& product, bool step);
+  bool descend_alone(const Face& face, double goal, const std::function<void()>& report, State& state);
   bool descend(const Face& face, double goal, const std::function<void()>& report, State& state);
 
   const Problem& problem_;
   FacePreconditioner* preconditioner_;
   Projector projector_;
-  std::deque<Pair> recycled_;
+  std::deque<Pair> known_;
   std::size_t kept_ = 0;    // of them, the same on every rank
   bool only_face_ = false;  // no bounds, no discs: conjugate gradients to the end
   double norm_ = 0;
