@@ -10,6 +10,7 @@
 #include "constraint/renewal.hpp"
 #include "constraint/supports.hpp"
 #include "fem/stiffness.hpp"
+#include "feti/placement.hpp"
 #include "report.hpp"
 
 namespace mortise {
@@ -142,7 +143,16 @@ void Simulation::constrain(const LoadState& state)
   constraints_.held = constraint::hold(supports_, support_nodes_, deck_.dimension(), comm, aligned);
   constraints_.inclined = constraint::incline(supports_, normals, constraints_.held, comm);
   constraints_.contacts = contact::discretize(pairs_, constraints_.held, deck_.kinematics, comm, constraints_.inclined);
+  place_rows();
   find_cuts();
+}
+
+void Simulation::place_rows()
+{
+  if (!directory_) return;
+  constraints_.held = feti::place(constraints_.held, decomposition_, *directory_, context_.comm);
+  constraints_.inclined = feti::place(constraints_.inclined, decomposition_, *directory_, context_.comm);
+  constraints_.contacts = feti::place(constraints_.contacts, decomposition_, *directory_, context_.comm);
 }
 
 void Simulation::find_cuts()
@@ -162,7 +172,8 @@ bool Simulation::move_constraints(const LoadState& state)
     // What is held along normals may stand in many rows.
     if (std::any_of(deck_.supports.begin(), deck_.supports.end(), [](const auto& s) { return s.normal.has_value(); }))
       return false;
-    auto held = constraint::hold(supports, support_nodes_, deck_.dimension(), context_.comm);
+    auto held = feti::place(constraint::hold(supports, support_nodes_, deck_.dimension(), context_.comm), decomposition_,
+                            *directory_, context_.comm);
     if (!constraint::move_supports(constraints_, std::move(held), supports, supports_, context_.comm)) return false;
   }
   for (std::size_t c = 0; c < deck_.contacts.size(); ++c) {
@@ -189,6 +200,8 @@ void Simulation::factorize(const std::vector<partition::CopyOf>& copies)
                                                                 : floating_.nodal_stiffness[copies[s].original]);
   directory_.emplace(decomposition_, floating_.nodal_stiffness, comm);
   interface_ = partition::find_interface(decomposition_, *directory_, comm);
+  place_rows();
+  find_cuts();
   floating_.kinematics = deck_.kinematics;
   const auto scope = timers.scope("factorization");
   collectively(comm, [&] { floating_.subdomains = factors(deck_, decomposition_, copies, std::move(stiffness)); });

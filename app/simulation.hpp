@@ -38,6 +38,7 @@ class Simulation {
  private:
   void constrain(const LoadState& state);
   bool move_constraints(const LoadState& state);
+  void place_rows();  // where their nodes live, once that is known
   void build_problem();
   void find_cuts();
   void rebuild(const LoadState& state, bool moved);

@@ -1,7 +1,7 @@
 #include "base/communicator.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 namespace mortise {
 namespace {
@@ -58,9 +58,18 @@ void Communicator::broadcast_bytes(void* data, std::size_t bytes, int from) cons
 
 std::vector<char> Communicator::all_gather_bytes(const void* data, std::size_t bytes) const
 {
-  std::vector<std::pair<const void*, std::size_t>> parts(size_, {data, bytes});
-  std::vector<char> result;
-  for (const auto& part : exchange_bytes(parts)) result.insert(result.end(), part.begin(), part.end());
+  const unsigned long long mine = bytes;
+  std::vector<unsigned long long> sizes(size_), places(size_);
+  MPI_Allgather(&mine, 1, MPI_UNSIGNED_LONG_LONG, sizes.data(), 1, MPI_UNSIGNED_LONG_LONG, comm_);
+  std::exclusive_scan(sizes.begin(), sizes.end(), places.begin(), 0ULL);
+  std::vector<char> result(places.back() + sizes.back());
+  if (result.size() <= piece) {
+    const std::vector<int> counts(sizes.begin(), sizes.end()), starts(places.begin(), places.end());
+    MPI_Allgatherv(data, counts[rank_], MPI_BYTE, result.data(), counts.data(), starts.data(), MPI_BYTE, comm_);
+  } else {
+    if (bytes > 0) std::memcpy(result.data() + places[rank_], data, bytes);
+    for (int r = 0; r < size_; ++r) broadcast_bytes(result.data() + places[r], sizes[r], r);
+  }
   return result;
 }
 

@@ -1,0 +1,169 @@
+#include "feti/placement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <tuple>
+#include <utility>
+
+namespace mortise::feti {
+
+namespace {
+
+using Vector3 = std::array<double, 3>;
+
+template <class T>
+using ByRank = std::vector<std::vector<T>>;
+
+// The rank of each entry's row.
+template <class T>
+std::vector<std::size_t> ranks_of(std::span<const T> entries, const partition::Decomposition& decomposition,
+                                  const partition::NodeDirectory& directory, const Communicator& comm)
+{
+  std::vector<Global> nodes;
+  for (const auto& entry : entries) nodes.push_back(entry.node);
+  const auto copies = directory.find(nodes, comm);
+  std::vector<std::size_t> ranks;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    assert(!copies[i].empty());  // boundaries lie on surfaces
+    ranks.push_back(static_cast<std::size_t>(decomposition.rank_of(copies[i][0].subdomain)));
+  }
+  return ranks;
+}
+
+template <class T>
+std::vector<T> deliver(std::span<const T> entries, const partition::Decomposition& decomposition,
+                       const partition::NodeDirectory& directory, const Communicator& comm)
+{
+  const auto ranks = ranks_of(entries, decomposition, directory, comm);
+  ByRank<T> send(static_cast<std::size_t>(comm.size()));
+  for (std::size_t i = 0; i < entries.size(); ++i) send[ranks[i]].push_back(entries[i]);
+  std::vector<T> result;
+  for (const auto& part : comm.exchange(send)) result.insert(result.end(), part.begin(), part.end());
+  return result;
+}
+
+Vector3 array(const Point& p)
+{
+  return {p[0], p[1], p[2]};
+}
+Point point(const Vector3& v)
+{
+  return {v[0], v[1], v[2]};
+}
+
+// A contact point on its way.
+struct SentPoint {
+  int contact, tangent_count;
+  bool bonded;
+  Global node;
+  double area, weight, gap;
+  Vector3 normal, at;
+  std::array<Vector3, 2> tangents;
+};
+
+struct SentRow {
+  double bound;
+  std::size_t entries;
+};
+
+SentPoint pack(const constraint::ContactPoint& from, bool bonded)
+{
+  SentPoint to{};
+  to.contact = from.contact;
+  to.tangent_count = static_cast<int>(from.tangents.size());
+  to.bonded = bonded;
+  to.node = from.node;
+  to.area = from.area;
+  to.weight = from.weight;
+  to.gap = from.gap;
+  to.normal = array(from.normal);
+  to.at = array(from.at);
+  std::transform(from.tangents.begin(), from.tangents.end(), to.tangents.begin(), array);
+  return to;
+}
+
+constraint::ContactPoint unpack(const SentPoint& from, std::size_t row)
+{
+  constraint::ContactPoint to{from.contact, from.node,   from.area, point(from.normal), {},
+                              row,          from.weight, from.gap,  point(from.at)};
+  for (int t = 0; t < from.tangent_count; ++t) to.tangents.push_back(point(from.tangents[static_cast<std::size_t>(t)]));
+  return to;
+}
+
+}  // namespace
+
+std::vector<constraint::Held> place(std::span<const constraint::Held> held, const partition::Decomposition& decomposition,
+                                    const partition::NodeDirectory& directory, const Communicator& comm)
+{
+  auto result = deliver(held, decomposition, directory, comm);
+  std::sort(result.begin(), result.end(), [](const constraint::Held& a, const constraint::Held& b) {
+    return std::tie(a.node, a.component) < std::tie(b.node, b.component);
+  });
+  return result;
+}
+
+std::vector<constraint::Inclined> place(std::span<const constraint::Inclined> inclined,
+                                        const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
+                                        const Communicator& comm)
+{
+  auto result = deliver(inclined, decomposition, directory, comm);
+  std::stable_sort(result.begin(), result.end(),
+                   [](const constraint::Inclined& a, const constraint::Inclined& b) { return a.node < b.node; });
+  return result;
+}
+
+constraint::Contacts place(const constraint::Contacts& contacts, const partition::Decomposition& decomposition,
+                           const partition::NodeDirectory& directory, const Communicator& comm)
+{
+  const auto size = static_cast<std::size_t>(comm.size());
+  const auto ranks = ranks_of(std::span(contacts.points), decomposition, directory, comm);
+  ByRank<SentPoint> points(size);
+  ByRank<SentRow> rows(size);
+  ByRank<constraint::Entry> entries(size);
+  ByRank<constraint::HeldEntry> held(size);  // their rows are counted among those that go to the same rank
+  std::vector<std::pair<std::size_t, std::size_t>> place_of(contacts.rows.size());  // rank, row among those that go there
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    const auto& p = contacts.points[i];
+    const auto to = ranks[i];
+    points[to].push_back(pack(p, contacts.bonded[i]));
+    for (std::size_t r = p.row; r <= p.row + p.tangents.size(); ++r) {
+      const auto row = contacts.rows[r];
+      place_of[r] = {to, rows[to].size()};
+      rows[to].push_back({contacts.rows.bound[r], row.size()});
+      entries[to].insert(entries[to].end(), row.begin(), row.end());
+    }
+  }
+  for (auto entry : contacts.held) {
+    const auto [to, row] = place_of[entry.row];
+    entry.row = row;
+    held[to].push_back(entry);
+  }
+
+  const auto points_in = comm.exchange(points);
+  const auto rows_in = comm.exchange(rows);
+  const auto entries_in = comm.exchange(entries);
+  const auto held_in = comm.exchange(held);
+  constraint::Contacts result;
+  for (std::size_t from = 0; from < size; ++from) {
+    for (auto entry : held_in[from]) {
+      entry.row += result.rows.size();
+      result.held.push_back(entry);
+    }
+    auto row = rows_in[from].begin();
+    auto entry = entries_in[from].begin();
+    for (const auto& p : points_in[from]) {
+      result.points.push_back(unpack(p, result.rows.size()));
+      result.bonded.push_back(p.bonded);
+      for (int r = 0; r <= p.tangent_count; ++r, ++row) {
+        const auto end = entry + static_cast<std::ptrdiff_t>(row->entries);
+        result.rows.entries.insert(result.rows.entries.end(), entry, end);
+        result.rows.close(row->bound);
+        entry = end;
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace mortise::feti
