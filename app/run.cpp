@@ -80,21 +80,22 @@ class History {
       const auto measures = options.algorithm == "smalse"
                                 ? fmt::format("gradient {:.1e}, equality {:.1e}", p.projected_gradient, p.equality)
                                 : fmt::format("residual {:.1e}", std::max(p.projected_gradient, p.equality));
-      context_.log.progress("  {}outer {}, {} products, {} (tolerance {}); {} open, {} slipping on rank 0",
+      context_.log.progress("  {}outer {}, {} products, {} (tolerance {}){}",
                             step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer, p.multiplications, measures,
-                            options.tolerance.value ? fmt::format("{:.1e}", *options.tolerance.value) : "auto", p.active.bounds,
-                            p.active.discs);
+                            options.tolerance.value ? fmt::format("{:.1e}", *options.tolerance.value) : "auto", active_);
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
     text_ += fmt::format("{},{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{},{}\n", p.what, step, p.outer, p.multiplications,
                          p.preconditionings, p.projected_gradient, p.equality, change, p.precision, bounds, discs, state.time);
+    active_ = fmt::format("; {} open, {} slipping", bounds, discs);
   }
   const std::string& text() const { return text_; }
 
  private:
   const Deck& deck_;
   const Context& context_;
+  std::string active_;  // contact points of all ranks at the end of the last outer iteration
   std::string text_ =
       "stage,friction_step,outer_iteration,hessian_multiplications,preconditionings,projected_gradient,equality,slip_bound_"
       "change,precision,open,"
