@@ -263,6 +263,7 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
   summary.primal_unknowns = comm.sum(unknowns);
   summary.dual_unknowns = problem.dual_unknowns();
   summary.subdomains = decomposition.subdomain_count();
+  summary.clusters = decomposition.clustered() ? decomposition.cluster_count() : 0;
   summary.kernel_dimension = problem.kernel_dimension();
   summary.bodies = static_cast<Global>(decomposition.catalogue.bodies.size());
   summary.max_displacement = comm.max(largest);

@@ -25,10 +25,11 @@ void print_header(const Deck& deck, const partition::Decomposition& decompositio
 {
   const auto& catalogue = decomposition.catalogue;
   context.log.line("Mortise {}: {}", MORTISE_VERSION, deck.title.empty() ? "(no title)" : deck.title);
-  context.log.line("  {} bodies, {} nodes, {} cells, {} unknowns; {} subdomains on {} ranks; {} contacts",
+  context.log.line("  {} bodies, {} nodes, {} cells, {} unknowns; {} subdomains{} on {} ranks; {} contacts",
                    catalogue.bodies.size(), catalogue.node_count, catalogue.cell_count,
-                   catalogue.node_count * catalogue.dimension, decomposition.subdomain_count(), context.comm.size(),
-                   deck.contacts.size());
+                   catalogue.node_count * catalogue.dimension, decomposition.subdomain_count(),
+                   decomposition.clustered() ? fmt::format(" in {} clusters", decomposition.cluster_count()) : "",
+                   context.comm.size(), deck.contacts.size());
 }
 
 // --check: what would be solved.

@@ -204,7 +204,10 @@ void Simulation::factorize(const std::vector<partition::CopyOf>& copies)
   find_cuts();
   floating_.kinematics = deck_.kinematics;
   const auto scope = timers.scope("factorization");
-  collectively(comm, [&] { floating_.subdomains = factors(deck_, decomposition_, copies, std::move(stiffness)); });
+  collectively(comm, [&] {
+    floating_.clusters = feti::Clusters(decomposition_, interface_, factors(deck_, decomposition_, copies, std::move(stiffness)),
+                                        floating_.nodal_stiffness, deck_.kinematics);
+  });
 }
 
 void Simulation::build_problem()

@@ -2,31 +2,57 @@
 
 namespace mortise::feti {
 
-SparseMatrix coarse_rows(const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
-                         const KernelNumbering& numbering, const Communicator& comm)
+namespace {
+
+// What is left of a row's part of G when its subdomains take from each other, as gluing inside a cluster does, is rounding.
+constexpr double rounding = 1e-10;
+
+}  // namespace
+
+SparseMatrix coarse_rows(const JumpOperator& jump, const Clusters& clusters, const Communicator& comm)
 {
-  std::vector<Eigen::MatrixXd> parts;
-  std::vector<int> first;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    const auto& block = jump.blocks()[s];
-    const Eigen::MatrixXd kernel = subdomains[s]->kernel().transpose();
-    auto& part = parts.emplace_back(Eigen::MatrixXd::Zero(kernel.rows(), static_cast<Eigen::Index>(block.row.size())));
-    for (std::size_t r = 0; r < block.row.size(); ++r)
-      for (std::size_t i = block.offset[r]; i < block.offset[r + 1]; ++i)
-        part.col(static_cast<Eigen::Index>(r)) += block.coefficient[i] * kernel.col(block.unknown[i]);
-    first.push_back(numbering.first(decomposition.subdomains[s].id));
+  std::vector<JumpOperator::Columns> parts;
+  std::vector<int> place(jump.touched_rows()->getNodeNumElements(), -1);  // of a row among those of the cluster
+  const auto& blocks = jump.blocks();
+  for (std::size_t start = 0, end = 0; start < blocks.size(); start = end) {
+    std::vector<Local> rows;
+    for (end = start; end < blocks.size() && clusters.first(end) == clusters.first(start); ++end)
+      for (const Local row : blocks[end].row)
+        if (auto& at = place[static_cast<std::size_t>(row)]; at < 0) {
+          at = static_cast<int>(rows.size());
+          rows.push_back(row);
+        }
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(clusters.modes(), count);
+    Eigen::VectorXd size = Eigen::VectorXd::Zero(count);
+    for (std::size_t s = start; s < end; ++s) {
+      const Eigen::MatrixXd kernel = clusters.kernel(s).transpose();
+      for (std::size_t r = 0; r < blocks[s].row.size(); ++r) {
+        const int at = place[static_cast<std::size_t>(blocks[s].row[r])];
+        Eigen::VectorXd part = Eigen::VectorXd::Zero(kernel.rows());
+        for (std::size_t i = blocks[s].offset[r]; i < blocks[s].offset[r + 1]; ++i)
+          part += blocks[s].coefficient[i] * kernel.col(blocks[s].unknown[i]);
+        sum.col(at) += part;
+        size[at] += part.norm();
+      }
+    }
+    JumpOperator::Columns part{clusters.first(start), {}, Eigen::MatrixXd(sum.rows(), count)};
+    for (Eigen::Index r = 0; r < count; ++r) {
+      const Local row = rows[static_cast<std::size_t>(r)];
+      place[static_cast<std::size_t>(row)] = -1;
+      if (sum.col(r).norm() < rounding * size[r]) continue;
+      part.values.col(static_cast<Eigen::Index>(part.row.size())) = sum.col(r);
+      part.row.push_back(row);
+    }
+    parts.push_back(std::move(part));
   }
-  return jump.gather_columns(parts, first, numbering.first(decomposition.subdomain_count()), comm);
+  return jump.gather_columns(parts, clusters.kernel_dimension(), comm);
 }
 
-Eigen::VectorXd kernel_coordinates(const partition::Decomposition& decomposition, const Subdomains& subdomains,
-                                   const std::vector<Eigen::VectorXd>& v, const KernelNumbering& numbering,
-                                   const Communicator& comm)
+Eigen::VectorXd kernel_coordinates(const Clusters& clusters, const std::vector<Eigen::VectorXd>& v, const Communicator& comm)
 {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(numbering.first(decomposition.subdomain_count()));
-  for (std::size_t s = 0; s < subdomains.size(); ++s)
-    result.segment(numbering.first(decomposition.subdomains[s].id), numbering.dimension) =
-        subdomains[s]->kernel().transpose() * v[s];
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(clusters.kernel_dimension());
+  for (std::size_t s = 0; s < v.size(); ++s) result.segment(clusters.first(s), clusters.modes()) += clusters.coordinates(s, v[s]);
   comm.sum_in_place({result.data(), static_cast<std::size_t>(result.size())});
   return result;
 }

@@ -7,7 +7,7 @@ void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp,
   const auto scope = timers_.scope("multiplication");
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     auto forces = jump_.apply_transpose(*x.getVector(column));
-    apply_inverse(subdomains_, forces);
+    clusters_.apply_inverse(forces);
     y.getVectorNonConst(column)->update(alpha, jump_.apply(forces), beta);
   }
 }

@@ -42,11 +42,11 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
   jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints.held, constraints.inclined,
                                          constraints.contacts, std::span<const SubdomainRow>(), comm_);
   settle_free_motions(directory, interface, context);
-  hessian_ = std::make_unique<DualOperator>(*jump_, floating.subdomains, context.timers);
+  hessian_ = std::make_unique<DualOperator>(*jump_, floating.clusters, context.timers);
   if (options.preconditioner != "none") {
     collectively(comm_, [&] {
       const auto kind = options.preconditioner == "lumped" ? Preconditioner::Kind::lumped : Preconditioner::Kind::dirichlet;
-      preconditioner_ = std::make_unique<Preconditioner>(kind, decomposition, *jump_, floating.subdomains,
+      preconditioner_ = std::make_unique<Preconditioner>(kind, decomposition, *jump_, floating.clusters.subdomains(),
                                                          floating.nodal_stiffness, options.factorization, context.timers, comm_);
     });
     preconditioner_->invert_gram(floating.nodal_stiffness, decomposition.catalogue.dimension);
@@ -74,7 +74,7 @@ Eigen::Index DualProblem::tightened() const
 void DualProblem::renew_right_sides()
 {
   std::vector<Eigen::VectorXd> u = floating_.load;
-  apply_inverse(floating_.subdomains, u);
+  floating_.clusters.apply_inverse(u);
   Vector d = jump_->apply(u);
   {
     auto linear = view(d);
@@ -91,7 +91,7 @@ void DualProblem::renew_right_sides()
   else
     linear_ = std::make_unique<Vector>(d, Teuchos::Copy);
 
-  Eigen::VectorXd e = kernel_coordinates(decomposition_, floating_.subdomains, floating_.load, numbering(), comm_);
+  Eigen::VectorXd e = kernel_coordinates(floating_.clusters, floating_.load, comm_);
   const auto kernels = e.size();
   std::vector<double> forces;
   for (const auto& cut : constraints_.cuts)
@@ -131,8 +131,8 @@ bool DualProblem::renew()
 void DualProblem::settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
                                       const Context& context)
 {
-  SparseMatrix g = coarse_rows(decomposition_, *jump_, floating_.subdomains, numbering(), comm_);
-  const auto motions = find_free_motions(decomposition_, *jump_, floating_.subdomains, floating_.kinematics, g,
+  SparseMatrix g = coarse_rows(*jump_, floating_.clusters, comm_);
+  const auto motions = find_free_motions(decomposition_, *jump_, floating_.clusters, floating_.kinematics, g,
                                          constraints_.contacts, constraints_.cuts, floating_.load, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
@@ -159,7 +159,7 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
   if (!gauges.empty()) {
     jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.held, constraints_.inclined,
                                            constraints_.contacts, gauges, comm_);
-    g = coarse_rows(decomposition_, *jump_, floating_.subdomains, numbering(), comm_);
+    g = coarse_rows(*jump_, floating_.clusters, comm_);
   }
   make_equality(std::move(g));
 }
@@ -189,12 +189,11 @@ void DualProblem::make_set()
 
 std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const
 {
-  const auto kernels = numbering();
+  const auto& clusters = floating_.clusters;
   auto u = jump_->apply_transpose(lambda);
   for (std::size_t s = 0; s < u.size(); ++s) u[s] = floating_.load[s] - u[s];
-  apply_inverse(floating_.subdomains, u);
-  for (std::size_t s = 0; s < u.size(); ++s)
-    u[s] -= floating_.subdomains[s]->kernel() * nu.segment(kernels.first(decomposition_.subdomains[s].id), kernels.dimension);
+  clusters.apply_inverse(u);
+  for (std::size_t s = 0; s < u.size(); ++s) u[s] -= clusters.motion(s, nu.segment(clusters.first(s), clusters.modes()));
   return u;
 }
 
@@ -205,7 +204,7 @@ std::string DualProblem::runaway(const Eigen::VectorXd& nu) const
   double speed = -1;
   for (std::size_t b = 0; b < frames.size(); ++b) {
     const auto motion =
-        rigid_part(decomposition_, floating_.subdomains, floating_.kinematics, frames[b], static_cast<int>(b), -nu, comm_);
+        rigid_part(decomposition_, floating_.clusters, floating_.kinematics, frames[b], static_cast<int>(b), -nu, comm_);
     const double v = motion.translation.norm() + motion.rotation.norm() * frames[b].radius;
     if (v <= speed) continue;
     fastest = motion;
@@ -218,9 +217,12 @@ std::string DualProblem::runaway(const Eigen::VectorXd& nu) const
 double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const
 {
   const auto forces = jump_->apply_transpose(lambda);
+  std::vector<Eigen::VectorXd> given;
+  for (std::size_t s = 0; s < forces.size(); ++s) given.push_back(floating_.load[s] - forces[s]);
+  const auto inner = floating_.clusters.inner_forces(given);
   double residual = 0, size = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
-    residual += (floating_.subdomains[s]->apply(u[s]) + forces[s] - floating_.load[s]).squaredNorm();
+    residual += (floating_.clusters.subdomains()[s]->apply(u[s]) + forces[s] - floating_.load[s] + inner[s]).squaredNorm();
     size += floating_.load[s].squaredNorm() + forces[s].squaredNorm();
     for (Eigen::Index i = 0; i < u[s].size(); ++i) {  // what rounding makes of a rigid motion is no force
       const double k = floating_.nodal_stiffness[s][static_cast<std::size_t>(i / decomposition_.catalogue.dimension)];

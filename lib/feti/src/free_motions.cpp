@@ -52,7 +52,7 @@ RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eig
   return motion;
 }
 
-// Everything body-wise: A maps the amplitudes of the bodies' motions to kernel coordinates of the subdomains.
+// Everything body-wise: A maps the amplitudes of the bodies' motions to kernel coordinates of the clusters.
 struct Bodies {
   fem::Kinematics kinematics;
   int modes;  // of each body
@@ -62,7 +62,7 @@ struct Bodies {
   Eigen::VectorXd generalised;  // work of the loads on each unit motion
 };
 
-Bodies aggregate(const partition::Decomposition& decomposition, const Subdomains& subdomains, fem::Kinematics kinematics,
+Bodies aggregate(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
                  const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
   Bodies bodies;
@@ -71,7 +71,6 @@ Bodies aggregate(const partition::Decomposition& decomposition, const Subdomains
   bodies.modes = fem::rigid_motion_count(kinematics);
   bodies.frames = body_frames(decomposition, comm);
   const auto body_count = static_cast<Eigen::Index>(bodies.frames.size());
-  const KernelNumbering numbering(kinematics);
   struct Entry {
     int row, column;
     double value;
@@ -79,14 +78,14 @@ Bodies aggregate(const partition::Decomposition& decomposition, const Subdomains
   std::vector<Entry> entries;
   bodies.force = Eigen::VectorXd::Zero(body_count);
   bodies.generalised = Eigen::VectorXd::Zero(body_count * bodies.modes);
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     for (int k = 0; k < bodies.modes; ++k) {
       const auto v =
           sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, kinematics), subdomain.mesh.points, dimension);
-      const Eigen::VectorXd coordinates = subdomains[s]->kernel().transpose() * v;
+      const Eigen::VectorXd coordinates = clusters.coordinates(s, v);
       for (int i = 0; i < coordinates.size(); ++i)
-        entries.push_back({numbering.first(subdomain.id) + i, subdomain.body * bodies.modes + k, coordinates[i]});
+        entries.push_back({clusters.first(s) + i, subdomain.body * bodies.modes + k, coordinates[i]});
       bodies.generalised[subdomain.body * bodies.modes + k] += load[s].dot(v);
     }
     for (Eigen::Index n = 0; n < load[s].size() / dimension; ++n)
@@ -96,7 +95,7 @@ Bodies aggregate(const partition::Decomposition& decomposition, const Subdomains
   comm.sum_in_place({bodies.generalised.data(), static_cast<std::size_t>(bodies.generalised.size())});
   std::vector<Eigen::Triplet<double>> triplets;
   for (const auto& entry : comm.all_gather(entries)) triplets.emplace_back(entry.row, entry.column, entry.value);
-  bodies.aggregate.resize(numbering.first(decomposition.subdomain_count()), body_count * bodies.modes);
+  bodies.aggregate.resize(clusters.kernel_dimension(), body_count * bodies.modes);
   bodies.aggregate.setFromTriplets(triplets.begin(), triplets.end());
   return bodies;
 }
@@ -202,22 +201,21 @@ std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition
   return frames;
 }
 
-RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subdomains& subdomains, fem::Kinematics kinematics,
+RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
                        const BodyFrame& frame, int body, const Eigen::VectorXd& coordinates, const Communicator& comm)
 {
   const int dimension = fem::dimension(kinematics);
-  const KernelNumbering numbering(kinematics);
-  const int modes = numbering.dimension;
+  const int modes = clusters.modes();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(modes, modes + 1);
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     if (subdomain.body != body) continue;
     Eigen::MatrixXd a(modes, modes);
     for (int k = 0; k < modes; ++k)
-      a.col(k) =
-          subdomains[s]->kernel().transpose() * sample(unit_motion(body, frame, k, kinematics), subdomain.mesh.points, dimension);
+      a.col(k) = clusters.subdomains()[s]->kernel().transpose() *
+                 sample(unit_motion(body, frame, k, kinematics), subdomain.mesh.points, dimension);
     normal.leftCols(modes) += a.transpose() * a;
-    normal.rightCols(1) += a.transpose() * coordinates.segment(numbering.first(subdomain.id), modes);
+    normal.rightCols(1) += a.transpose() * clusters.own_coordinates(s, coordinates.segment(clusters.first(s), modes));
   }
   comm.sum_in_place({normal.data(), static_cast<std::size_t>(normal.size())});
   const Eigen::VectorXd amplitudes = normal.leftCols(modes).ldlt().solve(normal.rightCols(1));
@@ -225,11 +223,11 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subd
 }
 
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
-                                          const Subdomains& subdomains, fem::Kinematics kinematics, const SparseMatrix& g,
+                                          const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
                                           const constraint::Contacts& contacts, std::span<const constraint::Cut> cuts,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
-  Bodies bodies = aggregate(decomposition, subdomains, kinematics, load, comm);
+  Bodies bodies = aggregate(decomposition, clusters, kinematics, load, comm);
   const int modes = bodies.modes;
   // Rows x amplitudes, in length units again: the support and contact rows that this rank owns.
   const Local first = jump.ranges().held, count = jump.ranges().extra - first;

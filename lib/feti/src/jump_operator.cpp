@@ -268,8 +268,7 @@ Vector JumpOperator::apply(const std::vector<Eigen::VectorXd>& u) const
   return jumps;
 }
 
-SparseMatrix JumpOperator::gather_columns(const std::vector<Eigen::MatrixXd>& parts, const std::vector<int>& first, int height,
-                                          const Communicator& comm) const
+SparseMatrix JumpOperator::gather_columns(const std::vector<Columns>& parts, int height, const Communicator& comm) const
 {
   struct Sent {
     Global row;
@@ -283,9 +282,9 @@ SparseMatrix JumpOperator::gather_columns(const std::vector<Eigen::MatrixXd>& pa
   for (std::size_t r = 0; r < rank.size(); ++r) owned[r] = rows_->getLocalElement(touched[static_cast<Teuchos::Ordinal>(r)]);
   std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
   const auto for_each_part = [&](const auto& visit) {
-    for (std::size_t s = 0; s < blocks_.size(); ++s)
-      for (std::size_t r = 0; r < blocks_[s].row.size(); ++r)
-        visit(static_cast<std::size_t>(blocks_[s].row[r]), first[s], parts[s].col(static_cast<Eigen::Index>(r)));
+    for (const auto& part : parts)
+      for (std::size_t r = 0; r < part.row.size(); ++r)
+        visit(static_cast<std::size_t>(part.row[r]), part.first, part.values.col(static_cast<Eigen::Index>(r)));
   };
   for_each_part([&](std::size_t row, int start, const auto& column) {
     if (rank[row] == comm.rank()) return;

@@ -31,7 +31,7 @@ struct Cube {
   constraint::Constraints constraints;
 
   // Young's modulus jumps from subdomain to subdomain by `jump`. Held at z = 0, unless it floats; pulled at z = 1.
-  explicit Cube(double jump, bool held, const MPI_Comm mpi = MPI_COMM_WORLD) : comm(mpi)
+  explicit Cube(double jump, bool held, const MPI_Comm mpi = MPI_COMM_WORLD, int subdomains_per_cluster = 1) : comm(mpi)
   {
     mesh::Options mesh;
     mesh::BlockOptions block;
@@ -40,20 +40,23 @@ struct Cube {
     partition::Options options;
     options.method = "grid";
     options.counts["cube"] = {2, 2, 2};
+    options.subdomains_per_cluster = subdomains_per_cluster;
     decomposition = partition::decompose(mesh, options, 3, context);
     std::vector<Global> bottom;
     std::vector<SparseMatrix> stiffness;
+    Subdomains subdomains;
     for (const auto& s : decomposition.subdomains) {
       const double e = (s.id + s.id / 2 + s.id / 4) % 2 == 0 ? 1.0 : jump;
       stiffness.push_back(fem::stiffness(s.mesh, fem::Material{e, 0.3, 0, 0}, fem::Kinematics::solid));
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness.back(), 3));
       floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.back().cols()));
       fem::add_traction(s.mesh, 5, fem::Kinematics::solid, Point(0.1, 0, 1), floating.load.back());
-      floating.subdomains.push_back(std::make_shared<ElasticSubdomain>(
+      subdomains.push_back(std::make_shared<ElasticSubdomain>(
           stiffness.back(), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
     }
     directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
     interface = partition::find_interface(decomposition, *directory, comm);
+    floating.clusters = Clusters(decomposition, interface, subdomains, floating.nodal_stiffness, fem::Kinematics::solid);
     const std::vector<constraint::SupportOptions> supports{{"cube.zmin", {0, 0, 0.25}}};
     const auto surface = partition::boundary_surface(decomposition, 4, {true});
     if (held) constraints.held = constraint::hold(supports, std::vector<std::vector<Global>>{surface.node_id}, 3, comm);
@@ -172,22 +175,24 @@ TEST(DualProblem, PreconditionersAreSymmetricAndApproximateTheInverse)
 }
 
 // Against the assembled system solved at once, for equal and for very different subdomains, with few products for both.
-class Algorithms : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Both, Algorithms, testing::Values("smalse", "face_newton"));
+class Algorithms : public testing::TestWithParam<std::tuple<const char*, int>> {};
+INSTANTIATE_TEST_SUITE_P(Both, Algorithms, testing::Combine(testing::Values("smalse", "face_newton"), testing::Values(1, 2, 8)));
 
 TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
 {
+  const auto [algorithm, subdomains_per_cluster] = GetParam();
   for (const double jump : {1.0, 1e6}) {
-    Cube cube(jump, true);
+    Cube cube(jump, true, MPI_COMM_WORLD, subdomains_per_cluster);
     const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {},
                               cube.context);
+    EXPECT_EQ(problem.kernel_dimension(), 6 * 8 / subdomains_per_cluster);
     qp::Hessian hessian(problem.hessian(), 1000);
     const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
-    const qp::Solution solution = std::string(GetParam()) == "smalse"
+    const qp::Solution solution = std::string(algorithm) == "smalse"
                                       ? qp::smalse(programme, {}, 1e-10, {})
                                       : qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-9, {}}, nullptr, {});
     ASSERT_TRUE(solution.converged) << solution.projected_gradient << " after " << hessian.count() << " products";
-    EXPECT_LT(hessian.count(), 120);
+    EXPECT_LT(hessian.count(), subdomains_per_cluster == 1 ? 120 : 150);
     const auto u = problem.displacement(solution.x, solution.nu);
 
     const Cube whole(jump, true, MPI_COMM_SELF);  // every rank assembles it whole
@@ -197,9 +202,10 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
     for (std::size_t s = 0; s < whole.decomposition.subdomains.size(); ++s) {
       const auto& id = whole.decomposition.subdomains[s].mesh.node_id;
       const auto unknown = [&](Eigen::Index i) { return 3 * id[static_cast<std::size_t>(i / 3)] + i % 3; };
-      const auto size = whole.floating.subdomains[s]->size();
+      const auto& subdomain = *whole.floating.clusters.subdomains()[s];
+      const auto size = subdomain.size();
       for (Eigen::Index j = 0; j < size; ++j) {
-        const Eigen::VectorXd column = whole.floating.subdomains[s]->apply(Eigen::VectorXd::Unit(size, j));
+        const Eigen::VectorXd column = subdomain.apply(Eigen::VectorXd::Unit(size, j));
         for (Eigen::Index i = 0; i < size; ++i) k(unknown(i), unknown(j)) += column[i];
         f[unknown(j)] += whole.floating.load[s][j];
       }

@@ -40,15 +40,17 @@ struct Column {
     options.counts["lower"] = {1, 1, 2};
     options.counts["upper"] = {1, 1, 3};
     decomposition = partition::decompose(mesh, options, 3, context);
+    Subdomains subdomains;
     for (const auto& s : decomposition.subdomains) {
       auto stiffness = fem::stiffness(s.mesh, fem::Material{young, 0.3, 0, 0}, fem::Kinematics::solid);
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
       floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
-      floating.subdomains.push_back(std::make_shared<ElasticSubdomain>(
+      subdomains.push_back(std::make_shared<ElasticSubdomain>(
           std::move(stiffness), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
     }
     directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
     interface = partition::find_interface(decomposition, *directory, comm);
+    floating.clusters = Clusters(decomposition, interface, subdomains, floating.nodal_stiffness, fem::Kinematics::solid);
     std::vector<constraint::SupportOptions> supports{{"lower.zmin", {std::nullopt, std::nullopt, 0.0}}};
     std::vector<std::vector<Global>> nodes{side("lower.zmin").node_id};
     if (both_ends) {

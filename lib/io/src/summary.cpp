@@ -74,6 +74,7 @@ std::string to_json(const Summary& s)
             {"primal_unknowns", s.primal_unknowns},
             {"dual_unknowns", s.dual_unknowns},
             {"subdomains", s.subdomains},
+            {"clusters", s.clusters},
             {"kernel_dimension", s.kernel_dimension},
             {"bodies", s.bodies}};
   add_work(s, json);

@@ -45,6 +45,7 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "primal_unknowns",
                                "dual_unknowns",
                                "subdomains",
+                               "clusters",
                                "kernel_dimension",
                                "bodies",
                                "friction_steps",

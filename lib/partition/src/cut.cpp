@@ -11,7 +11,8 @@ namespace mortise::partition {
 
 namespace {
 
-std::vector<int> metis(const mesh::Neighbours& graph, int parts)
+// `weight`: of each entry of graph.cells, or empty.
+std::vector<int> metis(const mesh::Neighbours& graph, std::vector<idx_t> weight, int parts)
 {
   auto vertices = static_cast<idx_t>(graph.offset.size() - 1);
   std::vector<idx_t> label(static_cast<std::size_t>(vertices), 0);
@@ -25,8 +26,8 @@ std::vector<int> metis(const mesh::Neighbours& graph, int parts)
   options[METIS_OPTION_CONTIG] = 1;
   options[METIS_OPTION_UFACTOR] = 50;
   const auto run = [&] {
-    return METIS_PartGraphKway(&vertices, &constraints, offset.data(), adjacent.data(), nullptr, nullptr, nullptr, &wanted,
-                               nullptr, nullptr, options, &cut, label.data());
+    return METIS_PartGraphKway(&vertices, &constraints, offset.data(), adjacent.data(), nullptr, nullptr,
+                               weight.empty() ? nullptr : weight.data(), &wanted, nullptr, nullptr, options, &cut, label.data());
   };
   int status = run();
   if (status != METIS_OK) {  // a disconnected graph cannot be cut into contiguous parts at once
@@ -67,14 +68,39 @@ void join_islands(const mesh::Neighbours& graph, std::vector<int>& label)
   }
 }
 
+std::vector<int> cut(const mesh::Neighbours& graph, std::vector<idx_t> weight, int parts)
+{
+  auto label = metis(graph, std::move(weight), parts);
+  join_islands(graph, label);
+  return mesh::connected_parts(graph, label);
+}
+
 }  // namespace
 
 std::vector<int> cut(const mesh::Cells& cells, int parts)
 {
-  const auto graph = mesh::face_neighbours(cells);
-  auto label = metis(graph, parts);
-  join_islands(graph, label);
-  return mesh::connected_parts(graph, label);
+  return cut(mesh::face_neighbours(cells), {}, parts);
+}
+
+std::vector<int> cluster(const mesh::Cells& cells, const std::vector<int>& subdomain, int size)
+{
+  const auto between = mesh::face_neighbours(cells);
+  std::map<std::pair<int, int>, idx_t> common;  // faces of each pair of subdomains, both ways
+  for (std::size_t c = 0; c < subdomain.size(); ++c)
+    for (const Local other : between[c])
+      if (const int a = subdomain[c], b = subdomain[static_cast<std::size_t>(other)]; a != b) ++common[{a, b}];
+  const int count = subdomain.empty() ? 0 : 1 + *std::max_element(subdomain.begin(), subdomain.end());
+  mesh::Neighbours graph;
+  std::vector<idx_t> weight;
+  auto next = common.begin();
+  for (int s = 0; s < count; ++s) {
+    for (; next != common.end() && next->first.first == s; ++next) {
+      graph.cells.push_back(next->first.second);
+      weight.push_back(next->second);
+    }
+    graph.offset.push_back(static_cast<Local>(graph.cells.size()));
+  }
+  return cut(graph, std::move(weight), std::max(1, (count + size / 2) / size));
 }
 
 }  // namespace mortise::partition

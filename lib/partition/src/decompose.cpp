@@ -8,6 +8,7 @@
 #include <numeric>
 #include <queue>
 #include <set>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "mesh/blocks.hpp"
@@ -20,21 +21,22 @@ namespace mortise::partition {
 
 namespace {
 
-// Contiguous ranges of subdomains with about the same sum of weights for each rank.
-std::vector<Global> deal(const std::vector<long long>& weight, int ranks)
+// Contiguous ranges of subdomains, whole clusters, with about the same sum of weights for each rank.
+std::vector<Global> deal(const std::vector<long long>& weight, const std::vector<Global>& clusters, int ranks)
 {
   const auto total = static_cast<double>(std::accumulate(weight.begin(), weight.end(), 0LL));
+  const auto weight_of = [&](std::size_t cluster) {
+    return static_cast<double>(std::accumulate(weight.begin() + clusters[cluster], weight.begin() + clusters[cluster + 1], 0LL));
+  };
   std::vector<Global> first{0};
   double sum = 0;
-  Global next = 0;
-  const auto count = static_cast<Global>(weight.size());
+  std::size_t next = 0;
   for (int r = 1; r < ranks; ++r) {
     const double aim = total * r / ranks;
-    while (next < count && sum + 0.5 * static_cast<double>(weight[static_cast<std::size_t>(next)]) < aim)
-      sum += static_cast<double>(weight[static_cast<std::size_t>(next++)]);
-    first.push_back(next);
+    while (next + 1 < clusters.size() && sum + 0.5 * weight_of(next) < aim) sum += weight_of(next++);
+    first.push_back(clusters[next]);
   }
-  first.push_back(count);
+  first.push_back(clusters.back());
   return first;
 }
 
@@ -64,12 +66,17 @@ std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std
 
 struct Share {
   std::vector<Subdomain> subdomains;
-  std::vector<Global> first;
+  std::vector<Global> first, clusters;
 };
 
-// The cells of every subdomain of each part.
-std::vector<std::vector<std::vector<Local>>> cut_parts(const mesh::Mesh& parts, const mesh::Layout& layout, int dimension,
-                                                       const Options& options)
+// The subdomains of a part, cluster by cluster.
+struct PieceOfPart {
+  int cluster;
+  std::vector<Local> cells;
+};
+
+std::vector<std::vector<PieceOfPart>> cut_parts(const mesh::Mesh& parts, const mesh::Layout& layout, int dimension,
+                                                const Options& options)
 {
   int count = 0;
   for (const auto& body : layout.bodies) count = std::max(count, body.part + 1);
@@ -85,14 +92,22 @@ std::vector<std::vector<std::vector<Local>>> cut_parts(const mesh::Mesh& parts, 
     nodes.push_back(static_cast<long long>(pieces.back().node_count()));
   }
   const auto counts = subdomain_counts(nodes, copies, dimension, options);
-  std::vector<std::vector<std::vector<Local>>> cells(copies.size());
+  std::vector<std::vector<PieceOfPart>> result(copies.size());
   for (std::size_t p = 0; p < copies.size(); ++p) {
     const auto label = cut(pieces[p].cells, counts[p]);
-    cells[p].resize(static_cast<std::size_t>(label.empty() ? 0 : 1 + *std::max_element(label.begin(), label.end())));
-    for (std::size_t c = 0; c < label.size(); ++c) cells[p][static_cast<std::size_t>(label[c])].push_back(of_part[p][c]);
+    auto& list = result[p];
+    list.resize(static_cast<std::size_t>(label.empty() ? 0 : 1 + *std::max_element(label.begin(), label.end())));
+    for (std::size_t c = 0; c < label.size(); ++c) list[static_cast<std::size_t>(label[c])].cells.push_back(of_part[p][c]);
+    for (std::size_t s = 0; s < list.size(); ++s) list[s].cluster = static_cast<int>(s);
+    if (options.subdomains_per_cluster > 1) {
+      const auto clusters = cluster(pieces[p].cells, label, options.subdomains_per_cluster);
+      for (std::size_t s = 0; s < list.size(); ++s) list[s].cluster = clusters[s];
+      std::stable_sort(list.begin(), list.end(),
+                       [](const PieceOfPart& a, const PieceOfPart& b) { return a.cluster < b.cluster; });
+    }
     pieces[p] = {};
   }
-  return cells;
+  return result;
 }
 
 // Rank 0 cuts the mesh of the parts, once each, and sends each rank its subdomains of their copies; the others pass an empty
@@ -100,32 +115,37 @@ std::vector<std::vector<std::vector<Local>>> cut_parts(const mesh::Mesh& parts, 
 Share distribute(const mesh::Mesh& parts, const mesh::Layout& layout, int dimension, const Options& options,
                  const Communicator& comm)
 {
-  std::vector<std::vector<std::vector<Local>>> cells;  // part, subdomain of it
+  std::vector<std::vector<PieceOfPart>> of_part;
   struct Piece {
     int body;
     std::size_t number;  // among those of the part
   };
   std::vector<Piece> pieces;
   std::vector<long long> weight;
+  Share share;
   const auto part_of = [&](int body) { return static_cast<std::size_t>(layout.bodies[static_cast<std::size_t>(body)].part); };
   collectively(comm, [&] {
     if (!comm.root()) return;
-    cells = cut_parts(parts, layout, dimension, options);
-    for (int b = 0; b < static_cast<int>(layout.bodies.size()); ++b)
-      for (std::size_t i = 0; i < cells[part_of(b)].size(); ++i) {
+    of_part = cut_parts(parts, layout, dimension, options);
+    for (int b = 0; b < static_cast<int>(layout.bodies.size()); ++b) {
+      const auto& list = of_part[part_of(b)];
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        if (i == 0 || list[i].cluster != list[i - 1].cluster) share.clusters.push_back(static_cast<Global>(pieces.size()));
         pieces.push_back({b, i});
-        weight.push_back(static_cast<long long>(cells[part_of(b)][i].size()));
+        weight.push_back(static_cast<long long>(list[i].cells.size()));
       }
+    }
+    share.clusters.push_back(static_cast<Global>(pieces.size()));
   });
   comm.broadcast(weight);
-  Share share;
-  share.first = deal(weight, comm.size());
+  comm.broadcast(share.clusters);
+  share.first = deal(weight, share.clusters, comm.size());
   for (int rank = 0; rank < comm.size(); ++rank) {  // one rank after the other, so that rank 0 holds one copy at a time
     std::vector<std::vector<char>> send(static_cast<std::size_t>(comm.size()));
     if (comm.root())
       for (Global s = share.first[static_cast<std::size_t>(rank)]; s < share.first[static_cast<std::size_t>(rank) + 1]; ++s) {
         const auto& [body, number] = pieces[static_cast<std::size_t>(s)];
-        auto piece = mesh::submesh(parts, cells[part_of(body)][number]);
+        auto piece = mesh::submesh(parts, of_part[part_of(body)][number].cells);
         pack({s, body, mesh::place(std::move(piece), layout.bodies[static_cast<std::size_t>(body)], body)},
              send[static_cast<std::size_t>(rank)]);
       }
@@ -141,36 +161,61 @@ int grid_start(int cells, int parts, int i)
   return static_cast<int>(static_cast<long long>(cells) * i / parts);
 }
 
+// Clusters of about `size` subdomains along each axis of a grid, as near to cubes as the grid allows.
+std::array<int, 3> clusters_an_axis(const std::array<int, 3>& parts, int size)
+{
+  std::array<int, 3> order{0, 1, 2}, clusters{};
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return std::pair(parts[a], a) < std::pair(parts[b], b); });
+  double left = size;  // subdomains of a cluster in the axes that follow: where one is short the others make up for it
+  for (int i = 0; i < 3; ++i) {
+    const int count = parts[order[i]];
+    const double length = std::min(std::pow(left, 1.0 / (3 - i)), static_cast<double>(count));
+    clusters[order[i]] = std::max(1, static_cast<int>(std::lround(count / length)));
+    left = std::max(1.0, left * clusters[order[i]] / count);
+  }
+  return clusters;
+}
+
 Share generate_grid(const mesh::Options& mesh, const Options& options, int dimension, const mesh::Layout& layout,
                     const Communicator& comm)
 {
   struct Box {
     int body;
+    long long cluster;
     std::array<int, 3> first, last;
+    long long cells() const { return static_cast<long long>(last[0] - first[0]) * (last[1] - first[1]) * (last[2] - first[2]); }
   };
   std::vector<Box> boxes;
-  std::vector<long long> weight;
   for (int b = 0; b < static_cast<int>(layout.bodies.size()); ++b) {
     const auto grid = mesh::grid_of(mesh, dimension, layout.bodies[static_cast<std::size_t>(b)].part);
     auto parts = options.counts.at(layout.catalogue.bodies[static_cast<std::size_t>(b)].group);
     if (dimension == 2) parts[2] = 1;
+    const auto clusters = clusters_an_axis(parts, options.subdomains_per_cluster);
     for (int k = 0; k < parts[2]; ++k)
       for (int j = 0; j < parts[1]; ++j)
         for (int i = 0; i < parts[0]; ++i) {
           const std::array<int, 3> at{i, j, k};
-          Box box{b, {}, {}};
-          long long cells = 1;
-          for (std::size_t c = 0; c < 3; ++c) {
+          Box box{b, 0, {}, {}};
+          for (std::size_t c = 3; c-- > 0;) {
             box.first[c] = grid_start(grid[c], parts[c], at[c]);
             box.last[c] = grid_start(grid[c], parts[c], at[c] + 1);
-            cells *= box.last[c] - box.first[c];
+            const auto along = ((at[c] + 1LL) * clusters[c] - 1) / parts[c];  // the last that begins at or before this one
+            box.cluster = box.cluster * clusters[c] + along;
           }
           boxes.push_back(box);
-          weight.push_back(cells);
         }
   }
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const Box& a, const Box& b) { return std::tie(a.body, a.cluster) < std::tie(b.body, b.cluster); });
   Share share;
-  share.first = deal(weight, comm.size());
+  std::vector<long long> weight;
+  for (std::size_t s = 0; s < boxes.size(); ++s) {
+    if (s == 0 || boxes[s].body != boxes[s - 1].body || boxes[s].cluster != boxes[s - 1].cluster)
+      share.clusters.push_back(static_cast<Global>(s));
+    weight.push_back(boxes[s].cells());
+  }
+  share.clusters.push_back(static_cast<Global>(boxes.size()));
+  share.first = deal(weight, share.clusters, comm.size());
   const auto rank = static_cast<std::size_t>(comm.rank());
   for (Global s = share.first[rank]; s < share.first[rank + 1]; ++s) {
     const auto& box = boxes[static_cast<std::size_t>(s)];
@@ -304,7 +349,7 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
   const auto scope = context.timers.scope("partition");
   auto share =
       grid ? generate_grid(mesh, options, dimension, layout, comm) : distribute(assembly.mesh, layout, dimension, options, comm);
-  return {std::move(layout.catalogue), std::move(share.subdomains), std::move(share.first)};
+  return {std::move(layout.catalogue), std::move(share.subdomains), std::move(share.first), std::move(share.clusters)};
 }
 
 mesh::Surface boundary_surface(const Decomposition& decomposition, int boundary, const std::vector<bool>& on_body)

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "mesh/topology.hpp"
@@ -92,6 +93,69 @@ TEST(Cut, IslandsJoinANeighbour)
       EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0);
     }
   }
+}
+
+// Every cluster lies in one body and on one rank and is connected by faces; neither they nor the cells depend on the ranks.
+TEST(Clusters, AreConnectedPartsOfBodiesOnOneRank)
+{
+  const Communicator comm, alone(MPI_COMM_SELF);
+  Options metis;
+  metis.unknowns_per_subdomain = 60;
+  metis.subdomains_per_cluster = 5;
+  Options grid;
+  grid.method = "grid";
+  grid.counts = {{"lower", {8, 4, 4}}, {"upper", {5, 3, 2}}};
+  grid.subdomains_per_cluster = 8;
+  for (const auto& options : {metis, grid}) {
+    const auto serial = make(beams("hex8", {8, 4, 4}), options, alone), d = make(beams("hex8", {8, 4, 4}), options, comm);
+    EXPECT_EQ(fingerprint(d, comm), fingerprint(serial, alone));
+    EXPECT_EQ(d.clusters, serial.clusters);
+    EXPECT_TRUE(d.clustered());
+    for (const Global first : d.first) EXPECT_TRUE(std::binary_search(d.clusters.begin(), d.clusters.end(), first));
+    ASSERT_EQ(serial.clusters.back(), serial.subdomain_count());
+    for (std::size_t c = 0; c + 1 < serial.clusters.size(); ++c) {
+      ASSERT_LT(serial.clusters[c], serial.clusters[c + 1]);
+      EXPECT_LE(serial.clusters[c + 1] - serial.clusters[c], 2 * options.subdomains_per_cluster);
+      std::map<std::array<Local, 4>, std::vector<std::size_t>> owners;  // of each face, by numbers of nodes
+      const auto first = static_cast<std::size_t>(serial.clusters[c]), end = static_cast<std::size_t>(serial.clusters[c + 1]);
+      for (std::size_t s = first; s < end; ++s) {
+        const auto& mesh = serial.subdomains[s].mesh;
+        EXPECT_EQ(serial.subdomains[s].body, serial.subdomains[first].body);
+        for (const auto& face : mesh::sorted_faces(mesh.cells)) {
+          auto key = face.corners;
+          for (auto& n : key) n = static_cast<Local>(mesh.node_id[static_cast<std::size_t>(n)]);
+          std::sort(key.begin(), key.end());
+          owners[key].push_back(s - first);
+        }
+      }
+      std::vector<std::size_t> joined(end - first);
+      std::iota(joined.begin(), joined.end(), 0);
+      for (std::size_t round = first; round < end; ++round)
+        for (const auto& [face, list] : owners)
+          for (const auto s : list) joined[s] = joined[list.front()] = std::min(joined[s], joined[list.front()]);
+      for (const auto s : joined) EXPECT_EQ(s, 0U) << "cluster " << c;
+    }
+  }
+}
+
+TEST(Clusters, OfAGridAreBlocksOfIt)
+{
+  const Communicator alone(MPI_COMM_SELF);
+  const auto count = [&](std::array<int, 3> lower, int size) {
+    Options options;
+    options.method = "grid";
+    options.counts = {{"lower", lower}, {"upper", {1, 1, 1}}};
+    options.subdomains_per_cluster = size;
+    const auto d = make(beams("hex8", {12, 12, 12}), options, alone);
+    EXPECT_EQ(d.clusters[static_cast<std::size_t>(d.cluster_count()) - 1], d.subdomain_count() - 1);
+    return d.cluster_count() - 1;
+  };
+  EXPECT_EQ(count({8, 4, 4}, 1), 128);
+  EXPECT_EQ(count({8, 4, 4}, 8), 16);
+  EXPECT_EQ(count({8, 4, 4}, 64), 2);
+  EXPECT_EQ(count({9, 9, 1}, 9), 9);  // a plate: the other axes make up for the short one
+  EXPECT_EQ(count({12, 1, 1}, 4), 3);
+  EXPECT_EQ(count({7, 7, 7}, 1000), 1);
 }
 
 TEST(NodeDirectory, KnowsEveryCopy)

@@ -1,4 +1,4 @@
-// F = B K^+ B', the dual operator: one product solves once on every subdomain.
+// F = B K^+ B', the dual operator: one product solves once on every cluster.
 #pragma once
 
 #include <memory>
@@ -6,16 +6,16 @@
 
 #include "base/timer.hpp"
 #include "base/tpetra.hpp"
+#include "feti/clusters.hpp"
 #include "feti/jump_operator.hpp"
-#include "feti/subdomain_operator.hpp"
 
 namespace mortise::feti {
 
 /// Refers to its parts; they outlive it.
 class DualOperator : public Operator {
  public:
-  DualOperator(const JumpOperator& jump, const Subdomains& subdomains, Timers& timers)
-      : jump_(jump), subdomains_(subdomains), timers_(timers)
+  DualOperator(const JumpOperator& jump, const Clusters& clusters, Timers& timers)
+      : jump_(jump), clusters_(clusters), timers_(timers)
   {
   }
   Teuchos::RCP<const Map> getDomainMap() const override { return jump_.rows(); }
@@ -25,7 +25,7 @@ class DualOperator : public Operator {
 
  private:
   const JumpOperator& jump_;
-  const Subdomains& subdomains_;
+  const Clusters& clusters_;
   Timers& timers_;
 };
 

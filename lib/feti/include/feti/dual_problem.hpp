@@ -4,8 +4,9 @@
 //     minimise  1/2 lambda'F lambda - lambda'd   subject to  G lambda = e,  lambda in Omega,
 //     F = B K^+ B',  d = B K^+ f - c,  G = R'B',  e = R'f,     u = K^+ (f - B' lambda) - R nu,
 //
-// where nu are the multipliers of G lambda = e [Dostal et al., DD20, section 3]. Each cut that is tightened to a force adds a row
-// to G, sum of part * lambda = -force, and its shortening to nu.
+// where K^+ and R are those of clusters of subdomains, or of each subdomain alone, nu are the multipliers of G lambda = e [Dostal
+// et al., DD20, section 3]. Each cut that is tightened to a force adds a row to G, sum of part * lambda = -force, and its
+// shortening to nu.
 #pragma once
 
 #include <memory>
@@ -22,9 +23,9 @@
 
 namespace mortise::feti {
 
-/// What is floating: the subdomains of this rank, in the order of Decomposition::subdomains, and what acts on them.
+/// What is floating: the clusters of this rank's subdomains, in the order of Decomposition::subdomains, and what acts on them.
 struct Floating {
-  Subdomains subdomains;
+  Clusters clusters;
   std::vector<Eigen::VectorXd> load;                 ///< f
   std::vector<std::vector<double>> nodal_stiffness;  ///< as given to the NodeDirectory
   fem::Kinematics kinematics = fem::Kinematics::solid;
@@ -64,7 +65,7 @@ class DualProblem {
   const constraint::Constraints& constraints() const { return constraints_; }
   const Communicator& communicator() const { return comm_; }
   Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
-  int kernel_dimension() const { return numbering().first(decomposition_.subdomain_count()); }
+  int kernel_dimension() const { return floating_.clusters.kernel_dimension(); }
   /// The least-norm multipliers that give all cuts their forces and move no body, and have nothing to do with linear(): what else
   /// drives the problem. Null if no cut is tightened to a force.
   const Vector* pull() const { return pull_.get(); }
@@ -76,7 +77,7 @@ class DualProblem {
   /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers run away.
   /// Collective.
   std::string runaway(const Eigen::VectorXd& nu) const;
-  /// ||K u + B'lambda - f|| / (||f|| + ||B'lambda||) over all subdomains. Collective.
+  /// ||K u + B'lambda + B0'mu - f|| / (||f|| + ||B'lambda||) over all subdomains, B0'mu the forces inside clusters. Collective.
   double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const;
 
  private:
@@ -87,7 +88,6 @@ class DualProblem {
   void make_set();
   void renew_right_sides();
   static bool driven(const FreeMotion& motion, double work);
-  KernelNumbering numbering() const { return KernelNumbering(floating_.kinematics); }
 
   const partition::Decomposition& decomposition_;
   const constraint::Constraints& constraints_;

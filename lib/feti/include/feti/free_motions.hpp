@@ -31,8 +31,8 @@ struct BodyFrame {
 };
 std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition, const Communicator& comm);
 
-/// Part of `coordinates` (kernels of all subdomains) that is a rigid motion of the body, by least squares.
-RigidMotion rigid_part(const partition::Decomposition& decomposition, const Subdomains& subdomains, fem::Kinematics kinematics,
+/// Part of `coordinates` (kernels of all clusters) that is a rigid motion of the body, by least squares.
+RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
                        const BodyFrame& frame, int body, const Eigen::VectorXd& coordinates, const Communicator& comm);
 
 /// A set of bodies that move together; |v| is at most about 1 on each.
@@ -47,7 +47,7 @@ struct FreeMotion {
 /// those of several bodies together, which must be exactly free. A cut that is tightened to a force lets its two sides move
 /// towards each other. Collective.
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
-                                          const Subdomains& subdomains, fem::Kinematics kinematics, const SparseMatrix& g,
+                                          const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
                                           const constraint::Contacts& contacts, std::span<const constraint::Cut> cuts,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
 

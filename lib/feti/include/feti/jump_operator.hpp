@@ -68,10 +68,15 @@ class JumpOperator {
   Teuchos::RCP<const Map> touched_rows() const { return overlap_; }  ///< the overlapping map
   const Import& import() const { return *import_; }  ///< from rows() to the rows that this rank's subdomains take part in
 
-  /// Brings dense parts of columns to where their row of B is owned: column r of `parts`[s] (any x rows of blocks()[s]) belongs
-  /// to row blocks()[s].row[r], and starts at `first`[s] there. No two parts overlap. Returns `height` x owned rows. Collective.
-  SparseMatrix gather_columns(const std::vector<Eigen::MatrixXd>& parts, const std::vector<int>& first, int height,
-                              const Communicator& comm) const;
+  /// Dense parts of columns of a matrix over the dual space: column r of `values` (those beyond `row` do not count) belongs to
+  /// `row`[r], a local index of the overlapping map, and starts at `first` there.
+  struct Columns {
+    int first = 0;
+    std::vector<Local> row;
+    Eigen::MatrixXd values;
+  };
+  /// Brings them to where their row of B is owned. No two parts overlap. Returns `height` x owned rows. Collective.
+  SparseMatrix gather_columns(const std::vector<Columns>& parts, int height, const Communicator& comm) const;
 
  private:
   Teuchos::RCP<const Map> rows_;

@@ -48,6 +48,7 @@ struct Summary : StateSummary {
   std::string version, title;
   int exit_status = 0, ranks = 1;
   Global primal_unknowns = 0, dual_unknowns = 0, subdomains = 0, kernel_dimension = 0, bodies = 0;
+  Global clusters = 0;  ///< of subdomains; 0 without
   struct Step : StateSummary {
     std::string name;
     double time = 0;

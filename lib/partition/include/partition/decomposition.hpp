@@ -18,8 +18,13 @@ struct Decomposition {
   mesh::Catalogue catalogue;
   std::vector<Subdomain> subdomains;  ///< of this rank, ascending ids
   std::vector<Global> first;          ///< rank r owns the subdomains first[r] .. first[r+1]-1; length ranks + 1
+  /// Cluster c is the subdomains clusters[c] .. clusters[c+1]-1, of one body, on one rank, connected by cell faces; length
+  /// cluster_count() + 1. Without clusters each subdomain is one of its own.
+  std::vector<Global> clusters;
 
   Global subdomain_count() const { return first.back(); }
+  Global cluster_count() const { return static_cast<Global>(clusters.size()) - 1; }
+  bool clustered() const { return cluster_count() < subdomain_count(); }
   int rank_of(Global subdomain) const;
 };
 

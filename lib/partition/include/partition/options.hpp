@@ -21,6 +21,7 @@ struct Options {
   std::optional<int> unknowns_per_subdomain;  ///< aim, before bodies are rounded to whole subdomains
   std::optional<int> subdomains;  ///< total instead of the aim above (at most, where parts have copies); neither: usual_size
   std::map<std::string, std::array<int, 3>> counts;  ///< grid: subdomains an axis of each block
+  int subdomains_per_cluster = 1;                    ///< about, of hybrid TFETI; 1: TFETI
 };
 
 /// The keywords.
