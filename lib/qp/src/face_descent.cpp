@@ -10,7 +10,6 @@ namespace {
 constexpr int max_inner = 60;           // steps on one face
 constexpr int max_on_only_face = 1000;  // where there are no others
 constexpr double least_new = 1e-3;      // of a known direction, for a face to use it
-constexpr double held_weight = 0.12;    // of ||P A P||: what forces off their constraints count beside gaps
 constexpr double least_known = 1e-4;    // of x: below, rounding spoils what the difference of two points tells of A
 
 // [E'(A + Sigma) d, weight * held part of d], what a face feels of a direction d; `product`: A d.
@@ -163,12 +162,11 @@ bool FaceNewton::descend_alone(const Face& face, double goal, const std::functio
 // Solves [E'(A + Sigma) d = -E'g, held part of d = 0] on a face, nearly; sets y and gy. Where slip bounds follow normal forces
 // that is not symmetric: generalised conjugate residuals [Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20 (1983)]. First
 // over all known directions: a face feels A of them as every other, so they cost no product, and that they lead off its
-// constraints a little counts as residual. Returns false if there was nothing to do.
-bool FaceNewton::descend(const Face& face, double goal, const std::function<void()>& report, State& state)
+// constraints a little counts as residual, a force times `weight` as a gap. Returns false if there was nothing to do.
+bool FaceNewton::descend(const Face& face, double goal, double weight, const std::function<void()>& report, State& state)
 {
   auto& [z, g, y, gy] = state;
   const auto map = z.getMap();
-  const double weight = held_weight * norm_;
   Vector direction(z, Teuchos::Copy), product(g, Teuchos::Copy), held(map);
   direction.update(-1, y, 1);  // the projection's step is known as well
   product.update(-1, gy, 1);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double longer_step = 20;      // times step_length: where bounds follow the solution, on what is not free
 constexpr double safe_length = 1.5;     // of the step that is sure to descend
+constexpr double held_weight = 4;       // over the step's length: what a force off its constraint counts beside gaps
 constexpr double slip_stiffness = 0.1;  // curvatures of slip directions are measured against this part of ||P A P||
 constexpr double norm_accuracy = 0.4;   // the step only picks the face, and a descent is checked
 constexpr int max_faces = 200;
@@ -282,8 +283,9 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       enough = 0.3 * worst * allowed / result.error;
     else if (only_face_)
       enough = inner_reduction * worst;
+    const double weight = held_weight * norm_ / (renewal ? longer_step * step_length : step_length);
     const auto watch = [&] { report("inner"); };
-    moved = only_face_ ? descend_alone(face, enough, watch, state) : descend(face, enough, watch, state);
+    moved = only_face_ ? descend_alone(face, enough, watch, state) : descend(face, enough, weight, watch, state);
     if (renewal) {
       beyond.emplace(look_beyond(face, state));
       nu.setZero();  // it has gone into that
