@@ -32,6 +32,9 @@ def surfaces(directory):
     if not paths:
         sys.exit(f"{directory}: no contact_*.vtu; is it the output directory of a finished run?")
     for path in paths:
+        with path.open("rb") as file:
+            if b'NumberOfCells="0"' in file.read(1000):  # a rank without contact surfaces, which meshio cannot read
+                continue
         mesh = meshio.read(path)
         for block, contact in zip(mesh.cells, mesh.cell_data["contact"]):
             if block.type == "quad":
