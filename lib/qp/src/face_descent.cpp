@@ -161,9 +161,11 @@ bool FaceNewton::descend_alone(const Face& face, double goal, const std::functio
 
 // Solves [E'(A + Sigma) d = -E'g, held part of d = 0] on a face, nearly; sets y and gy. Where slip bounds follow normal forces
 // that is not symmetric: generalised conjugate residuals [Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20 (1983)]. First
-// over all known directions: a face feels A of them as every other, so they cost no product, and that they lead off its
-// constraints a little counts as residual, a force times `weight` as a gap. Returns false if there was nothing to do.
-bool FaceNewton::descend(const Face& face, double goal, double weight, const std::function<void()>& report, State& state)
+// over all known directions, if they are trusted: a face feels A of them as every other, so they cost no product, and that they
+// lead off its constraints a little counts as residual, a force times `weight` as a gap. Returns false if there was nothing to
+// do.
+bool FaceNewton::descend(const Face& face, double goal, double weight, bool trusted, const std::function<void()>& report,
+                         State& state)
 {
   auto& [z, g, y, gy] = state;
   const auto map = z.getMap();
@@ -177,7 +179,7 @@ bool FaceNewton::descend(const Face& face, double goal, double weight, const std
   const double start = descent.size();
   if (start <= 1e-2 * goal) return false;
   goal = std::max(goal, inner_reduction * start);
-  for (auto pair = known_.rbegin(); pair != known_.rend(); ++pair)
+  for (auto pair = known_.rbegin(); trusted && pair != known_.rend(); ++pair)
     descent.go(Vector(pair->direction, Teuchos::Copy), Vector(pair->product, Teuchos::Copy),
                felt(face, pair->direction, pair->product, weight, 1), least_new);
   std::vector<std::pair<Vector, Vector>> fresh;

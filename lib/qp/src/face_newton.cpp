@@ -283,9 +283,11 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       enough = 0.3 * worst * allowed / result.error;
     else if (only_face_)
       enough = inner_reduction * worst;
+    // Where the last face was picked badly, what others know leads astray: cells of aspect 1000 tell little of each other.
+    const bool trusted = renewal || (part == 1 && since_best == 0);
     const double weight = held_weight * norm_ / (renewal ? longer_step * step_length : step_length);
     const auto watch = [&] { report("inner"); };
-    moved = only_face_ ? descend_alone(face, enough, watch, state) : descend(face, enough, weight, watch, state);
+    moved = only_face_ ? descend_alone(face, enough, watch, state) : descend(face, enough, weight, trusted, watch, state);
     if (renewal) {
       beyond.emplace(look_beyond(face, state));
       nu.setZero();  // it has gone into that

@@ -53,7 +53,7 @@ class FaceNewton {
   Vector look_beyond(const Face& face, const State& state) const;
   void learn(const Face& face, const Vector& direction, const Vector& product, bool step);
   bool descend_alone(const Face& face, double goal, const std::function<void()>& report, State& state);
-  bool descend(const Face& face, double goal, double weight, const std::function<void()>& report, State& state);
+  bool descend(const Face& face, double goal, double weight, bool trusted, const std::function<void()>& report, State& state);
 
   const Problem& problem_;
   FacePreconditioner* preconditioner_;
