@@ -27,7 +27,8 @@ Vector felt(const Face& face, const Vector& direction, const Vector& product, do
 class Descent {
  public:
   // From the point of the face with gradient `gy`.
-  Descent(const Face& face, Vector& y, Vector& gy) : residual(gy, Teuchos::Copy), face_(face), y_(y), gy_(gy)
+  Descent(const Face& face, const Communicator& comm, Vector& y, Vector& gy)
+      : residual(gy, Teuchos::Copy), face_(face), comm_(comm), y_(y), gy_(gy)
   {
     residual.scale(-1);
     face.project_gradient(residual);
@@ -52,13 +53,17 @@ class Descent {
   bool go(Vector direction, Vector product, Vector image, double least)
   {
     const double whole = image.norm2();
-    for (int sweep = 0; sweep < 2; ++sweep)
-      for (const auto& step : steps_) {
-        const double part = image.dot(step.image);
-        image.update(-part, step.image, 1);
-        direction.update(-part, step.direction, 1);
-        product.update(-part, step.product, 1);
+    std::vector<double> part(steps_.size());
+    for (int sweep = 0; sweep < 2 && !steps_.empty(); ++sweep) {  // Gram and Schmidt, twice: one sum over the ranks each
+      for (std::size_t i = 0; i < steps_.size(); ++i)
+        part[i] = view(std::as_const(image)).dot(view(std::as_const(steps_[i].image)));
+      comm_.sum_in_place(part);
+      for (std::size_t i = 0; i < steps_.size(); ++i) {
+        image.update(-part[i], steps_[i].image, 1);
+        direction.update(-part[i], steps_[i].direction, 1);
+        product.update(-part[i], steps_[i].product, 1);
       }
+    }
     const double size = image.norm2();
     if (!(size > least * whole)) return false;
     for (Vector* v : {&direction, &product, &image}) v->scale(1 / size);
@@ -77,6 +82,7 @@ class Descent {
     Vector direction, product, image;
   };
   const Face& face_;
+  const Communicator& comm_;
   Vector &y_, &gy_;
   std::vector<Step> steps_;  // images are orthonormal
 };
@@ -175,7 +181,7 @@ bool FaceNewton::descend(const Face& face, double goal, double weight, bool trus
   if (direction.norm2() > least_known * z.norm2()) learn(face, direction, product, false);
   y.assign(z);
   gy.assign(g);
-  Descent descent(face, y, gy);
+  Descent descent(face, problem_.equality.communicator(), y, gy);
   const double start = descent.size();
   if (start <= 1e-2 * goal) return false;
   goal = std::max(goal, inner_reduction * start);
