@@ -322,16 +322,17 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
     if (const auto turn = contact::turn_of(deck.contacts[c]))
       results.neighbours += r.force - turn->rotation.transpose() * r.force;
     if (deck.contacts[c].obstacle) results.obstacles += Point(deck.axisymmetric() ? 0 : r.force[0], r.force[1], r.force[2]);
-    const auto& pressure = results.surfaces[c].recovered_pressure;
-    const double recovered = context.comm.max(pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end()));
+    const auto largest = [&](const std::vector<double>& pressure) {
+      return context.comm.max(pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end()));
+    };
     results.summary.contacts.push_back({deck.contacts[c].name,
                                         {r.force[0], r.force[1], r.force[2]},
-                                        r.max_pressure,
+                                        std::max(largest(results.surfaces[c].pressure), 0.0),
                                         r.area,
                                         r.open,
                                         r.stick,
                                         r.slip,
-                                        recovered});
+                                        largest(results.surfaces[c].recovered_pressure)});
   }
   const auto shortenings = problem.shortenings(solved.solution.nu);
   for (std::size_t i = 0; i < shortenings.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <tuple>
 
 #include "base/error.hpp"
@@ -34,6 +35,12 @@ Tree tree_of_facets(const Side& side)
 // A node that has rows of a contact that is not bonded.
 struct Pressed {
   Global node;
+};
+
+// The k-th function of a piece of a face.
+struct Function {
+  std::size_t face, piece;
+  Eigen::Index k;
 };
 
 // One contact on its way from faces to rows: those of the nodes that are this rank's.
@@ -71,7 +78,8 @@ class Builder {
   {
     double widest = 0;
     for (std::size_t p = 0; p < places_.all.size(); ++p)
-      if (const double gap = own(p) && kept_[p] ? std::abs(rays_.gap(p)) : 0; std::isfinite(gap)) widest = std::max(widest, gap);
+      if (const double gap = own(p) && kept_[p] ? std::abs(rays_.gap(p, places_.all[p].normal)) : 0; std::isfinite(gap))
+        widest = std::max(widest, gap);
     return widest;
   }
 
@@ -89,13 +97,26 @@ class Builder {
  private:
   bool nodal() const { return options_.discretization == "node_to_segment"; }
   bool own(std::size_t place) const { return share_.own[static_cast<std::size_t>(places_.all[place].node)] != 0; }
+  bool bonded() const { return options_.law == Law::bonded; }
   std::span<const Local> node_places(std::size_t face) const
   {
     return std::span(places_.of_node)
         .subspan(static_cast<std::size_t>(secondary_.faces.offset[face]), secondary_.faces[face].size());
   }
-  double covered(std::size_t face, std::size_t k) { return integrals_[slot(face)].covered[static_cast<Eigen::Index>(k)]; }
-  std::size_t slot(std::size_t face) const { return static_cast<std::size_t>(slot_[face]); }
+  // The pieces of a face in round_.
+  std::ranges::iota_view<std::size_t, std::size_t> pieces(std::size_t face) const
+  {
+    return {static_cast<std::size_t>(first_piece_[face]), static_cast<std::size_t>(end_piece_[face])};
+  }
+  // The place that a function of a piece belongs to.
+  std::size_t place_of(std::size_t face, const PieceStore::View& piece, Eigen::Index k) const
+  {
+    const auto node =
+        piece.facet < 0
+            ? static_cast<std::size_t>(k)
+            : static_cast<std::size_t>(secondary_.corners[static_cast<std::size_t>(piece.facet)][static_cast<std::size_t>(k)]);
+    return static_cast<std::size_t>(node_places(face)[node]);
+  }
 
   // The faces round this rank's nodes, whose share of the rows is needed, and those round their nodes, whose integrals are.
   void choose_faces()
@@ -116,11 +137,13 @@ class Builder {
   void integrate_faces()
   {
     Integrator integrator(secondary_, places_, primary_, primary_places_, tree_, reach_);
-    slot_.assign(secondary_.faces.size(), -1);
+    first_piece_.assign(secondary_.faces.size(), 0);
+    end_piece_ = first_piece_;
     for (const std::size_t f : round_) {
-      slot_[f] = static_cast<Local>(integrals_.size());
+      first_piece_[f] = static_cast<Local>(integrals_.size());
       const bool mortar = !options_.obstacle && !nodal();
-      integrals_.add(mortar ? integrator.integrate(f) : integrator.integrate_whole(f));
+      for (const auto& piece : mortar ? integrator.integrate(f) : integrator.integrate_whole(f)) integrals_.add(piece);
+      end_piece_[f] = static_cast<Local>(integrals_.size());
       if (!mortar) uncover(f);
     }
   }
@@ -128,7 +151,7 @@ class Builder {
   // Takes out what does not meet the other side: over an obstacle all of a face unless all its nodes face it, nodes one by one.
   void uncover(std::size_t face)
   {
-    auto covered = integrals_[slot(face)].covered;
+    auto covered = integrals_[pieces(face).front()].covered;
     const auto places = node_places(face);
     if (!nodal()) {
       if (!std::all_of(places.begin(), places.end(), [&](Local p) { return rays_.meets(static_cast<std::size_t>(p)); }))
@@ -146,14 +169,14 @@ class Builder {
   {
     const auto count = places_.all.size();
     std::vector<double> covered(count, 0.0), whole(count, 0.0);
-    for (const std::size_t f : round_) {  // in the order of the faces, whatever the ranks
-      const auto face = integrals_[slot(f)];
-      const auto places = node_places(f);
-      for (std::size_t k = 0; k < places.size(); ++k) {
-        covered[static_cast<std::size_t>(places[k])] += face.covered[static_cast<Eigen::Index>(k)];
-        whole[static_cast<std::size_t>(places[k])] += face.whole[static_cast<Eigen::Index>(k)];
+    for (const std::size_t f : round_)  // in the order of the faces, whatever the ranks
+      for (const std::size_t i : pieces(f)) {
+        const auto piece = integrals_[i];
+        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
+          covered[place_of(f, piece, k)] += piece.covered[k];
+          whole[place_of(f, piece, k)] += piece.whole[k];
+        }
       }
-    }
     for (std::size_t p = 0; p < count; ++p)
       if (own(p)) covered_area_ += covered[p];
     directions_.reserve(count);
@@ -181,67 +204,74 @@ class Builder {
       if (std::all_of(places.begin(), places.end(), [&](Local p) { return left_out(static_cast<std::size_t>(p)); }))
         for (const Local p : places) stranded[static_cast<std::size_t>(p)] = 1;
     }
+    cover_.assign(count, 0);
     kept_.assign(count, 0);
+    freed_.assign(count, 0);
     for (std::size_t p = 0; p < count; ++p) {
-      if (stranded[p] && !directions_[p].free_normal)
+      freed_[p] = stranded[p] && !directions_[p].free_normal;
+      if (freed_[p])
         directions_[p] = directions(places_.all[p].normal, {false, false, false}, {}, dimension_);  // moves() picks the tangents
-      kept_[p] = (!left_out(p) || stranded[p]) && covered[p] > least_cover * whole[p];
+      cover_[p] = whole[p] > 0 ? std::min(covered[p] / whole[p], 1.0) : 0.0;
+      kept_[p] = (!left_out(p) || stranded[p]) && cover_[p] > least_cover;
     }
-  }
-
-  Few<char, 9> kept_of(std::size_t face) const
-  {
-    Few<char, 9> kept;
-    for (const Local p : node_places(face)) kept.push_back(kept_[static_cast<std::size_t>(p)]);
-    return kept;
   }
 
   void make_faces_dual()
   {
-    for (const std::size_t f : near_) {
-      auto face = integrals_[slot(f)];
-      make_dual(face, kept_of(f));
-    }
+    for (const std::size_t f : near_)
+      for (const std::size_t i : pieces(f)) {
+        auto piece = integrals_[i];
+        Few<char, 9> kept;
+        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) kept.push_back(kept_[place_of(f, piece, k)]);
+        make_dual(piece, kept);
+      }
   }
 
-  // The nodes of faces that lie at each place, ascending by face.
+  // The functions that belong to each place, ascending by face and piece.
   void sort_by_places()
   {
     first_.assign(places_.all.size() + 1, 0);
-    for (const std::size_t f : near_)
-      for (const Local p : node_places(f)) ++first_[static_cast<std::size_t>(p) + 1];
+    const auto each = [&](const auto& use) {
+      for (const std::size_t f : near_)
+        for (const std::size_t i : pieces(f)) {
+          const auto piece = integrals_[i];
+          for (Eigen::Index k = 0; k < piece.covered.size(); ++k) use(place_of(f, piece, k), Function{f, i, k});
+        }
+    };
+    each([&](std::size_t p, const Function&) { ++first_[p + 1]; });
     for (std::size_t p = 0; p < places_.all.size(); ++p) first_[p + 1] += first_[p];
     at_.resize(first_.back());
     auto next = first_;
-    for (const std::size_t f : near_) {
-      const auto places = node_places(f);
-      for (std::size_t k = 0; k < places.size(); ++k) at_[next[static_cast<std::size_t>(places[k])]++] = {f, k};
-    }
+    each([&](std::size_t p, const Function& function) { at_[next[p]++] = function; });
   }
 
-  // The coefficients of the rows that a face's k-th node gets from this face.
-  void add_terms(std::size_t face, std::size_t k)
+  std::span<const Function> functions_at(std::size_t p) const
   {
-    const auto row = static_cast<Eigen::Index>(k);
-    const auto nodes = secondary_.faces[face];
+    return std::span(at_).subspan(first_[p], first_[p + 1] - first_[p]);
+  }
+
+  // The coefficients of a place's rows that come from one function.
+  void add_terms(const Function& function)
+  {
+    const auto nodes = secondary_.faces[function.face];
     const auto add = [&](Local node, bool on_primary, double value) {
       if (value != 0) terms_.push_back({node, on_primary, value});
     };
-    if (nodal()) return add_nodal_terms(face, row);
-    const auto integrals = integrals_[slot(face)];
-    for (std::size_t j = 0; j < nodes.size(); ++j) add(nodes[j], false, integrals.mass(row, static_cast<Eigen::Index>(j)));
-    for (std::size_t j = 0; j < integrals.nodes.size(); ++j)
-      add(integrals.nodes[j], true, integrals.opposite(row, static_cast<Eigen::Index>(j)));
+    const auto piece = integrals_[function.piece];
+    if (nodal()) return add_nodal_terms(function.face, piece, function.k);
+    for (std::size_t j = 0; j < nodes.size(); ++j) add(nodes[j], false, piece.mass(function.k, static_cast<Eigen::Index>(j)));
+    for (std::size_t j = 0; j < piece.nodes.size(); ++j)
+      add(piece.nodes[j], true, piece.opposite(function.k, static_cast<Eigen::Index>(j)));
   }
 
   // u_s - sum_j N_j u_j at what each node meets, weighted with the node's share of the face.
-  void add_nodal_terms(std::size_t face, Eigen::Index k)
+  void add_nodal_terms(std::size_t face, const PieceStore::View& piece, Eigen::Index k)
   {
     const auto places = node_places(face);
     const auto nodes = secondary_.faces[face];
     const auto& control = control_values(secondary_.faces.type[face]);
     for (Eigen::Index l = 0; l < control.cols(); ++l) {
-      const double weight = control(k, l) * covered(face, static_cast<std::size_t>(k));
+      const double weight = control(k, l) * piece.covered[k];
       if (weight == 0) continue;
       terms_.push_back({nodes[static_cast<std::size_t>(l)], false, weight});
       if (options_.obstacle) continue;
@@ -273,27 +303,49 @@ class Builder {
   {
     terms_.clear();
     double d = 0, rise = 0;
-    for (std::size_t i = first_[p]; i < first_[p + 1]; ++i) {
-      const auto [face, k] = at_[i];
-      const auto integrals = integrals_[slot(face)];
-      d += integrals.covered[static_cast<Eigen::Index>(k)];
-      if (!nodal()) rise += integrals.rise[static_cast<Eigen::Index>(k)];
-      add_terms(face, k);
+    for (const auto& function : functions_at(p)) {
+      const auto piece = integrals_[function.piece];
+      d += piece.covered[function.k];
+      if (!nodal()) rise += piece.rise[function.k];
+      add_terms(function);
     }
     if (!(d > 0)) return;
     merge_terms();
     add_point(p, d, rise, contacts);
   }
 
+  // The point of a place's multiplier and the secondary side's normal there: at the node, unless it was moved into what is
+  // covered.
+  std::pair<Point, Point> point_of(std::size_t p)
+  {
+    const Place& place = places_.all[p];
+    const Point& node = secondary_.points[static_cast<std::size_t>(place.node)];
+    Point shift = Point::Zero(), turn = Point::Zero();
+    double d = 0;
+    for (const auto& [face, i, k] : functions_at(p)) {
+      const auto piece = integrals_[i];
+      d += piece.covered[k];
+      if (piece.facet < 0) continue;
+      const auto facet = static_cast<std::size_t>(piece.facet);
+      for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c) {
+        const double part = piece.covered[k] * piece.points(k, static_cast<Eigen::Index>(c));
+        shift += part * (secondary_.points[static_cast<std::size_t>(secondary_.facets[facet][c])] - node);
+        turn += part * (places_.normal(secondary_, facet, c) - place.normal);
+      }
+    }
+    return {node + shift / d, (place.normal + turn / d).normalized()};
+  }
+
   void add_point(std::size_t p, double d, double rise, constraint::Contacts& contacts)
   {
     const Place& place = places_.all[p];
-    const bool bonded = options_.law == Law::bonded;
+    const auto [at, own_normal] = point_of(p);
+    const Point normal = bonded() ? place.normal : rays_.direction(p, at, own_normal);
     constraint::ContactPoint point{
-        index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, place.normal, {}, contacts.rows.size()};
-    const bool held = !writer_.moves(terms_, d, place.normal);  // on both sides
+        index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, normal, {}, contacts.rows.size()};
+    const bool held = !writer_.moves(terms_, d, normal);  // on both sides
     if (!held && options_.law != Law::frictionless)
-      for (const auto& tangent : directions_[p].tangents)
+      for (const auto& tangent : tangents(p, normal))
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
 
     Point separation = Point::Zero();  // of the two sides in the mesh, weighted as the row is
@@ -304,25 +356,58 @@ class Builder {
       if (!term.on_primary) weight += term.value / d;
     }
     point.weight = weight;
-    point.at = secondary_.points[static_cast<std::size_t>(place.node)];
-    point.gap = bonded ? 0 : weight * (gap_at(p, (place.normal.dot(separation) - rise / d) / weight) - options_.interference);
+    point.at = at;
+    point.cover = cover_[p];
+    point.gap = bonded() ? 0 : weight * (gap_at(p, normal, (normal.dot(separation) - rise / d) / weight) - options_.interference);
     if (held) {
-      if (!bonded) crossing_ = std::max(crossing_, writer_.held_part(terms_, d, place.normal) - point.gap);
+      if (!bonded()) crossing_ = std::max(crossing_, writer_.held_part(terms_, d, normal) - point.gap);
       return;
     }
-    writer_.add(terms_, d, place.normal, point.gap, contacts);
+    writer_.add(terms_, d, normal, point.gap, contacts);
     for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
     contacts.points.push_back(std::move(point));
-    contacts.bonded.push_back(bonded);
+    contacts.bonded.push_back(bonded());
   }
 
-  // The gap between the smooth surfaces at the node itself, along its normal. Its mean over the dual basis, which has negative
-  // parts, would see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch; that mean is
-  // left for nodes which look past the border of the primary side.
-  double gap_at(std::size_t p, double mean) const
+  // The tangents that supports leave of a row's direction.
+  Few<Point, 2> tangents(std::size_t p, const Point& normal) const
   {
-    const double gap = rays_.gap(p);
-    return std::isfinite(gap) ? gap : mean;
+    const auto& known = directions_[p].tangents;
+    Few<Point, 2> result;
+    if (normal == places_.all[p].normal) {
+      for (const auto& tangent : known) result.push_back(tangent);
+      return result;
+    }
+    const Global node = secondary_.node_id[static_cast<std::size_t>(places_.all[p].node)];
+    const bool freed = freed_[p];
+    const std::array<bool, 3> held{!freed && held_.find(node, 0), !freed && held_.find(node, 1), !freed && held_.find(node, 2)};
+    const auto turned =
+        directions(normal, held, freed ? std::span<const constraint::Inclined>{} : held_.inclined(node), dimension_);
+    for (const auto& tangent : turned.tangents) result.push_back(tangent);
+    return result;
+  }
+
+  // The gap between the smooth surfaces at the point itself, along the direction of contact. Its mean over the dual basis, which
+  // has negative parts, would see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch;
+  // that mean is left for points that look past the border of the primary side.
+  double gap_at(std::size_t p, const Point& direction, double mean)
+  {
+    double sum = 0, d = 0, whole = 0;
+    for (const auto& [face, i, k] : functions_at(p)) {
+      const auto piece = integrals_[i];
+      const double part = piece.covered[k];
+      if (part == 0) continue;
+      d += part;
+      if (piece.facet < 0) {
+        whole += part;
+        continue;
+      }
+      Eigen::Vector4d shape = Eigen::Vector4d::Zero();
+      shape.head(piece.points.cols()) = piece.points.row(k).transpose();
+      sum += part * rays_.gap(static_cast<std::size_t>(piece.facet), shape, direction);
+    }
+    if (whole != 0) sum += whole * rays_.gap(p, direction);
+    return std::isfinite(sum) ? sum / d : mean;
   }
 
   const Options& options_;
@@ -339,14 +424,16 @@ class Builder {
   double reach_;
   double crossing_ = 0;
   double covered_area_ = 0;
-  std::vector<std::size_t> near_, round_;  // faces; see choose_faces()
-  FaceStore integrals_;                    // of the faces in round_; once dual, those in near_ have their share of the rows
-  std::vector<Local> slot_;                // of each face its place in integrals_
-  std::vector<Directions> directions_;     // of each place
-  std::vector<char> kept_;                 // of each place
-  std::vector<std::size_t> first_;         // of each place its first entry in at_
-  std::vector<std::pair<std::size_t, std::size_t>> at_;  // face and node in it
-  std::vector<Term> terms_;                              // of the place at work
+  std::vector<std::size_t> near_, round_;       // faces; see choose_faces()
+  PieceStore integrals_;                        // of the faces in round_; once dual, those in near_ have their share of the rows
+  std::vector<Local> first_piece_, end_piece_;  // of each face in integrals_
+  std::vector<Directions> directions_;          // of each place
+  std::vector<char> freed_;                     // of each place: its row keeps what supports hold of the secondary side
+  std::vector<char> kept_;                      // of each place
+  std::vector<double> cover_;                   // of each place
+  std::vector<std::size_t> first_;              // of each place its first entry in at_
+  std::vector<Function> at_;
+  std::vector<Term> terms_;  // of the place at work
 };
 
 }  // namespace

@@ -6,6 +6,51 @@
 
 namespace mortise::contact {
 
+namespace {
+
+// Curvature below this part of 1 / size of a facet is rounding.
+constexpr double flat = 1e-6;
+// How far a line may pass the border of a face that it meets continued, in shape functions.
+constexpr double beyond_border = 1;
+
+// How far lines may miss the other side: this part of the size of the facets that they start from. Corners of faces that are
+// nearly covered lie so far beyond its border, and where the surfaces are curved projections along normals of facets and lines
+// along the direction of contact differ a little.
+constexpr double part_past = 0.4;
+
+// The largest change of the normals along the edges of a facet, per length.
+double curvature_of(const Side& side, const Places& places, std::size_t facet)
+{
+  const auto nodes = side.facets[facet];
+  double result = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const std::size_t l = (k + 1) % nodes.size();
+    const double length =
+        (side.points[static_cast<std::size_t>(nodes[l])] - side.points[static_cast<std::size_t>(nodes[k])]).norm();
+    result = std::max(result, (places.normal(side, facet, l) - places.normal(side, facet, k)).norm() / length);
+  }
+  return result;
+}
+
+// The mean over the facets round each place.
+template <class Value>
+std::vector<double> mean_round(const Side& side, const Places& places, const Value& value)
+{
+  std::vector<double> sum(places.all.size(), 0.0), count(places.all.size(), 0.0);
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const double of_facet = value(f);
+    for (std::size_t k = 0; k < side.facets[f].size(); ++k) {
+      const auto place = static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k]);
+      sum[place] += of_facet;
+      ++count[place];
+    }
+  }
+  for (std::size_t p = 0; p < sum.size(); ++p) sum[p] /= std::max(count[p], 1.0);
+  return sum;
+}
+
+}  // namespace
+
 Rays::Rays(const Side& secondary, Places& places, const Side& primary, const Places& primary_places, const Tree& tree,
            const std::optional<Obstacle>& obstacle, double reach)
     : secondary_(secondary),
@@ -22,7 +67,11 @@ Rays::Rays(const Side& secondary, Places& places, const Side& primary, const Pla
     for (auto k = static_cast<std::size_t>(mesh::corner_count(secondary.faces.type[f])); k < secondary.faces[f].size(); ++k)
       face_of_middle_[static_cast<std::size_t>(places.of_node[static_cast<std::size_t>(secondary.faces.offset[f]) + k])] = {
           static_cast<Local>(f), static_cast<Local>(k)};
-  if (!obstacle) return;
+  if (!obstacle) {
+    curvature_ = mean_round(secondary, places, [&](std::size_t f) { return curvature_of(secondary, places, f); });
+    past_ = mean_round(secondary, places, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
+    return;
+  }
   // The directions of contact are the obstacle's normals; where a place does not face it, it is out of reach.
   for (auto& place : places.all) {
     Foot at = foot(*obstacle, secondary.points[static_cast<std::size_t>(place.node)]);
@@ -32,22 +81,36 @@ Rays::Rays(const Side& secondary, Places& places, const Side& primary, const Pla
   }
 }
 
-Opposite Rays::shoot(std::size_t p, double length) const
+Opposite Rays::shoot(const Point& from, const Point& direction, double length) const
 {
   Opposite best;
-  if (obstacle_) {
-    best.gap = distance_[p];
-    return best;
-  }
-  const Place& place = places_.all[p];
-  const Point x = secondary_.points[static_cast<std::size_t>(place.node)];
-  const Point margin = Point::Constant(0.02 * length);  // a hit may lie a little beside its face
-  for (const int m : tree_.swept(Box(x - margin, x + margin), length * place.normal)) {
+  const Point room = Point::Constant(0.02 * length);  // a hit may lie a little beside its face
+  for (const int m : tree_.swept(Box(from - room, from + room), length * direction)) {
     const auto facet = static_cast<std::size_t>(m);
-    const auto hit = contact::shoot(x, place.normal, primary_.geometry(facet));
+    const auto hit = contact::shoot(from, direction, primary_.geometry(facet));
     if (!hit.found) continue;
     const double gap = hit.distance - Bulge(primary_, primary_places_, facet)(hit.shape);
     if (std::abs(gap) <= length && std::abs(gap) < std::abs(best.gap)) best = {gap, facet, hit};
+  }
+  return best;
+}
+
+Opposite Rays::shoot_past(const Point& from, const Point& direction, double length, double past) const
+{
+  Opposite best = shoot(from, direction, length);
+  if (std::isfinite(best.gap)) return best;
+  const Point room = Point::Constant(past);
+  double least = past;
+  for (const int m : tree_.swept(Box(from - room, from + room), length * direction)) {
+    const auto facet = static_cast<std::size_t>(m);
+    const auto geometry = primary_.geometry(facet);
+    const auto hit = contact::shoot(from, direction, geometry, beyond_border);
+    if (!hit.found) continue;
+    const double by = -hit.shape.head(static_cast<Eigen::Index>(geometry.nodes.size())).minCoeff() * geometry.size();
+    const double gap = hit.distance - Bulge(primary_, primary_places_, facet)(hit.shape);
+    if (std::abs(gap) > length || by > least) continue;
+    least = by;
+    best = {gap, facet, hit};
   }
   return best;
 }
@@ -56,25 +119,60 @@ const Opposite& Rays::meet(std::size_t p)
 {
   if (known_[p] < 0) {
     known_[p] = static_cast<Local>(met_.size());
-    met_.push_back(shoot(p, reach_));
+    const Place& place = places_.all[p];
+    Opposite opposite;
+    if (obstacle_)
+      opposite.gap = distance_[p];
+    else
+      opposite = shoot(secondary_.points[static_cast<std::size_t>(place.node)], place.normal, reach_);
+    met_.push_back(opposite);
   }
   return met_[static_cast<std::size_t>(known_[p])];
 }
 
-double Rays::gap(std::size_t p) const
+Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
 {
-  const double length = 2 * reach_;
+  if (obstacle_) return normal;
+  const auto opposite = shoot_past(at, normal, 2 * reach_, past_[p]);
+  if (!std::isfinite(opposite.gap)) return normal;
+  Point other = Point::Zero();
+  double length = 0;
+  const auto geometry = primary_.geometry(opposite.facet);
+  for (std::size_t k = 0; k < geometry.nodes.size(); ++k)
+    other += opposite.hit.shape[static_cast<Eigen::Index>(k)] * primary_places_.normal(primary_, opposite.facet, k);
+  length = geometry.size();
+  other.normalize();
+  const double own = curvature_[p] + flat / length;
+  const double others = curvature_of(primary_, primary_places_, opposite.facet) + flat / length;
+  return (others * normal - own * other).normalized();
+}
+
+double Rays::gap(std::size_t p, const Point& direction) const
+{
+  if (obstacle_) return distance_[p];
+  const auto from = [&](std::size_t place) {
+    return shoot_past(secondary_.points[static_cast<std::size_t>(places_.all[place].node)], direction, 2 * reach_, past_[place])
+        .gap;
+  };
   const auto [face, node] = face_of_middle_[p];
-  if (face < 0) return shoot(p, length).gap;
+  if (face < 0) return from(p);
   const auto f = static_cast<std::size_t>(face);
   const auto control = control_values(secondary_.faces.type[f]).row(node);
   double gap = 0;
   for (Eigen::Index k = 0; k < control.size(); ++k)
     if (control[k] != 0)
       gap +=
-          control[k] *
-          shoot(static_cast<std::size_t>(places_.of_node[static_cast<std::size_t>(secondary_.faces.offset[f] + k)]), length).gap;
+          control[k] * from(static_cast<std::size_t>(places_.of_node[static_cast<std::size_t>(secondary_.faces.offset[f] + k)]));
   return gap;
+}
+
+double Rays::gap(std::size_t facet, const Eigen::Vector4d& shape, const Point& direction) const
+{
+  const auto geometry = secondary_.geometry(facet);
+  Point at = Point::Zero();
+  for (std::size_t k = 0; k < geometry.nodes.size(); ++k) at += shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
+  const double gap = shoot_past(at, direction, 2 * reach_, part_past * geometry.size()).gap;
+  return gap - Bulge(secondary_, places_, facet)(shape);
 }
 
 }  // namespace mortise::contact

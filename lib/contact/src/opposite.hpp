@@ -23,16 +23,27 @@ class Rays {
   Rays(const Side& secondary, Places& places, const Side& primary, const Places& primary_places, const Tree& tree,
        const std::optional<Obstacle>& obstacle, double reach);
 
-  /// What is next to a place on the line along its normal, both ways, nearer than `length`. An obstacle is met at any distance.
-  Opposite shoot(std::size_t place, double length) const;
-  /// What is within reach; looked up once for each place.
+  /// What is next to a place on the line along its normal, both ways, within reach; looked up once for each place. An obstacle is
+  /// met at any distance.
   const Opposite& meet(std::size_t place);
   bool meets(std::size_t place) { return std::abs(meet(place).gap) <= reach_; }
-  /// The gap at a place as the rows see it: in the middle of edges and faces as a control value, see multiplier_basis().
-  /// Infinite if one of the lines meets nothing within twice the reach.
-  double gap(std::size_t place) const;
+
+  /// The direction of contact at a point of the secondary side near a place, whose normal there is given: between the two sides'
+  /// normals, the nearer to that of the flatter side the more it is flatter, weights being the other side's curvature. So both
+  /// sides mean the same direction, and a curved body on a flat one is not sheared The given normal where nothing lies opposite;
+  /// an obstacle's own.
+  Point direction(std::size_t place, const Point& at, const Point& normal) const;
+  /// The gap along a direction of contact at a place, as the rows see it: in the middle of edges and faces as a control value,
+  /// see multiplier_basis(). Infinite if one of the lines meets nothing within twice the reach.
+  double gap(std::size_t place, const Point& direction) const;
+  /// The same at a point of a facet where its shape functions are `shape`, behind which the smooth surface stands out. Lines
+  /// that just miss the other side meet its faces continued.
+  double gap(std::size_t facet, const Eigen::Vector4d& shape, const Point& direction) const;
 
  private:
+  Opposite shoot(const Point& from, const Point& direction, double length) const;
+  // The same; a line that meets nothing meets the nearest face continued, if it misses it by less than `past`.
+  Opposite shoot_past(const Point& from, const Point& direction, double length, double past) const;
   const Side& secondary_;
   const Places& places_;
   const Side& primary_;
@@ -40,6 +51,7 @@ class Rays {
   const Tree& tree_;
   double reach_;
   bool obstacle_;
+  std::vector<double> curvature_, past_;                 // of each place
   std::vector<double> distance_;                         // of each place from the obstacle, if there is one
   std::vector<std::pair<Local, Local>> face_of_middle_;  // of each place: a face and the node in it, if that is no corner
   std::vector<Opposite> met_;

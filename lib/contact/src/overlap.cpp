@@ -124,6 +124,7 @@ bool overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double 
     const double end = std::min(std::max(own[0][0], own[1][0]), std::max(other[0][0], other[1][0]));
     if (end - begin <= negligible * secondary.area()) return false;
     sample(begin, end, result.samples);
+    result.common = {Plane(begin, 0), Plane(end, 0)};
     middle[0] = 0.5 * (begin + end);
   } else {
     Polygon subject;  // it looks the other way
@@ -133,6 +134,7 @@ bool overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double 
     if (common.size() < 3 || area_of(common) <= negligible * secondary.area()) return false;
     sample(common, integrand(secondary, primary, second_order), result.samples);
     for (const auto& p : common) middle += p / static_cast<double>(common.size());
+    result.common = common;
   }
   const Locator in_secondary(secondary.type, own), in_primary(primary.type, other);
   const double distance = height_at(primary, frame, in_primary(middle)) - height_at(secondary, frame, in_secondary(middle));
@@ -141,9 +143,8 @@ bool overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double 
   return true;
 }
 
-Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face)
+Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face, double margin)
 {
-  constexpr double margin = 1e-6;  // of the face's size: rays on an edge hit one of its faces
   if (direction.dot(face.normal()) > opposed) return {};
   Frame frame{from, Point::Zero(), Point::Zero(), direction};
   if (face.type == CellType::line2) {

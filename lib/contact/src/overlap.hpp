@@ -44,6 +44,7 @@ struct OverlapPoint {
 struct Overlap {
   Frame frame;
   std::vector<OverlapPoint> points;
+  Polygon common;               ///< of the two projections; on a line its two ends
   std::vector<Sample> samples;  ///< for the work on it
 };
 
@@ -61,6 +62,7 @@ struct Hit {
   Eigen::Vector4d shape = Eigen::Vector4d::Zero();
   Frame frame;  ///< the line is its normal through its origin
 };
-Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face);
+/// A line that passes the face's border by up to `margin` (in shape functions) hits the face continued.
+Hit shoot(const Point& from, const Point& direction, const FaceGeometry& face, double margin = 1e-6);
 
 }  // namespace mortise::contact

@@ -110,9 +110,7 @@ void continue_curvature(const Side& side, Places& places)
 Few<Point, 4> corner_normals(const Side& side, const Places& places, std::size_t facet)
 {
   Few<Point, 4> normals;
-  for (std::size_t k = 0; k < side.facets[facet].size(); ++k)
-    normals.push_back(
-        places.all[static_cast<std::size_t>(places.of_corner[static_cast<std::size_t>(side.facets.offset[facet]) + k])].normal);
+  for (std::size_t k = 0; k < side.facets[facet].size(); ++k) normals.push_back(places.normal(side, facet, k));
   return normals;
 }
 

@@ -17,6 +17,12 @@ struct Place {
 struct Places {
   std::vector<Place> all;
   std::vector<Local> of_corner, of_node;
+
+  /// At a corner of a facet.
+  const Point& normal(const Side& side, std::size_t facet, std::size_t corner) const
+  {
+    return all[static_cast<std::size_t>(of_corner[static_cast<std::size_t>(side.facets.offset[facet]) + corner])].normal;
+  }
 };
 
 /// At the border of a surface, where faces lie on one side only, normals continue the curvature of the edges that lead inside: an

@@ -57,7 +57,7 @@ struct SentPoint {
   int contact, tangent_count;
   bool bonded;
   Global node;
-  double area, weight, gap;
+  double area, weight, gap, cover;
   Vector3 normal, at;
   std::array<Vector3, 2> tangents;
 };
@@ -77,6 +77,7 @@ SentPoint pack(const constraint::ContactPoint& from, bool bonded)
   to.area = from.area;
   to.weight = from.weight;
   to.gap = from.gap;
+  to.cover = from.cover;
   to.normal = array(from.normal);
   to.at = array(from.at);
   std::transform(from.tangents.begin(), from.tangents.end(), to.tangents.begin(), array);
@@ -86,7 +87,7 @@ SentPoint pack(const constraint::ContactPoint& from, bool bonded)
 constraint::ContactPoint unpack(const SentPoint& from, std::size_t row)
 {
   constraint::ContactPoint to{from.contact, from.node,   from.area, point(from.normal), {},
-                              row,          from.weight, from.gap,  point(from.at)};
+                              row,          from.weight, from.gap,  point(from.at),     from.cover};
   for (int t = 0; t < from.tangent_count; ++t) to.tangents.push_back(point(from.tangents[static_cast<std::size_t>(t)]));
   return to;
 }

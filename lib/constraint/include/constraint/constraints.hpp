@@ -85,7 +85,8 @@ struct ContactPoint {
   std::size_t row;    ///< its normal row in Contacts::rows; its tangential rows follow, then the next point's normal row
   double weight = 1;  ///< sum of the row's coefficients on the secondary side, above 1 where it stands in for dropped nodes
   double gap = 0;     ///< that the normal row starts with, interference deducted, before any support moves
-  Point at = Point::Zero();  ///< the node's place in the mesh
+  Point at = Point::Zero();  ///< its place in the mesh: the node, or where the node was moved to at the primary side's border
+  double cover = 1;          ///< part of its surroundings that lies opposite the primary side
 };
 
 /// An entry of a contact row that a support holds: it stands in the row's bound instead, and what the row's multiplier pushes

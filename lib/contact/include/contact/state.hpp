@@ -15,6 +15,7 @@ struct PointState {
   int contact = 0;
   Global node = 0;
   double area = 0;
+  double cover = 1;                          ///< ContactPoint::cover
   double force = 0;                          ///< normal multiplier, >= 0 when pressing (bonded: any sign)
   Point force_on_secondary = Point::Zero();  ///< all multipliers of the point, as the secondary side feels them
   double gap = 0;                            ///< >= 0 up to the solver's tolerance
@@ -31,15 +32,15 @@ PointState state_of(const constraint::ContactPoint& point, bool bonded, std::spa
 /// Totals of one contact, over all ranks.
 struct Resultant {
   Point force = Point::Zero();  ///< on the secondary side
-  double max_pressure = 0;
-  double area = 0;  ///< of the points that are closed
+  double area = 0;              ///< of the points that are closed
   long long open = 0, stick = 0, slip = 0;
 };
 /// Collective.
 std::vector<Resultant> resultants(std::span<const PointState> points, std::size_t contacts, const Communicator& comm);
 
 /// Nodal fields on this rank's secondary surface of one contact; where two points share a node at a kink, pressures are averaged
-/// by area.
+/// by area. A node whose surroundings the primary side hardly covers bears what presses on a strip much narrower than a face: its
+/// force and area count with those of its neighbours, whose mean it shows.
 struct SurfaceState {
   std::vector<double> pressure, gap;
   /// The pressure averaged over the faces at each node, by their areas, where it presses. That of single nodes scatters by some

@@ -1,0 +1,225 @@
+#include "pieces.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mortise::contact {
+
+namespace {
+
+Eigen::MatrixXd make_basis(mesh::CellType type)
+{
+  const auto n = static_cast<Eigen::Index>(mesh::node_count(type)), corners = static_cast<Eigen::Index>(mesh::corner_count(type));
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n);
+  if (n == corners) return basis;
+  const auto& middles = mesh::middles(type);
+  const auto along = [&](Eigen::Index m, int c) {
+    const auto& ends = middles[static_cast<std::size_t>(m - corners)];
+    return std::find(ends.begin(), ends.end(), c) != ends.end();
+  };
+  for (Eigen::Index m = corners; m < n; ++m) {
+    const auto ends = middles[static_cast<std::size_t>(m - corners)].size();
+    basis(m, m) = ends == 2 ? 0.5 : 0.25;
+    for (int c = 0; c < static_cast<int>(corners); ++c)
+      if (along(m, c)) basis(c, m) = ends == 2 ? 0.25 : 1.0 / 16;
+    if (ends == 2) continue;
+    for (Eigen::Index e = corners; e < m; ++e) basis(e, m) = 0.125;  // the centre of a quadrilateral, and its four edges
+  }
+  return basis;
+}
+
+// make(type) of every type of face.
+template <class Make>
+std::array<Eigen::MatrixXd, mesh::cell_types> table(const Make& make)
+{
+  using enum mesh::CellType;
+  std::array<Eigen::MatrixXd, mesh::cell_types> result;
+  for (const auto type : {line2, tri3, quad4, line3, tri6, quad8, quad9}) result[static_cast<std::size_t>(type)] = make(type);
+  return result;
+}
+
+// Parts of a facet below this are slits between faces that do not quite meet.
+constexpr double slit = 1e-4;
+// Points of a facet closer to dependence than this span no basis, and what a function sees below this part of the facet's cover
+// is next to nothing.
+constexpr double least_rcond = 0.02, least_part = 0.02;
+
+Plane nearest_on(const Plane& a, const Plane& b, const Plane& x)
+{
+  const Plane edge = b - a;
+  const double length = edge.squaredNorm();
+  return length > 0 ? Plane(a + std::clamp((x - a).dot(edge) / length, 0.0, 1.0) * edge) : a;
+}
+
+// The point of a convex, counter-clockwise polygon (two ends of a line) next to x.
+Plane nearest_in(const Polygon& polygon, const Plane& x)
+{
+  if (polygon.size() == 2) return nearest_on(polygon[0], polygon[1], x);
+  bool inside = true;
+  Plane best = polygon[0];
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Plane &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if (cross(b - a, x - a) < 0) inside = false;
+    const Plane on = nearest_on(a, b, x);
+    if ((on - x).squaredNorm() < (best - x).squaredNorm()) best = on;
+  }
+  return inside ? x : best;
+}
+
+double size_of(const Polygon& polygon)
+{
+  return polygon.size() == 2 ? (polygon[1] - polygon[0]).norm() : area_of(polygon);
+}
+
+// Of a facet's node: the next point that is covered; the node itself if it is, to rounding.
+Plane covered_point(std::span<const Polygon> common, const Plane& node, double least, double rounding)
+{
+  Plane best = node;
+  double distance = std::numeric_limits<double>::infinity();
+  for (const auto& polygon : common) {
+    if (size_of(polygon) < least) continue;
+    const Plane at = nearest_in(polygon, node);
+    if ((at - node).norm() < distance) best = at, distance = (at - node).norm();
+  }
+  return distance < rounding ? node : best;
+}
+
+// The shape functions stay; each belongs to the centre of what it covers.
+void keep_shape_functions(PieceIntegrals& piece)
+{
+  piece.dual = false;
+  for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
+    if (piece.covered[k] > 0) piece.points.row(k) = piece.gram.row(k) / piece.covered[k];
+}
+
+}  // namespace
+
+const Eigen::MatrixXd& multiplier_basis(mesh::CellType type)
+{
+  static const auto bases = table(make_basis);
+  return bases[static_cast<std::size_t>(type)];
+}
+
+const Eigen::MatrixXd& control_values(mesh::CellType type)
+{
+  static const auto inverses =
+      table([](mesh::CellType t) -> Eigen::MatrixXd { return make_basis(t).transpose().partialPivLu().inverse(); });
+  return inverses[static_cast<std::size_t>(type)];
+}
+
+void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<Plane, 4>& nodes, PieceIntegrals& piece)
+{
+  const auto r = piece.covered.size();
+  double largest = 0, length = 0;
+  for (const auto& polygon : common) largest = std::max(largest, size_of(polygon));
+  for (const auto& node : nodes) length = std::max(length, (node - nodes[0]).norm());
+  const Locator locator(type, nodes);
+  SmallMatrix points = SmallMatrix::Identity(r, r);
+  for (Eigen::Index k = 0; k < r; ++k) {
+    const Plane& node = nodes[static_cast<std::size_t>(k)];
+    const Plane at = covered_point(common, node, slit * largest, 1e-9 * length);
+    if (at != node) points.row(k) = locator(at).head(r).transpose();
+  }
+  const Eigen::FullPivLU<SmallMatrix> factor(points);
+  if (factor.rcond() < least_rcond) return keep_shape_functions(piece);
+  const SmallMatrix change = factor.inverse().transpose();
+  const FaceShape covered = change * piece.covered;
+  if (covered.minCoeff() < least_part * covered.sum()) return keep_shape_functions(piece);
+  piece.points = points;
+  piece.covered = covered;
+  piece.mass = SmallMatrix(change * piece.mass);
+  piece.gram = SmallMatrix(change * piece.gram * change.transpose());
+  piece.rise = FaceShape(change * piece.rise);
+  for (auto& column : piece.opposite) column = FaceShape(change * column);
+}
+
+void PieceStore::add(const PieceIntegrals& piece)
+{
+  shapes_.push_back({piece.facet, piece.dual, static_cast<int>(piece.mass.rows()), static_cast<int>(piece.mass.cols()),
+                     values_.size(), nodes_.size()});
+  const auto put = [&](const auto& matrix) { values_.insert(values_.end(), matrix.data(), matrix.data() + matrix.size()); };
+  put(piece.mass);
+  put(piece.gram);
+  if (piece.facet >= 0) put(piece.points);
+  put(piece.covered);
+  put(piece.whole);
+  put(piece.rise);
+  for (const auto& column : piece.opposite) put(column);
+  nodes_.insert(nodes_.end(), piece.nodes.begin(), piece.nodes.end());
+}
+
+PieceStore::View PieceStore::operator[](std::size_t i)
+{
+  const auto& shape = shapes_[i];
+  const Eigen::Index r = shape.r, n = shape.n, points = shape.facet >= 0 ? r : 0;
+  const std::size_t end = i + 1 < shapes_.size() ? shapes_[i + 1].first_node : nodes_.size();
+  const auto nodes = std::span<const Local>(nodes_).subspan(shape.first_node, end - shape.first_node);
+  double* mass = values_.data() + shape.first_value;
+  double *gram = mass + r * n, *at = gram + r * r, *covered = at + points * points, *whole = covered + r, *rise = whole + r;
+  return {shape.facet,
+          shape.dual,
+          Matrix(mass, r, n),
+          Matrix(gram, r, r),
+          Matrix(at, points, points),
+          Vector(covered, r),
+          Vector(whole, r),
+          Vector(rise, r),
+          nodes,
+          Matrix(rise + r, r, static_cast<Eigen::Index>(nodes.size()))};
+}
+
+void make_dual(PieceStore::View& piece, std::span<const char> kept)
+{
+  const auto n = piece.covered.size();
+  Few<Eigen::Index, 9> keep, drop;
+  for (Eigen::Index i = 0; i < n; ++i) (kept[static_cast<std::size_t>(i)] ? keep : drop).push_back(i);
+  if (keep.empty() || piece.covered.sum() <= 0) {
+    piece.mass.setZero();
+    piece.covered.setZero();
+    piece.rise.setZero();
+    piece.opposite.setZero();
+    return;
+  }
+
+  // theta~ = T theta.
+  const auto count = static_cast<Eigen::Index>(keep.size());
+  SmallMatrix t = SmallMatrix::Zero(count, n);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    t(k, keep[static_cast<std::size_t>(k)]) = 1;
+    for (const auto d : drop) t(k, d) = 1.0 / static_cast<double>(count);
+  }
+  const SmallMatrix products = t * piece.gram;  // integral theta~_k theta_j
+  SmallMatrix gram(count, count);
+  FaceShape d(count), scale(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto corner = keep[static_cast<std::size_t>(k)];
+    gram.col(k) = products.col(corner);
+    d[k] = piece.covered[corner];
+    // A sliver makes the functions nearly dependent on it; scaled to one size what remains is their true dependence.
+    scale[k] = 1 / std::sqrt(std::max(piece.gram(corner, corner), std::numeric_limits<double>::min()));
+  }
+  const Eigen::FullPivLU<SmallMatrix> factor(SmallMatrix(scale.asDiagonal() * gram * scale.asDiagonal()));
+  SmallMatrix a = SmallMatrix::Identity(count, count);  // too thin for a dual basis of its own: theta~, which keeps the sums
+  if (piece.dual && factor.rcond() > 1e-9)
+    a = d.asDiagonal() * SmallMatrix(scale.asDiagonal() * factor.solve(SmallMatrix(scale.asDiagonal())));
+
+  // psi = all theta, with rows of zeros for the dropped nodes.
+  SmallMatrix all = SmallMatrix::Zero(n, n);
+  const SmallMatrix rows = a * t;
+  FaceShape sums = FaceShape::Zero(n);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    all.row(keep[static_cast<std::size_t>(k)]) = rows.row(k);
+    sums[keep[static_cast<std::size_t>(k)]] = d[k];
+  }
+  piece.covered = sums;
+  piece.mass = SmallMatrix(all * piece.mass);
+  piece.rise = FaceShape(all * piece.rise);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < piece.mass.cols(); ++j)
+      if (std::abs(piece.mass(i, j)) <= 1e-12 * std::abs(sums[i])) piece.mass(i, j) = 0;
+  for (Eigen::Index j = 0; j < piece.opposite.cols(); ++j) piece.opposite.col(j) = FaceShape(-all * piece.opposite.col(j));
+}
+
+}  // namespace mortise::contact

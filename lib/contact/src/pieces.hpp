@@ -1,0 +1,88 @@
+// Pieces of secondary faces, each with a basis of multipliers of its own.
+//
+// A face that the primary side covers is one piece. One that crosses the primary side's border is cut into its facets, whose
+// bases are linear (bilinear) on them and belong to points inside what is covered: a node that looks past the border is moved to
+// the next place that does not. A dual basis on a covered part that belonged to the nodes themselves would extrapolate: a
+// pressure there would have its resultant, and see its gap, beyond the border [Cichosz and Bischoff, CMAME 200 (2011), restore
+// consistency of the basis on such parts; Popp, Seitz, Gee and Wall, CMAME 264 (2013), its conditioning].
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "side.hpp"
+
+namespace mortise::contact {
+
+/// Of two faces' nodes, without allocation.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9>;
+
+/// theta = basis * phi: the functions that multipliers of a covered face are dual to, n x n. For a face of first order they are
+/// its shape functions. Those of second order have negative parts, and the mean over such a function is no pressure; theta are
+/// Bernstein's polynomials in the space of the face (on quad8 what the same combination of its functions gives), which have the
+/// sum 1 too: with end points 0, 1 and middle m of an edge theta_0 = phi_0 + phi_m / 4, theta_m = phi_m / 2. What the rows see in
+/// place of the middle value u_m is the control value 2 u_m - (u_0 + u_1) / 2 [a transformation as in Popp, Wohlmuth, Gee and
+/// Wall, SISC 34 (2012)].
+const Eigen::MatrixXd& multiplier_basis(mesh::CellType type);
+
+/// What a row of a face's node sees of the values at all its nodes, n x n: the inverse of multiplier_basis(), transposed.
+const Eigen::MatrixXd& control_values(mesh::CellType type);
+
+/// Integrals over a piece with r functions theta of a face with n nodes.
+struct PieceIntegrals {
+  Local facet = -1;                 ///< of the side; -1: all of the face, r = n
+  bool dual = true;                 ///< false: too thin for a dual basis; the multipliers are theta themselves
+  SmallMatrix mass;                 ///< integral theta_i phi_j, r x n
+  SmallMatrix gram;                 ///< integral theta_i theta_j, r x r
+  FaceShape covered;                ///< integral theta_i
+  FaceShape whole;                  ///< the same over the piece, covered or not, of functions that belong to its nodes
+  FaceShape rise;                   ///< integral theta_i (bulge of both faces)
+  SmallMatrix points;               ///< of a facet: its shape functions at the point that each function belongs to, r x r
+  std::vector<Local> nodes;         ///< those of the primary side that it meets, in any order
+  std::vector<FaceShape> opposite;  ///< for each of them, integral theta_i phi^m
+};
+
+/// Moves the points of a facet's functions into what is covered: `common` are the covered parts, convex, in the plane where its
+/// nodes lie at `nodes`. On entry the integrals are those of its shape functions, on return those of
+/// theta = points^-T shape functions, for which theta_i(point j) = delta_ij. Where the points do not span a basis, or one of
+/// them would see next to nothing, the shape functions stay, with the centre of their covered part for a point and no dual basis.
+void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<Plane, 4>& nodes, PieceIntegrals& piece);
+
+/// The integrals of many pieces in one piece of memory, and later, in their place, their shares of the rows.
+class PieceStore {
+ public:
+  using Vector = Eigen::Map<Eigen::VectorXd>;
+  using Matrix = Eigen::Map<Eigen::MatrixXd>;
+  struct View {
+    Local facet;
+    bool dual;
+    Matrix mass, gram, points;
+    Vector covered, whole, rise;
+    std::span<const Local> nodes;
+    Matrix opposite;  ///< r x nodes
+  };
+
+  void add(const PieceIntegrals& piece);
+  std::size_t size() const { return shapes_.size(); }
+  View operator[](std::size_t i);
+
+ private:
+  struct Shape {
+    Local facet;
+    bool dual;
+    int r, n;
+    std::size_t first_value, first_node;
+  };
+  std::vector<double> values_;
+  std::vector<Local> nodes_;
+  std::vector<Shape> shapes_;
+};
+
+/// Turns the integrals of a piece into its share of the rows of the nodes that are `kept`; those of the others are 0. Afterwards
+/// `mass` has the coefficients of the face's own nodes, `opposite` those of the primary nodes, before they are divided by D;
+/// `covered` is D_i and `rise` integral psi_i (bulge of both faces). The dual basis is psi = diag(D) N^-1 theta~. For a dropped
+/// node d the others take over: theta~_k = theta_k + sum_d theta_d / (number kept), N_kj = integral theta~_k theta_j, which keeps
+/// biorthogonality among those kept and sum psi = 1.
+void make_dual(PieceStore::View& piece, std::span<const char> kept);
+
+}  // namespace mortise::contact
