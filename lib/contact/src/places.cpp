@@ -50,8 +50,8 @@ std::vector<Edge> edges_of(const Side& side, const Places& places)
   return edges;
 }
 
-// Places of a border that goes on nearly straight there: its two edges turn by less than 45 degrees.
-std::vector<bool> between_two_faces(const Side& side, const Places& places, const std::vector<Edge>& edges)
+// Where the border goes on nearly straight, its two edges turning by less than 45 degrees, its direction; 0 elsewhere.
+std::vector<Point> directions_of_border(const Side& side, const Places& places, const std::vector<Edge>& edges)
 {
   std::vector<Few<Point, 2>> along(places.all.size());
   std::vector<int> ends(places.all.size(), 0);
@@ -61,8 +61,9 @@ std::vector<bool> between_two_faces(const Side& side, const Places& places, cons
   for (const auto& [from, to, count] : edges)
     if (count == 1 && ++ends[static_cast<std::size_t>(from)] <= 2)
       along[static_cast<std::size_t>(from)].push_back((at(to) - at(from)).normalized());
-  std::vector<bool> result;
-  for (std::size_t p = 0; p < ends.size(); ++p) result.push_back(ends[p] == 2 && along[p][0].dot(along[p][1]) < -0.7);
+  std::vector<Point> result(places.all.size(), Point::Zero());
+  for (std::size_t p = 0; p < ends.size(); ++p)
+    if (ends[p] == 2 && along[p][0].dot(along[p][1]) < -0.7) result[p] = (along[p][0] - along[p][1]).normalized();
   return result;
 }
 
@@ -80,9 +81,10 @@ void continue_curvature(const Side& side, Places& places)
   if (plane)
     for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
 
-  // First from edges that lead inside; then corners, which have none, from their neighbours on the border. On a surface one cell
-  // wide all places are on the border: there those between two faces have the normal that the ends continue.
-  const auto smooth = plane ? std::vector<bool>(border.size(), false) : between_two_faces(side, places, edges);
+  // First from edges that lead inside; then corners, whose normal is wrong both ways, from all their neighbours. On a surface one
+  // cell wide all places are on the border: there those between two faces have the normal that the ends continue.
+  const auto direction = plane ? std::vector<Point>(border.size(), Point::Zero()) : directions_of_border(side, places, edges);
+  const auto smooth = [&](std::size_t p) { return !direction[p].isZero(0); };
   std::vector<bool> known(border.size());
   for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];
   std::vector<Edge> outer;  // those that start on a border
@@ -90,7 +92,9 @@ void continue_curvature(const Side& side, Places& places)
                [&](const Edge& edge) { return border[static_cast<std::size_t>(edge.from)]; });
   for (int pass = 0; pass < 2; ++pass) {
     std::vector<bool> reached = known;
-    const auto leads = [&](std::size_t b, std::size_t a) { return known[b] || (pass == 1 && smooth[b] && !smooth[a]); };
+    const auto leads = [&](std::size_t b, std::size_t a) {
+      return pass == 0 ? known[b] && (plane || smooth(a)) : known[b] || (smooth(b) && !smooth(a));
+    };
     for (int sweep = 0; sweep < 10; ++sweep)
       for (const auto& edge : outer) {
         const auto a = static_cast<std::size_t>(edge.from), b = static_cast<std::size_t>(edge.to);
@@ -99,7 +103,11 @@ void continue_curvature(const Side& side, Places& places)
         const Place& inner = places.all[b];
         const Point along =
             (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(place.node)]).normalized();
-        place.normal = (place.normal - (place.normal.dot(along) + inner.normal.dot(along)) * along).normalized();
+        // Across the border: along it the faces on both sides have said what there is to say.
+        const Point across = (along - along.dot(direction[a]) * direction[a]).normalized();
+        const double part = across.dot(along);
+        if (part < 0.1) continue;
+        place.normal = (place.normal - (place.normal.dot(along) + inner.normal.dot(along)) / part * across).normalized();
         reached[a] = true;
       }
     known = reached;
