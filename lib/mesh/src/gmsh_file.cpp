@@ -20,7 +20,7 @@ void fail(const std::string& file, const std::string& what)
 
 GmshSession::GmshSession(const std::map<std::string, double>& constants)
 {
-  std::vector<std::string> words{"mortise", "-nopopup", "-v", "0"};
+  std::vector<std::string> words{"mortise", "-nopopup", "-v", "2"};
   for (const auto& [name, value] : constants) {
     words.insert(words.end(), {"-setnumber", name, fmt::format("{:.17g}", value)});
   }
