@@ -36,14 +36,6 @@ Motion power(const InstanceOptions& entry, int k)
   return motion;
 }
 
-std::size_t count_of(const std::vector<InstanceOptions>& instances)
-{
-  std::size_t sum = 0;
-  for (const auto& entry : instances)
-    sum += static_cast<std::size_t>(entry.count.value_or(1)) * (entry.of.empty() ? 1 : count_of(entry.of));
-  return sum;
-}
-
 // 36, or 360/35.
 void read_angle(RotationOptions& rotation, const YAML::Node& node, const std::string& path, deck::Document& document,
                 const deck::Limits& limits)
@@ -74,6 +66,13 @@ std::string own_name(const std::string& boundary, const std::string& group)
 Motion compose(const Motion& second, const Motion& first)
 {
   return {second.rotation * first.rotation, second(first.translation)};
+}
+
+double count_of(const std::vector<InstanceOptions>& instances)
+{
+  double sum = 0;
+  for (const auto& entry : instances) sum += entry.count.value_or(1) * (entry.of.empty() ? 1 : count_of(entry.of));
+  return sum;
 }
 
 std::vector<Motion> motions(const std::vector<InstanceOptions>& instances)

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "mesh/blocks.hpp"
+#include "mesh/extent.hpp"
 #include "mesh/instances.hpp"
 #include "mesh/read.hpp"
 #include "mesh/topology.hpp"
@@ -59,7 +60,7 @@ std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std
     largest.pop();
     if (total + copies[b] > *options.subdomains) continue;
     total += copies[b];
-    largest.emplace(static_cast<double>(nodes[b]) / ++counts[b], b);
+    if (++counts[b] < nodes[b]) largest.emplace(static_cast<double>(nodes[b]) / counts[b], b);  // no more than there can be cells
   }
   return counts;
 }
@@ -326,6 +327,7 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
     const auto scope = context.timers.scope("mesh");
     collectively(comm, [&] {
       if (mesh.file.empty()) {
+        mesh::require_room(mesh, dimension, grid ? 1.0 / comm.size() : comm.root() ? 1 : 0);
         assembly.catalogue = mesh::block_catalogue(mesh, dimension);
         // Local numbers have 31 bits, and a cell with its nodes takes some 100 bytes of the rank that cuts the mesh.
         const auto largest = std::numeric_limits<Local>::max() / 32;
@@ -334,7 +336,6 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
                       fmt::format("not enough memory to cut a mesh of {} cells in one piece (at most {}); take fewer cells, or "
                                   "decomposition.method grid",
                                   assembly.catalogue.cell_count, largest));
-        if (!grid && comm.root()) assembly.mesh = generate_whole(mesh, dimension, assembly.catalogue);
       } else if (comm.root()) {
         assembly = mesh::read(mesh, dimension);
       }
@@ -342,6 +343,12 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
         layout = layout_of_blocks(mesh, dimension, assembly.catalogue);
       else if (comm.root())
         layout = layout_of_file(mesh, assembly);
+      if (mesh.file.empty()) {
+        mesh::require_resolved(layout, mesh::block_extents(mesh, dimension), "mesh.blocks");
+        if (!grid && comm.root()) assembly.mesh = generate_whole(mesh, dimension, assembly.catalogue);
+      } else if (comm.root()) {
+        mesh::require_resolved(layout, mesh::extents(assembly.mesh, assembly.catalogue.bodies.size()), mesh.file);
+      }
     });
     broadcast(layout.catalogue, comm);
     for (const auto& warning : assembly.warnings) context.log.warning("{}: {}", mesh.file, warning);

@@ -42,6 +42,9 @@ struct InstanceOptions {
 /// The motion of every copy: entry by entry; in each, power by power of M, all of `of`.
 std::vector<Motion> motions(const std::vector<InstanceOptions>& instances);
 
+/// How many these are; a number without bounds, to be asked before they are made.
+double count_of(const std::vector<InstanceOptions>& instances);
+
 /// Most copies of one part.
 inline constexpr int most_instances = 10000;
 
