@@ -16,7 +16,9 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <numeric>
 #include <stdexcept>
 
@@ -157,6 +159,18 @@ void add_fields(const std::vector<Field>& fields, vtkDataSetAttributes* data)
   }
 }
 
+// VTK does not look whether the last block of a file reached the disk.
+void require_end(const std::string& path)
+{
+  const std::string end = "</VTKFile>";
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::streamoff>(file.tellg());
+  std::string tail(64, ' ');
+  file.seekg(std::max<std::streamoff>(size - static_cast<std::streamoff>(tail.size()), 0));
+  file.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  if (tail.find(end) == std::string::npos) throw std::runtime_error("its end is missing: no space is left on the disk");
+}
+
 void write_piece(const std::string& path, const Piece& piece)
 {
   vtkNew<vtkPoints> points;
@@ -194,6 +208,7 @@ void write_piece(const std::string& path, const Piece& piece)
     if (code == vtkErrorCode::OutOfDiskSpaceError) throw std::runtime_error("no space is left on the disk");
     if (code != vtkErrorCode::NoError || !message.empty())
       throw std::runtime_error(fmt::format("VTK's writer failed ({}) {}", code, message));
+    require_end(temporary);
   });
 }
 
