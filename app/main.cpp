@@ -9,7 +9,7 @@
 
 #include <Tpetra_Core.hpp>
 #include <cerrno>
-#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +18,8 @@
 #include <sstream>
 
 #include "command_line.hpp"
+#include "io/output_directory.hpp"
+#include "machine.hpp"
 #include "run.hpp"
 
 namespace {
@@ -41,6 +43,15 @@ std::string read_text(const std::string& file, const Communicator& comm)
   return text;
 }
 
+// What the user asked for is the text itself: if it cannot be written, that is a failure.
+ExitStatus shown(ExitStatus status)
+{
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
+  std::cerr << "mortise: the output cannot be written\n";
+  return status == ExitStatus::solved ? ExitStatus::machine : status;
+}
+
 // CHOLMOD starts threads of its own unless OpenMP, where some library has brought it, is told not to.
 void forbid_threads()
 {
@@ -54,7 +65,12 @@ ExitStatus solve(const CommandLine& command_line, const Communicator& comm)
   const Context context{comm, log, timers};
   deck::Document document(read_text(command_line.deck, comm), command_line.deck, command_line.settings);
   const Deck deck = read_deck(document, command_line.output);
-  document.check();
+  try {
+    document.check();
+  } catch (const Error&) {
+    if (!command_line.check) io::set_aside_summary(deck.output.directory, comm);
+    throw;
+  }
   return run(deck, document, command_line, context);
 }
 
@@ -62,22 +78,29 @@ ExitStatus solve(const CommandLine& command_line, const Communicator& comm)
 
 int main(int argc, char** argv)
 {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away must not end the run
-  int no_arguments = 1;           // but the program's name: Kokkos would answer --help and take other options for its own
+  occupy_standard_streams();
+  catch_signals();
+  catch_faults();
+  reserve_blas_memory();
+  // A rank alone needs no daemon of MPI beside it, which it would start otherwise.
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  int no_arguments = 1;  // but the program's name: Kokkos would answer --help and take other options for its own
   const Tpetra::ScopeGuard tpetra(&no_arguments, &argv);
+  catch_faults();
   forbid_threads();
   const Communicator comm;
   const Parsed parsed = parse_command_line(argc, argv);
   if (!parsed.command_line) {
     if (comm.root()) (parsed.status == 0 ? std::cout : std::cerr) << parsed.text;
-    return parsed.status;
+    return static_cast<int>(shown(static_cast<ExitStatus>(parsed.status)));
   }
   if (parsed.command_line->schema) {
     if (comm.root()) std::cout << deck_schema();
-    return 0;
+    return static_cast<int>(shown(ExitStatus::solved));
   }
   try {
-    return static_cast<int>(solve(*parsed.command_line, comm));
+    const ExitStatus status = solve(*parsed.command_line, comm);
+    return static_cast<int>(parsed.command_line->check ? shown(status) : status);
   } catch (const Error& error) {  // thrown on all ranks alike
     std::cout << std::flush;
     if (comm.root()) std::cerr << error.what() << std::endl;
