@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <vector>
 
@@ -19,8 +20,8 @@ namespace mortise {
 
 namespace {
 
-constexpr unsigned grace = 5;     // seconds until the process ends though it has come to no safe place
-constexpr int blas_patience = 2;  // seconds of CPU, for what takes microseconds
+constexpr unsigned grace = 5;          // seconds until the process ends though it has come to no safe place
+constexpr int blas_patience = 500000;  // microseconds of CPU, for what takes some tens of them
 
 volatile std::sig_atomic_t told = 0;  // the signal, or 0
 pid_t owner = 0;                      // children inherit handlers, but have their own ways to end
@@ -95,6 +96,18 @@ bool is_ignored(int signal_number)
   return sigaction(signal_number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
 
+bool mpi_started = false;
+
+// MPI may call exit() where it cannot start, with a status of its own.
+void tell_mpi_failed()
+{
+  if (!mpi_started)
+    end_with(
+        "mortise: MPI cannot be started: out of memory, or no room for its files (/dev/shm, the temporary folder); lines above "
+        "say "
+        "more.\n");
+}
+
 }  // namespace
 
 void occupy_standard_streams()
@@ -116,10 +129,20 @@ void catch_faults()
 {
   owner = getpid();
   // A stack that has overflowed cannot carry its handler.
-  static std::vector<char> stack(1 << 16);
-  const stack_t other{stack.data(), 0, stack.size()};
+  static char stack[1 << 16];
+  const stack_t other{stack, 0, sizeof stack};
   sigaltstack(&other, nullptr);
   for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) handle(signal_number, tell_fault, SA_ONSTACK);
+}
+
+void expect_mpi()
+{
+  std::atexit(tell_mpi_failed);
+}
+
+void note_mpi_started()
+{
+  mpi_started = true;
 }
 
 void end_if_told(const Communicator& comm)
@@ -135,14 +158,14 @@ void reserve_blas_memory()
 {
   handle(SIGPROF, no_room_for_blas, 0);
   itimerval timer{};
-  timer.it_value.tv_sec = blas_patience;
+  timer.it_value.tv_usec = blas_patience;
   setitimer(ITIMER_PROF, &timer, nullptr);
   const int n = 64;
   const double one = 1;
   const std::vector<double> a(n * n, 1.0);
   std::vector<double> product(n * n, 0.0);
   dgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
-  timer.it_value.tv_sec = 0;
+  timer.it_value.tv_usec = 0;
   setitimer(ITIMER_PROF, &timer, nullptr);
   std::signal(SIGPROF, SIG_DFL);
 }

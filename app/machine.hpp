@@ -15,9 +15,12 @@ void occupy_standard_streams();
 /// that writes return errors.
 void catch_signals();
 
-/// A fault of the program (SIGSEGV, SIGABRT ...) says so, and ends with the exit status "machine". To be called again after MPI
-/// and others have put in handlers of their own.
+/// A fault of the program (SIGSEGV, SIGABRT ...) says so, and ends with the exit status "machine".
 void catch_faults();
+
+/// If MPI ends the process between the first and the second of these, the exit status is "machine", whatever MPI's.
+void expect_mpi();
+void note_mpi_started();
 
 /// Throws Error(machine) on all ranks if any of them has been told to end. Cheap enough for every product. Collective.
 void end_if_told(const Communicator& comm);

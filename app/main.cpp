@@ -74,19 +74,27 @@ ExitStatus solve(const CommandLine& command_line, const Communicator& comm)
   return run(deck, document, command_line, context);
 }
 
-}  // namespace
-
-int main(int argc, char** argv)
+// Run before the libraries set themselves up, which takes a while, may fail for lack of memory, and opens files.
+void prepare_process(int, char**, char**)
 {
   occupy_standard_streams();
   catch_signals();
   catch_faults();
+}
+[[gnu::section(".preinit_array"), gnu::used]] void (*const first_of_all)(int, char**, char**) = prepare_process;
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
   reserve_blas_memory();
+  setenv("OMPI_MCA_opal_signal", "", 0);  // faults are ours to tell
   // A rank alone needs no daemon of MPI beside it, which it would start otherwise.
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  expect_mpi();
   int no_arguments = 1;  // but the program's name: Kokkos would answer --help and take other options for its own
   const Tpetra::ScopeGuard tpetra(&no_arguments, &argv);
-  catch_faults();
+  note_mpi_started();
   forbid_threads();
   const Communicator comm;
   const Parsed parsed = parse_command_line(argc, argv);

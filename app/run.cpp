@@ -280,7 +280,8 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
       collectively(comm, [&] {
         if (!comm.root()) return;
         io::write_text(deck.output.directory + "/history.csv", history.text());
-        io::write_text(deck.output.directory + "/deck.yaml", io::written_mark() + "\n" + write_deck(given));
+        if (results.summary.version.empty())  // the first state
+          io::write_text(deck.output.directory + "/deck.yaml", io::written_mark() + "\n" + write_deck(given));
       });
     }
     results = std::move(found);

@@ -5,7 +5,9 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <new>
 #include <system_error>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -58,10 +60,14 @@ void RawFile::resize(std::size_t bytes)
   if (ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0) fail("resizing failed");
 }
 
-void RawFile::finish()
+void RawFile::sync()
 {
   // EINVAL: what is no file on a disk cannot be waited for.
   if (fsync(descriptor_) != 0 && errno != EINVAL) fail("the disk refused it");
+}
+
+void RawFile::finish()
+{
   if (close(std::exchange(descriptor_, -1)) != 0) fail("closing failed");
 }
 
@@ -72,12 +78,15 @@ void write_whole(const std::string& path, const std::function<void(const std::st
     std::error_code absent;
     fs::remove(temporary, absent);  // it may be a link
     write(temporary);
-    RawFile(temporary, RawFile::Mode::open).finish();
+    RawFile file(temporary, RawFile::Mode::open);
+    file.sync();
+    file.finish();
     fs::rename(temporary, path);
   } catch (const std::exception& failure) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
-    throw Error(ExitStatus::machine, path + ": cannot be written: " + failure.what());
+    const bool memory = dynamic_cast<const std::bad_alloc*>(&failure) != nullptr;
+    throw Error(ExitStatus::machine, path + ": cannot be written: " + (memory ? "out of memory" : failure.what()));
   }
 }
 

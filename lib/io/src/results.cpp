@@ -168,6 +168,7 @@ Global lay_out_table(hid_t file, const Table& table)
   require(H5Pset_create_intermediate_group(link, 1));
   require(H5Pset_alloc_time(create, H5D_ALLOC_TIME_EARLY));
   require(H5Pset_fill_time(create, H5D_FILL_TIME_NEVER));
+  require(H5Pset_obj_track_times(create, false));  // the same results are the same file
   const Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
   const Handle dataset(H5Dcreate2(file, table.name.c_str(), H5T_NATIVE_DOUBLE, space, link, create, H5P_DEFAULT), H5Dclose);
   describe(dataset, table.description);
@@ -244,7 +245,10 @@ void write_file(const std::string& path, const std::vector<Table>& tables, const
     const Global start = offset[t] + bytes_before(tables[t], part_start(tables[t].total, comm.rank(), comm.size()));
     collectively(comm, [&] { file->write(values.data(), values.size() * sizeof(double), static_cast<std::size_t>(start)); });
   }
-  collectively(comm, [&] { file->finish(); });
+  collectively(comm, [&] {
+    file->sync();
+    file->finish();
+  });
 }
 
 }  // namespace

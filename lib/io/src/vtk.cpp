@@ -17,6 +17,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -207,7 +208,9 @@ void write_piece(const std::string& path, const Piece& piece)
     const auto code = writer->GetErrorCode();
     if (code == vtkErrorCode::OutOfDiskSpaceError) throw std::runtime_error("no space is left on the disk");
     if (code != vtkErrorCode::NoError || !message.empty())
-      throw std::runtime_error(fmt::format("VTK's writer failed ({}) {}", code, message));
+      throw std::runtime_error(code > 0 && code < vtkErrorCode::FirstVTKErrorCode
+                                   ? std::strerror(static_cast<int>(code))  // the system's own
+                                   : fmt::format("VTK's writer failed ({}) {}", code, message));
     require_end(temporary);
   });
 }

@@ -31,7 +31,9 @@ class RawFile {
 
   void write(const void* data, std::size_t bytes, std::size_t offset);
   void resize(std::size_t bytes);
-  /// Waits for the disk, which may only now say that it is full, and closes the file.
+  /// Waits for the disk, which may only now say that it is full.
+  void sync();
+  /// Closes the file, which may also fail.
   void finish();
 
  private:
