@@ -9,7 +9,7 @@
 
 #include <Tpetra_Core.hpp>
 #include <cerrno>
-#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +18,8 @@
 #include <sstream>
 
 #include "command_line.hpp"
+#include "io/output_directory.hpp"
+#include "machine.hpp"
 #include "run.hpp"
 
 namespace {
@@ -41,6 +43,15 @@ std::string read_text(const std::string& file, const Communicator& comm)
   return text;
 }
 
+// What the user asked for is the text itself: if it cannot be written, that is a failure.
+ExitStatus shown(ExitStatus status)
+{
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
+  std::cerr << "mortise: the output cannot be written\n";
+  return status == ExitStatus::solved ? ExitStatus::machine : status;
+}
+
 // CHOLMOD starts threads of its own unless OpenMP, where some library has brought it, is told not to.
 void forbid_threads()
 {
@@ -55,30 +66,50 @@ ExitStatus solve(const CommandLine& command_line, const Communicator& comm)
   deck::Document document(read_text(command_line.deck, comm), command_line.deck, command_line.settings);
   Deck deck = read_deck(document, command_line.output);
   deck.mesh.allow_scripts = command_line.allow_scripts;
-  document.check();
+  try {
+    document.check();
+  } catch (const Error&) {
+    if (!command_line.check) io::set_aside_summary(deck.output.directory, comm);
+    throw;
+  }
   return run(deck, document, command_line, context);
 }
+
+// Run before the libraries set themselves up, which takes a while, may fail for lack of memory, and opens files.
+void prepare_process(int, char**, char**)
+{
+  occupy_standard_streams();
+  catch_signals();
+  catch_faults();
+}
+[[gnu::section(".preinit_array"), gnu::used]] void (*const first_of_all)(int, char**, char**) = prepare_process;
 
 }  // namespace
 
 int main(int argc, char** argv)
 {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader of the output that goes away must not end the run
-  int no_arguments = 1;           // but the program's name: Kokkos would answer --help and take other options for its own
+  reserve_blas_memory();
+  setenv("OMPI_MCA_opal_signal", "", 0);  // faults are ours to tell
+  // A rank alone needs no daemon of MPI beside it, which it would start otherwise.
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  expect_mpi();
+  int no_arguments = 1;  // but the program's name: Kokkos would answer --help and take other options for its own
   const Tpetra::ScopeGuard tpetra(&no_arguments, &argv);
+  note_mpi_started();
   forbid_threads();
   const Communicator comm;
   const Parsed parsed = parse_command_line(argc, argv);
   if (!parsed.command_line) {
     if (comm.root()) (parsed.status == 0 ? std::cout : std::cerr) << parsed.text;
-    return parsed.status;
+    return static_cast<int>(shown(static_cast<ExitStatus>(parsed.status)));
   }
   if (parsed.command_line->schema) {
     if (comm.root()) std::cout << deck_schema();
-    return 0;
+    return static_cast<int>(shown(ExitStatus::solved));
   }
   try {
-    return static_cast<int>(solve(*parsed.command_line, comm));
+    const ExitStatus status = solve(*parsed.command_line, comm);
+    return static_cast<int>(parsed.command_line->check ? shown(status) : status);
   } catch (const Error& error) {  // thrown on all ranks alike
     std::cout << std::flush;
     if (comm.root()) std::cerr << error.what() << std::endl;

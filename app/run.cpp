@@ -4,12 +4,15 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "auto_contacts.hpp"
 #include "base/traffic.hpp"
 #include "io/files.hpp"
+#include "io/output_directory.hpp"
 #include "listing.hpp"
+#include "machine.hpp"
 #include "memory.hpp"
 #include "partition/decompose.hpp"
 #include "patterns.hpp"
@@ -69,6 +72,12 @@ void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& dec
           deck.contacts[c].name);
 }
 
+// In a table: nothing where there is no number yet.
+std::string number(double x)
+{
+  return std::isfinite(x) ? fmt::format("{:.6e}", x) : "";
+}
+
 // The rows of history.csv and the moving line.
 class History {
  public:
@@ -76,6 +85,7 @@ class History {
 
   void note(const LoadState& state, int step, double change, const qp::Progress& p)
   {
+    end_if_told(context_.comm);
     if (p.what == "inner") {
       const auto& options = deck_.solver.programme;
       const auto measures = options.algorithm == "smalse"
@@ -87,8 +97,9 @@ class History {
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
-    text_ += fmt::format("{},{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{},{}\n", p.what, step, p.outer, p.multiplications,
-                         p.preconditionings, p.projected_gradient, p.equality, change, p.precision, bounds, discs, state.time);
+    text_ +=
+        fmt::format("{},{},{},{},{},{},{},{},{:.3e},{},{},{}\n", p.what, step, p.outer, p.multiplications, p.preconditionings,
+                    number(p.projected_gradient), number(p.equality), number(change), p.precision, bounds, discs, state.time);
     active_ = fmt::format("; {} open, {} slipping", bounds, discs);
   }
   const std::string& text() const { return text_; }
@@ -192,6 +203,7 @@ class Stages {
   void end(const char* what, const char* name)
   {
     const double seconds = context_.timers.seconds(name);
+    end_if_told(context_.comm);
     context_.log.line("  {:<22} {:8.2f} s", what, context_.comm.max(seconds - before_[name]));
     before_[name] = seconds;
   }
@@ -209,6 +221,8 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   const double start = MPI_Wtime();
   const Traffic before_all = traffic();
   Deck deck = given;
+  std::optional<io::OutputDirectory> output;
+  if (!command_line.check) output.emplace(deck.output.directory, std::vector{document.file(), deck.mesh.file}, comm);
   auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
   if (command_line.check) print_listing(decomposition, deck.kinematics, context);
   resolve_patterns(deck, document, decomposition, comm);
@@ -221,7 +235,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   stages.end("mesh", "mesh");
   stages.end("partition", "partition");
   print_meetings(meetings, given, deck, decomposition, command_line.check, context);
-  if (!command_line.check) io::prepare_directory(deck.output.directory, comm);
+  if (output) output->clear();
 
   const Model model(deck, decomposition);
   model.require_fit(document, comm);
@@ -245,55 +259,65 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   History history(deck, context);
   FieldFiles files(deck, decomposition);
   Results results;
-  const auto write_summary = [&] {
+  const auto write_summary = [&](bool finished) {
+    results.summary.finished = finished;
     results.summary.time["total"] = comm.max(MPI_Wtime() - start);
     results.summary.peak_memory_bytes = comm.sum(static_cast<double>(peak_memory()));
     collectively(comm, [&] {
       if (comm.root()) io::write_text(deck.output.directory + "/summary.json", io::to_json(results.summary));
     });
   };
+  // `results` are those of the last state whose files are written: what the summary tells is on the disk.
+  const auto solve = [&](const LoadState& state, bool last) {
+    simulation.solve(state, [&](int step, double change, const qp::Progress& p) { history.note(state, step, change, p); });
+    log.end_progress();
+    stages.end("solve", "solve");
+    Results found = evaluate(deck, decomposition, model, simulation, context);
+    add_up(state, results.summary, found);
+    {
+      const auto scope = timers.scope("output");
+      files.write(simulation, found, state.time, last || !found.summary.converged, comm);
+      collectively(comm, [&] {
+        if (!comm.root()) return;
+        io::write_text(deck.output.directory + "/history.csv", history.text());
+        if (results.summary.version.empty())  // the first state
+          io::write_text(deck.output.directory + "/deck.yaml", io::written_mark() + "\n" + write_deck(given));
+      });
+    }
+    results = std::move(found);
+    stages.end("output", "output");
+  };
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto& state = states[i];
+    const bool last = i + 1 == states.size();
     print_state(state, i, states, log);
     try {
-      simulation.solve(state, [&](int step, double change, const qp::Progress& p) { history.note(state, step, change, p); });
+      solve(state, last);
     } catch (const Error& error) {
       log.end_progress();
       if (i == 0) throw;
       results.summary.converged = false;
       results.summary.exit_status = static_cast<int>(error.status());
-      write_summary();
+      try {
+        write_summary(true);
+      } catch (const Error&) {  // the one on the disk says that the run is not finished
+      }
       throw Error(error.status(), fmt::format("step {}, time {:.4g}: {}\nThe results of the states before are written.",
                                               state.step, state.time, error.what()));
     }
-    log.end_progress();
-    stages.end("solve", "solve");
-    const auto before = std::exchange(results, evaluate(deck, decomposition, model, simulation, context));
-    add_up(state, before.summary, results);
-    {
-      const auto scope = timers.scope("output");
-      const bool last = i + 1 == states.size() || !results.summary.converged;
-      files.write(simulation, results, state.time, last, comm);
-      collectively(comm, [&] {
-        if (!comm.root()) return;
-        io::write_text(deck.output.directory + "/history.csv", history.text());
-        io::write_text(deck.output.directory + "/deck.yaml", write_deck(given));
-      });
-    }
-    stages.end("output", "output");
-    if (i + 1 == states.size()) break;
+    if (last) break;
     if (!results.summary.converged) {
       log.line("Step {} did not converge; the {} states after it are not solved.", state.step, states.size() - i - 1);
       break;
     }
     print_step(results, context);
-    write_summary();
+    write_summary(false);
     simulation.settle(results.displacement);
   }
   note_communication(timers, traffic() - before_all, comm, results.summary);
   const auto spreads = timers.spread(comm);
   for (const auto& spread : spreads) results.summary.time[spread.stage] = spread.max;
-  write_summary();
+  write_summary(true);
   print(results, context);
   log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", results.summary.time["total"],
            results.summary.peak_memory_bytes / 1e9, deck.output.directory);

@@ -17,6 +17,13 @@ bool on_terminal(std::FILE* out)
   return isatty(fileno(out)) != 0 && std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr;
 }
 
+// A terminal that went away or a full disk must not end the run: what cannot be written is lost, and std::ferror tells.
+void put(std::FILE* out, const std::string& text)
+{
+  std::fwrite(text.data(), 1, text.size(), out);
+  std::fflush(out);
+}
+
 }  // namespace
 
 Log::Log(const Communicator& comm, std::FILE* out) : out_(comm.root() ? out : nullptr)
@@ -28,8 +35,7 @@ Log::Log(const Communicator& comm, std::FILE* out) : out_(comm.root() ? out : nu
 void Log::write(const std::string& text)
 {
   end_progress();
-  fmt::print(out_, "{}\n", text);
-  std::fflush(out_);
+  put(out_, text + "\n");
 }
 
 bool Log::progress_due()
@@ -42,14 +48,13 @@ bool Log::progress_due()
 
 void Log::write_progress(const std::string& text)
 {
-  fmt::print(out_, "{}{}{}", terminal_ ? "\r" : "", text, terminal_ ? "\033[K" : "\n");
-  std::fflush(out_);
+  put(out_, fmt::format("{}{}{}", terminal_ ? "\r" : "", text, terminal_ ? "\033[K" : "\n"));
   moving_ = terminal_;
 }
 
 void Log::end_progress()
 {
-  if (moving_) fmt::print(out_, "\r\033[K");
+  if (moving_) put(out_, "\r\033[K");
   moving_ = false;
 }
 

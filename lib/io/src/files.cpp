@@ -1,10 +1,13 @@
 #include "io/files.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <regex>
+#include <new>
+#include <system_error>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -14,65 +17,85 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* suffix = ".part";
-
-// What this program writes, under any number of ranks, and what an interrupted run leaves.
-const std::regex& our_files()
+// Throws the system's reason for its last failure.
+[[noreturn]] void fail(const char* what)
 {
-  static const std::regex names(
-      R"((solution|contact)(\.\d+)?(_\d+)?\.(vtu|pvtu|pvd)|results(\.\d+)?\.h5|history\.csv|deck\.yaml|summary\.json|.*\.part)");
-  return names;
-}
-
-void remove_our_files(const std::string& directory)
-{
-  std::vector<fs::path> stale;
-  for (const auto& entry : fs::directory_iterator(directory))
-    if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), our_files())) stale.push_back(entry.path());
-  for (const auto& path : stale) fs::remove(path);
+  throw std::system_error(errno, std::generic_category(), what);
 }
 
 }  // namespace
 
-void prepare_directory(const std::string& directory, const Communicator& comm)
+std::string temporary_name(const std::string& path)
 {
-  collectively(comm, [&] {
-    if (!comm.root()) return;
-    try {
-      fs::create_directories(directory);
-      if (!fs::is_directory(directory)) throw std::runtime_error("a file is in its place");
-      remove_our_files(directory);
-      // Better now than after hours of computing.
-      const std::string probe = directory + "/probe" + suffix;
-      write_text(probe, "x");
-      fs::remove(probe);
-    } catch (const std::exception& failure) {
-      throw Error(ExitStatus::machine, "output directory " + directory + ": cannot be created or written: " + failure.what());
-    }
-  });
+  return path + ".part";
+}
+
+RawFile::RawFile(const std::string& path, Mode mode)
+{
+  if (mode == Mode::create && unlink(path.c_str()) != 0 && errno != ENOENT) fail("the file in its place cannot be removed");
+  const int flags = O_WRONLY | O_CLOEXEC | O_NOFOLLOW | (mode == Mode::create ? O_CREAT | O_EXCL : 0);
+  descriptor_ = open(path.c_str(), flags, 0666);
+  if (descriptor_ < 0) fail("cannot be opened");
+}
+
+RawFile::~RawFile()
+{
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void RawFile::write(const void* data, std::size_t bytes, std::size_t offset)
+{
+  const auto* from = static_cast<const char*>(data);
+  while (bytes > 0) {
+    const ssize_t done = pwrite(descriptor_, from, bytes, static_cast<off_t>(offset));
+    if (done < 0 && errno == EINTR) continue;
+    if (done == 0) errno = ENOSPC;
+    if (done <= 0) fail("writing failed");
+    from += done, offset += static_cast<std::size_t>(done), bytes -= static_cast<std::size_t>(done);
+  }
+}
+
+void RawFile::resize(std::size_t bytes)
+{
+  if (ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0) fail("resizing failed");
+}
+
+void RawFile::sync()
+{
+  // EINVAL: what is no file on a disk cannot be waited for.
+  if (fsync(descriptor_) != 0 && errno != EINVAL) fail("the disk refused it");
+}
+
+void RawFile::finish()
+{
+  if (close(std::exchange(descriptor_, -1)) != 0) fail("closing failed");
 }
 
 void write_whole(const std::string& path, const std::function<void(const std::string&)>& write)
 {
-  const std::string temporary = path + suffix;
+  const std::string temporary = temporary_name(path);
   try {
+    std::error_code absent;
+    fs::remove(temporary, absent);  // it may be a link
     write(temporary);
+    RawFile file(temporary, RawFile::Mode::open);
+    file.sync();
+    file.finish();
     fs::rename(temporary, path);
   } catch (const std::exception& failure) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
-    throw Error(ExitStatus::machine, path + ": cannot be written: " + failure.what());
+    const bool memory = dynamic_cast<const std::bad_alloc*>(&failure) != nullptr;
+    throw Error(ExitStatus::machine, path + ": cannot be written: " + (memory ? "out of memory" : failure.what()));
   }
 }
 
 void write_text(const std::string& path, const std::string& text)
 {
   write_whole(path, [&](const std::string& temporary) {
-    errno = 0;
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw std::runtime_error(errno != 0 ? std::strerror(errno) : "the stream failed");
+    RawFile file(temporary, RawFile::Mode::create);
+    file.write(text.data(), text.size(), 0);
+    file.finish();
   });
 }
 

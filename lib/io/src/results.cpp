@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "io/files.hpp"
 
 namespace mortise::io {
 
@@ -43,13 +45,8 @@ class Handle {
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
-  ~Handle()
-  {
-    if (id_ >= 0) close_(id_);
-  }
+  ~Handle() { close_(id_); }
   operator hid_t() const { return id_; }
-  // Leaves it open.
-  void release() { id_ = H5I_INVALID_HID; }
 
  private:
   hid_t id_;
@@ -136,62 +133,129 @@ void describe(hid_t dataset, const std::string& text)
   require(H5Awrite(attribute, type, text.c_str()));
 }
 
-void write_table(hid_t file, const Table& table, const std::vector<double>& values, const Communicator& comm)
+// HDF5's file in memory: what the library would have written, in a buffer of ours, which need not reach to the file's end.
+using Image = std::vector<char>;
+
+// Has a file that is opened with it stand in `image`, which outlives it, and nowhere else.
+void keep_in_memory(hid_t access, Image& image)
 {
-  const hsize_t shape[2] = {static_cast<hsize_t>(table.total), static_cast<hsize_t>(table.columns)};
-  const hsize_t start[2] = {static_cast<hsize_t>(part_start(table.total, comm.rank(), comm.size())), 0};
-  const hsize_t count[2] = {values.size() / static_cast<std::size_t>(table.columns), shape[1]};
-  const Handle create(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  require(H5Pset_create_intermediate_group(create, 1));
-  const Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
-  const Handle dataset(H5Dcreate2(file, table.name.c_str(), H5T_NATIVE_DOUBLE, space, create, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Dclose);
-  describe(dataset, table.description);
-  const Handle memory(H5Screate_simple(2, count, nullptr), H5Sclose);
-  if (table.total == 0) return;
-  if (count[0] > 0) {
-    require(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr));
-  } else {
-    require(H5Sselect_none(space));
-    require(H5Sselect_none(memory));
-  }
-  // Each rank writes one contiguous part, so there is nothing to gain from MPI's collective buffering, in which moreover the
-  // other ranks wait for ever if the disk of the one that writes is full.
-  const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
-  require(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_INDEPENDENT));
-  require(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, transfer, values.data()));
+  constexpr std::size_t growth = 1 << 16;
+  require(H5Pset_fapl_core(access, growth, false));
+  // All that describes the tables comes before their values, so that the buffer never reaches to these.
+  require(H5Pset_meta_block_size(access, growth));
+  require(H5Pset_small_data_block_size(access, 0));
+  H5FD_file_image_callbacks_t calls{};
+  calls.image_realloc = [](void*, std::size_t size, H5FD_file_image_op_t, void* own) -> void* {
+    try {
+      static_cast<Image*>(own)->resize(size);
+      return static_cast<Image*>(own)->data();
+    } catch (const std::bad_alloc&) {
+      return nullptr;
+    }
+  };
+  calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
+  calls.udata_copy = [](void* own) { return own; };
+  calls.udata_free = [](void*) -> herr_t { return 0; };
+  calls.udata = &image;
+  require(H5Pset_file_image_callbacks(access, &calls));
 }
 
-// HDF5's calls communicate inside collectively(), which is sound as long as each of them returns on every rank, in failure too;
-// what must not happen is that one rank leaves and the others go on to the next call.
-void write_file(const std::string& path, const std::vector<Table>& tables, const Communicator& comm)
+// A data set whose values have their place in the file, but are not written. Returns that place.
+Global lay_out_table(hid_t file, const Table& table)
+{
+  const hsize_t shape[2] = {static_cast<hsize_t>(table.total), static_cast<hsize_t>(table.columns)};
+  const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose), create(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  require(H5Pset_create_intermediate_group(link, 1));
+  require(H5Pset_alloc_time(create, H5D_ALLOC_TIME_EARLY));
+  require(H5Pset_fill_time(create, H5D_FILL_TIME_NEVER));
+  require(H5Pset_obj_track_times(create, false));  // the same results are the same file
+  const Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose);
+  const Handle dataset(H5Dcreate2(file, table.name.c_str(), H5T_NATIVE_DOUBLE, space, link, create, H5P_DEFAULT), H5Dclose);
+  describe(dataset, table.description);
+  if (table.total == 0) return 0;
+  const haddr_t offset = H5Dget_offset(dataset);
+  if (offset == HADDR_UNDEF) throw std::runtime_error(reason());
+  return static_cast<Global>(offset);
+}
+
+// A file of HDF5 but for the values of its tables.
+struct Layout {
+  Image image;
+  Global size = 0;             // of the whole file
+  std::vector<Global> offset;  // where the values of each table begin
+};
+
+// HDF5 holds on to layout.image until it returns.
+void lay_out(const std::string& path, const std::vector<Table>& tables, Layout& layout)
 {
   const Quiet quiet;
-  std::optional<Handle> file;
-  collectively(comm, [&] {
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    require(H5Pset_fapl_mpio(access, comm.mpi(), MPI_INFO_NULL));
-    file.emplace(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
-  });
-  try {
-    for (const auto& table : tables) {
-      const auto values = contiguous(table, comm);
-      collectively(comm, [&] { write_table(*file, table, values, comm); });
-    }
-    collectively(comm, [&] { require(H5Fflush(*file, H5F_SCOPE_GLOBAL)); });
-  } catch (const Error&) {  // on all ranks
-    // A file that HDF5 cannot flush, it cannot close either: it would leave a ruin behind, on which it ends by signal in
-    // MPI_Finalize.
-    if (comm.any(H5Fflush(*file, H5F_SCOPE_GLOBAL) < 0)) file->release();
-    throw;
+  layout.image.reserve(1 << 20);  // if memory is scarce, it shows before HDF5 begins
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  keep_in_memory(access, layout.image);
+  const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  for (const auto& table : tables) layout.offset.push_back(lay_out_table(file, table));
+  require(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  hsize_t size = 0;
+  require(H5Fget_filesize(file, &size));
+  layout.size = static_cast<Global>(size);
+}
+
+// Bytes of the values of the rows before `row`.
+Global bytes_before(const Table& table, Global row)
+{
+  return row * table.columns * static_cast<Global>(sizeof(double));
+}
+
+// Makes the file and writes all of it but the values.
+void write_layout(const std::string& path, const Layout& layout, const std::vector<Table>& tables)
+{
+  RawFile file(path, RawFile::Mode::create);
+  file.resize(static_cast<std::size_t>(layout.size));
+  const auto end = std::min(static_cast<Global>(layout.image.size()), layout.size);
+  std::vector<std::pair<Global, Global>> values{{end, end}};  // where they begin and end
+  for (std::size_t t = 0; t < tables.size(); ++t)
+    values.emplace_back(layout.offset[t], layout.offset[t] + bytes_before(tables[t], tables[t].total));
+  std::sort(values.begin(), values.end());
+  Global at = 0;
+  for (const auto& [first, last] : values) {
+    if (at < std::min(first, end))
+      file.write(layout.image.data() + at, static_cast<std::size_t>(std::min(first, end) - at), static_cast<std::size_t>(at));
+    at = std::max(at, last);
   }
+  file.finish();
+}
+
+// HDF5 lays the file out in the memory of one rank; what goes to the disk goes there by plain writes, each rank's part of each
+// table by its own. So a disk that is full is an error like any other, on the rank that meets it, and HDF5 never sees it.
+void write_file(const std::string& path, const std::vector<Table>& tables, const Communicator& comm)
+{
+  std::vector<Global> offset;
+  collectively(comm, [&] {
+    if (!comm.root()) return;
+    Layout layout;
+    lay_out(path, tables, layout);
+    write_layout(path, layout, tables);
+    offset = std::move(layout.offset);
+  });
+  comm.broadcast(offset);
+  std::optional<RawFile> file;
+  collectively(comm, [&] { file.emplace(path, RawFile::Mode::open); });
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    const auto values = contiguous(tables[t], comm);
+    const Global start = offset[t] + bytes_before(tables[t], part_start(tables[t].total, comm.rank(), comm.size()));
+    collectively(comm, [&] { file->write(values.data(), values.size() * sizeof(double), static_cast<std::size_t>(start)); });
+  }
+  collectively(comm, [&] {
+    file->sync();
+    file->finish();
+  });
 }
 
 }  // namespace
 
 void write_results(const std::string& path, const std::vector<Table>& tables, const Communicator& comm)
 {
-  const std::string temporary = path + ".part";
+  const std::string temporary = temporary_name(path);
   try {
     write_file(temporary, tables, comm);
     collectively(comm, [&] {

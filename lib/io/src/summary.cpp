@@ -68,8 +68,8 @@ std::string to_json(const Summary& s)
 {
   Json json{{"version", s.version},
             {"title", s.title},
-            {"converged", s.converged},
-            {"exit_status", s.exit_status},
+            {"converged", s.finished && s.converged},
+            {"exit_status", s.finished ? Json(s.exit_status) : Json(nullptr)},
             {"ranks", s.ranks},
             {"primal_unknowns", s.primal_unknowns},
             {"dual_unknowns", s.dual_unknowns},

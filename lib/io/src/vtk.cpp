@@ -16,7 +16,10 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <numeric>
 #include <stdexcept>
 
@@ -157,6 +160,18 @@ void add_fields(const std::vector<Field>& fields, vtkDataSetAttributes* data)
   }
 }
 
+// VTK does not look whether the last block of a file reached the disk.
+void require_end(const std::string& path)
+{
+  const std::string end = "</VTKFile>";
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::streamoff>(file.tellg());
+  std::string tail(64, ' ');
+  file.seekg(std::max<std::streamoff>(size - static_cast<std::streamoff>(tail.size()), 0));
+  file.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  if (tail.find(end) == std::string::npos) throw std::runtime_error("its end is missing: no space is left on the disk");
+}
+
 void write_piece(const std::string& path, const Piece& piece)
 {
   vtkNew<vtkPoints> points;
@@ -193,7 +208,10 @@ void write_piece(const std::string& path, const Piece& piece)
     const auto code = writer->GetErrorCode();
     if (code == vtkErrorCode::OutOfDiskSpaceError) throw std::runtime_error("no space is left on the disk");
     if (code != vtkErrorCode::NoError || !message.empty())
-      throw std::runtime_error(fmt::format("VTK's writer failed ({}) {}", code, message));
+      throw std::runtime_error(code > 0 && code < vtkErrorCode::FirstVTKErrorCode
+                                   ? std::strerror(static_cast<int>(code))  // the system's own
+                                   : fmt::format("VTK's writer failed ({}) {}", code, message));
+    require_end(temporary);
   });
 }
 

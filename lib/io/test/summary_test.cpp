@@ -106,6 +106,16 @@ TEST(Summary, WhatIsNotFiniteOrNotEstimatedIsNull)
   EXPECT_EQ(Json::parse(to_json(s))["error_estimate"]["discretization"], 0.03);
 }
 
+// Who kills the run before its last state must not find one that looks finished.
+TEST(Summary, OfARunThatIsNotFinishedClaimsNothing)
+{
+  auto s = sample();
+  s.finished = false;
+  const auto json = Json::parse(to_json(s));
+  EXPECT_EQ(json["converged"], false);
+  EXPECT_TRUE(json["exit_status"].is_null());
+}
+
 TEST(Summary, TitleThatIsNotUtf8DoesNotCostTheSummary)
 {
   auto s = sample();

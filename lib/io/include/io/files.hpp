@@ -4,20 +4,40 @@
 #include <functional>
 #include <string>
 
-#include "base/communicator.hpp"
-
 namespace mortise::io {
 
-/// Makes the directory and the ones above it, and removes from it what an earlier run left there under the names that this
-/// program writes, on any number of ranks; other files stay. Throws Error(machine) on all ranks if that cannot be done, or if
-/// nothing can be written there. Collective.
-void prepare_directory(const std::string& directory, const Communicator& comm);
+/// Where the file `path` is written before it gets its name: beside its place.
+std::string temporary_name(const std::string& path);
 
-/// Calls write(temporary name) on this rank and renames the file to `path` when that returns. Throws Error(machine), having
-/// removed the temporary file, if anything fails. Not collective.
+/// Calls write(temporary name) on this rank, has the disk confirm what was written, and renames the file to `path`. Nothing is
+/// ever written through what stands at either name, a link least of all: it is replaced. Throws Error(machine), having removed
+/// the temporary file, if anything fails. Not collective.
 void write_whole(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
 /// write_whole() of a text.
 void write_text(const std::string& path, const std::string& text);
+
+/// A file open for writing, whose every failure is a std::system_error with the system's reason. Not collective.
+class RawFile {
+ public:
+  enum class Mode {
+    create,  ///< anew; whatever has the name is removed first
+    open     ///< it is there already
+  };
+  RawFile(const std::string& path, Mode mode);
+  RawFile(const RawFile&) = delete;
+  RawFile& operator=(const RawFile&) = delete;
+  ~RawFile();
+
+  void write(const void* data, std::size_t bytes, std::size_t offset);
+  void resize(std::size_t bytes);
+  /// Waits for the disk, which may only now say that it is full.
+  void sync();
+  /// Closes the file, which may also fail.
+  void finish();
+
+ private:
+  int descriptor_;
+};
 
 }  // namespace mortise::io

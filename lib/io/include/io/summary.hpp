@@ -45,6 +45,7 @@ struct StateSummary {
 
 /// The last equilibrium, with the work of all.
 struct Summary : StateSummary {
+  bool finished = true;  ///< false while states are still to come: then `converged` is false and `exit_status` null
   std::string version, title;
   int exit_status = 0, ranks = 1;
   Global primal_unknowns = 0, dual_unknowns = 0, subdomains = 0, kernel_dimension = 0, bodies = 0;

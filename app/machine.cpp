@@ -1,0 +1,173 @@
+#include "machine.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "base/error.hpp"
+
+extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
+                       const double*, const int*, const double*, double*, const int*);
+
+namespace mortise {
+
+namespace {
+
+constexpr unsigned grace = 5;          // seconds until the process ends though it has come to no safe place
+constexpr int blas_patience = 500000;  // microseconds of CPU, for what takes some tens of them
+
+volatile std::sig_atomic_t told = 0;  // the signal, or 0
+pid_t owner = 0;                      // children inherit handlers, but have their own ways to end
+
+// In a signal handler.
+[[noreturn]] void end_with(const char* text)
+{
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
+  _exit(static_cast<int>(ExitStatus::machine));
+}
+
+void end_by_default(int signal_number)
+{
+  std::signal(signal_number, SIG_DFL);
+  raise(signal_number);
+}
+
+void note(int signal_number)
+{
+  if (getpid() != owner) return end_by_default(signal_number);
+  if (told != 0) end_with("mortise: ended by a signal; results of the run are not complete.\n");
+  told = signal_number;
+  alarm(grace);
+}
+
+void lose_patience(int)
+{
+  end_with("mortise: ended by a signal; results of the run are not complete.\n");
+}
+
+void tell_fault(int signal_number)
+{
+  if (getpid() != owner) return end_by_default(signal_number);
+  switch (signal_number) {
+    case SIGBUS:
+      end_with("mortise: internal error (SIGBUS), or no room for shared memory (/dev/shm).\n");
+    case SIGABRT:
+      end_with("mortise: internal error (SIGABRT), or out of memory, if a line above says so or memory is limited (ulimit).\n");
+    case SIGFPE:
+      end_with("mortise: internal error (SIGFPE). Please report it with the deck and the mesh.\n");
+    case SIGILL:
+      end_with(
+          "mortise: this processor lacks instructions that the program was built with (SIGILL); build it here, see "
+          "MORTISE_ARCH.\n");
+    default:
+      end_with(
+          "mortise: internal error (SIGSEGV), or out of memory, if memory is limited (ulimit). Otherwise please report it with "
+          "the "
+          "deck and the mesh.\n");
+  }
+}
+
+void no_room_for_blas(int)
+{
+  end_with(
+      "mortise: out of memory: there is no room for the work space of BLAS (some 130 MB of address space); raise the limit of "
+      "memory (ulimit -v).\n");
+}
+
+void handle(int signal_number, void (*handler)(int), int flags)
+{
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = flags;
+  sigemptyset(&action.sa_mask);
+  sigaction(signal_number, &action, nullptr);
+}
+
+bool is_ignored(int signal_number)
+{
+  struct sigaction now {};
+  return sigaction(signal_number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
+bool mpi_started = false;
+
+// MPI may call exit() where it cannot start, with a status of its own.
+void tell_mpi_failed()
+{
+  if (!mpi_started)
+    end_with(
+        "mortise: MPI cannot be started: out of memory, or no room for its files (/dev/shm, the temporary folder); lines above "
+        "say "
+        "more.\n");
+}
+
+}  // namespace
+
+void occupy_standard_streams()
+{
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) open("/dev/null", O_RDWR);  // takes the lowest free number: this one
+}
+
+void catch_signals()
+{
+  owner = getpid();
+  for (const int signal_number : {SIGPIPE, SIGXFSZ}) std::signal(signal_number, SIG_IGN);
+  for (const int signal_number : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU})
+    if (!is_ignored(signal_number)) handle(signal_number, note, SA_RESTART);
+  handle(SIGALRM, lose_patience, 0);
+}
+
+void catch_faults()
+{
+  owner = getpid();
+  // A stack that has overflowed cannot carry its handler.
+  static char stack[1 << 16];
+  const stack_t other{stack, 0, sizeof stack};
+  sigaltstack(&other, nullptr);
+  for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) handle(signal_number, tell_fault, SA_ONSTACK);
+}
+
+void expect_mpi()
+{
+  std::atexit(tell_mpi_failed);
+}
+
+void note_mpi_started()
+{
+  mpi_started = true;
+}
+
+void end_if_told(const Communicator& comm)
+{
+  int first = told;
+  PMPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MAX, comm.mpi());  // not counted among what the method sends
+  if (first == 0) return;
+  alarm(0);
+  throw Error(ExitStatus::machine, fmt::format("The run was told to end (SIG{}) before it was solved.", sigabbrev_np(first)));
+}
+
+void reserve_blas_memory()
+{
+  handle(SIGPROF, no_room_for_blas, 0);
+  itimerval timer{};
+  timer.it_value.tv_usec = blas_patience;
+  setitimer(ITIMER_PROF, &timer, nullptr);
+  const int n = 64;
+  const double one = 1;
+  const std::vector<double> a(n * n, 1.0);
+  std::vector<double> product(n * n, 0.0);
+  dgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
+  timer.it_value.tv_usec = 0;
+  setitimer(ITIMER_PROF, &timer, nullptr);
+  std::signal(SIGPROF, SIG_DFL);
+}
+
+}  // namespace mortise

@@ -1,0 +1,32 @@
+// What a process asks of the machine before it begins, and what it does when the machine wants it to end.
+#pragma once
+
+#include "base/communicator.hpp"
+
+namespace mortise {
+
+/// Gives standard input, output and error a place if they are closed: a file of results that got one of their numbers would take
+/// what is printed. To be called before any file is opened.
+void occupy_standard_streams();
+
+/// From now on a signal that would end the process (SIGTERM, SIGINT, SIGHUP ...) lets it go on to the next end_if_told(). If
+/// none comes within seconds, or with a second signal, it ends at once, with the exit status "machine". What is ignored already,
+/// as SIGHUP by nohup, stays so. Files need no care: each has its name only when it is whole. SIGPIPE and SIGXFSZ are ignored, so
+/// that writes return errors.
+void catch_signals();
+
+/// A fault of the program (SIGSEGV, SIGABRT ...) says so, and ends with the exit status "machine".
+void catch_faults();
+
+/// If MPI ends the process between the first and the second of these, the exit status is "machine", whatever MPI's.
+void expect_mpi();
+void note_mpi_started();
+
+/// Throws Error(machine) on all ranks if any of them has been told to end. Cheap enough for every product. Collective.
+void end_if_told(const Communicator& comm);
+
+/// Has BLAS take its work space now: OpenBLAS, if it finds no room for it, tries for ever. Ends with the exit status "machine" if
+/// there is none.
+void reserve_blas_memory();
+
+}  // namespace mortise

@@ -1,0 +1,361 @@
+#!/usr/bin/env python3
+"""Faults of the machine: what a run does when the disk is full, memory is short, somebody ends it, or the directory is in use.
+
+    faults.py MORTISE CASE [--mpiexec MPIEXEC] [--full-disk LIBRARY] [--times N] [--seed N]
+
+CASE is the name of one of the functions below; each says what it expects. Common to all: a run ends within LIMIT seconds on all ranks, with
+an exit status from 0 to 4 and a cause, and what it leaves under a final name is whole.
+"""
+import argparse
+import contextlib
+import json
+import os
+import pathlib
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+SHORT, SLOW = HERE / "short.yaml", HERE / "slow.yaml"
+LIMIT = 120
+MACHINE = 4
+
+failures = []
+
+
+def expect(holds, what):
+    if not holds:
+        failures.append(what)
+        print("FAILED:", what, flush=True)
+
+
+class Run:
+    """A run of the program, to be waited for or disturbed."""
+
+    def __init__(self, options, deck, directory, ranks=1, arguments=(), environment=None, prepare=None, stdout=None):
+        command = [options.mortise, str(deck), "--output", str(directory), *arguments]
+        if ranks > 1:
+            command = [options.mpiexec, "--oversubscribe", "--quiet", "-n", str(ranks)] + command
+        self.directory, self.ranks = pathlib.Path(directory), ranks
+        settings = dict(os.environ, OMP_NUM_THREADS="1", OMP_THREAD_LIMIT="1", OMPI_ALLOW_RUN_AS_ROOT="1",
+                        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", **(environment or {}))
+        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=stdout or subprocess.PIPE, stderr=subprocess.PIPE,
+                                        env=settings, preexec_fn=prepare)
+
+    def wait(self):
+        """The exit status; None if it hangs."""
+        status = None
+        try:
+            said = self.process.communicate(timeout=LIMIT)
+            status = self.process.returncode
+        except subprocess.TimeoutExpired:
+            for pid in self.rank_pids() + [self.process.pid]:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGKILL)
+            said = self.process.communicate()
+        self.said = b"".join(text or b"" for text in said).decode(errors="replace")
+        return status
+
+    def rank_pids(self):
+        if self.ranks == 1:
+            return [self.process.pid]
+        found = []
+        for entry in pathlib.Path("/proc").iterdir():
+            if not entry.name.isdigit():
+                continue
+            with contextlib.suppress(OSError, ValueError, IndexError):
+                if int((entry / "stat").read_text().rsplit(")", 1)[1].split()[1]) == self.process.pid:
+                    found.append(int(entry.name))
+        return found
+
+    def has(self, name, timeout=LIMIT):
+        """Waits until the file is there, or the run has ended."""
+        end = time.monotonic() + timeout
+        while time.monotonic() < end and self.process.poll() is None:
+            if (self.directory / name).exists():
+                return True
+            time.sleep(0.002)
+        return (self.directory / name).exists()
+
+
+def judge_files(directory, who):
+    """Every file under a final name is whole."""
+    for path in pathlib.Path(directory).glob("*"):
+        if path.name.endswith(".part") or path.name == "mortise.lock" or path.is_dir():
+            continue
+        data = path.read_bytes()
+        whole = {".vtu": data.rstrip().endswith(b"</VTKFile>"), ".pvtu": data.endswith(b"</VTKFile>\n"), ".pvd": data.endswith(b"</VTKFile>\n"),
+                 ".h5": data.startswith(b"\x89HDF\r\n\x1a\n") and len(data) >= int.from_bytes(data[40:48], "little"),
+                 ".csv": data.endswith(b"\n"), ".yaml": data.endswith(b"\n")}.get(path.suffix, True)
+        if path.suffix == ".json":
+            with contextlib.suppress(ValueError):
+                json.loads(data)
+                continue
+            whole = False
+        expect(whole, f"{who}: {path.name} is not whole")
+        if path.suffix in (".pvd", ".pvtu"):
+            for piece in data.decode().split('file="' if path.suffix == ".pvd" else 'Source="')[1:]:
+                expect((path.parent / piece.split('"')[0]).exists(), f"{who}: {path.name} opens what is not there")
+
+
+def summary(directory):
+    path = pathlib.Path(directory) / "summary.json"
+    return json.loads(path.read_text()) if path.exists() else None
+
+
+def claims_success(directory):
+    found = summary(directory)
+    return found is not None and (found["converged"] is not False or found["exit_status"] == 0)
+
+
+def judge_failure(run, status, who, cause=""):
+    expect(status == MACHINE, f"{who}: exit status {status}, expected {MACHINE}\n{run.said}")
+    expect(cause in run.said, f"{who}: does not say {cause!r}:\n{run.said}")
+    expect(not claims_success(run.directory), f"{who}: summary.json claims success")
+    expect(not list(run.directory.glob("*.part")), f"{who}: leaves temporary files")
+    judge_files(run.directory, who)
+
+
+# --- the cases -----------------------------------------------------------------------------------------------------------------
+
+def disk_full(options, scratch):
+    """At each file, on one rank of several: exit status 4, the file and the cause are named, the directory can be used again."""
+    names = ["results.1.h5", "results.h5", "contact.pvd", "solution.2_{}.vtu", "solution.pvd", "history.csv", "deck.yaml", "summary.json"]
+    for ranks, victim, chosen in ((1, 0, names), (2, 1, ["results.1.h5", "contact.1_{}.vtu"]), (2, 0, ["solution.1.pvtu", "summary.json"]),
+                                  (3, 2, ["results.1.h5", "solution.2_{}.vtu"])):
+        for name in chosen:
+            name = name.format(victim)
+            if victim > 0 and name.endswith(".h5"):
+                name_of_file, after = name, 0
+            else:
+                name_of_file, after = name, 100
+            environment = {"LD_PRELOAD": options.full_disk, "FULL_DISK": f"/{name_of_file}.part", "FULL_DISK_RANK": str(victim),
+                           "FULL_DISK_AFTER": str(after)}
+            run = Run(options, SHORT, scratch / "out", ranks, environment=environment)
+            status = run.wait()
+            who = f"disk full at {name}, rank {victim} of {ranks}"
+            judge_failure(run, status, who, f"{name}: cannot be written")
+            expect("o space" in run.said, f"{who}: no cause:\n{run.said}")
+            expect(not (run.directory / "mortise.lock").exists(), f"{who}: the lock is left")
+    # The kernel's own limit, at sizes that hit one file or the other.
+    for size in (0, 3000, 20000):
+        run = Run(options, SHORT, scratch / "out", prepare=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+        judge_failure(run, run.wait(), f"files up to {size} bytes", "cannot be")
+    run = Run(options, SHORT, scratch / "out", 2)
+    expect(run.wait() == 0 and summary(scratch / "out")["converged"], f"the next run in the same directory fails:\n{run.said}")
+
+
+def unwritable(options, scratch):
+    """A directory that cannot be made, or written: exit status 4 before anything is computed."""
+    (scratch / "file").write_text("x")
+    (scratch / "taken/results.h5").mkdir(parents=True)
+    for place in (scratch / "file", scratch / "file/out", scratch / "taken", pathlib.Path("/proc/out")):
+        run = Run(options, SHORT, place)
+        expect(run.wait() == MACHINE and str(place) in run.said and "factorization" not in run.said, f"{place}: {run.said}")
+    if os.geteuid() != 0:
+        (scratch / "closed").mkdir(mode=0o555)
+        run = Run(options, SHORT, scratch / "closed", 2)
+        expect(run.wait() == MACHINE and "ermission" in run.said, f"closed directory: {run.said}")
+
+
+def interrupted(options, scratch):
+    """Told to end: exit status 4, the states before are there and marked. Killed: what is on the disk says that it is not finished."""
+    for ranks, number in ((1, signal.SIGTERM), (1, signal.SIGINT), (1, signal.SIGKILL), (2, signal.SIGTERM), (3, signal.SIGTERM)):
+        who = f"{number.name} on {ranks} ranks"
+        run = Run(options, SLOW, scratch / who, ranks, prepare=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        expect(run.has("results.2.h5"), f"{who}: too late for the test")
+        while run.process.poll() is None and len((summary(run.directory) or {}).get("steps", [])) < 2:
+            time.sleep(0.002)
+        os.kill(run.rank_pids()[-1], number)
+        status = run.wait()
+        expect(status == (-signal.SIGKILL if number == signal.SIGKILL else MACHINE), f"{who}: exit status {status}\n{run.said}")
+        found = summary(run.directory)
+        expect(found["converged"] is False and found["exit_status"] == (None if number == signal.SIGKILL else MACHINE),
+               f"{who}: {found['converged']}, {found['exit_status']}")
+        expect(2 <= len(found["steps"]) < 6 and all(step["converged"] for step in found["steps"]), f"{who}: {len(found['steps'])} steps")
+        if number != signal.SIGKILL:
+            expect(number.name in run.said, f"{who}: {run.said}")
+        judge_files(run.directory, who)
+    # Before anything is solved, in a stage that does not look: it ends soon all the same.
+    run = Run(options, SLOW, scratch / "early", arguments=["--set", "mesh.blocks.lower.cells=[60, 60, 60]"])
+    expect(run.has("mortise.lock"), "early: no lock")
+    os.kill(run.process.pid, signal.SIGTERM)
+    start = time.monotonic()
+    expect(run.wait() == MACHINE and time.monotonic() - start < 60 and summary(run.directory) is None, f"early: {run.said}")
+
+
+def kills(options, scratch):
+    """A rank is killed or signalled at a random time, on 2 and 3 ranks: the others end, and nothing half is under a final name."""
+    choose = random.Random(options.seed)
+    start = time.monotonic()
+    Run(options, SLOW, scratch / "whole", 2).wait()
+    length = time.monotonic() - start
+    for i in range(options.times):
+        for ranks in (2, 3):
+            number = choose.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGSEGV, signal.SIGINT, signal.SIGABRT])
+            delay, who = choose.uniform(0, 1.2 * length), f"seed {options.seed}, time {i}: {number.name} on {ranks} ranks"
+            run = Run(options, SLOW, scratch / "out", ranks, prepare=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+            time.sleep(delay)
+            victims = run.rank_pids()
+            if victims:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(choose.choice(victims), number)
+            status = run.wait()
+            print(f"{who} after {delay:.2f} s: exit status {status}", flush=True)
+            expect(status is not None, f"{who} after {delay:.2f} s: hangs")
+            expect((status == 0) == claims_success(run.directory), f"{who} after {delay:.2f} s: exit status {status}, summary.json says else")
+            if run.directory.exists():
+                judge_files(run.directory, who)
+
+
+def stale(options, scratch):
+    """What an earlier run left is gone, or says that it is not of this run."""
+    out = scratch / "out"
+    expect(Run(options, SHORT, out, 3, ["--set", "steps[0].increments=4"]).wait() == 0, "the first run fails")
+    expect((out / "results.3.h5").exists() and (out / "solution.4_2.vtu").exists(), "the first run has no such files")
+    expect(Run(options, SHORT, out).wait() == 0, "the second run fails")
+    left = sorted(path.name for path in out.iterdir())
+    expect(left == sorted(["contact.1_0.vtu", "contact.2_0.vtu", "contact.pvd", "deck.yaml", "history.csv", "results.1.h5", "results.h5",
+                           "solution.1_0.vtu", "solution.2_0.vtu", "solution.pvd", "summary.json"]), f"left: {left}")
+    for status, setting, cause in ((1, "loads[0].pressure=much", "much"), (1, "loads[0].boundary=nowhere", "nowhere"),
+                                   (2, "solver.max_multiplications=1", "max_multiplications"),
+                                   (3, "supports=[]", "body")):
+        expect(Run(options, SHORT, out).wait() == 0, "the run before fails")
+        run = Run(options, SHORT, out, arguments=["--set", setting])
+        found = run.wait()
+        expect(found == status and cause in run.said, f"{setting}: exit status {found}, expected {status}\n{run.said}")
+        expect(not claims_success(out), f"{setting}: the summary before is taken for its own")
+        if status == 1:  # nothing was computed: what was there stays
+            expect((out / "summary.old.json").exists() and (out / "results.h5").exists(), f"{setting}: results before it are gone")
+    # A check is no run.
+    expect(Run(options, SHORT, out).wait() == 0 and not (out / "summary.old.json").exists(), "an old summary is left")
+    expect(Run(options, SHORT, out, arguments=["--check"]).wait() == 0 and claims_success(out), "--check touches results")
+
+
+def own_files(options, scratch):
+    """Files of the user are neither overwritten nor deleted, whatever their name or the way to them."""
+    deck = SHORT.read_text()
+    folder, link = scratch / "real", scratch / "link"
+    folder.mkdir()
+    link.symlink_to(folder)
+    for name in ("x.part", "notes.txt.part", "model.yaml", "solution_best.vtu"):
+        (folder / name).write_text(deck)
+    (scratch / "elsewhere.json").write_text("mine")
+    (folder / "summary.json").symlink_to(scratch / "elsewhere.json")
+    run = Run(options, folder / "x.part", folder)
+    expect(run.wait() == 0, run.said)
+    for name in ("x.part", "notes.txt.part", "model.yaml", "solution_best.vtu"):
+        expect((folder / name).read_text() == deck, f"{name} has changed")
+    expect((scratch / "elsewhere.json").read_text() == "mine", "written through a link")
+    for path in folder.iterdir():
+        path.unlink()
+    (folder / "deck.yaml").write_text(deck)
+    os.link(folder / "deck.yaml", scratch / "twin.yaml")
+    (scratch / "soft.yaml").symlink_to(folder / "deck.yaml")
+    for given, place in ((folder / "deck.yaml", folder), (link / "deck.yaml", folder), (folder / "deck.yaml", link),
+                         (scratch / "twin.yaml", folder), (scratch / "soft.yaml", link), (SHORT, folder)):
+        run = Run(options, given, place)
+        expect(run.wait() == 1 and "would replace" in run.said, f"{given} into {place}: {run.said}")
+        expect((folder / "deck.yaml").read_text() == deck, f"{given} into {place}: the deck has changed")
+    expect(sorted(path.name for path in folder.iterdir()) == ["deck.yaml"], "more than the deck is left")
+    # A mesh under the name of a result.
+    mesh = folder / "results.h5"
+    mesh.write_text("a mesh")
+    (folder / "deck.yaml").rename(folder / "model.yaml")
+    run = Run(options, folder / "model.yaml", folder, arguments=["--set", "mesh={file: results.h5}"])
+    expect(run.wait() == 1 and mesh.read_text() == "a mesh", f"mesh: {run.said}")
+
+
+def two_runs(options, scratch):
+    """The second run into a directory says who is there, and leaves everything as it is; when the first one is gone, it may."""
+    for ranks in (1, 2):
+        first = Run(options, SLOW, scratch / "out", ranks)
+        expect(first.has("mortise.lock"), "no lock")
+        time.sleep(0.1)
+        second = Run(options, SHORT, scratch / "out", ranks)
+        expect(second.wait() == MACHINE and "another run writes there, process " in second.said, f"second: {second.said}")
+        expect(first.wait() == 0 and len(summary(scratch / "out")["steps"]) == 6, f"first: {first.said}")
+        judge_files(scratch / "out", "two runs")
+    first = Run(options, SLOW, scratch / "out")
+    expect(first.has("mortise.lock"), "no lock")
+    first.process.kill()
+    first.wait()
+    second = Run(options, SHORT, scratch / "out")
+    expect(second.wait() == 0 and not (scratch / "out/mortise.lock").exists(), f"after one that was killed: {second.said}")
+
+
+def memory(options, scratch):
+    """Whatever the address space: solved, or exit status 4 with a word; never a signal, never for ever."""
+    statuses = []
+    for megabytes in (150, 200, 240, 255, 270, 300, 350, 380, 400, 420, 440, 470, 1500):
+        size = megabytes * 1000 * 1000
+        run = Run(options, SHORT, scratch / "out", prepare=lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size)))
+        status = run.wait()
+        statuses.append(status)
+        expect(status in (0, MACHINE), f"{megabytes} MB: exit status {status}\n{run.said}")
+        expect(status == 0 or "memory" in run.said, f"{megabytes} MB: no cause:\n{run.said}")
+        expect((status == 0) == claims_success(scratch / "out"), f"{megabytes} MB: exit status {status}, summary.json says else")
+    expect(statuses[0] == MACHINE and statuses[-1] == 0, f"too much or too little to try: {statuses}")
+    size = 390 * 1000 * 1000
+    run = Run(options, SHORT, scratch / "out", 2, ["--set", "mesh.blocks.lower.cells=[30, 30, 30]"],
+              prepare=lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size)))
+    status = run.wait()
+    expect(status == MACHINE and "memory" in run.said, f"2 ranks: exit status {status}\n{run.said}")
+
+
+def output_closed(options, scratch):
+    """Nobody who reads: the run goes on, and what it prints lands in no file of its own. What was only to be printed is an error."""
+    expected = None
+    for how in ("open", "closed", "full", "broken"):
+        reader, writer = os.pipe()
+        os.close(reader)
+        full = os.open("/dev/full", os.O_WRONLY)
+        prepare = {"closed": lambda: [os.close(number) for number in (0, 1, 2)]}.get(how)
+        run = Run(options, SHORT, scratch / how, stdout={"full": full, "broken": writer}.get(how), prepare=prepare)
+        status = run.wait()
+        expect(status == 0 and claims_success(scratch / how), f"output {how}: exit status {status}\n{run.said}")
+        judge_files(scratch / how, f"output {how}")
+        numbers = (scratch / how / "results.h5").read_bytes()
+        expect(numbers == (expected or numbers), f"output {how}: results.h5 differs")
+        expected = expected or numbers
+        for words in (["--check", str(SHORT)], ["--schema"]):
+            done = subprocess.run([options.mortise, *words], stdout={"full": full}.get(how, subprocess.DEVNULL), stderr=subprocess.PIPE, timeout=LIMIT)
+            expect(done.returncode == (MACHINE if how == "full" else 0), f"{words[0]}, output {how}: exit status {done.returncode}")
+        os.close(full), os.close(writer)
+
+
+def few_subdomains(options, scratch):
+    """More ranks than subdomains: the same result."""
+    energies = []
+    for ranks in (1, 3):
+        run = Run(options, SHORT, scratch / "out", ranks, ["--set", "decomposition.subdomains=2", "--set", "decomposition.method=metis"])
+        expect(run.wait() == 0, f"{ranks} ranks: {run.said}")
+        energies.append(summary(scratch / "out")["strain_energy"])
+    expect(abs(energies[0] - energies[1]) < 1e-6 * energies[0], f"energies {energies}")
+
+
+CASES = {case.__name__: case for case in (disk_full, unwritable, interrupted, kills, stale, own_files, two_runs, memory, output_closed, few_subdomains)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mortise")
+    parser.add_argument("case", choices=CASES)
+    parser.add_argument("--mpiexec", default="mpirun")
+    parser.add_argument("--full-disk", default="", help="the library of full_disk.c")
+    parser.add_argument("--times", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    with tempfile.TemporaryDirectory() as scratch:
+        CASES[options.case](options, pathlib.Path(scratch))
+    print(f"{options.case}: {len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
