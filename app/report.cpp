@@ -292,11 +292,12 @@ void print_contacts(const io::StateSummary& s, Log& log)
 
 }  // namespace
 
-double discretization_error(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                            const LoadState& state, const partition::Interface& interface,
-                            const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
+EnergyNorms energy_norms(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                         const LoadState& state, const partition::Interface& interface,
+                         const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
-  return std::sqrt(recover(deck, decomposition, model, state, interface, displacement, comm).squared_error);
+  const auto recovered = recover(deck, decomposition, model, state, interface, displacement, comm);
+  return {std::sqrt(recovered.squared_error), std::sqrt(2 * recovered.strain_energy)};
 }
 
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,

@@ -31,11 +31,15 @@ struct Results {
   io::Summary summary;
 };
 
-/// The part of the error that is the mesh's, in the energy norm, by recovered stresses [Zienkiewicz and Zhu, Int. J. Numer.
-/// Methods Eng. 24 (1987)], inside each body. Collective.
-double discretization_error(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                            const LoadState& state, const partition::Interface& interface,
-                            const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
+/// In the energy norm: the part of the error that is the mesh's, by recovered stresses [Zienkiewicz and Zhu, Int. J. Numer.
+/// Methods Eng. 24 (1987)], inside each body, and the size of the solution.
+struct EnergyNorms {
+  double error = 0, solution = 0;
+};
+/// Collective.
+EnergyNorms energy_norms(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                         const LoadState& state, const partition::Interface& interface,
+                         const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
 
 /// Collective.
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,

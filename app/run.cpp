@@ -87,8 +87,8 @@ class History {
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
-    text_ += fmt::format("{},{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{},{}\n", p.what, step, p.outer, p.multiplications,
-                         p.preconditionings, p.projected_gradient, p.equality, change, p.precision, bounds, discs, state.time);
+    text_ += fmt::format("{},{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{},{},{:.12e},{:.3e}\n", p.what, step, p.outer, p.multiplications,
+                         p.preconditionings, p.projected_gradient, p.equality, change, p.precision, bounds, discs, state.time, p.energy, p.error);
     active_ = fmt::format("; {} open, {} slipping", bounds, discs);
   }
   const std::string& text() const { return text_; }
@@ -100,7 +100,7 @@ class History {
   std::string text_ =
       "stage,friction_step,outer_iteration,hessian_multiplications,preconditionings,projected_gradient,equality,slip_bound_"
       "change,precision,open,"
-      "slipping,time\n";
+      "slipping,time,dual_energy,error\n";
 };
 
 void print_copies(const std::vector<partition::CopyOf>& copies, const partition::Decomposition& decomposition,
