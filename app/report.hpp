@@ -5,6 +5,7 @@
 #include "contact/state.hpp"
 #include "io/summary.hpp"
 #include "io/vtk.hpp"
+#include "post/verdict.hpp"
 #include "simulation.hpp"
 
 namespace mortise {
@@ -27,7 +28,7 @@ struct Results {
   Point obstacles = Point::Zero();                          ///< sum of what rigid obstacles push the bodies with
   Point neighbours = Point::Zero();                         ///< sum of what the sectors beside a cyclic one pull with
   double imbalance = 0;                                     ///< of the sums of all these forces, relative to the largest one
-  std::string limit;                                        ///< the key that ended the solver early, or ""
+  post::Verdict verdict;                                    ///< of this equilibrium
   io::Summary summary;
 };
 
@@ -37,7 +38,7 @@ double discretization_error(const Deck& deck, const partition::Decomposition& de
                             const LoadState& state, const partition::Interface& interface,
                             const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
 
-/// Collective.
+/// Whether it is solved, and what to say if not, stands in Results::verdict. Collective.
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
                  const Simulation& simulation, const Context& context);
 
