@@ -108,7 +108,8 @@ void recover_stress(const Deck& deck, const partition::Decomposition& decomposit
   }
   results.summary.strain_energy = recovered.strain_energy;
   auto& estimate = results.summary.error_estimate;
-  const double squared_norm = 2 * results.summary.strain_energy + recovered.squared_error;
+  // Where nothing is strained, rounding is not the error of anything.
+  const double squared_norm = std::max(2 * results.summary.strain_energy + recovered.squared_error, results.rounding_of_energy);
   if (squared_norm > 0) {
     estimate.discretization = std::sqrt(recovered.squared_error / squared_norm);
     estimate.algebraic /= std::sqrt(squared_norm);

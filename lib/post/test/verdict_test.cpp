@@ -36,6 +36,16 @@ TEST(Verdict, does_not_believe_the_solver_alone)
   EXPECT_NE(v.reason.find("gradient 2.2 (limit 0.5)"), std::string::npos);
 }
 
+TEST(Verdict, a_small_error_excuses_the_gradient_of_incompressible_bodies)
+{
+  auto e = good();
+  e.projected_gradient = 270;
+  e.algebraic_error = 5e-3;
+  EXPECT_EQ(verdict(e).status, ExitStatus::solved);
+  e.algebraic_error = 4e-2;
+  EXPECT_EQ(verdict(e).status, ExitStatus::not_converged);
+}
+
 TEST(Verdict, every_number_can_spoil_it)
 {
   using Member = double Evidence::*;
