@@ -356,7 +356,10 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   double size = std::max({results.applied.norm(), results.reaction.norm(), results.rounding_of_force, 1e-300});
   for (const auto& r : results.resultants) size = std::max(size, r.force.norm());
   for (const auto& r : results.summary.reactions) size = std::max(size, std::hypot(r.force[0], r.force[1], r.force[2]));
-  results.imbalance = (results.applied + results.reaction + results.obstacles + results.neighbours).norm() / size;
+  results.gauges = problem.gauge_force(solved.solution.x);
+  results.imbalance =
+      (results.applied + results.reaction + results.obstacles + results.neighbours + results.gauges).norm() / size;
+  results.push_of_facets = results.gauges.norm() / size;
   results.verdict = post::verdict(evidence(deck, solved, results));
   results.summary.converged = results.verdict.status == ExitStatus::solved;
   results.summary.exit_status = static_cast<int>(results.verdict.status);
@@ -382,9 +385,11 @@ void print(const Results& results, const Context& context)
   const auto part = [&](const char* name, const Point& force) {
     return force.isZero(0) ? "" : fmt::format("{} {}, ", name, vector(force));
   };
-  log.line("  balance of forces   applied {}, supports {}, {}{}difference {:.1e} of the largest force", vector(results.applied),
-           vector(results.reaction), part("obstacles", results.obstacles), part("sectors beside", results.neighbours),
-           results.imbalance);
+  log.line(
+      "  balance of forces   applied {}, supports {}, {}{}difference {:.1e} of the largest force", vector(results.applied),
+      vector(results.reaction), part("obstacles", results.obstacles),
+      part("sectors beside", results.neighbours) + (results.push_of_facets > 1e-6 ? part("against facets", results.gauges) : ""),
+      results.imbalance);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);
   const auto percent = [](double part) {
