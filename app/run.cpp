@@ -255,8 +255,13 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto& state = states[i];
     print_state(state, i, states, log);
+    Results found;
     try {
       simulation.solve(state, [&](int step, double change, const qp::Progress& p) { history.note(state, step, change, p); });
+      log.end_progress();
+      stages.end("solve", "solve");
+      found = evaluate(deck, decomposition, model, simulation, context);
+      if (found.verdict.status == ExitStatus::no_equilibrium) throw Error(found.verdict.status, found.verdict.reason);
     } catch (const Error& error) {
       log.end_progress();
       if (i == 0) throw;
@@ -266,9 +271,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
       throw Error(error.status(), fmt::format("step {}, time {:.4g}: {}\nThe results of the states before are written.",
                                               state.step, state.time, error.what()));
     }
-    log.end_progress();
-    stages.end("solve", "solve");
-    const auto before = std::exchange(results, evaluate(deck, decomposition, model, simulation, context));
+    const auto before = std::exchange(results, std::move(found));
     add_up(state, before.summary, results);
     {
       const auto scope = timers.scope("output");

@@ -9,6 +9,7 @@
 #include "constraint/preload.hpp"
 #include "constraint/renewal.hpp"
 #include "constraint/supports.hpp"
+#include "contact/slides.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/placement.hpp"
 #include "report.hpp"
@@ -217,7 +218,8 @@ void Simulation::build_problem()
   auto& [comm, log, timers] = context_;
   solver_.reset();
   problem_ = std::make_unique<feti::DualProblem>(decomposition_, *directory_, interface_, constraints_, floating_,
-                                                 deck_.solver.subdomains, context_);
+                                                 deck_.solver.subdomains, context_,
+                                                 contact::slides(pairs_, constraints_.contacts, deck_.kinematics, comm));
   log.line("  dual problem: {} multipliers, {} kernel dimensions", problem_->dual_unknowns(), problem_->kernel_dimension());
   auto options = deck_.solver.programme;
   options.max_multiplications -= multiplications_;
