@@ -12,9 +12,6 @@ namespace mortise {
 
 namespace {
 
-// Of the largest force: sums of loads and support forces that differ by more are no equilibrium.
-constexpr double unbalanced = 1e-3;
-
 // Largest value over all ranks and where it is.
 struct Peak {
   double value = 0;
@@ -111,7 +108,8 @@ void recover_stress(const Deck& deck, const partition::Decomposition& decomposit
   }
   results.summary.strain_energy = recovered.strain_energy;
   auto& estimate = results.summary.error_estimate;
-  const double squared_norm = 2 * results.summary.strain_energy + recovered.squared_error;
+  // Where nothing is strained, rounding is not the error of anything.
+  const double squared_norm = std::max(2 * results.summary.strain_energy + recovered.squared_error, results.rounding_of_energy);
   if (squared_norm > 0) {
     estimate.discretization = std::sqrt(recovered.squared_error / squared_norm);
     estimate.algebraic /= std::sqrt(squared_norm);
@@ -267,8 +265,6 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
   summary.kernel_dimension = problem.kernel_dimension();
   summary.bodies = static_cast<Global>(decomposition.catalogue.bodies.size());
   summary.max_displacement = comm.max(largest);
-  summary.converged = solved.converged;
-  summary.exit_status = solved.converged ? 0 : 2;
   summary.ranks = comm.size();
   summary.friction_steps = solved.steps;
   summary.outer_iterations = solved.outer_iterations;
@@ -276,6 +272,24 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
   summary.residuals.projected_gradient = solved.solution.projected_gradient;
   summary.residuals.equality = solved.solution.equality;
   summary.residuals.equilibrium = problem.imbalance(results.displacement, solved.solution.x);
+}
+
+// All that is known of this equilibrium, for post::verdict().
+post::Evidence evidence(const Deck& deck, const friction::Result& solved, const Results& results)
+{
+  const auto& residuals = results.summary.residuals;
+  post::Evidence e;
+  e.converged = solved.converged;
+  e.limit = solved.limit;
+  e.tolerance = deck.solver.programme.tolerance.value.value_or(0);
+  e.projected_gradient = residuals.projected_gradient;
+  e.equality = residuals.equality;
+  e.equilibrium = residuals.equilibrium;
+  e.penetration = residuals.penetration;
+  e.complementarity = residuals.complementarity;
+  e.imbalance = results.imbalance;
+  e.algebraic_error = results.summary.error_estimate.algebraic;
+  return e;
 }
 
 void print_contacts(const io::StateSummary& s, Log& log)
@@ -292,11 +306,12 @@ void print_contacts(const io::StateSummary& s, Log& log)
 
 }  // namespace
 
-double discretization_error(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                            const LoadState& state, const partition::Interface& interface,
-                            const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
+EnergyNorms energy_norms(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                         const LoadState& state, const partition::Interface& interface,
+                         const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
-  return std::sqrt(recover(deck, decomposition, model, state, interface, displacement, comm).squared_error);
+  const auto recovered = recover(deck, decomposition, model, state, interface, displacement, comm);
+  return {std::sqrt(recovered.squared_error), std::sqrt(2 * recovered.strain_energy)};
 }
 
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
@@ -343,12 +358,13 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   double size = std::max({results.applied.norm(), results.reaction.norm(), results.rounding_of_force, 1e-300});
   for (const auto& r : results.resultants) size = std::max(size, r.force.norm());
   for (const auto& r : results.summary.reactions) size = std::max(size, std::hypot(r.force[0], r.force[1], r.force[2]));
-  results.imbalance = (results.applied + results.reaction + results.obstacles + results.neighbours).norm() / size;
-  results.limit = solved.limit;
-  if (results.imbalance > unbalanced && results.summary.converged) {
-    results.summary.converged = false;
-    results.summary.exit_status = 2;
-  }
+  results.gauges = problem.gauge_force(solved.solution.x);
+  results.imbalance =
+      (results.applied + results.reaction + results.obstacles + results.neighbours + results.gauges).norm() / size;
+  results.push_of_facets = results.gauges.norm() / size;
+  results.verdict = post::verdict(evidence(deck, solved, results));
+  results.summary.converged = results.verdict.status == ExitStatus::solved;
+  results.summary.exit_status = static_cast<int>(results.verdict.status);
   return results;
 }
 
@@ -366,25 +382,16 @@ void print(const Results& results, const Context& context)
   const auto& s = results.summary;
   const auto vector = [](const Point& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p[0], p[1], p[2]); };
   log.line("");
-  log.line("{}", s.converged ? "Solved." : "NOT CONVERGED within the limits: the results are written, but do not trust them.");
-  if (!results.limit.empty())
-    log.line("  It was ended by {}; a larger value lets it go on.", results.limit);
-  else if (results.imbalance > unbalanced)
-    log.line(
-        "  The forces do not balance: a motion that only facets of the mesh resist was taken for free, and the loads drive it. "
-        "Hold "
-        "the body against it by a support.");
-  else if (!s.converged)
-    log.line(
-        "  It made no more progress: a looser solver.tolerance may be all that this mesh allows; --set solver.algorithm=smalse "
-        "is "
-        "the other way.");
+  log.line("{}", results.verdict.headline);
+  if (!results.verdict.reason.empty()) log.line("  {}", results.verdict.reason);
   const auto part = [&](const char* name, const Point& force) {
     return force.isZero(0) ? "" : fmt::format("{} {}, ", name, vector(force));
   };
-  log.line("  balance of forces   applied {}, supports {}, {}{}difference {:.1e} of the largest force", vector(results.applied),
-           vector(results.reaction), part("obstacles", results.obstacles), part("sectors beside", results.neighbours),
-           results.imbalance);
+  log.line(
+      "  balance of forces   applied {}, supports {}, {}{}difference {:.1e} of the largest force", vector(results.applied),
+      vector(results.reaction), part("obstacles", results.obstacles),
+      part("sectors beside", results.neighbours) + (results.push_of_facets > 1e-6 ? part("against facets", results.gauges) : ""),
+      results.imbalance);
   log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.max_von_mises_at));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);
   const auto percent = [](double part) {

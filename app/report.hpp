@@ -5,6 +5,7 @@
 #include "contact/state.hpp"
 #include "io/summary.hpp"
 #include "io/vtk.hpp"
+#include "post/verdict.hpp"
 #include "simulation.hpp"
 
 namespace mortise {
@@ -26,18 +27,24 @@ struct Results {
   double rounding_of_force = 0, rounding_of_energy = 0;     ///< what rounding may leave of both where nothing is strained
   Point obstacles = Point::Zero();                          ///< sum of what rigid obstacles push the bodies with
   Point neighbours = Point::Zero();                         ///< sum of what the sectors beside a cyclic one pull with
-  double imbalance = 0;                                     ///< of the sums of all these forces, relative to the largest one
-  std::string limit;                                        ///< the key that ended the solver early, or ""
+  Point gauges = Point::Zero();  ///< what holds free motions against the push of facets, which is no force of the model
+  double push_of_facets = 0;     ///< its size, relative to the largest force
+  double imbalance = 0;          ///< of the sums of all these forces, relative to the largest one
+  post::Verdict verdict;         ///< of this equilibrium
   io::Summary summary;
 };
 
-/// The part of the error that is the mesh's, in the energy norm, by recovered stresses [Zienkiewicz and Zhu, Int. J. Numer.
-/// Methods Eng. 24 (1987)], inside each body. Collective.
-double discretization_error(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                            const LoadState& state, const partition::Interface& interface,
-                            const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
-
+/// In the energy norm: the part of the error that is the mesh's, by recovered stresses [Zienkiewicz and Zhu, Int. J. Numer.
+/// Methods Eng. 24 (1987)], inside each body, and the size of the solution.
+struct EnergyNorms {
+  double error = 0, solution = 0;
+};
 /// Collective.
+EnergyNorms energy_norms(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
+                         const LoadState& state, const partition::Interface& interface,
+                         const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
+
+/// Whether it is solved, and what to say if not, stands in Results::verdict. Collective.
 Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
                  const Simulation& simulation, const Context& context);
 

@@ -97,9 +97,9 @@ class History {
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
-    text_ +=
-        fmt::format("{},{},{},{},{},{},{},{},{:.3e},{},{},{}\n", p.what, step, p.outer, p.multiplications, p.preconditionings,
-                    number(p.projected_gradient), number(p.equality), number(change), p.precision, bounds, discs, state.time);
+    text_ += fmt::format("{},{},{},{},{},{},{},{},{:.3e},{},{},{},{},{}\n", p.what, step, p.outer, p.multiplications,
+                         p.preconditionings, number(p.projected_gradient), number(p.equality), number(change), p.precision,
+                         bounds, discs, state.time, number(p.energy), number(p.error));
     active_ = fmt::format("; {} open, {} slipping", bounds, discs);
   }
   const std::string& text() const { return text_; }
@@ -111,7 +111,7 @@ class History {
   std::string text_ =
       "stage,friction_step,outer_iteration,hessian_multiplications,preconditionings,projected_gradient,equality,slip_bound_"
       "change,precision,open,"
-      "slipping,time\n";
+      "slipping,time,dual_energy,error\n";
 };
 
 void print_copies(const std::vector<partition::CopyOf>& copies, const partition::Decomposition& decomposition,
@@ -273,6 +273,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
     log.end_progress();
     stages.end("solve", "solve");
     Results found = evaluate(deck, decomposition, model, simulation, context);
+    if (found.verdict.status == ExitStatus::no_equilibrium) throw Error(found.verdict.status, found.verdict.reason);
     add_up(state, results.summary, found);
     {
       const auto scope = timers.scope("output");

@@ -9,6 +9,7 @@
 #include "constraint/preload.hpp"
 #include "constraint/renewal.hpp"
 #include "constraint/supports.hpp"
+#include "contact/slides.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/placement.hpp"
 #include "report.hpp"
@@ -19,6 +20,8 @@ namespace {
 
 // Of the estimated discretization error, at which the solver stops where the tolerance is auto.
 constexpr double algebraic_part = 0.1;
+// Of the size of the solution, whatever the discretization error is estimated to be.
+constexpr double smallest_part = 1e-6, largest_part = 0.05;
 
 // Factorizes every subdomain that is not a copy of an earlier one.
 feti::Subdomains factors(const Deck& deck, const partition::Decomposition& decomposition,
@@ -215,7 +218,8 @@ void Simulation::build_problem()
   auto& [comm, log, timers] = context_;
   solver_.reset();
   problem_ = std::make_unique<feti::DualProblem>(decomposition_, *directory_, interface_, constraints_, floating_,
-                                                 deck_.solver.subdomains, context_);
+                                                 deck_.solver.subdomains, context_,
+                                                 contact::slides(pairs_, constraints_.contacts, deck_.kinematics, comm));
   log.line("  dual problem: {} multipliers, {} kernel dimensions", problem_->dual_unknowns(), problem_->kernel_dimension());
   auto options = deck_.solver.programme;
   options.max_multiplications -= multiplications_;
@@ -252,16 +256,21 @@ void Simulation::solve(const LoadState& state, const friction::Observer& observe
     const bool moved = move_constraints(state);
     if (!moved || !same_cuts || !problem_->renew()) rebuild(state, moved);
   }
-  const auto allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+  const auto norms = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
     const auto estimating = timers.scope("error estimate");
-    return algebraic_part *
-           discretization_error(deck_, decomposition_, model_, state_, interface_, problem_->displacement(lambda, nu), comm);
+    return energy_norms(deck_, decomposition_, model_, state_, interface_, problem_->displacement(lambda, nu), comm);
   };
+  const friction::Accuracy accuracy{
+      [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+        const auto [error, solution] = norms(lambda, nu);
+        return std::clamp(algebraic_part * error, smallest_part * solution, largest_part * solution);
+      },
+      [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms(lambda, nu).solution; }};
   const auto count_on = [&](int step, double change, qp::Progress progress) {
     progress.multiplications += multiplications_before_;
     observer(step, change, progress);
   };
-  auto found = solver_->solve(solved_ ? &solved_->solution : nullptr, allowed_error, count_on);
+  auto found = solver_->solve(solved_ ? &solved_->solution : nullptr, accuracy, count_on);
   multiplications_ += found.multiplications;
   solved_ = std::make_unique<friction::Result>(std::move(found));
 }

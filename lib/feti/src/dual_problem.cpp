@@ -36,12 +36,13 @@ std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bo
 
 DualProblem::DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                          const partition::Interface& interface, const constraint::Constraints& constraints,
-                         const Floating& floating, const Options& options, const Context& context)
+                         const Floating& floating, const Options& options, const Context& context,
+                         std::span<const constraint::Slide> slides)
     : decomposition_(decomposition), constraints_(constraints), floating_(floating), comm_(context.comm)
 {
   jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints.held, constraints.inclined,
                                          constraints.contacts, std::span<const SubdomainRow>(), comm_);
-  settle_free_motions(directory, interface, context);
+  settle_free_motions(directory, interface, slides, context);
   hessian_ = std::make_unique<DualOperator>(*jump_, floating.clusters, context.timers);
   if (options.preconditioner != "none") {
     collectively(comm_, [&] {
@@ -119,7 +120,7 @@ bool DualProblem::renew()
   std::string loaded;
   for (const auto& motion : gauged_) {
     if (!driven(motion, work(motion, decomposition_, floating_.load, comm_))) continue;
-    if (motion.felt >= exactly_free) return false;
+    if (!motion.slideway && motion.felt >= exactly_free) return false;
     loaded += fmt::format("\n  {}, driven by its loads", describe(motion, decomposition_.catalogue.bodies, frames));
   }
   if (!loaded.empty()) throw_driven(loaded);
@@ -129,20 +130,20 @@ bool DualProblem::renew()
 }
 
 void DualProblem::settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
-                                      const Context& context)
+                                      std::span<const constraint::Slide> slides, const Context& context)
 {
   SparseMatrix g = coarse_rows(*jump_, floating_.clusters, comm_);
   const auto motions = find_free_motions(decomposition_, *jump_, floating_.clusters, floating_.kinematics, g,
-                                         constraints_.contacts, constraints_.cuts, floating_.load, comm_);
+                                         constraints_.contacts, constraints_.cuts, slides, floating_.load, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;
   std::string loaded;
   int silent = 0;
   for (const auto& motion : motions) {
-    const bool free = motion.felt < exactly_free;
+    const bool free = motion.slideway || motion.felt < exactly_free;
     if (driven(motion, motion.work)) {
-      // What facets alone resist is left to the solver; what nothing resists has no equilibrium.
+      // What is hardly resisted is left to the solver; what nothing but facets resists has no equilibrium.
       if (free) loaded += fmt::format("\n  {}, driven by its loads", describe(motion, bodies, frames));
       continue;
     }
@@ -150,7 +151,9 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
     gauged_.push_back(motion);
     if (gauges.size() <= 10)
       context.log.line("  free rigid motion, set to zero: {}{}", describe(motion, bodies, frames),
-                       free ? "" : fmt::format(" (but for facets, which feel {:.1e} of it)", motion.felt));
+                       motion.felt < exactly_free ? ""
+                       : motion.slideway          ? " (facets aside)"
+                                                  : fmt::format(" (but for facets, which feel {:.1e} of it)", motion.felt));
     else
       ++silent;
   }
@@ -212,6 +215,28 @@ std::string DualProblem::runaway(const Eigen::VectorXd& nu) const
   }
   const auto body = static_cast<std::size_t>(fastest.body);
   return fmt::format("body \"{}\" {}", decomposition_.catalogue.bodies[body].name, describe(fastest, frames[body].radius));
+}
+
+Point DualProblem::gauge_force(const Vector& lambda) const
+{
+  Vector gauges(lambda.getMap());
+  const auto& ranges = jump_->ranges();
+  // Owned rows keep the order of the gauges; which of them this rank owns says the row's number.
+  const Global first = jump_->contact_rows().second;
+  {
+    auto value = view(gauges);
+    const auto from = view(lambda);
+    for (Local row = ranges.extra; row < ranges.end; ++row) {
+      const auto& motion = gauged_[static_cast<std::size_t>(lambda.getMap()->getGlobalElement(row) - first)];
+      if (motion.slideway || motion.felt < exactly_free) value[row] = from[row];
+    }
+  }
+  std::vector<double> sum(3, 0.0);
+  const auto dimension = static_cast<std::size_t>(decomposition_.catalogue.dimension);
+  for (const auto& f : jump_->apply_transpose(gauges))
+    for (Eigen::Index i = 0; i < f.size(); ++i) sum[static_cast<std::size_t>(i) % dimension] -= f[i];
+  comm_.sum_in_place(sum);
+  return {sum[0], sum[1], sum[2]};
 }
 
 double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const

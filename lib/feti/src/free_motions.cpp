@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace mortise::feti {
 
@@ -118,6 +120,126 @@ std::vector<Eigen::VectorXd> unfelt(const Eigen::MatrixXd& rows, double toleranc
   return result;
 }
 
+// The part of a space of amplitudes, columns orthonormal, that is orthogonal to `taken`, whose columns are so too.
+Eigen::MatrixXd complement(const Eigen::MatrixXd& taken)
+{
+  const auto modes = taken.rows();
+  if (taken.cols() == 0) return Eigen::MatrixXd::Identity(modes, modes);
+  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(taken).householderQ();
+  return q.rightCols(modes - taken.cols());
+}
+
+// Of the rows that `counts` marks with 1 the mean of what they feel, squared, as a form; no row is no form. Collective.
+Eigen::MatrixXd mean_square(const Eigen::MatrixXd& rows, const Eigen::VectorXd& counts, const Communicator& comm)
+{
+  const Eigen::MatrixXd marked = counts.asDiagonal() * rows;
+  Eigen::MatrixXd gram = marked.transpose() * marked;
+  comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
+  double count = 0;
+  for (Eigen::Index r = 0; r < marked.rows(); ++r) count += marked.row(r).squaredNorm() > 0;
+  return gram / std::max(comm.sum(count), 1.0);
+}
+
+// What the surfaces in contact of one body, and those that they touch, say of its motions.
+class Slideways {
+ public:
+  Slideways(int body, const BodyFrame& frame, fem::Kinematics kinematics, std::span<const constraint::Slide> slides)
+  {
+    std::vector<int> contacts;
+    for (const auto& slide : slides)
+      if (slide.body == body) contacts.push_back(slide.contact);
+    for (const auto& slide : slides) {
+      if (std::find(contacts.begin(), contacts.end(), slide.contact) == contacts.end()) continue;
+      const int modes = fem::rigid_motion_count(kinematics);
+      Eigen::MatrixXd there(6, modes);  // the body's unit motions at the slide's centre
+      for (int k = 0; k < modes; ++k) {
+        const auto motion = unit_motion(body, frame, k, kinematics);
+        there.col(k) << motion.at(slide.centre), motion.rotation * slide.length;
+      }
+      auto& side = slide.body == body ? own_[slide.contact] : other_[slide.contact];
+      side.push_back({there.transpose() * slide.whole * there, there.transpose() * slide.smooth * there,
+                      there.transpose() * slide.speed * there, slide.tilt});
+    }
+  }
+
+  // Motions in the space of `basis` that surfaces let slide along themselves, orthonormal; `fixed` are mean squares of what
+  // supports, bonds and friction feel.
+  Eigen::MatrixXd free(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& fixed) const
+  {
+    Eigen::MatrixXd found(basis.rows(), 0);
+    if (own_.empty()) return found;
+    for (const auto* sides : {&own_, &other_}) {
+      const Eigen::MatrixXd rest = basis * complement(basis.transpose() * found);
+      if (rest.cols() == 0) break;
+      Eigen::MatrixXd felt = fixed / (exactly * exactly), speed = 1e-12 * Eigen::MatrixXd::Identity(fixed.rows(), fixed.cols());
+      for (const auto& [contact, parts] : *sides)
+        for (const auto& part : parts) {
+          felt += part.smooth / std::pow(part.tolerance(), 2);
+          speed += part.speed;
+        }
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(rest.transpose() * felt * rest,
+                                                                            rest.transpose() * speed * rest);
+      Eigen::MatrixXd accepted = found;
+      for (Eigen::Index k = 0; k < rest.cols(); ++k) {
+        const Eigen::VectorXd v = rest * eigen.eigenvectors().col(k).normalized();
+        if (v.dot(fixed * v) > exactly * exactly || !slides(v)) continue;
+        accepted.conservativeResize(Eigen::NoChange, accepted.cols() + 1);
+        accepted.rightCols(1) = v;
+      }
+      if (accepted.cols() == found.cols()) continue;
+      const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(accepted).householderQ();
+      found = q.leftCols(accepted.cols());
+    }
+    return found;
+  }
+
+  // The root mean square of what the surfaces feel of a motion, facets left out.
+  double felt(const Eigen::VectorXd& v) const
+  {
+    double result = 0;
+    for (const auto& [contact, parts] : own_) {
+      const auto side = [&](const std::vector<Part>& all) {
+        double worst = 0;
+        for (const auto& part : all) worst = std::max(worst, v.dot(part.smooth * v));
+        return worst;
+      };
+      const auto facing = other_.find(contact);
+      result = std::max(result, facing == other_.end() ? side(parts) : std::min(side(parts), side(facing->second)));
+    }
+    return std::sqrt(std::max(result, 0.0));
+  }
+
+ private:
+  struct Part {
+    Eigen::MatrixXd whole, smooth, speed;
+    double tilt;
+    // Polygons differ from the curve by the square of the angle between their edges.
+    double tolerance() const { return 0.4 * tilt + exactly; }
+    bool slides(const Eigen::VectorXd& v) const
+    {
+      const double square = v.dot(speed * v) + 1e-12;
+      return v.dot(smooth * v) <= tolerance() * tolerance() * square &&
+             v.dot(whole * v) <= (tilt_share * tilt + exactly * exactly) * square;
+    }
+    static constexpr double tilt_share = 2;  // of n . v squared that may be due to tilts: teeth are more
+  };
+  using Sides = std::map<int, std::vector<Part>>;  // by contact
+
+  // Whether at each contact one of the two surfaces slides along itself.
+  bool slides(const Eigen::VectorXd& v) const
+  {
+    const auto all = [&](const std::vector<Part>& parts) {
+      return std::all_of(parts.begin(), parts.end(), [&](const Part& part) { return part.slides(v); });
+    };
+    return std::all_of(own_.begin(), own_.end(), [&](const auto& contact) {
+      const auto facing = other_.find(contact.first);
+      return all(contact.second) || (facing != other_.end() && all(facing->second));
+    });
+  }
+
+  Sides own_, other_;
+};
+
 // Takes out of `felt` what a cut that is tightened to a force gives way to, part * s with the s that is nearest to each motion,
 // and adds what the force works on it. `first`: the first contact row of `felt`.
 void release(const constraint::Cut& cut, Local first, Bodies& bodies, SparseMatrix& felt, const Communicator& comm)
@@ -225,7 +347,8 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clus
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
                                           const constraint::Contacts& contacts, std::span<const constraint::Cut> cuts,
-                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
+                                          std::span<const constraint::Slide> slides, const std::vector<Eigen::VectorXd>& load,
+                                          const Communicator& comm)
 {
   Bodies bodies = aggregate(decomposition, clusters, kinematics, load, comm);
   const int modes = bodies.modes;
@@ -240,6 +363,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   Eigen::VectorXd weight_of_row = Eigen::VectorXd::Constant(count, support_weight);
   for (std::size_t i = 0; i < contacts.points.size(); ++i)
     if (!contacts.bonded[i]) weight_of_row[first_contact + static_cast<Local>(contacts.points[i].row)] /= support_weight;
+  const Eigen::VectorXd fixed_row = (weight_of_row.array() > 1).cast<double>();
   // Whether the normal rows feel no more of a motion than the angles of facets explain: a small part of the velocity there.
   const auto along_surfaces = [&](const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) {
     double worst = 0;
@@ -254,26 +378,44 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
 
   std::vector<FreeMotion> found;
   std::vector<Eigen::VectorXd> amplitudes;  // of each found motion, over all bodies
+  const auto add = [&](int b, const Eigen::VectorXd& v, double motion_felt, bool slideway) {
+    FreeMotion motion;
+    motion.felt = motion_felt;
+    motion.slideway = slideway;
+    motion.motions.push_back(combine(b, bodies.frames[b], v, kinematics));
+    motion.work = bodies.force[b] > 0 ? std::abs(bodies.generalised.segment(b * modes, modes).dot(v)) / bodies.force[b] : 0;
+    amplitudes.emplace_back(Eigen::VectorXd::Zero(body_count * modes));
+    amplitudes.back().segment(b * modes, modes) = v;
+    found.push_back(std::move(motion));
+  };
   for (int b = 0; b < body_count; ++b) {
     const Eigen::MatrixXd rows = weight_of_row.asDiagonal() * Eigen::MatrixXd(felt.middleCols(b * modes, modes));
-    Eigen::MatrixXd free(modes, 0), others(modes, 0);  // exactly free ones may be mixed with each other, not with the nearly free
+    const auto drives = bodies.generalised.segment(b * modes, modes);
+    // Three kinds, each in what the ones before leave: what rows do not feel at all; what lets surfaces slide along themselves;
+    // what rows hardly feel.
+    Eigen::MatrixXd taken(modes, 0);
     for (const auto& v : unfelt(rows, nearly, comm)) {
-      auto& part = largest(rows * v, comm) < 1e-6 ? free : others;
-      part.conservativeResize(Eigen::NoChange, part.cols() + 1);
-      part.rightCols(1) = v;
+      if (largest(rows * v, comm) >= 1e-6) continue;
+      taken.conservativeResize(Eigen::NoChange, taken.cols() + 1);
+      taken.rightCols(1) = v;
     }
-    turn_to_loads(free, bodies.generalised.segment(b * modes, modes));
-    Eigen::MatrixXd candidates(modes, free.cols() + others.cols());
-    candidates << free, others;
-    for (const auto& v : candidates.colwise()) {
-      FreeMotion motion;
-      motion.felt = largest(rows * v, comm);
-      motion.motions.push_back(combine(b, bodies.frames[b], v, kinematics));
-      if (!along_surfaces(rows, v, motion.motions.back()) || motion.felt > 3 * nearly) continue;
-      motion.work = bodies.force[b] > 0 ? std::abs(bodies.generalised.segment(b * modes, modes).dot(v)) / bodies.force[b] : 0;
-      amplitudes.emplace_back(Eigen::VectorXd::Zero(body_count * modes));
-      amplitudes.back().segment(b * modes, modes) = v;
-      found.push_back(std::move(motion));
+    turn_to_loads(taken, drives);
+    for (const auto& v : taken.colwise()) add(b, v, largest(rows * v, comm), false);
+
+    const Slideways slideways(b, bodies.frames[b], kinematics, slides);
+    Eigen::MatrixXd sliding = slideways.free(complement(taken), mean_square(rows, fixed_row, comm));
+    turn_to_loads(sliding, drives);
+    for (const auto& v : sliding.colwise()) add(b, v, slideways.felt(v), true);
+
+    Eigen::MatrixXd all(modes, taken.cols() + sliding.cols());
+    all << taken, sliding;
+    const Eigen::MatrixXd rest = complement(all);
+    if (rest.cols() == 0) continue;
+    const Eigen::MatrixXd rows_of_rest = rows * rest;
+    for (const auto& amplitude : unfelt(rows_of_rest, nearly, comm)) {
+      const Eigen::VectorXd v = rest * amplitude;
+      const double worst = largest(rows * v, comm);
+      if (along_surfaces(rows, v, combine(b, bodies.frames[b], v, kinematics)) && worst <= 3 * nearly) add(b, v, worst, false);
     }
   }
 

@@ -14,6 +14,7 @@ namespace mortise::feti {
 namespace {
 
 constexpr std::size_t block_columns = 64;    // copies that go through one matrix together
+constexpr int relaxations = 20;              // steps that look for the least energy inside
 constexpr std::size_t most_interfaces = 32;  // of the copies of one subdomain; where they differ more all get what any needs
 
 using Nodes = std::vector<Local>;
@@ -45,14 +46,48 @@ std::vector<std::pair<Nodes, std::vector<std::size_t>>> by_interface(const JumpO
   return groups;
 }
 
+// u'K u once conjugate gradients have moved what is not held towards where that is least: an upper bound of the least one.
+double relaxed_energy(const SubdomainOperator& subdomain, const std::vector<bool>& held, Eigen::VectorXd u)
+{
+  if (u.isZero(0)) return 0;
+  const Eigen::VectorXd diagonal = subdomain.stiffness().diagonal();
+  const auto release = [&](Eigen::VectorXd v) {
+    for (Eigen::Index i = 0; i < v.size(); ++i)
+      if (held[static_cast<std::size_t>(i)]) v[i] = 0;
+    return v;
+  };
+  const Eigen::VectorXd force = subdomain.apply(u);
+  double energy = u.dot(force);
+  Eigen::VectorXd residual = release(-force), z = residual.cwiseQuotient(diagonal), direction = z;
+  double product = residual.dot(z);
+  for (int step = 0; step < relaxations && product > 1e-3 * energy; ++step) {
+    const Eigen::VectorXd image = release(subdomain.apply(direction));
+    const double curvature = direction.dot(image);
+    if (!(curvature > 0)) break;
+    const double length = product / curvature;
+    energy -= length * product;
+    residual -= length * image;
+    z = residual.cwiseQuotient(diagonal);
+    const double next = residual.dot(z);
+    direction = z + next / product * direction;
+    product = next;
+  }
+  return energy;
+}
+
 }  // namespace
 
 Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump,
                                const Subdomains& subdomains, const std::vector<std::vector<double>>& nodal_stiffness,
                                const std::string& factorization, Timers& timers, const Communicator& comm)
-    : jump_(jump), subdomains_(subdomains), comm_(comm), timers_(timers)
+    : jump_(jump),
+      nodal_stiffness_(nodal_stiffness),
+      dimension_(decomposition.catalogue.dimension),
+      subdomains_(subdomains),
+      comm_(comm),
+      timers_(timers)
 {
-  const int dimension = decomposition.catalogue.dimension;
+  const int dimension = dimension_;
   for (auto& [nodes, members] : by_interface(jump, subdomains, dimension)) {
     const std::size_t s = members.front();
     const SparseMatrix& stiffness = subdomains[s]->original().stiffness();
@@ -163,6 +198,26 @@ void Preconditioner::apply_gram_inverse(Vector& x) const
   all.segment(start, count) = view(std::as_const(x)).segment(ranges.contacts, count);
   comm_.sum_in_place({all.data(), static_cast<std::size_t>(all.size())});
   view(x).segment(ranges.contacts, count) = factor_->solve(all).segment(start, count);
+}
+
+double Preconditioner::energy(const Vector& r)
+{
+  const auto scope = timers_.scope("preconditioner");
+  Vector right(r, Teuchos::Copy);
+  apply_gram_inverse(right);
+  auto u = jump_.apply_transpose(right);
+  double sum = 0;
+  for (std::size_t s = 0; s < u.size(); ++s) {
+    subdomains_[s]->turn_back(u[s]);
+    for (Eigen::Index i = 0; i < u[s].size(); ++i) u[s][i] /= nodal_stiffness_[s][static_cast<std::size_t>(i / dimension_)];
+    std::vector<bool> held(static_cast<std::size_t>(u[s].size()), false);
+    const bool turned = subdomains_[s].get() != &subdomains_[s]->original();
+    for (const Local i : jump_.blocks()[s].unknown)
+      for (Local k = turned ? i / dimension_ * dimension_ : i; k < (turned ? (i / dimension_ + 1) * dimension_ : i + 1); ++k)
+        held[static_cast<std::size_t>(k)] = true;
+    sum += relaxed_energy(subdomains_[s]->original(), held, std::move(u[s]));
+  }
+  return comm_.sum(sum);
 }
 
 void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const

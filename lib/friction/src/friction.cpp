@@ -15,6 +15,7 @@ namespace {
 
 constexpr double loose = 1e-2;         // tolerance of the first Tresca problem, and the loosest of all
 constexpr double finest = 1e-7;        // tolerance of SMALSE-M that is enough where no error is allowed
+constexpr double rounding = 1e-12;     // tolerance of SMALSE-M below which there is nothing to gain
 constexpr double worth_a_look = 0.05;  // change of the slip bounds at which the allowed error is asked for
 
 // ||a - b|| over all ranks; points that stick without limit in either do not count.
@@ -144,7 +145,7 @@ class Relaxation {
 
 // SMALSE-M for one set of slip bounds. Where the goal is an allowed error, with tolerances that fall until it is reached.
 qp::Solution solve_by_smalse(const qp::Problem& programme, std::optional<qp::Solution> start, const qp::Goal& goal,
-                             const Operator* preconditioner, const qp::Observer& observer)
+                             qp::FacePreconditioner* preconditioner, const qp::Observer& observer)
 {
   double tolerance = goal.allowed_error ? loose : goal.residual;
   int outer = 0;
@@ -152,11 +153,18 @@ qp::Solution solve_by_smalse(const qp::Problem& programme, std::optional<qp::Sol
     qp::Solution found = qp::smalse(programme, start, tolerance, observer);
     found.outer_iterations = outer += found.outer_iterations;
     if (!found.feasible) return found;
-    found.error = qp::error_estimate(programme, found, preconditioner);
-    if (!goal.allowed_error || !found.converged || tolerance <= finest) return found;
-    const double allowed = goal.allowed_error(found.x, found.nu);
-    if (found.error <= allowed) return found;
-    tolerance = std::max(finest, tolerance * std::clamp(0.5 * allowed / found.error, 0.03, 0.5));
+    found.error = qp::error_bound(programme, found, preconditioner);
+    if (!found.converged) return found;
+    const double least = found.hessian_norm > 0 ? qp::relative_size(programme, tolerance) / std::sqrt(found.hessian_norm) : 0;
+    if (!goal.allowed_error || tolerance <= finest) {
+      found.converged = qp::believable(found.error, least, found.x, found.nu, goal);
+      if (found.converged || tolerance <= rounding) return found;
+      tolerance *= 0.1;
+    } else {
+      const double allowed = goal.allowed_error(found.x, found.nu);
+      if (found.error <= allowed) return found;
+      tolerance = std::max(finest, tolerance * std::clamp(0.5 * allowed / found.error, 0.03, 0.5));
+    }
     start = std::move(found);
   }
 }
@@ -252,11 +260,32 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
   auto& solution = *run.solution;
   if (!run.goal.allowed_error || !std::isfinite(solution.error))
     return run.change <= options_.tolerance && tolerance <= run.goal.residual;
-  // Bounds that move by so much move the multipliers by about as much, and ||x||_F^2 <= ||F|| ||x||^2.
-  solution.error += std::sqrt(solution.hessian_norm) * distance(wanted, run.bounds, problem_.communicator());
+  solution.error += error_of_bounds(wanted, run);
+  if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu)) return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
-  return (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu)) ||
-         (run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance);
+  return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
+         qp::believable(solution.error, 0, solution.x, solution.nu, run.goal);
+}
+
+// ||.||_F of what multipliers on the edge of their discs would move by with the bounds `wanted`. One product.
+double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run)
+{
+  Vector moved(problem_.linear().getMap()), product(moved.getMap());
+  {
+    const auto x = view(std::as_const(run.solution->x));
+    auto to = view(moved);
+    const auto discs = problem_.set().discs();
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      const Eigen::Vector2d at = qp::from_centre(discs[i], x);
+      if (!std::isfinite(wanted[i]) || !std::isfinite(run.bounds[i]) || at.norm() < 0.99 * run.bounds[i] || at.norm() == 0) continue;
+      for (int k = 0; k < discs[i].size(); ++k)
+        to[discs[i].index[static_cast<std::size_t>(k)]] = (wanted[i] - run.bounds[i]) * at[k] / at.norm();
+    }
+  }
+  if (moved.norm2() == 0) return 0;
+  problem_.equality().project(moved);
+  hessian_.apply(moved, product);
+  return std::sqrt(std::max(moved.dot(product), 0.0));
 }
 
 // Tresca problems until their bounds are at rest.
@@ -272,7 +301,7 @@ void Solver::fixed_point(Run& run)
     const double tolerance =
         run.least_change <= options_.tolerance ? tightest : std::max(tightest, std::min(loose, 0.1 * run.least_change));
     const bool first = !run.solved;
-    if (!solve_tresca({tolerance, {}}, run)) {
+    if (!solve_tresca({tolerance, {}, run.goal.energy_norm}, run)) {
       // Bounds from inexact normal forces may fall short by as much: go half way back before giving up.
       if (!run.solved || ++infeasible > most_infeasible) no_equilibrium(problem_, run.escape);
       for (std::size_t i = 0; i < run.bounds.size(); ++i)
@@ -293,7 +322,7 @@ void Solver::fixed_point(Run& run)
   }
 }
 
-Result Solver::solve(const qp::Solution* start, const AllowedError& allowed_error, const Observer& observer)
+Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer)
 {
   const bool coulomb = any_coulomb(laws_);
   const int before = hessian_.count();
@@ -302,7 +331,8 @@ Result Solver::solve(const qp::Solution* start, const AllowedError& allowed_erro
   if (solver_.tolerance.value)
     run.goal.residual = *solver_.tolerance.value;
   else
-    run.goal.allowed_error = allowed_error;
+    run.goal.allowed_error = accuracy.allowed_error;
+  run.goal.energy_norm = accuracy.energy_norm;
   if (start) run.solution = *start;
   run.bounds = run.previous_bounds = slip_bounds(problem_, laws_, nullptr);
   run.watch = [&](const qp::Progress& progress) {

@@ -3,21 +3,57 @@
 #include <algorithm>
 #include <cmath>
 
-#include "qp/projection.hpp"
-
 namespace mortise::qp {
 
-double error_estimate(const Problem& problem, const Solution& solution, const Operator* preconditioner)
+namespace {
+
+// Unknowns that stay where they are whatever closes the gaps: open points that are farther apart than the gaps that are left.
+std::vector<Local> far_from_contact(const Problem& problem, const Vector& x, const Projection& natural, double largest)
+{
+  const auto now = view(x), argument = view(natural.argument), point = view(natural.point);
+  std::vector<Local> fixed;
+  for (const auto& bound : problem.set.bounds())
+    if (now[bound.index] <= bound.lower && point[bound.index] <= bound.lower &&
+        now[bound.index] - argument[bound.index] > 2 * largest)
+      fixed.push_back(bound.index);
+  for (const auto& disc : problem.set.discs())
+    if (disc.radius == 0) fixed.insert(fixed.end(), disc.index.begin(), disc.index.begin() + disc.size());
+  return fixed;
+}
+
+}  // namespace
+
+double error_bound(const Problem& problem, const Vector& x, const Projection& natural, double norm,
+                   FacePreconditioner* preconditioner)
+{
+  Vector residual(x, Teuchos::Copy), reaction(natural.point, Teuchos::Copy);
+  residual.update(-1, natural.point, 1);
+  reaction.update(-1, natural.argument, 1);
+  const double slackness = std::max(norm * reaction.dot(residual), 0.0);
+  const double largest = residual.normInf();
+  residual.scale(norm);
+  double square = 0;
+  if (preconditioner) {
+    preconditioner->fix(far_from_contact(problem, x, natural, largest));
+    square = std::max(preconditioner->energy(residual), 0.0);
+  } else {
+    square = residual.dot(residual) / norm;
+  }
+  return 0.5 * (std::sqrt(square) + std::sqrt(square + 4 * slackness));
+}
+
+double error_bound(const Problem& problem, const Solution& solution, FacePreconditioner* preconditioner)
 {
   const double norm = solution.hessian_norm > 0 ? solution.hessian_norm : 1;
-  Vector residual(solution.x, Teuchos::Copy);
-  residual.update(-1 / norm, solution.gradient, 1);
-  const Projection natural = project(residual, problem.equality, problem.set);
-  residual.update(norm, solution.x, -norm, natural.point, 0);
-  if (!preconditioner) return residual.norm2() / std::sqrt(norm);
-  Vector z(residual.getMap());
-  preconditioner->apply(residual, z);
-  return std::sqrt(std::max(residual.dot(z), 0.0));
+  Vector moved(solution.x, Teuchos::Copy);
+  moved.update(-1 / norm, solution.gradient, 1);
+  return error_bound(problem, solution.x, project(moved, problem.equality, problem.set), norm, preconditioner);
+}
+
+bool believable(double error, double least, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal)
+{
+  if (!goal.energy_norm || !std::isfinite(error) || error <= goal.credible() * least) return true;
+  return error <= goal.credible() * goal.energy_norm(x, nu);
 }
 
 }  // namespace mortise::qp

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "qp/error_estimate.hpp"
 #include "qp/norm.hpp"
 
 namespace mortise::qp {
@@ -30,28 +31,49 @@ constexpr int max_retreats = 8;               // of slip bounds
 constexpr int max_retreats_to_z = 2;          // quarters of the way back, before the step becomes a gradient projection
 constexpr int max_safeguards = 12;            // after which another algorithm will do better
 constexpr double finest = 1e-7;               // residual over ||P b|| that is enough where no error is allowed
+constexpr double at_rest = 0.05;  // of normal forces: change that is still to come
+constexpr double certain = 0.1;    // of the allowed error, at which their change does not matter
 constexpr double first_look = 0.1;            // part of the first error at which the allowed one is asked for
 
-// ||x - x*||_A from residuals and energies. With M near A^-1 the residual's r'Mr is near its square but for a factor, and that
-// is known of the point before: its squared error is at least twice the energy that has been gained since, and little more where
-// steps gain a lot.
+// ||x - x*||_A from upper bounds of it and energies. A bound is too large by a factor that the preconditioner decides; squared, it
+// is at most what the energy that was gained between two points says of their bounds, if it is the same at both.
 class ErrorEstimate {
  public:
-  double operator()(double measure, double energy)
+  double operator()(double bound, double energy)
   {
-    if (measure_ > 0 && energy < energy_) {
-      const double now = 2 * (energy_ - energy) / measure_;
-      factor_ = std::max(now, last_);
-      last_ = now;
+    return bound;
+  }
+};
+
+// Whether normal forces are at rest: by how much they are still to change, if they change like the error.
+class ContactForces {
+ public:
+  explicit ContactForces(const Problem& problem) : problem_(problem) {}
+
+  // Relative, of the forces at x, whose error is `error`; infinite where that cannot be told. Collective.
+  double change_to_come(const Vector& x, double error)
+  {
+    const auto values = view(x);
+    std::vector<double> now;
+    std::vector<double> sums(2, 0.0);
+    for (const auto& bound : problem_.set.bounds()) {
+      now.push_back(values[bound.index]);
+      sums[0] += now.back() * now.back();
+      if (!before_.empty()) sums[1] += std::pow(now.back() - before_[now.size() - 1], 2);
     }
-    measure_ = measure;
-    energy_ = energy;
-    return std::sqrt(factor_ * measure);
+    problem_.equality.communicator().sum_in_place(sums);
+    const double part = error / error_;
+    const bool known = error_ > 0 && part < 1;
+    before_ = std::move(now);
+    error_ = error;
+    if (sums[0] == 0 || sums[1] == 0) return known || sums[0] == 0 ? 0.0 : std::numeric_limits<double>::infinity();
+    return known ? std::sqrt(sums[1] / sums[0]) * part / (1 - part) : std::numeric_limits<double>::infinity();
   }
 
  private:
-  double measure_ = 0, energy_ = 0;  // of the point before
-  double factor_ = 1, last_ = 0;
+  const Problem& problem_;
+  std::vector<double> before_;
+  double error_ = 0;
 };
 
 }  // namespace
@@ -64,16 +86,6 @@ FaceNewton::FaceNewton(const Problem& problem, FacePreconditioner* preconditione
   // Three vectors each, and three more while a face uses them.
   const double pair = 48.0 * static_cast<double>(problem.linear.getGlobalLength()) / problem.equality.communicator().size();
   kept_ = static_cast<std::size_t>(std::clamp(known_bytes / std::max(pair, 1.0), 10.0, static_cast<double>(max_known)));
-}
-
-// r'Mr, about the square of the error that the residual stands for.
-double FaceNewton::energy_measure(const Vector& residual) const
-{
-  if (!preconditioner_) return residual.dot(residual) / norm_;
-  Vector z(residual.getMap());
-  preconditioner_->apply(residual, z);
-  ++preconditionings_;
-  return residual.dot(z);
 }
 
 // Where the next projection begins if bounds follow the solution: y less a step along its gradient that is long where the face
@@ -180,7 +192,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   FeasibleSet::Active active{};
   const auto report = [&](const char* what) {
     if (observer)
-      observer({what, result.outer_iterations, hessian.count(), residual / size, mismatch / size, 0, active, preconditionings_});
+      observer({what, result.outer_iterations, hessian.count(), residual / size, mismatch / size, 0, active, preconditionings_,
+                energy, result.error});
   };
   Eigen::VectorXd nu =
       start && start->nu.size() == equality.size() ? Eigen::VectorXd(start->nu * (step_length / norm_)) : Eigen::VectorXd();
@@ -189,6 +202,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   ErrorEstimate estimate;
   double faint = renewal ? first_faint_renewed : first_faint;
   double first_error = 0, allowed = -1;  // negative: not asked for yet
+  bool doubtful = false;                 // a small residual beside a large error
+  ContactForces contact(problem_);
   while (true) {
     double step = step_length / norm_;
     Vector trial(y, Teuchos::Copy);
@@ -253,17 +268,21 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     mismatch = renewal ? renewal->renew(z, false) * norm_ / step_length : 0.0;
     result.nu = natural.nu * norm_;
     ++result.outer_iterations;
-    report("outer");
     const double worst = std::max(residual, mismatch);
-    trial.scale(norm_);
-    result.error = estimate(energy_measure(trial), energy) * (residual > 0 ? worst / residual : 1.0);
+    result.error = estimate(error_bound(problem_, z, natural, norm_, preconditioner_), energy) *
+                   (residual > 0 ? worst / residual : 1.0);
+    preconditionings_ += preconditioner_ ? 1 : 0;
+    report("outer");
+    const double to_come = contact.change_to_come(z, result.error);
     // Infinite while points stick whose bounds are still to come.
     if (first_error == 0 && std::isfinite(result.error)) first_error = result.error;
-    result.converged = worst <= (goal.allowed_error ? finest : goal.residual) * size;
+    const bool small = worst <= (goal.allowed_error ? finest : goal.residual) * size;
+    result.converged = small && believable(result.error, size / std::sqrt(norm_), z, result.nu, goal);
+    doubtful = small && !result.converged;
     if (goal.allowed_error && !result.converged && std::isfinite(result.error) &&
         result.error <= (allowed < 0 ? first_look * first_error : allowed)) {
       allowed = goal.allowed_error(z, result.nu);
-      result.converged = result.error <= allowed;
+      result.converged = result.error <= (to_come <= at_rest ? 1 : certain) * allowed;
     }
     since_best = worst < 0.9 * best ? 0 : since_best + 1;
     best = std::min(best, worst);
@@ -277,10 +296,12 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     if (preconditioner_) preconditioner_->fix(face.fixed());
     // The residual to come down to on this face, if inner_reduction does not end it before.
     double enough = 0;
-    if (!goal.allowed_error)
+    if (doubtful)
+      enough = inner_reduction * worst;
+    else if (!goal.allowed_error)
       enough = (only_face_ ? 0.5 : 0.1) * goal.residual * size;
     else if (allowed > 0)
-      enough = 0.3 * worst * allowed / result.error;
+      enough = 0.3 * worst * std::min(1.0, allowed / result.error);
     else if (only_face_)
       enough = inner_reduction * worst;
     // Where the last face was picked badly, what others know leads astray: cells of aspect 1000 tell little of each other.

@@ -41,12 +41,12 @@ struct PointRows {
 /// Heavy: neither copies nor moves, for its parts refer to each other.
 class DualProblem {
  public:
-  /// Looks for free rigid motions and gauges those that nothing loads. Throws Error(no_equilibrium), naming the body and its
-  /// motion, if a load works on a motion that nothing resists. `decomposition`, `constraints` and `floating` outlive it.
-  /// Collective.
+  /// Looks for free rigid motions and gauges those that nothing loads. `slides`: what surfaces in contact feel, apart from
+  /// facets. Throws Error(no_equilibrium), naming the body and its motion, if a load works on a motion that nothing resists.
+  /// `decomposition`, `constraints` and `floating` outlive it. Collective.
   DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
               const partition::Interface& interface, const constraint::Constraints& constraints, const Floating& floating,
-              const Options& options, const Context& context);
+              const Options& options, const Context& context, std::span<const constraint::Slide> slides = {});
   DualProblem(const DualProblem&) = delete;
   /// The same rows with the loads and bounds that `floating` and `constraints` hold by now: d, e and c anew, everything else
   /// stays. Returns false if a motion that was gauged is driven by loads now and facets resist it: then a problem has to be built
@@ -77,12 +77,14 @@ class DualProblem {
   /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers run away.
   /// Collective.
   std::string runaway(const Eigen::VectorXd& nu) const;
+  /// What the gauges of motions hold against that nothing resists but facets: the sum of their forces on the bodies. Collective.
+  Point gauge_force(const Vector& lambda) const;
   /// ||K u + B'lambda + B0'mu - f|| / (||f|| + ||B'lambda||) over all subdomains, B0'mu the forces inside clusters. Collective.
   double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const;
 
  private:
   void settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
-                           const Context& context);
+                           std::span<const constraint::Slide> slides, const Context& context);
   void make_equality(SparseMatrix g);
   Eigen::Index tightened() const;  // cuts with a force
   void make_set();

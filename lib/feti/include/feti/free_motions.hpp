@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "constraint/slide.hpp"
 #include "feti/coarse_problem.hpp"
 
 namespace mortise::feti {
@@ -39,17 +40,21 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clus
 struct FreeMotion {
   std::vector<RigidMotion> motions;
   double felt = 0;  ///< the largest |row . v| over all rows, 0 for a motion that is exactly free
+  /// Surfaces in contact slide along themselves: rows feel nothing of it but the facets of the mesh, and `felt` is the root mean
+  /// square of what is left without them.
+  bool slideway = false;
   double work = 0;  ///< of loads and preloads on it, relative to the sum of the nodal forces and preloads on its bodies
 };
 
 /// Finds them from the support and contact rows of `jump` (G of coarse_rows): body by body, with all other bodies at rest, where
-/// also motions count that facets of a curved surface make nearly free (every row feels less than a few per cent of them); then
-/// those of several bodies together, which must be exactly free. A cut that is tightened to a force lets its two sides move
-/// towards each other. Collective.
+/// also motions count that let surfaces slide along themselves, whatever their facets resist, and those that are nearly free
+/// (every row feels less than a few per cent of them); then those of several bodies together, which must be exactly free. A cut
+/// that is tightened to a force lets its two sides move towards each other. Collective.
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
                                           const constraint::Contacts& contacts, std::span<const constraint::Cut> cuts,
-                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
+                                          std::span<const constraint::Slide> slides, const std::vector<Eigen::VectorXd>& load,
+                                          const Communicator& comm);
 
 /// FreeMotion::work of other loads. Collective.
 double work(const FreeMotion& motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,

@@ -21,7 +21,7 @@
 
 namespace mortise::feti {
 
-/// Refers to `jump` and `subdomains`, which outlive it.
+/// Refers to `jump`, `subdomains` and `nodal_stiffness`, which outlive it.
 class Preconditioner : public qp::FacePreconditioner {
  public:
   enum class Kind { lumped, dirichlet };
@@ -34,6 +34,9 @@ class Preconditioner : public qp::FacePreconditioner {
   void invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension);
 
   void fix(std::span<const Local> fixed) override;
+  /// Twice the strain energy of displacements that close the gaps r: those of D^-1 B' C r at the interfaces, and inside what is
+  /// nearly of least energy. Collective.
+  double energy(const Vector& r) override;
   Teuchos::RCP<const Map> getDomainMap() const override { return jump_.rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return jump_.rows(); }
   /// y = alpha M x + beta y. Rows that are neither gluing nor support nor contact keep their entry. Collective.
@@ -52,6 +55,8 @@ class Preconditioner : public qp::FacePreconditioner {
     std::unique_ptr<DirectSolver> interior;
   };
   const JumpOperator& jump_;
+  const std::vector<std::vector<double>>& nodal_stiffness_;
+  int dimension_;
   const Subdomains& subdomains_;
   struct Group {
     Surface surface;

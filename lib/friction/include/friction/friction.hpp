@@ -43,8 +43,12 @@ struct Result {
 /// One line of progress: the Tresca step, the change of the bounds before it, and where the solver stands.
 using Observer = std::function<void(int step, double change, const qp::Progress&)>;
 
-/// The algebraic error in the energy norm that is good enough at the multipliers lambda and nu, see qp::Goal.
-using AllowedError = std::function<double(const Vector& lambda, const Eigen::VectorXd& nu)>;
+/// What errors are measured by, both at the multipliers lambda and nu and in the energy norm, see qp::Goal. Collective.
+struct Accuracy {
+  using Measure = std::function<double(const Vector& lambda, const Eigen::VectorXd& nu)>;
+  Measure allowed_error;  ///< the algebraic error that is good enough
+  Measure energy_norm;    ///< that of the displacements
+};
 
 /// A sequence of load steps on one dual problem, which may be renewed between them: what was learnt about F stays.
 class Solver {
@@ -58,13 +62,14 @@ class Solver {
   /// Solves for the multipliers, to the tolerance of the solver's options or, where that is auto, to the allowed error; from
   /// `start`, the solution of the step before, if there is one. Throws Error(no_equilibrium) that names the body that moves and
   /// how. Collective.
-  Result solve(const qp::Solution* start, const AllowedError& allowed_error, const Observer& observer);
+  Result solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer);
 
  private:
   struct Run;
   void renew_at_faces(Run& run);
   bool solve_tresca(const qp::Goal& goal, Run& run);
   bool at_rest(const std::vector<double>& wanted, double tolerance, Run& run);
+  double error_of_bounds(const std::vector<double>& wanted, const Run& run);
   void fixed_point(Run& run);
 
   feti::DualProblem& problem_;

@@ -1,13 +1,26 @@
-// How far a point is from the solution, judged afterwards.
+// What residuals tell of the error.
 #pragma once
 
+#include "qp/projection.hpp"
 #include "qp/solution.hpp"
 
 namespace mortise::qp {
 
-/// About ||x - x*|| in the norm of A: sqrt(r'Mr) of the natural residual r = (x - P_C(x - a g)) / a, a = 1 / ||P A P||. FETI's
-/// preconditioners M have M A >= 1 on its multipliers, which makes it a bound where no constraint changes [Tezaur, PhD thesis,
-/// 1998]; without one (null) M is 1 / ||P A P||. Costs no product with A. Collective.
-double error_estimate(const Problem& problem, const Solution& solution, const Operator* preconditioner);
+/// An upper bound of ||x - x*||_A at a point x of C, from `natural`, the projection of x - gradient / norm onto C: with
+/// r = norm (x - natural.point) and the slackness s = (gradient + G'nu - r)'(x - natural.point), both zero at a solution, the
+/// error e fulfils ||e||^2 <= r'e + s, and r'e <= ||r|| ||e|| with preconditioner->energy(r) for ||r||^2 [Prager and Synge,
+/// Q. Appl. Math. 5 (1947): r are gaps, and what closes them makes displacements that are compatible]. Discs of friction count
+/// with the radii that they have. Without a preconditioner r'r / norm, which is an estimate from below. Fixes other unknowns of
+/// the preconditioner. Collective.
+double error_bound(const Problem& problem, const Vector& x, const Projection& natural, double norm,
+                   FacePreconditioner* preconditioner);
+
+/// The same of a solution whose `gradient` and `hessian_norm` are set. Collective.
+double error_bound(const Problem& problem, const Solution& solution, FacePreconditioner* preconditioner);
+
+/// Whether an error is small enough for a small residual at the point x with the multipliers nu to be believed, see
+/// Goal::credible; `least`: what the energy norm is at least. True where the goal knows no energy norm. Infinite errors are those
+/// of points that stick without a limit, which is no law yet, and believed. Collective.
+bool believable(double error, double least, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal);
 
 }  // namespace mortise::qp

@@ -47,7 +47,6 @@ class FaceNewton {
     Vector y, gy;  // the solution on its face, which may lie outside Omega, and A y - b
   };
   void precondition(const Face& face, const Vector& residual, Vector& z) const;
-  double energy_measure(const Vector& residual) const;
   bool soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const;
   bool look_for_start(State& state, double energy);
   Vector look_beyond(const Face& face, const State& state) const;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -38,6 +39,15 @@ class FacePreconditioner : public Operator {
  public:
   /// From now on the unknowns `fixed` of this rank are 0 in what it is applied to, and in what is used of the result. Collective.
   virtual void fix(std::span<const Local> fixed) = 0;
+  /// No less than sup (r'x)^2 / x'A x over all x with G x = 0 and x = 0 where fixed: the square of the error that a residual r
+  /// stands for. r'M r is, if M comes from an approximation of the displacements that close the gaps r; a sharper one may cost
+  /// as much as a product with A. Collective.
+  virtual double energy(const Vector& r)
+  {
+    Vector z(r.getMap());
+    apply(r, z);
+    return r.dot(z);
+  }
 };
 
 /// Refers to its parts; they outlive it.
@@ -63,6 +73,8 @@ struct Progress {
   double precision = 0;           ///< M of SMALSE-M
   FeasibleSet::Active active{};   ///< on this rank
   int preconditionings = 0;
+  double energy = std::numeric_limits<double>::quiet_NaN();  ///< 1/2 x'A x - b'x of face Newton's point
+  double error = std::numeric_limits<double>::quiet_NaN();   ///< the estimate of ||x - x*||_A there
 };
 using Observer = std::function<void(const Progress&)>;
 

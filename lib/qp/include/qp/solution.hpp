@@ -1,6 +1,7 @@
 // When a solver of quadratic programmes may stop, and what it returns.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "qp/problem.hpp"
@@ -12,7 +13,13 @@ struct Goal {
   double residual = 1e-4;  ///< natural residual over ||P b||
   /// If given, face Newton stops by this instead: the error, in the norm of A, that is good enough at the present point x with
   /// the multipliers nu. Asked for only where the error comes near. Collective.
-  std::function<double(const Vector& x, const Eigen::VectorXd& nu)> allowed_error;
+  std::function<double(const Vector& x, const Eigen::VectorXd& nu)> allowed_error = {};
+  /// The size of what is solved for, in the norm of the error (that of A, as Solution::error). Asked for where a residual is
+  /// small, since a small residual alone says little where A is badly conditioned; if absent, it is believed. Collective.
+  std::function<double(const Vector& x, const Eigen::VectorXd& nu)> energy_norm = {};
+
+  /// Part of the energy norm that the error may be for a small residual to count as a solution.
+  double credible() const { return allowed_error ? 1e-3 : std::sqrt(residual); }
 };
 
 /// What a solve leaves, and what the next one of a sequence may start from.
@@ -31,7 +38,7 @@ struct Solution {
   int preconditionings = 0;
   int safeguards = 0;             ///< steps of face Newton that went up and were taken back
   double projected_gradient = 0;  ///< relative to ||P b||
-  /// ||x - x*|| in the norm of A, estimated by face Newton; not a number of SMALSE-M, for which error_estimate() serves.
+  /// ||x - x*|| in the norm of A, estimated by face Newton; not a number of SMALSE-M, for which error_bound() serves.
   double error = std::numeric_limits<double>::quiet_NaN();
   double equality = 0;  ///< relative, ||Q x - Q x_e|| / ||P b|| in the scaling ||P A P|| = 1
 

@@ -1,0 +1,25 @@
+// What a surface in contact feels of rigid motions, apart from the angles between its facets.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "base/types.hpp"
+
+namespace mortise::constraint {
+
+/// One side of a contact on one body. A rigid motion is (t, w): the velocity is t + w x (x - centre) / length. Matrices are
+/// quadratic forms in (t, w), mean values over the faces:
+struct Slide {
+  using Form = Eigen::Matrix<double, 6, 6>;
+  int contact = 0;  ///< index into the deck's contacts
+  bool secondary = true;
+  int body = 0;
+  Point centre = Point::Zero();
+  double length = 1;
+  Form whole = Form::Zero();   ///< of (n . v)^2
+  Form smooth = Form::Zero();  ///< of the square of what n . v has in common with polynomials of low degree
+  Form speed = Form::Zero();   ///< of |v|^2
+  double tilt = 0;             ///< of the squared angle between a face and the mean of the faces at its nodes, but for kinks
+};
+
+}  // namespace mortise::constraint

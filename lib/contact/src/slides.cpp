@@ -1,0 +1,285 @@
+#include "contact/slides.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "by_node.hpp"
+#include "fem/element.hpp"
+#include "mesh/shape_functions.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+using constraint::Slide;
+constexpr double kink = 0.77;  // cosine of the angle from which two faces at a node are an edge, as in patches.cpp
+
+struct Key {
+  int contact, side, body;  // side 1 is the secondary one
+  auto operator<=>(const Key&) const = default;
+};
+
+// A face of this rank that counts.
+struct Face {
+  Key key;
+  const mesh::Surface* surface;
+  std::size_t face;
+};
+
+struct At {
+  Point x = Point::Zero(), normal = Point::Zero();  // outward, as long as the weight
+};
+
+Point normal_of(const Eigen::MatrixXd& gradient, const mesh::Surface& surface, std::size_t face, bool solid)
+{
+  Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();  // in 2D the first alone
+  const auto nodes = surface.faces[face];
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    tangents.leftCols(gradient.cols()) +=
+        surface.points[static_cast<std::size_t>(nodes[i])] * gradient.row(static_cast<Eigen::Index>(i));
+  if (solid) return Point(tangents.col(0)).cross(Point(tangents.col(1)));
+  return {tangents(1, 0), -tangents(0, 0), 0};
+}
+
+std::vector<At> quadrature(const Face& face, fem::Kinematics kinematics)
+{
+  const auto& surface = *face.surface;
+  const fem::Element& element = fem::element(surface.faces.type[face.face]);
+  const auto nodes = surface.faces[face.face];
+  std::vector<At> result;
+  for (std::size_t q = 0; q < element.points(); ++q) {
+    At at;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      at.x += element.shape[q][static_cast<Eigen::Index>(i)] * surface.points[static_cast<std::size_t>(nodes[i])];
+    at.normal = element.weight[q] * fem::thickness(kinematics, at.x[0]) *
+                normal_of(element.gradient[q], surface, face.face, kinematics == fem::Kinematics::solid);
+    result.push_back(at);
+  }
+  return result;
+}
+
+// The faces that have a node in a row of their contact.
+std::vector<Face> touched(std::span<const Pair> pairs, const constraint::Contacts& contacts, const Communicator& comm)
+{
+  struct Touch {
+    Global node;
+    int contact;
+  };
+  std::vector<Touch> mine;
+  for (const auto& point : contacts.points) {
+    mine.push_back({point.node, point.contact});
+    for (const auto& entry : contacts.rows[point.row])
+      if (mine.back().node != entry.node) mine.push_back({entry.node, point.contact});
+  }
+  std::vector<Global> nodes;
+  for (const auto& pair : pairs) {
+    nodes.insert(nodes.end(), pair.secondary.node_id.begin(), pair.secondary.node_id.end());
+    if (pair.primary) nodes.insert(nodes.end(), pair.primary->node_id.begin(), pair.primary->node_id.end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::map<Global, std::vector<int>> contacts_of;
+  for (const auto& touch : answer(by_node(std::span<const Touch>(mine), comm), ask(nodes, comm), comm)) {
+    auto& list = contacts_of[touch.node];
+    if (std::find(list.begin(), list.end(), touch.contact) == list.end()) list.push_back(touch.contact);
+  }
+  std::vector<Face> result;
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    for (const int side : {0, 1}) {
+      if (pairs[c].options.law == Law::bonded || (side == 0 && !pairs[c].primary)) continue;
+      const mesh::Surface& surface = side == 1 ? pairs[c].secondary : *pairs[c].primary;
+      const auto count = result.size();
+      const auto add = [&](const auto& counts) {
+        for (std::size_t f = 0; f < surface.faces.size(); ++f)
+          if (counts(f)) result.push_back({{static_cast<int>(c), side, surface.body[f]}, &surface, f});
+      };
+      add([&](std::size_t f) {
+        return std::ranges::any_of(surface.faces[f], [&](Local n) {
+          const auto found = contacts_of.find(surface.node_id[static_cast<std::size_t>(n)]);
+          return found != contacts_of.end() && std::ranges::count(found->second, static_cast<int>(c)) > 0;
+        });
+      });
+      if (!comm.any(result.size() > count)) add([](std::size_t) { return true; });
+    }
+  return result;
+}
+
+// Of each face the mean squared angle between it and the mean of the faces at its nodes.
+std::vector<double> tilts(const std::vector<Face>& faces, bool solid, const Communicator& comm)
+{
+  struct Normal {
+    Global node;
+    int contact, side;
+    Global face;
+    double x, y, z;
+    Point vector() const { return {x, y, z}; }
+  };
+  std::vector<Normal> mine;
+  std::vector<Global> nodes;
+  for (const auto& face : faces) {
+    const auto& functions = mesh::shape_functions(face.surface->faces.type[face.face]);
+    const auto local = face.surface->faces[face.face];
+    Eigen::VectorXd value(functions.count());
+    Eigen::MatrixXd gradient;
+    for (std::size_t i = 0; i < local.size(); ++i) {
+      gradient.setZero(functions.count(), solid ? 2 : 1);
+      functions.evaluate(functions.nodes()[i], value, &gradient);
+      const Point n = normal_of(gradient, *face.surface, face.face, solid).normalized();
+      const Global node = face.surface->node_id[static_cast<std::size_t>(local[i])];
+      mine.push_back({node, face.key.contact, face.key.side, face.surface->face_id[face.face], n[0], n[1], n[2]});
+      nodes.push_back(node);
+    }
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto around = answer(by_node(std::span<const Normal>(mine), comm), ask(nodes, comm), comm);
+  std::vector<double> result;
+  auto own = mine.begin();
+  for (const auto& face : faces) {
+    double sum = 0;
+    const auto count = face.surface->faces[face.face].size();
+    for (std::size_t i = 0; i < count; ++i, ++own) {
+      Point mean = Point::Zero();
+      auto at =
+          std::lower_bound(around.begin(), around.end(), own->node, [](const Normal& a, Global node) { return a.node < node; });
+      for (; at != around.end() && at->node == own->node; ++at)
+        if (at->contact == own->contact && at->side == own->side && at->vector().dot(own->vector()) > kink) mean += at->vector();
+      sum += (own->vector() - mean.normalized()).squaredNorm();
+    }
+    result.push_back(sum / static_cast<double>(count));
+  }
+  return result;
+}
+
+// n . v of the six motions.
+Eigen::Matrix<double, 6, 1> normal_speed(const Slide& slide, const Point& x, const Point& normal)
+{
+  Eigen::Matrix<double, 6, 1> result;
+  result << normal, (x - slide.centre).cross(normal) / slide.length;
+  return result;
+}
+
+// Sum of |v|^2 over the three axes as a form: of w x r it is |w|^2 |r|^2 - (w . r)^2.
+Slide::Form speed(const Slide& slide, const Point& x)
+{
+  const Point r = (x - slide.centre) / slide.length;
+  Eigen::Matrix<double, 3, 6> v;
+  for (int k = 0; k < 3; ++k) {
+    v.col(k) = Point::Unit(k);
+    v.col(3 + k) = Point(Point::Unit(k)).cross(r);
+  }
+  return v.transpose() * v;
+}
+
+constexpr int most_terms = 10;
+using Terms = Eigen::Matrix<double, most_terms, 1>;
+
+Terms polynomials(const Slide& slide, const Point& x, int count)
+{
+  const Point r = (x - slide.centre) / slide.length;
+  Terms result;
+  result << 1, r[0], r[1], r[2], r[0] * r[0], r[1] * r[1], r[2] * r[2], r[0] * r[1], r[1] * r[2], r[0] * r[2];
+  result.tail(most_terms - count).setZero();
+  return result;
+}
+
+// Few faces know a constant alone.
+int terms(double faces)
+{
+  return faces >= 40 ? 10 : faces >= 12 ? 4 : 1;
+}
+
+struct Sums {
+  Eigen::Matrix<double, most_terms, most_terms> gram = Eigen::Matrix<double, most_terms, most_terms>::Zero();
+  Eigen::Matrix<double, most_terms, 6> mixed = Eigen::Matrix<double, most_terms, 6>::Zero();
+  Slide::Form whole = Slide::Form::Zero(), speed = Slide::Form::Zero();
+};
+static_assert(sizeof(Sums) == sizeof(double) * (100 + 60 + 72));
+
+std::vector<Key> all_keys(const std::vector<Face>& faces, const Communicator& comm)
+{
+  std::vector<Key> keys;
+  for (const auto& face : faces) keys.push_back(face.key);
+  const auto unique = [&] {
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  };
+  unique();
+  keys = comm.all_gather(keys);
+  unique();
+  return keys;
+}
+
+}  // namespace
+
+std::vector<Slide> slides(std::span<const Pair> pairs, const constraint::Contacts& contacts, fem::Kinematics kinematics,
+                          const Communicator& comm)
+{
+  const auto faces = touched(pairs, contacts, comm);
+  const auto tilt = tilts(faces, kinematics == fem::Kinematics::solid, comm);
+  const auto keys = all_keys(faces, comm);
+  const auto place = [&](const Key& key) {
+    return static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
+  };
+  struct Extent {
+    double area, x, y, z, square, tilt, faces;
+  };
+  std::vector<Extent> extents(keys.size(), Extent{});
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    auto& e = extents[place(faces[f].key)];
+    e.faces += 1;
+    for (const auto& at : quadrature(faces[f], kinematics)) {
+      const double w = at.normal.norm();
+      e.area += w;
+      e.x += w * at.x[0], e.y += w * at.x[1], e.z += w * at.x[2];
+      e.tilt += w * tilt[f];
+    }
+  }
+  comm.sum_in_place({&extents.data()->area, extents.size() * 7});
+  std::vector<Slide> result;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const auto& e = extents[k];
+    Slide slide;
+    slide.contact = keys[k].contact;
+    slide.secondary = keys[k].side == 1;
+    slide.body = keys[k].body;
+    slide.centre = Point(e.x, e.y, e.z) / e.area;
+    slide.tilt = e.tilt / e.area;
+    result.push_back(slide);
+  }
+  std::vector<double> squares(keys.size(), 0.0);
+  for (const auto& face : faces)
+    for (const auto& at : quadrature(face, kinematics)) {
+      const auto k = place(face.key);
+      squares[k] += at.normal.norm() * (at.x - result[k].centre).squaredNorm();
+    }
+  comm.sum_in_place(squares);
+  for (std::size_t k = 0; k < keys.size(); ++k) result[k].length = std::sqrt(std::max(squares[k] / extents[k].area, 1e-300));
+
+  std::vector<Sums> sums(keys.size());
+  for (const auto& face : faces) {
+    const auto k = place(face.key);
+    for (const auto& at : quadrature(face, kinematics)) {
+      const double w = at.normal.norm();
+      const auto speed_here = normal_speed(result[k], at.x, at.normal / w);
+      const Terms p = polynomials(result[k], at.x, terms(extents[k].faces));
+      sums[k].gram += w * p * p.transpose();
+      sums[k].mixed += w * p * speed_here.transpose();
+      sums[k].whole += w * speed_here * speed_here.transpose();
+      sums[k].speed += w * speed(result[k], at.x);
+    }
+  }
+  comm.sum_in_place({reinterpret_cast<double*>(sums.data()), sums.size() * sizeof(Sums) / sizeof(double)});
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const auto inverse = sums[k].gram.completeOrthogonalDecomposition();
+    result[k].smooth = sums[k].mixed.transpose() * inverse.solve(sums[k].mixed) / extents[k].area;
+    result[k].whole = sums[k].whole / extents[k].area;
+    result[k].speed = sums[k].speed / extents[k].area;
+  }
+  return result;
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,42 @@
+// Whether a run may call itself solved. One function decides, from the numbers that are printed beside its sentence.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace mortise::post {
+
+/// The largest rigid motion that a body made, beyond what supports, fits and gaps account for.
+struct Drift {
+  double sizes = 0;  ///< over the body's size
+  std::string text;  ///< `body "plate" moves along (0, 0, 1)`
+};
+
+/// What one equilibrium claims. Residuals as in summary.json; a number that is not finite is a failure, but for error estimates,
+/// where NaN says that none was made.
+struct Evidence {
+  bool converged = false;  ///< by the solver's own criterion
+  std::string limit;       ///< the key of the deck that ended the solver early, or ""
+  double tolerance = 0;    ///< the relative residual that the deck asks for; 0: auto
+  double projected_gradient = 0, equality = 0, equilibrium = 0, penetration = 0, complementarity = 0;
+  double imbalance = 0;  ///< of loads, supports and obstacles, over the largest force
+  /// Of the solver, relative, in the energy norm: estimated, and what the stopping criterion allows.
+  double algebraic_error = std::numeric_limits<double>::quiet_NaN();
+  double allowed_error = std::numeric_limits<double>::infinity();
+  Drift drift;
+};
+
+struct Verdict {
+  ExitStatus status = ExitStatus::solved;
+  std::string headline;  ///< "Solved." or what it is instead
+  std::string reason;    ///< a sentence with the numbers that decided and a cure; empty if solved
+};
+
+/// Solved: the solver says so, and no number exceeds its limit (a residual: the fixed limit, or the deck's tolerance if that is
+/// larger). No equilibrium: a body drifts by half its size while some number does not fit, or by a hundred sizes. Else not
+/// converged. Depends on its argument alone.
+Verdict verdict(const Evidence& evidence);
+
+}  // namespace mortise::post
