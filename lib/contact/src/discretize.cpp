@@ -22,7 +22,9 @@ namespace mortise::contact {
 namespace {
 
 // A place covered by less than this part of its surroundings gets no multiplier.
-constexpr double least_cover = 0.05;
+constexpr double least_cover = 0.01;
+// Less than this part of a facet is covered by chance.
+constexpr double least_piece = 0.01;
 
 Tree tree_of_facets(const Side& side)
 {
@@ -214,6 +216,25 @@ class Builder {
       cover_[p] = whole[p] > 0 ? std::min(covered[p] / whole[p], 1.0) : 0.0;
       kept_[p] = (!left_out(p) || stranded[p]) && cover_[p] > least_cover;
     }
+    keep_small_pieces([&](std::size_t p) { return !left_out(p) || stranded[p]; });
+  }
+
+  // Where all functions of a piece would be dropped, as opposite a foot smaller than the faces it stands on, they stay: so does the
+  // border of the contact.
+  template <class Allowed>
+  void keep_small_pieces(const Allowed& allowed)
+  {
+    std::vector<std::size_t> more;
+    for (const std::size_t f : round_)
+      for (const std::size_t i : pieces(f)) {
+        const auto piece = integrals_[i];
+        if (piece.facet < 0 || piece.covered.sum() < least_piece * piece.whole.sum()) continue;
+        bool any = false;
+        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) any = any || kept_[place_of(f, piece, k)];
+        for (Eigen::Index k = 0; k < piece.covered.size() && !any; ++k)
+          if (const auto p = place_of(f, piece, k); allowed(p)) more.push_back(p);
+      }
+    for (const std::size_t p : more) kept_[p] = 1;
   }
 
   void make_faces_dual()

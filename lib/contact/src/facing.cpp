@@ -9,6 +9,10 @@ namespace mortise::contact {
 
 namespace {
 
+// Faces that enclose more than about 40 degrees meet at an edge or not at all: what a ball has beside the rim of its socket is no
+// contact.
+constexpr double facing = kink;
+
 // Places from which lines start: the centre of a facet, and so far from there to its corners.
 constexpr double to_corners = 0.9;
 
@@ -24,6 +28,7 @@ void look(const Point& x, const Point& direction, int face, const Lengths& lengt
     if (!c.entered || skin.body[at(c.face)] == skin.body[at(face)]) continue;
     const auto [least, largest] = lengths.window(size, skin.size[at(c.face)]);
     if (c.s < least || c.s > largest || !in_sight(c, face, crossings, skin)) continue;
+    if (direction.dot(skin.normal[at(c.face)]) > -facing) continue;
     seen.push_back({face, c.face, c.s});
     nearest = std::min(nearest, std::abs(c.s));
   }

@@ -202,7 +202,10 @@ void make_dual(PieceStore::View& piece, std::span<const char> kept)
   }
   const Eigen::FullPivLU<SmallMatrix> factor(SmallMatrix(scale.asDiagonal() * gram * scale.asDiagonal()));
   SmallMatrix a = SmallMatrix::Identity(count, count);  // too thin for a dual basis of its own: theta~, which keeps the sums
-  if (piece.dual && factor.rcond() > 1e-9)
+  // On a facet whose basis has lost a function linear fields are no longer in it, and resultants of dual functions need not lie
+  // in what is covered; those of theta~ do.
+  const bool dual = piece.dual && (piece.facet < 0 || drop.empty());
+  if (dual && factor.rcond() > 1e-9)
     a = d.asDiagonal() * SmallMatrix(scale.asDiagonal() * factor.solve(SmallMatrix(scale.asDiagonal())));
 
   // psi = all theta, with rows of zeros for the dropped nodes.
