@@ -1,0 +1,114 @@
+// Faces that cross the border of the other side: where their multipliers act, what gaps and directions they see.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "surfaces.hpp"
+
+namespace mortise::contact {
+namespace {
+
+constexpr auto flat = [](double x, double y) { return Point(x, y, 0); };
+
+Point resultant(const Gathered::Row& row, const std::map<Global, Point>& nodes, bool on_primary)
+{
+  Point sum = Point::Zero();
+  double weight = 0;
+  for (const auto& e : row.entries) {
+    if ((e.node >= primary_ids) != on_primary || e.component != 2) continue;
+    sum += e.coefficient * nodes.at(e.node);
+    weight += e.coefficient;
+  }
+  return sum / weight;
+}
+
+class Overhang : public testing::TestWithParam<std::tuple<double, bool, bool>> {};
+
+// A strip of three cells of length 1 lies on one that ends at x = 2 + part: its multipliers push at points up to the edge, and
+// none beyond.
+TEST_P(Overhang, MultipliersReachTheEdgeAndNoFarther)
+{
+  const Communicator comm;
+  const auto [part, triangles, other_triangles] = GetParam();
+  const double edge = 2 + part;
+  const auto pair =
+      make_pair(surface({3, 2, 0, 3, 0, 1, true, triangles}, flat, comm),
+                surface({5, 3, -1, edge, 0, 1, false, other_triangles, primary_ids}, flat, comm), Law::frictionless);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  const auto nodes = nodes_of(pair, comm);
+  double farthest = 0, force = 0;
+  for (const auto& row : rows.rows) {
+    const Point own = resultant(row, nodes, false), other = resultant(row, nodes, true);
+    EXPECT_LT((own - other).norm(), 1e-10);
+    EXPECT_LT(own[0], edge + 1e-9);
+    farthest = std::max(farthest, own[0]);
+    force += row.area * row.weight;
+    EXPECT_NEAR(row.bound, 0, 1e-12);
+  }
+  EXPECT_NEAR(farthest, edge, 1e-3);
+  EXPECT_NEAR(force, edge, 1e-10);  // of a unit pressure
+}
+
+INSTANTIATE_TEST_SUITE_P(Edges, Overhang,
+                         testing::Combine(testing::Values(0.1, 1.0 / 3, 2.0 / 3, 0.98), testing::Bool(), testing::Bool()));
+
+// What a constant pressure does to a small plate inside large faces is what it would do to any.
+TEST(PartlyCovered, ASmallPlateOnLargeFacesFeelsAllOfAConstantPressure)
+{
+  const Communicator comm;
+  for (const bool triangles : {false, true}) {
+    const auto pair = make_pair(surface({3, 3, 0, 3, 0, 3, true, triangles}, flat, comm),
+                                surface({2, 2, 1.2, 1.6, 0.9, 1.4, false, false, primary_ids}, flat, comm), Law::frictionless);
+    const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+    const auto nodes = nodes_of(pair, comm);
+    double force = 0;
+    Point moment = Point::Zero();
+    for (const auto& row : rows.rows) {
+      force += row.area * row.weight;
+      moment += row.area * row.weight * resultant(row, nodes, true);
+    }
+    EXPECT_NEAR(force, 0.2, 1e-10);
+    EXPECT_LT((moment / force - Point(1.4, 1.15, 0)).norm(), 1e-9);
+  }
+}
+
+// A shaft in a bush that is shorter: the gap of the circles also where faces of the shaft cross the bush's rim.
+TEST(PartlyCovered, GapsAtTheRimAreThoseOfTheSmoothSurfaces)
+{
+  const Communicator comm;
+  const auto arc = [](double radius) {
+    return [radius](double x, double y) { return Point(radius * std::sin(x), y, radius * std::cos(x)); };
+  };
+  for (const bool triangles : {false, true}) {
+    const auto pair =
+        make_pair(surface({8, 4, -0.6, 0.6, -2, 2, true, triangles}, arc(10), comm),
+                  surface({9, 3, -0.6, 0.6, -1.3, 1.6, false, triangles, primary_ids}, arc(10.03), comm), Law::frictionless);
+    const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+    EXPECT_GE(rows.rows.size(), 27U);
+    for (const auto& row : rows.rows) EXPECT_NEAR(row.bound / row.weight, 0.03, 3e-4);
+  }
+}
+
+// A curved side on a flat one is pushed along the flat one's normal, whichever carries the multipliers.
+TEST(PartlyCovered, DirectionsAreThoseOfTheFlatterSide)
+{
+  const Communicator comm;
+  const auto curved = [](double x, double y) { return Point(x, y, 10 - std::sqrt(100 - x * x)); };
+  const auto directions = [&](const mesh::Surface& secondary, const mesh::Surface& primary) {
+    auto pair = make_pair(secondary, primary, Law::frictionless);
+    pair.options.search_distance = 1;
+    double tilt = 0;
+    for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows)
+      tilt = std::max(tilt, std::hypot(row.normal[0], row.normal[1]));
+    return tilt;
+  };
+  EXPECT_LT(directions(surface({8, 2, -2, 2, 0, 1, false}, curved, comm),
+                       surface({5, 3, -3, 3, 0, 1, true, false, primary_ids}, flat, comm)),
+            1e-4);
+  EXPECT_LT(directions(surface({5, 3, -3, 3, 0, 1, true}, flat, comm),
+                       surface({8, 2, -2, 2, 0, 1, false, false, primary_ids}, curved, comm)),
+            1e-4);
+}
+
+}  // namespace
+}  // namespace mortise::contact
