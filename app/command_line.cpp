@@ -19,7 +19,8 @@ Parsed parse_command_line(int argc, const char* const* argv)
   app.add_flag("--schema", result.schema, "print the JSON schema of a deck and stop");
   app.add_flag("--version", version, "print the version and stop");
   app.footer(
-      "Exit status: 0 solved, 1 command line, deck or mesh wrong, 2 not converged, 3 no equilibrium, 4 out of memory or disk.");
+      "Exit status: 0 solved, 1 command line, deck or mesh wrong, 2 not converged, 3 no equilibrium, 4 out of memory or disk, or "
+      "told to end.");
   try {
     app.parse(argc, const_cast<char**>(argv));
   } catch (const CLI::CallForHelp&) {

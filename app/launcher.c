@@ -2,9 +2,10 @@
  *
  * The solver's libraries take some 250 MB of address space. Where that is limited (ulimit -v, batch systems), the system's loader may
  * fail before a line of the solver's own runs, with an exit status that promises nothing. So this small program has the loader try
- * first, and then becomes the solver: same process, same arguments. */
+ * first, and then becomes the solver: same process, same arguments. Signals wait until the solver is there to handle them. */
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +14,16 @@
 #include <unistd.h>
 
 static const int machine = 4; /* ExitStatus::machine */
+
+/* What the solver handles, it is told only when it can: while the loader is at work the default would end it. */
+static void hold_signals(void)
+{
+  static const int held[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU, SIGABRT, SIGSEGV, SIGBUS, SIGFPE};
+  sigset_t set;
+  sigemptyset(&set);
+  for (size_t i = 0; i < sizeof held / sizeof *held; ++i) sigaddset(&set, held[i]);
+  sigprocmask(SIG_BLOCK, &set, NULL);
+}
 
 static int is_limited(int resource)
 {
@@ -40,6 +51,7 @@ static int loads(const char* program)
 int main(int argc, char** argv)
 {
   (void)argc;
+  hold_signals();
   static const char name[] = "mortise-solver";
   static char program[4096];
   const ssize_t length = readlink("/proc/self/exe", program, sizeof program - sizeof name);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -22,6 +23,9 @@ namespace {
 
 constexpr unsigned grace = 5;          // seconds until the process ends though it has come to no safe place
 constexpr int blas_patience = 500000;  // microseconds of CPU, for what takes some tens of them
+
+// Bytes that MPI and a run of a few cells take. Libraries that find no room end in ways of their own, so it is asked for first.
+constexpr std::size_t first_steps = 64'000'000;
 
 volatile std::sig_atomic_t told = 0;  // the signal, or 0
 pid_t owner = 0;                      // children inherit handlers, but have their own ways to end
@@ -88,6 +92,11 @@ void handle(int signal_number, void (*handler)(int), int flags)
   action.sa_flags = flags;
   sigemptyset(&action.sa_mask);
   sigaction(signal_number, &action, nullptr);
+  // The launcher holds signals back until there is a handler.
+  sigset_t now_handled;
+  sigemptyset(&now_handled);
+  sigaddset(&now_handled, signal_number);
+  sigprocmask(SIG_UNBLOCK, &now_handled, nullptr);
 }
 
 bool is_ignored(int signal_number)
@@ -121,7 +130,7 @@ void catch_signals()
   owner = getpid();
   for (const int signal_number : {SIGPIPE, SIGXFSZ}) std::signal(signal_number, SIG_IGN);
   for (const int signal_number : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU})
-    if (!is_ignored(signal_number)) handle(signal_number, note, SA_RESTART);
+    handle(signal_number, is_ignored(signal_number) ? SIG_IGN : note, SA_RESTART);
   handle(SIGALRM, lose_patience, 0);
 }
 
@@ -132,7 +141,8 @@ void catch_faults()
   static char stack[1 << 16];
   const stack_t other{stack, 0, sizeof stack};
   sigaltstack(&other, nullptr);
-  for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) handle(signal_number, tell_fault, SA_ONSTACK);
+  for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSYS})
+    handle(signal_number, tell_fault, SA_ONSTACK);
 }
 
 void expect_mpi()
@@ -154,7 +164,7 @@ void end_if_told(const Communicator& comm)
   throw Error(ExitStatus::machine, fmt::format("The run was told to end (SIG{}) before it was solved.", sigabbrev_np(first)));
 }
 
-void reserve_blas_memory()
+void reserve_memory()
 {
   handle(SIGPROF, no_room_for_blas, 0);
   itimerval timer{};
@@ -168,6 +178,13 @@ void reserve_blas_memory()
   timer.it_value.tv_usec = 0;
   setitimer(ITIMER_PROF, &timer, nullptr);
   std::signal(SIGPROF, SIG_DFL);
+  void* const room = mmap(nullptr, first_steps, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED)
+    end_with(
+        "mortise: out of memory: there is no room for the first steps (some 60 MB of address space beside the libraries and "
+        "BLAS); "
+        "raise the limit of memory (ulimit -v).\n");
+  munmap(room, first_steps);
 }
 
 }  // namespace mortise

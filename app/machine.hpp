@@ -25,8 +25,8 @@ void note_mpi_started();
 /// Throws Error(machine) on all ranks if any of them has been told to end. Cheap enough for every product. Collective.
 void end_if_told(const Communicator& comm);
 
-/// Has BLAS take its work space now: OpenBLAS, if it finds no room for it, tries for ever. Ends with the exit status "machine" if
-/// there is none.
-void reserve_blas_memory();
+/// Has BLAS take its work space now, since OpenBLAS tries for ever if it finds no room for it, and sees whether there is room for
+/// MPI and the first steps. Ends with the exit status "machine" if there is none.
+void reserve_memory();
 
 }  // namespace mortise

@@ -88,7 +88,7 @@ void prepare_process(int, char**, char**)
 
 int main(int argc, char** argv)
 {
-  reserve_blas_memory();
+  reserve_memory();
   setenv("OMPI_MCA_opal_signal", "", 0);  // faults are ours to tell
   // A rank alone needs no daemon of MPI beside it, which it would start otherwise.
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);

@@ -73,9 +73,9 @@ void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& dec
 }
 
 // In a table: nothing where there is no number yet.
-std::string number(double x)
+std::string number(double x, int digits = 6)
 {
-  return std::isfinite(x) ? fmt::format("{:.6e}", x) : "";
+  return std::isfinite(x) ? fmt::format("{:.{}e}", x, digits) : "";
 }
 
 // The rows of history.csv and the moving line.
@@ -97,9 +97,9 @@ class History {
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
-    text_ += fmt::format("{},{},{},{},{},{},{},{},{:.3e},{},{},{},{},{}\n", p.what, step, p.outer, p.multiplications,
-                         p.preconditionings, number(p.projected_gradient), number(p.equality), number(change), p.precision,
-                         bounds, discs, state.time, number(p.energy), number(p.error));
+    text_ += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.what, step, p.outer, p.multiplications,
+                         p.preconditionings, number(p.projected_gradient), number(p.equality), number(change),
+                         number(p.precision, 3), bounds, discs, state.time, number(p.energy, 12), number(p.error, 3));
     active_ = fmt::format("; {} open, {} slipping", bounds, discs);
   }
   const std::string& text() const { return text_; }

@@ -3,9 +3,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
+
+#include "base/control_group.hpp"
 
 namespace mortise {
 
@@ -38,15 +40,30 @@ long long peak_memory()
 
 namespace {
 
-// The number after `key` in a file of lines "key number", or the file's first number for an empty key; infinite if there is none.
+// The number after `key` in a file of lines "key number"; infinite if there is none.
 double number_in(const char* path, const std::string& key)
 {
   std::ifstream file(path);
   std::string word;
   double value = 0;
-  while (key.empty() || file >> word)
-    if (key.empty() || word == key) return file >> value ? value : std::numeric_limits<double>::infinity();
+  while (file >> word)
+    if (word == key) return file >> value ? value : std::numeric_limits<double>::infinity();
   return std::numeric_limits<double>::infinity();
+}
+
+std::string text_of(const char* path)
+{
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// What a limit of this process leaves it, if the kernel counts what it holds under `key`.
+double left_of(int resource, const std::string& key)
+{
+  rlimit limit{};
+  if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return std::numeric_limits<double>::infinity();
+  return static_cast<double>(limit.rlim_cur) - 1024 * number_in("/proc/self/status", key);
 }
 
 }  // namespace
@@ -54,11 +71,8 @@ double number_in(const char* path, const std::string& key)
 double available_memory()
 {
   double result = 1024 * number_in("/proc/meminfo", "MemAvailable:");
-  const double group = number_in("/sys/fs/cgroup/memory.max", "");
-  if (std::isfinite(group)) result = std::min(result, group - number_in("/sys/fs/cgroup/memory.current", ""));
-  rlimit address_space{};
-  if (getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY)
-    result = std::min(result, static_cast<double>(address_space.rlim_cur) - 1024 * number_in("/proc/self/status", "VmSize:"));
+  result = std::min(result, memory_left_by_groups(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"));
+  result = std::min({result, left_of(RLIMIT_AS, "VmSize:"), left_of(RLIMIT_DATA, "VmData:")});
   return std::max(result, 0.0);
 }
 

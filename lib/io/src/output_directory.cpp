@@ -206,7 +206,8 @@ void OutputDirectory::clear() const
 void OutputDirectory::release()
 {
   if (lock_ >= 0) {
-    unlink((path_ + "/" + lock_name).c_str());  // before the lock goes, or it might be that of the next run
+    // Before the lock goes, or it might be that of the next run.
+    if (const auto path = path_ + "/" + lock_name; still_there(lock_, path)) unlink(path.c_str());
     close(lock_);
   }
   lock_ = -1;

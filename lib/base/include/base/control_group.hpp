@@ -1,0 +1,13 @@
+// The memory that control groups of Linux leave to a process: containers, batch systems and systemd limit it so.
+#pragma once
+
+#include <string>
+
+namespace mortise {
+
+/// Bytes that the groups of a process, and the ones above them, have left, the cache of files, which gives way, counted as free;
+/// infinite if none is limited. `membership` is the text of /proc/self/cgroup, `mount` where the groups are seen
+/// (/sys/fs/cgroup); both versions of them. Inside a container a path may not be seen whole: what is there counts.
+double memory_left_by_groups(const std::string& membership, const std::string& mount);
+
+}  // namespace mortise
