@@ -61,19 +61,20 @@ const Opposite& Rays::meet(std::size_t p)
   return met_[static_cast<std::size_t>(known_[p])];
 }
 
-double Rays::gap(std::size_t p) const
+double Rays::gap(std::size_t p, const GapOf& gap_of) const
 {
-  const double length = 2 * reach_;
+  const auto at = [&](std::size_t place) {
+    const Opposite opposite = shoot(place, 2 * reach_);
+    return gap_of && std::isfinite(opposite.gap) ? gap_of(place, opposite) : opposite.gap;
+  };
   const auto [face, node] = face_of_middle_[p];
-  if (face < 0) return shoot(p, length).gap;
+  if (face < 0) return at(p);
   const auto f = static_cast<std::size_t>(face);
   const auto control = control_values(secondary_.faces.type[f]).row(node);
   double gap = 0;
   for (Eigen::Index k = 0; k < control.size(); ++k)
     if (control[k] != 0)
-      gap +=
-          control[k] *
-          shoot(static_cast<std::size_t>(places_.of_node[static_cast<std::size_t>(secondary_.faces.offset[f] + k)]), length).gap;
+      gap += control[k] * at(static_cast<std::size_t>(places_.of_node[static_cast<std::size_t>(secondary_.faces.offset[f] + k)]));
   return gap;
 }
 

@@ -1,6 +1,7 @@
 // What lies opposite a place, along its normal: a smooth primary side or a rigid obstacle.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -30,7 +31,9 @@ class Rays {
   bool meets(std::size_t place) { return std::abs(meet(place).gap) <= reach_; }
   /// The gap at a place as the rows see it: in the middle of edges and faces as a control value, see multiplier_basis().
   /// Infinite if one of the lines meets nothing within twice the reach.
-  double gap(std::size_t place) const;
+  /// `gap_of`: takes another gap than that of the meshes where a line meets something.
+  using GapOf = std::function<double(std::size_t place, const Opposite&)>;
+  double gap(std::size_t place, const GapOf& gap_of = {}) const;
 
  private:
   const Side& secondary_;
