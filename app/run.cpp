@@ -8,6 +8,7 @@
 
 #include "auto_contacts.hpp"
 #include "base/traffic.hpp"
+#include "initial_gaps.hpp"
 #include "io/files.hpp"
 #include "listing.hpp"
 #include "memory.hpp"
@@ -230,6 +231,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   stages.end("supports and contact", "contact");
   const auto& constraints = simulation.constraints();
   warn_of_idle_contacts(constraints.contacts, deck, context);
+  report_initial_gaps(simulation.initial_gaps(), deck, command_line.check, context);
   judge_untouched(deck, decomposition, model, states.front(), simulation.pairs(), constraints.contacts, context);
   const auto copies = model.congruent();
   const auto memory = foresee_memory(deck, decomposition, model, copies, comm);

@@ -393,7 +393,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
     if (options.law == Law::bonded && comm.any(!pressed.empty()))
       crossed = answer(pressed, ask(share.secondary.node_id, comm), comm);
     Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, crossed, curved, kinematics, comm);
-    builder.set_touching(touching * sizes[c].extent);
+    builder.set_touching(part_that_touches * sizes[c].extent);
     builder.add_rows(contacts);
     if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
     if (options.cyclic && options.law == Law::bonded)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "cad_surfaces.hpp"
 
 namespace mortise::mesh {
 
@@ -118,7 +119,10 @@ std::string GmshSession::load(const std::string& file, int dimension) const
       std::vector<double> coordinates, parameters;
       gmsh::model::mesh::getNodes(tags, coordinates, parameters);
       if (is_cad(file)) name_by_labels(dimension);
-      if (tags.empty()) gmsh::model::mesh::generate(dimension);
+      if (tags.empty()) {
+        gmsh::model::mesh::generate(dimension);
+        mark_curved_surfaces(dimension);
+      }
     }
   } catch (...) {
     const std::string logged = logged_error();

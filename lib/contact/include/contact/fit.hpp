@@ -29,13 +29,17 @@ struct CurvedFace {
   double radius = 0, slope = 0;
 };
 
+/// Part of the extent of the smaller side up to which gaps count as touching, and part of that above which an overlap is no
+/// rounding.
+inline constexpr double part_that_touches = 1e-4, overlapping = 0.01;
+
 /// What a contact starts with at its points, before any interference and before anything moves. Of bonded ones what the meshes
 /// leave between the two sides.
 struct InitialGap {
   double smallest = std::numeric_limits<double>::infinity();  ///< negative: an overlap; infinite: there are no points
   std::array<double, 3> at{0, 0, 0};                          ///< where that is
   double largest = -std::numeric_limits<double>::infinity();
-  double touching = 0;        ///< gaps up to this count as touching: 1e-4 of the smaller side's extent
+  double touching = 0;        ///< gaps up to this count as touching: part_that_touches of the extent
   double touching_area = 0;   ///< of the points that touch or overlap
   double area = 0;            ///< of all points
   double on_one_surface = 0;  ///< area where the geometry says that both faces are one surface
@@ -43,10 +47,9 @@ struct InitialGap {
   double least_in_mesh = std::numeric_limits<double>::infinity(), largest_in_mesh = -least_in_mesh;
 
   double largest_overlap() const { return smallest < 0 ? -smallest : 0; }
+  /// By more than rounding.
+  bool overlaps() const { return -smallest > overlapping * touching; }
 };
-
-/// The part of the extent of the smaller side above which an overlap is no rounding, as that of gaps which touch.
-inline constexpr double overlapping = 1e-6, touching = 1e-4;
 
 /// The gap of a point where the meshes say `mesh_gap`: options.clearance, or 0 for what options.adjust allows, or 0 where both
 /// faces are one surface.
