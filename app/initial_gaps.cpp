@@ -14,6 +14,12 @@ namespace {
 constexpr double part_of_interference = 0.1;
 constexpr std::size_t most_lines = 40, most_warnings = 10;
 
+// 0 for what rounding leaves of it.
+double plain(double gap, double touching)
+{
+  return std::abs(gap) < 1e-6 * touching ? 0 : gap;
+}
+
 // Where another gap was taken than that of the meshes.
 std::string instead(const contact::InitialGap& gap, const contact::Options& contact)
 {
@@ -58,8 +64,9 @@ void report_initial_gaps(const std::vector<contact::InitialGap>& gaps, const Dec
     if (gaps[c].area > 0) met.push_back(c);
   const std::size_t count = all ? met.size() : std::min(most_lines, met.size());
   for (const std::size_t c : std::span(met).first(count))
-    log.line("  contact {}: initial gap {:.3g} to {:.3g}, {:.4g} of {:.4g} touches{}", deck.contacts[c].name, gaps[c].smallest,
-             gaps[c].largest, gaps[c].touching_area, gaps[c].area, instead(gaps[c], deck.contacts[c]));
+    log.line("  contact {}: initial gap {:.3g} to {:.3g}, {:.4g} of {:.4g} touches{}", deck.contacts[c].name,
+             plain(gaps[c].smallest, gaps[c].touching), plain(gaps[c].largest, gaps[c].touching), gaps[c].touching_area,
+             gaps[c].area, instead(gaps[c], deck.contacts[c]));
   if (count < met.size()) log.line("  and {} more contacts, which --check lists", met.size() - count);
 
   std::erase_if(met, [&](std::size_t c) { return unasked_overlap(gaps[c], deck.contacts[c]) == 0; });

@@ -314,7 +314,7 @@ class Builder {
     point.at = secondary_.points[static_cast<std::size_t>(place.node)];
     const double mean = (place.normal.dot(separation) - rise / d) / weight, mesh_gap = gap_at(p, mean);
     const double gap = starts_in_mesh() ? mesh_gap : starting_gap_at(p, mean);
-    note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
+    note_gap(initial_gap_, gap, mesh_gap, gap == 0 && one_surface_.knows(p), d, point.at);
     point.gap = bonded ? 0 : weight * (gap - options_.interference);
     if (held) {
       if (!bonded) crossing_ = std::max(crossing_, writer_.held_part(terms_, d, place.normal) - point.gap);
@@ -393,7 +393,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
     if (options.law == Law::bonded && comm.any(!pressed.empty()))
       crossed = answer(pressed, ask(share.secondary.node_id, comm), comm);
     Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, crossed, curved, kinematics, comm);
-    builder.set_touching(part_that_touches * sizes[c].extent);
+    builder.set_touching(touching_gap(sizes[c].extent, sizes[c].secondary_face));
     builder.add_rows(contacts);
     if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
     if (options.cyclic && options.law == Law::bonded)

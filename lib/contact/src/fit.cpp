@@ -18,6 +18,11 @@ void take_smallest(InitialGap& all, double gap, const std::array<double, 3>& at)
 
 }  // namespace
 
+double touching_gap(double extent, double face)
+{
+  return std::min(1e-4 * extent, 1e-3 * face);
+}
+
 double starting_gap(const Options& options, double mesh_gap, bool one_surface)
 {
   if (options.clearance) return *options.clearance;

@@ -77,6 +77,7 @@ OneSurface::OneSurface(const Side& secondary, const Places& places, const Side& 
   if (turn)
     for (auto& surface : there) surface = mesh::moved(surface, *turn);
   const auto common = matches(here, there);
+  if (std::all_of(common.begin(), common.end(), [](const auto& same) { return same.empty(); })) return;
   of_primary_ = std::move(of_primary);
   for (std::size_t f = 0; f < secondary.faces.size(); ++f) {
     if (of_secondary[f] < 0) continue;
@@ -89,6 +90,11 @@ OneSurface::OneSurface(const Side& secondary, const Places& places, const Side& 
       for (const Local n : primary.faces[f]) at_node_.emplace_back(n, static_cast<Local>(f));
   sort_uniquely(at_place_);
   sort_uniquely(at_node_);
+}
+
+bool OneSurface::knows(std::size_t place) const
+{
+  return !entries(at_place_, static_cast<Local>(place)).empty();
 }
 
 bool OneSurface::holds(std::size_t place, std::size_t primary_face) const

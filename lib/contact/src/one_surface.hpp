@@ -36,6 +36,8 @@ class OneSurface {
              const std::optional<mesh::Motion>& turn, const Communicator& comm);
 
   bool anywhere() const { return !of_primary_.empty(); }
+  /// Whether a face at the place is of a surface that the primary side has, too.
+  bool knows(std::size_t place) const;
   /// Whether a face at the place is of the surface that a face of the primary side is of.
   bool holds(std::size_t place, std::size_t primary_face) const;
   /// Whether every primary node of `terms` is on such a face.

@@ -137,6 +137,26 @@ TEST(Fit, FacesOfOneSurfaceTouch)
   }
 }
 
+// An obstacle that a curved body drawn 0.1 above it fits, by the deck.
+TEST(Fit, ClearanceGoesForObstaclesToo)
+{
+  const Communicator comm;
+  const auto wavy = [](double x, double y) { return Point(x, y, 0.1 + 0.01 * std::sin(3 * x)); };
+  const auto above = surface({4, 4, 0, 1, 0, 1, false}, wavy, comm);
+  Pair pair{{}, above, nullptr};
+  pair.options.obstacle = Obstacle{Obstacle::Shape::plane, Point::Zero(), Point::UnitZ(), 0, false};
+  pair.options.search_distance = 0.2;
+  const auto raw = find(pair, {}, comm);
+  EXPECT_NEAR(raw.initial.smallest, 0.1, 1e-12);
+  EXPECT_EQ(raw.gaps.size(), 25U);
+  pair.options.clearance = 0;
+  EXPECT_EQ(find(pair, {}, comm).gaps, std::vector<double>(25, 0.0));
+  pair.options.clearance.reset();
+  pair.options.adjust = 0.104;
+  const auto adjusted = find(pair, {}, comm).gaps;
+  EXPECT_EQ(std::count(adjusted.begin(), adjusted.end(), 0.0), 5);
+}
+
 TEST(Fit, OverlapHasAPlace)
 {
   const Communicator comm, alone(MPI_COMM_SELF);

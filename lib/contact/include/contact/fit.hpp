@@ -29,9 +29,10 @@ struct CurvedFace {
   double radius = 0, slope = 0;
 };
 
-/// Part of the extent of the smaller side up to which gaps count as touching, and part of that above which an overlap is no
-/// rounding.
-inline constexpr double part_that_touches = 1e-4, overlapping = 0.01;
+/// Up to this gap surfaces count as touching: 1e-4 of the extent of the smaller side, and 1e-3 of the largest secondary face.
+double touching_gap(double extent, double face);
+/// Part of that above which an overlap is no rounding.
+inline constexpr double overlapping = 0.01;
 
 /// What a contact starts with at its points, before any interference and before anything moves. Of bonded ones what the meshes
 /// leave between the two sides.
@@ -39,7 +40,7 @@ struct InitialGap {
   double smallest = std::numeric_limits<double>::infinity();  ///< negative: an overlap; infinite: there are no points
   std::array<double, 3> at{0, 0, 0};                          ///< where that is
   double largest = -std::numeric_limits<double>::infinity();
-  double touching = 0;        ///< gaps up to this count as touching: part_that_touches of the extent
+  double touching = 0;        ///< see touching_gap()
   double touching_area = 0;   ///< of the points that touch or overlap
   double area = 0;            ///< of all points
   double on_one_surface = 0;  ///< area where the geometry says that both faces are one surface
