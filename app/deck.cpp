@@ -8,6 +8,7 @@
 #include "assembly.hpp"
 #include "contact/cyclic.hpp"
 #include "deck/description.hpp"
+#include "mesh/curved_surface.hpp"
 #include "patterns.hpp"
 
 namespace mortise {
@@ -181,8 +182,9 @@ std::string missing(const std::string& name, const mesh::Catalogue& catalogue)
   const auto [boundary, body] = parse_boundary(name);
   const auto& known = catalogue.boundaries;
   if (std::find(known.begin(), known.end(), boundary) == known.end()) {
-    std::vector<std::string> names;  // without those that patterns made
-    std::copy_if(known.begin(), known.end(), std::back_inserter(names), [](const auto& n) { return !is_pattern(n); });
+    std::vector<std::string> names;  // without those that patterns made, or the geometry
+    std::copy_if(known.begin(), known.end(), std::back_inserter(names),
+                 [](const auto& n) { return !is_pattern(n) && !mesh::curved_surface(n); });
     return fmt::format("the mesh has no boundary \"{}\"{}", boundary, deck::suggestion(boundary, names));
   }
   if (body.empty()) return "";

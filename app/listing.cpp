@@ -7,6 +7,7 @@
 #include <set>
 
 #include "fem/loads.hpp"
+#include "mesh/curved_surface.hpp"
 
 namespace mortise {
 
@@ -60,6 +61,7 @@ void print_boundaries(const partition::Decomposition& decomposition, const std::
   const auto& names = decomposition.catalogue.boundaries;
   std::size_t left_out = 0;
   for (std::size_t b = 0; b < names.size(); ++b) {
+    if (mesh::curved_surface(names[b])) continue;
     if (std::any_of(further.begin(), further.end(), [&](const auto& i) { return names[b].rfind(i + ".", 0) == 0; })) {
       ++left_out;
       continue;

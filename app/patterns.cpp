@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
+
+#include "mesh/curved_surface.hpp"
 
 namespace mortise {
 
@@ -18,13 +21,15 @@ struct Place {
 
 // What patterns can match, in the order of the mesh.
 struct Candidates {
-  std::vector<std::string> boundaries;                   // their place is that in the catalogue
+  std::vector<std::string> boundaries;  // their place is that in the catalogue; empty: not for users (curved_surface.hpp)
   std::vector<std::pair<std::string, Place>> on_bodies;  // body:boundary
 };
 
 Candidates candidates(const partition::Decomposition& decomposition, bool with_bodies, const Communicator& comm)
 {
   Candidates result{decomposition.catalogue.boundaries, {}};
+  for (auto& name : result.boundaries)
+    if (mesh::curved_surface(name)) name.clear();  // keeps its place
   if (!with_bodies) return result;
   std::set<std::pair<int, int>> own;  // body, boundary
   for (const auto& subdomain : decomposition.subdomains)
@@ -35,6 +40,7 @@ Candidates candidates(const partition::Decomposition& decomposition, bool with_b
   const auto all = comm.all_gather(flat);
   for (std::size_t i = 0; i + 1 < all.size(); i += 2) own.emplace(all[i], all[i + 1]);
   for (const auto& [body, boundary] : own) {
+    if (result.boundaries[static_cast<std::size_t>(boundary)].empty()) continue;
     const auto& b = decomposition.catalogue.bodies[static_cast<std::size_t>(body)];
     result.on_bodies.emplace_back(
         (b.instance.empty() ? b.name : b.instance) + ":" + result.boundaries[static_cast<std::size_t>(boundary)],
@@ -49,7 +55,7 @@ std::vector<std::string> names_for(const std::string& pattern, const Candidates&
   std::vector<std::string> names;
   if (pattern.find(':') == std::string::npos) {
     for (const auto& name : candidates.boundaries)
-      if (matches(pattern, name)) names.push_back(name);
+      if (!name.empty() && matches(pattern, name)) names.push_back(name);
     return names;
   }
   std::set<std::string> seen;
@@ -63,7 +69,8 @@ std::vector<Place> places_for(const std::string& pattern, const Candidates& cand
   std::vector<Place> places;
   if (pattern.find(':') == std::string::npos) {
     for (std::size_t b = 0; b < candidates.boundaries.size(); ++b)
-      if (matches(pattern, candidates.boundaries[b])) places.push_back({static_cast<int>(b), -1});
+      if (!candidates.boundaries[b].empty() && matches(pattern, candidates.boundaries[b]))
+        places.push_back({static_cast<int>(b), -1});
     return places;
   }
   for (const auto& [name, place] : candidates.on_bodies)
@@ -76,7 +83,8 @@ void complain_of_no_match(const std::string& pattern, const std::string& path, c
 {
   std::vector<std::string> names;
   if (pattern.find(':') == std::string::npos)
-    names = candidates.boundaries;
+    std::copy_if(candidates.boundaries.begin(), candidates.boundaries.end(), std::back_inserter(names),
+                 [](const std::string& name) { return !name.empty(); });
   else
     for (const auto& [name, place] : candidates.on_bodies) names.push_back(name);
   document.error(path, fmt::format("no boundary of the mesh matches \"{}\"{}", pattern, deck::suggestion(pattern, names)));

@@ -348,6 +348,8 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
                                         r.stick,
                                         r.slip,
                                         largest(results.surfaces[c].recovered_pressure)});
+    const auto& gap = simulation.initial_gaps()[c];
+    results.summary.contacts.back().initial_gap = {gap.smallest, gap.largest_overlap(), gap.touching_area};
   }
   const auto shortenings = problem.shortenings(solved.solution.nu);
   for (std::size_t i = 0; i < shortenings.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include "auto_contacts.hpp"
 #include "base/traffic.hpp"
+#include "initial_gaps.hpp"
 #include "io/files.hpp"
 #include "io/output_directory.hpp"
 #include "listing.hpp"
@@ -244,6 +245,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   stages.end("supports and contact", "contact");
   const auto& constraints = simulation.constraints();
   warn_of_idle_contacts(constraints.contacts, deck, context);
+  report_initial_gaps(simulation.initial_gaps(), deck, command_line.check, context);
   judge_untouched(deck, decomposition, model, states.front(), simulation.pairs(), constraints.contacts, context);
   const auto copies = model.congruent();
   const auto memory = foresee_memory(deck, decomposition, model, copies, comm);

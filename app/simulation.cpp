@@ -10,6 +10,7 @@
 #include "constraint/renewal.hpp"
 #include "constraint/supports.hpp"
 #include "contact/slides.hpp"
+#include "curved_faces.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/placement.hpp"
 #include "report.hpp"
@@ -145,7 +146,8 @@ void Simulation::constrain(const LoadState& state)
   const auto aligned = constraint::take_aligned(supports_, normals);
   constraints_.held = constraint::hold(supports_, support_nodes_, deck_.dimension(), comm, aligned);
   constraints_.inclined = constraint::incline(supports_, normals, constraints_.held, comm);
-  constraints_.contacts = contact::discretize(pairs_, constraints_.held, deck_.kinematics, comm, constraints_.inclined);
+  constraints_.contacts = contact::discretize(pairs_, constraints_.held, deck_.kinematics, comm, constraints_.inclined,
+                                              curved_faces(deck_, decomposition_, pairs_), &initial_gaps_);
   place_rows();
   find_cuts();
 }

@@ -30,6 +30,8 @@ class Simulation {
   const LoadState& state() const { return state_; }
   const constraint::Constraints& constraints() const { return constraints_; }
   const std::vector<contact::Pair>& pairs() const { return pairs_; }
+  /// Of each contact, as the mesh lies. The same on every rank.
+  const std::vector<contact::InitialGap>& initial_gaps() const { return initial_gaps_; }
   const feti::Floating& floating() const { return floating_; }
   const partition::Interface& interface() const { return interface_; }
   const feti::DualProblem& problem() const { return *problem_; }
@@ -53,6 +55,7 @@ class Simulation {
   std::vector<constraint::SupportOptions> supports_;
   constraint::Constraints constraints_;
   std::vector<contact::Pair> pairs_;
+  std::vector<contact::InitialGap> initial_gaps_;
   std::optional<partition::NodeDirectory> directory_;
   partition::Interface interface_;
   feti::Floating floating_;

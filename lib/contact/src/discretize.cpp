@@ -12,6 +12,7 @@
 #include "contact/mortar.hpp"
 #include "face_integrals.hpp"
 #include "held_nodes.hpp"
+#include "one_surface.hpp"
 #include "opposite.hpp"
 #include "rows.hpp"
 #include "sector_cuts.hpp"
@@ -50,7 +51,7 @@ class Builder {
  public:
   // `pressed`: nodes of share.secondary that have rows of contacts that are not bonded.
   Builder(const Options& options, const Share& share, double reach, int index, const HeldDirectory& held,
-          const std::vector<Pressed>& pressed, fem::Kinematics kinematics, const Communicator& comm)
+          const std::vector<Pressed>& pressed, const CurvedFaces& curved, fem::Kinematics kinematics, const Communicator& comm)
       : options_(options),
         index_(index),
         dimension_(fem::dimension(kinematics)),
@@ -62,6 +63,8 @@ class Builder {
         primary_places_(find_places(primary_)),
         tree_(tree_of_facets(primary_)),
         rays_(secondary_, places_, primary_, primary_places_, tree_, options.obstacle, reach),
+        one_surface_(asks_geometry(options) ? OneSurface(secondary_, places_, primary_, curved, turn_of(options), comm)
+                                            : OneSurface()),
         held_(held, secondary_.node_id, comm),
         primary_held_(held, primary_.node_id, comm),
         writer_(secondary_, primary_, held_, primary_held_, dimension_, turn_of(options)),
@@ -74,6 +77,10 @@ class Builder {
 
   // How far supports alone push the two sides into each other.
   double crossing() const { return crossing_; }
+
+  // Of this rank's points; `touching`: see InitialGap.
+  const InitialGap& initial_gap() const { return initial_gap_; }
+  void set_touching(double touching) { initial_gap_.touching = touching; }
 
   // How far the two sides are apart, at this rank's places that carry a multiplier.
   double widest_gap() const
@@ -219,8 +226,8 @@ class Builder {
     keep_small_pieces([&](std::size_t p) { return !left_out(p) || stranded[p]; });
   }
 
-  // Where all functions of a piece would be dropped, as opposite a foot smaller than the faces it stands on, they stay: so does the
-  // border of the contact.
+  // Where all functions of a piece would be dropped, as opposite a foot smaller than the faces it stands on, they stay: so does
+  // the border of the contact.
   template <class Allowed>
   void keep_small_pieces(const Allowed& allowed)
   {
@@ -379,7 +386,10 @@ class Builder {
     point.weight = weight;
     point.at = at;
     point.cover = cover_[p];
-    point.gap = bonded() ? 0 : weight * (gap_at(p, normal, (normal.dot(separation) - rise / d) / weight) - options_.interference);
+    const double mean = (normal.dot(separation) - rise / d) / weight, mesh_gap = gap_at(p, normal, mean);
+    const double gap = starts_in_mesh() ? mesh_gap : starting_gap_at(p, normal, mean);
+    note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
+    point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     if (held) {
       if (!bonded()) crossing_ = std::max(crossing_, writer_.held_part(terms_, d, normal) - point.gap);
       return;
@@ -411,7 +421,8 @@ class Builder {
   // The gap between the smooth surfaces at the point itself, along the direction of contact. Its mean over the dual basis, which
   // has negative parts, would see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch;
   // that mean is left for points that look past the border of the primary side.
-  double gap_at(std::size_t p, const Point& direction, double mean)
+  // `gap_of`: what the contact starts with where a line meets something.
+  double gap_at(std::size_t p, const Point& direction, double mean, const Rays::GapOf& gap_of = {})
   {
     double sum = 0, d = 0, whole = 0;
     for (const auto& [face, i, k] : functions_at(p)) {
@@ -425,10 +436,24 @@ class Builder {
       }
       Eigen::Vector4d shape = Eigen::Vector4d::Zero();
       shape.head(piece.points.cols()) = piece.points.row(k).transpose();
-      sum += part * rays_.gap(static_cast<std::size_t>(piece.facet), shape, direction);
+      sum += part * rays_.gap(p, {static_cast<std::size_t>(piece.facet), shape}, direction, gap_of);
     }
-    if (whole != 0) sum += whole * rays_.gap(p, direction);
+    if (whole != 0) sum += whole * rays_.gap(p, direction, gap_of);
     return std::isfinite(sum) ? sum / d : mean;
+  }
+
+  bool starts_in_mesh() const { return !options_.clearance && !options_.adjust && !one_surface_.anywhere(); }
+
+  std::size_t face_of(std::size_t facet) const { return static_cast<std::size_t>(primary_.face_of[facet]); }
+
+  // That which the contact starts with; the terms are those of the place.
+  double starting_gap_at(std::size_t p, const Point& direction, double mean)
+  {
+    return gap_at(p, direction, starting_gap(options_, mean, one_surface_.holds(p, terms_)),
+                  [&](std::size_t place, const Opposite& opposite) {
+                    return starting_gap(options_, opposite.gap,
+                                        one_surface_.anywhere() && one_surface_.holds(place, face_of(opposite.facet)));
+                  });
   }
 
   const Options& options_;
@@ -440,6 +465,8 @@ class Builder {
   Places places_, primary_places_;
   Tree tree_;  // of the primary facets
   Rays rays_;
+  OneSurface one_surface_;
+  InitialGap initial_gap_;
   HeldNodes held_, primary_held_;
   RowWriter writer_;
   double reach_;
@@ -460,20 +487,25 @@ class Builder {
 }  // namespace
 
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
-                                const Communicator& comm, std::span<const constraint::Inclined> inclined)
+                                const Communicator& comm, std::span<const constraint::Inclined> inclined,
+                                std::span<const CurvedFace> curved_faces, std::vector<InitialGap>* initial_gaps)
 {
   constraint::Contacts contacts;
   const auto sizes = measure(pairs, comm);
   const HeldDirectory directory(held, inclined, comm);
   std::vector<Pressed> pressed;  // this rank's nodes by number, not by place; see by_node()
+  const CurvedFaces curved(curved_faces, comm);
+  if (initial_gaps) initial_gaps->assign(pairs.size(), {});
   const auto add = [&](std::size_t c) {
     const auto& options = pairs[c].options;
     const Share share = share_out(pairs[c], sizes[c], kinematics, comm);
     std::vector<Pressed> crossed;
     if (options.law == Law::bonded && comm.any(!pressed.empty()))
       crossed = answer(pressed, ask(share.secondary.node_id, comm), comm);
-    Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, crossed, kinematics, comm);
+    Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, crossed, curved, kinematics, comm);
+    builder.set_touching(touching_gap(sizes[c].extent, sizes[c].secondary_face));
     builder.add_rows(contacts);
+    if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
     if (options.cyclic && options.law == Law::bonded)
       require_one_surface(pairs[c], sizes[c], builder.widest_gap(), builder.covered_area(), comm);
     if (const double crossing = comm.max(builder.crossing()); crossing > 1e-9 * sizes[c].reach)

@@ -147,12 +147,16 @@ Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
   return (others * normal - own * other).normalized();
 }
 
-double Rays::gap(std::size_t p, const Point& direction) const
+double Rays::gap(std::size_t p, const Point& direction, const GapOf& gap_of) const
 {
-  if (obstacle_) return distance_[p];
   const auto from = [&](std::size_t place) {
-    return shoot_past(secondary_.points[static_cast<std::size_t>(places_.all[place].node)], direction, 2 * reach_, past_[place])
-        .gap;
+    Opposite opposite;
+    if (obstacle_)
+      opposite.gap = distance_[place];
+    else
+      opposite =
+          shoot_past(secondary_.points[static_cast<std::size_t>(places_.all[place].node)], direction, 2 * reach_, past_[place]);
+    return gap_of && std::isfinite(opposite.gap) ? gap_of(place, opposite) : opposite.gap;
   };
   const auto [face, node] = face_of_middle_[p];
   if (face < 0) return from(p);
@@ -166,13 +170,14 @@ double Rays::gap(std::size_t p, const Point& direction) const
   return gap;
 }
 
-double Rays::gap(std::size_t facet, const Eigen::Vector4d& shape, const Point& direction) const
+double Rays::gap(std::size_t p, const FacetPoint& point, const Point& direction, const GapOf& gap_of) const
 {
-  const auto geometry = secondary_.geometry(facet);
+  const auto geometry = secondary_.geometry(point.facet);
   Point at = Point::Zero();
-  for (std::size_t k = 0; k < geometry.nodes.size(); ++k) at += shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
-  const double gap = shoot_past(at, direction, 2 * reach_, part_past * geometry.size()).gap;
-  return gap - Bulge(secondary_, places_, facet)(shape);
+  for (std::size_t k = 0; k < geometry.nodes.size(); ++k) at += point.shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
+  auto opposite = shoot_past(at, direction, 2 * reach_, part_past * geometry.size());
+  opposite.gap -= Bulge(secondary_, places_, point.facet)(point.shape);
+  return gap_of && std::isfinite(opposite.gap) ? gap_of(p, opposite) : opposite.gap;
 }
 
 }  // namespace mortise::contact

@@ -1,6 +1,7 @@
 // What lies opposite a place, along its normal: a smooth primary side or a rigid obstacle.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -30,15 +31,22 @@ class Rays {
 
   /// The direction of contact at a point of the secondary side near a place, whose normal there is given: between the two sides'
   /// normals, the nearer to that of the flatter side the more it is flatter, weights being the other side's curvature. So both
-  /// sides mean the same direction, and a curved body on a flat one is not sheared The given normal where nothing lies opposite;
+  /// sides mean the same direction, and a curved body on a flat one is not sheared. The given normal where nothing lies opposite;
   /// an obstacle's own.
   Point direction(std::size_t place, const Point& at, const Point& normal) const;
+
+  /// Takes another gap than that of the meshes where a line from a place meets something.
+  using GapOf = std::function<double(std::size_t place, const Opposite&)>;
   /// The gap along a direction of contact at a place, as the rows see it: in the middle of edges and faces as a control value,
   /// see multiplier_basis(). Infinite if one of the lines meets nothing within twice the reach.
-  double gap(std::size_t place, const Point& direction) const;
-  /// The same at a point of a facet where its shape functions are `shape`, behind which the smooth surface stands out. Lines
-  /// that just miss the other side meet its faces continued.
-  double gap(std::size_t facet, const Eigen::Vector4d& shape, const Point& direction) const;
+  double gap(std::size_t place, const Point& direction, const GapOf& gap_of = {}) const;
+  /// The same at a point of a facet, behind which the smooth surface stands out, that stands for a place. Lines that just miss
+  /// the other side meet its faces continued.
+  struct FacetPoint {
+    std::size_t facet;
+    Eigen::Vector4d shape;  ///< of the facet
+  };
+  double gap(std::size_t place, const FacetPoint& point, const Point& direction, const GapOf& gap_of = {}) const;
 
  private:
   Opposite shoot(const Point& from, const Point& direction, double length) const;

@@ -107,6 +107,14 @@ void describe(deck::Description<Options>& d)
         "opposite; no patch test where the meshes do not match.")
       .one_of({"mortar", "node_to_segment"});
   d.key("interference", &Options::interference, "Added overlap (press fit); negative opens a gap.");
+  d.key("adjust", &Options::adjust,
+        "Initial gaps and overlaps of the meshes up to this size count as zero; 0: they are taken as they are, also where the "
+        "geometry says that the two faces are one surface.")
+      .at_least(0);
+  d.key("clearance", &Options::clearance,
+        "The initial gap of the whole contact, >= 0, whatever the meshes say; 0 for a transition fit, and with `interference` "
+        "for a "
+        "press fit.");
   d.key("search_distance", &Options::search_distance,
         "Surfaces farther apart than this never meet; 0 chooses a tenth of the smaller side's extent.")
       .at_least(0);
@@ -127,6 +135,18 @@ void describe(deck::Description<Options>& d)
     if (contact.law == Law::bonded && contact.interference != 0)
       document.error(path + ".interference",
                      "bonded surfaces are tied where they are; expected another friction law, or no interference");
+    for (const auto& [key, value] : {std::pair("adjust", contact.adjust), std::pair("clearance", contact.clearance)})
+      if (value && contact.law == Law::bonded)
+        document.error(
+            path + "." + key,
+            "bonded surfaces are tied where they are, which is a gap of 0; leave it out, or take another friction law");
+    if (contact.clearance && *contact.clearance < 0)
+      document.error(path + ".clearance",
+                     fmt::format("a gap of {0:g} is an overlap; expected `clearance: 0, interference: {1:g}`", *contact.clearance,
+                                 -*contact.clearance));
+    if (contact.adjust && contact.clearance)
+      document.error(path + ".adjust",
+                     "`clearance` replaces every gap of the meshes, and leaves none to adjust; expected one of the two");
     if (contact.preload && contact.law != Law::bonded)
       document.error(path + ".preload",
                      "only a cut through a bolt, which is bonded, can be preloaded; expected `friction: {bonded: true}` with it");
@@ -175,6 +195,8 @@ void describe(deck::Description<AutoOptions>& d)
   adopt("friction", "");
   adopt("discretization", "");
   adopt("interference", "Added overlap of all these contacts; gaps that it closes are found as well.");
+  adopt("adjust", "");
+  adopt("clearance", "");
   adopt("search_distance",
         "Faces farther apart, or overlapping by more, are no pair, and never meet. 0: half the size (longest distance of two "
         "corners) "

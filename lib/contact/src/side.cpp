@@ -150,6 +150,7 @@ Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Ki
         local.push_back(
             static_cast<Local>(std::lower_bound(side.node_id.begin(), side.node_id.end(), id) - side.node_id.begin()));
     side.faces.add(face.type, local);
+    side.face_id.push_back(face.id);
   }
   cut_into_facets(side);
   return side;

@@ -21,6 +21,7 @@ struct Side {
   std::vector<Global> node_id;  ///< ascending
   std::vector<Point> points;
   mesh::Cells faces;                        ///< ordered by face_id
+  std::vector<Global> face_id;              ///< of each face
   mesh::Cells facets;                       ///< face by face
   std::vector<Local> face_of;               ///< of each facet
   std::vector<Local> first_facet;           ///< of each face, and the number of all facets

@@ -57,6 +57,10 @@ void add_state(const StateSummary& s, Json& json)
                                 {"stick", c.stick},
                                 {"slip", c.slip},
                                 {"max_recovered_pressure", number(c.max_recovered_pressure)}});
+    if (c.initial_gap)
+      json["contacts"].back()["initial_gap"] = {{"smallest", number(c.initial_gap->smallest)},
+                                                {"largest_overlap", number(c.initial_gap->largest_overlap)},
+                                                {"touching_area", number(c.initial_gap->touching_area)}};
     if (c.preload)
       json["contacts"].back()["preload"] = {{"force", number(c.preload->force)}, {"shortening", number(c.preload->shortening)}};
   }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gmsh_file.hpp"
+#include "mesh/curved_surface.hpp"
 #include "mesh/topology.hpp"
 #include "raw_mesh.hpp"
 
@@ -295,7 +296,7 @@ void attach_boundaries(const RawMesh& raw, const Options& options, const std::ve
     }
     if (lost > 0 && named.strict)
       fail(options.file, fmt::format("boundary \"{}\" has {} facets that lie on no cell of any body", named.name, lost));
-    if (taken.empty())
+    if (taken.empty() && !curved_surface(named.name))
       assembly.warnings.push_back(
           inside > 0 && named.strict
               ? fmt::format("boundary \"{}\" lies between two volumes of one body; it is empty", named.name)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "cad_surfaces.hpp"
 #include "child.hpp"
 #include "file_kind.hpp"
 
@@ -134,7 +135,9 @@ void GmshSession::mesh(const std::string& file, int dimension) const
     std::vector<double> coordinates, parameters;
     gmsh::model::mesh::getNodes(tags, coordinates, parameters);
     if (is_cad(kind_of(file))) name_by_labels(dimension);
-    if (tags.empty()) gmsh::model::mesh::generate(dimension);
+    if (!tags.empty()) return;
+    gmsh::model::mesh::generate(dimension);
+    mark_curved_surfaces(dimension);
   });
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "mesh/curved_surface.hpp"
 
 namespace mortise::mesh {
 
@@ -187,6 +188,7 @@ Layout lay_out(Catalogue parts, const std::map<std::string, std::vector<Motion>>
       std::vector<int> own(parts.boundaries.size(), -1);
       for (std::size_t b = 0; b < parts.boundaries.size(); ++b) {
         const auto on = on_part.lower_bound({static_cast<int>(b), static_cast<int>(part)});
+        if (curved_surface(parts.boundaries[b])) continue;
         if (on == on_part.end() || on->first != static_cast<int>(b) || on->second >= static_cast<int>(end)) continue;
         auto name = instance + "." + own_name(parts.boundaries[b], group);
         if (boundary_names.contains(name)) name = instance + "." + parts.boundaries[b];

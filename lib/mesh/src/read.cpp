@@ -9,6 +9,7 @@
 
 #include "file_kind.hpp"
 #include "gmsh_file.hpp"
+#include "mesh/curved_surface.hpp"
 #include "mesh/topology.hpp"
 #include "raw_mesh.hpp"
 
@@ -178,6 +179,7 @@ RawMesh take_from_gmsh(const Options& options, int dimension)
   read_cells(options, dimension, bodies, nodes, raw);
   for (const auto& group : groups(dimension - 1)) {
     RawMesh::Boundary boundary{group.name, -1, {}, true};
+    if (const auto surface = curved_surface(group.name)) boundary = {name_of(scaled(*surface, options.scale)), -1, {}, false};
     for (const int entity : group.entities) add_faces(options, dimension - 1, entity, nodes, boundary);
     raw.boundaries.push_back(std::move(boundary));
   }

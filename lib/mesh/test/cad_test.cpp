@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "mesh/curved_surface.hpp"
 #include "mesh/read.hpp"
 
 namespace mortise::mesh {
@@ -93,8 +94,74 @@ TEST(Cad, SolidsAreBodiesAndFacesHaveNames)
     double whole = 0;
     for (int k = 1; k <= 3; ++k) whole += area(assembly, "solid.2.face." + std::to_string(k));
     EXPECT_NEAR(whole, 1.5 * std::numbers::pi, 0.1 * whole);  // as far as flat triangles can
-    EXPECT_EQ(assembly.catalogue.boundaries.size(), 9U);
+    EXPECT_EQ(std::count_if(assembly.catalogue.boundaries.begin(), assembly.catalogue.boundaries.end(),
+                            [](const auto& boundary) { return !curved_surface(boundary); }),
+              9);
   }
+}
+
+// All curved surfaces of an assembly that have faces, with the number of these.
+std::vector<std::pair<CurvedSurface, int>> curved(const Assembly& assembly)
+{
+  std::vector<std::pair<CurvedSurface, int>> result;
+  for (std::size_t b = 0; b < assembly.catalogue.boundaries.size(); ++b) {
+    const auto surface = curved_surface(assembly.catalogue.boundaries[b]);
+    if (!surface) continue;
+    const auto& boundary = assembly.mesh.facets.boundary;
+    const auto count = std::count(boundary.begin(), boundary.end(), static_cast<int>(b));
+    const auto known = std::find_if(result.begin(), result.end(), [&](const auto& s) { return same(s.first, *surface); });
+    if (known == result.end())
+      result.emplace_back(*surface, static_cast<int>(count));
+    else
+      known->second += static_cast<int>(count);
+  }
+  return result;
+}
+
+// A pin in a hole, both in halves; a taper pin; a ball; and what is neither: a ring, an elliptic bar.
+TEST(Cad, CurvedSurfacesAreKnown)
+{
+  const auto make = [] {
+    namespace occ = gmsh::model::occ;
+    const int plate = occ::addBox(-3, -3, 0, 6, 6, 1), hole = occ::addCylinder(0, 0, -1, 0, 0, 3, 1);
+    gmsh::vectorpair cut;
+    std::vector<gmsh::vectorpair> map;
+    occ::cut({{3, plate}}, {{3, hole}}, cut, map);
+    occ::addCylinder(0, 0, -0.5, 0, 0, 2, 1, -1, std::numbers::pi);
+    occ::addCone(10, 0, 0, 0, 2, 0, 1, 0.5);
+    occ::addSphere(20, 0, 0, 2);
+    occ::addTorus(30, 0, 0, 2, 0.5);
+    const int ellipse = occ::addPlaneSurface({occ::addCurveLoop({occ::addEllipse(40, 0, 0, 2, 1)})});
+    gmsh::vectorpair bar;
+    occ::extrude({{2, ellipse}}, 0, 0, 1, bar);
+  };
+  for (const char* name : {"curved.step", "curved.brep"}) {
+    auto input = options(cad(name, make), 0.7);
+    input.scale = 2;
+    const auto found = curved(read(input, 3));
+    const auto count = [&](const CurvedSurface& wanted) {
+      const auto at = std::find_if(found.begin(), found.end(), [&](const auto& s) { return same(s.first, wanted); });
+      return at == found.end() ? 0 : at->second;
+    };
+    EXPECT_EQ(found.size(), 3U) << name;
+    EXPECT_GT(count({{0, 0, 7}, {0, 0, 1}, 2, 0}), 40) << name;  // hole and half pin
+    EXPECT_GT(count({{20, 0, 0}, {0, 1, 0}, 2, -0.25}), 10) << name;
+    EXPECT_GT(count({{40, 0, 0}, Point::Zero(), 4, 0}), 40) << name;
+  }
+}
+
+TEST(Cad, CirclesAreKnownInThePlane)
+{
+  const auto make = [] {
+    namespace occ = gmsh::model::occ;
+    occ::addDisk(0, 0, 0, 1, 1);
+    occ::addDisk(5, 0, 0, 2, 1);  // an ellipse
+    occ::addRectangle(10, 0, 0, 1, 1);
+  };
+  const auto found = curved(read(options(cad("disks.step", make), 0.3), 2));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(same(found[0].first, {Point::Zero(), Point::UnitZ(), 1, 0}));
+  EXPECT_GT(found[0].second, 10);
 }
 
 TEST(Cad, LabelsOfStepFiles)

@@ -16,6 +16,7 @@
 #include "mesh/instances.hpp"
 #include "mesh/read.hpp"
 #include "mesh/topology.hpp"
+#include "partition/skin.hpp"
 #include "transfer.hpp"
 
 namespace mortise::partition {
@@ -388,16 +389,7 @@ mesh::Surface boundary_surface(const Decomposition& decomposition, int boundary,
         surface.points[static_cast<std::size_t>(at)] = mesh.points[node];
       }
       surface.faces.add(mesh.facets.cells.type[f], face);
-      // A cell has at most six faces: its number and the face's place among them tell faces apart on every number of ranks.
-      const auto parent = static_cast<std::size_t>(mesh.facets.parent[f]);
-      const auto cell = mesh.cells[parent];
-      Local place = 0;
-      const auto& table = mesh::faces(mesh.cells.type[parent]);
-      for (std::size_t k = 0; k < table.size(); ++k)
-        if (cell[static_cast<std::size_t>(table[k].nodes[0])] == mesh.facets.cells[f][0] &&
-            cell[static_cast<std::size_t>(table[k].nodes[1])] == mesh.facets.cells[f][1])
-          place = static_cast<Local>(k);
-      surface.face_id.push_back(6 * mesh.cell_id[parent] + place);
+      surface.face_id.push_back(face_number(mesh, f));
       surface.body.push_back(subdomain.body);
     }
   }

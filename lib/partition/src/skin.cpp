@@ -67,6 +67,20 @@ std::vector<bool> told_once(const std::vector<OuterFace>& border, const Communic
 
 }  // namespace
 
+Global face_number(const mesh::Mesh& mesh, std::size_t facet)
+{
+  const auto parent = static_cast<std::size_t>(mesh.facets.parent[facet]);
+  const auto cell = mesh.cells[parent];
+  const auto nodes = mesh.facets.cells[facet];
+  Local place = 0;
+  const auto& table = mesh::faces(mesh.cells.type[parent]);
+  for (std::size_t k = 0; k < table.size(); ++k)
+    if (cell[static_cast<std::size_t>(table[k].nodes[0])] == nodes[0] &&
+        cell[static_cast<std::size_t>(table[k].nodes[1])] == nodes[1])
+      place = static_cast<Local>(k);
+  return 6 * mesh.cell_id[parent] + place;
+}
+
 mesh::Surface outer_surface(const Decomposition& decomposition, const Communicator& comm)
 {
   std::vector<OuterFace> border;

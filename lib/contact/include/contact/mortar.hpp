@@ -14,6 +14,7 @@
 
 #include "base/communicator.hpp"
 #include "constraint/constraints.hpp"
+#include "contact/fit.hpp"
 #include "contact/options.hpp"
 #include "fem/options.hpp"
 #include "mesh/mesh.hpp"
@@ -35,8 +36,10 @@ std::vector<double> search_distances(std::span<const Pair> pairs, const Communic
 /// The contact rows of all pairs; contact c of ContactPoint is pairs[c]. Rows stand on any rank, each once; they do not depend on
 /// the number of ranks, to the last bit. `held` and `inclined` are the supports of this rank. Frictionless pairs have normal rows
 /// only. Throws Error(bad_input) if the cuts of a sector do not lie on each other. In axisymmetry areas and forces are those of
-/// the whole turn. Collective.
+/// the whole turn. `curved_faces`: those of this rank whose geometry is known; `initial_gaps`: takes that of each pair.
+/// Collective.
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
-                                const Communicator& comm, std::span<const constraint::Inclined> inclined = {});
+                                const Communicator& comm, std::span<const constraint::Inclined> inclined = {},
+                                std::span<const CurvedFace> curved_faces = {}, std::vector<InitialGap>* initial_gaps = nullptr);
 
 }  // namespace mortise::contact

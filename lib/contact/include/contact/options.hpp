@@ -28,6 +28,8 @@ struct Options {
   double friction = 0;                    ///< tresca: slip bound as a traction; coulomb: coefficient
   std::string discretization = "mortar";  ///< or "node_to_segment"
   double interference = 0;                ///< added overlap; negative opens a gap
+  std::optional<double> adjust = {};      ///< gaps and overlaps of the meshes up to this count as zero; 0: as they are
+  std::optional<double> clearance = {};   ///< the gap everywhere, whatever the meshes say, >= 0; interference comes on top
   double search_distance = 0;  ///< surfaces farther apart than this never meet; 0: a tenth of the smaller side's extent
   std::optional<PreloadOptions> preload = {};        ///< bonded contacts alone
   std::optional<mesh::RotationOptions> cyclic = {};  ///< the turn that brings the primary side of a sector to the secondary one

@@ -38,6 +38,11 @@ struct StateSummary {
     struct Preload {
       double force, shortening;
     };
+    /// What it starts with, before interference and loads; negative `smallest`: an overlap.
+    struct InitialGap {
+      double smallest, largest_overlap, touching_area;
+    };
+    std::optional<InitialGap> initial_gap = {};
     std::optional<Preload> preload = {};  ///< of a preloaded bolt: its tension, and how far the cut is drawn together
   };
   std::vector<Contact> contacts;

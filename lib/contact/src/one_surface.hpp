@@ -1,0 +1,52 @@
+// Where both sides of a contact are the same cylinder, cone or sphere of the geometry.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "contact/fit.hpp"
+#include "face_integrals.hpp"
+#include "places.hpp"
+
+namespace mortise::contact {
+
+/// The curved surfaces of all faces of a model, spread over the ranks by the faces' numbers.
+class CurvedFaces {
+ public:
+  CurvedFaces() = default;
+  /// `faces` of this rank. Collective.
+  CurvedFaces(std::span<const CurvedFace> faces, const Communicator& comm);
+
+  /// Of each face the index of its surface in `surfaces`, or -1. Nothing is appended where the model has no curved faces.
+  /// Collective.
+  std::vector<int> of(const Side& side, std::vector<mesh::CurvedSurface>& surfaces, const Communicator& comm) const;
+
+ private:
+  bool any_ = false;
+  std::vector<CurvedFace> own_;  // ascending
+};
+
+/// The places of a secondary side against the faces of a primary one.
+class OneSurface {
+ public:
+  OneSurface() = default;
+  /// `turn`: of the primary side, if it is turned. Collective.
+  OneSurface(const Side& secondary, const Places& places, const Side& primary, const CurvedFaces& faces,
+             const std::optional<mesh::Motion>& turn, const Communicator& comm);
+
+  bool anywhere() const { return !of_primary_.empty(); }
+  /// Whether a face at the place is of a surface that the primary side has, too.
+  bool knows(std::size_t place) const;
+  /// Whether a face at the place is of the surface that a face of the primary side is of.
+  bool holds(std::size_t place, std::size_t primary_face) const;
+  /// Whether every primary node of `terms` is on such a face.
+  bool holds(std::size_t place, std::span<const Term> terms) const;
+
+ private:
+  std::vector<int> of_primary_;                   // of each face its surface, or -1
+  std::vector<std::pair<Local, int>> at_place_;   // place, surface (of the primary side) of a face there; ascending
+  std::vector<std::pair<Local, Local>> at_node_;  // primary node, face there; ascending
+};
+
+}  // namespace mortise::contact
