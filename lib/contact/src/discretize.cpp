@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <ranges>
 #include <tuple>
 
@@ -424,22 +426,26 @@ class Builder {
   // `gap_of`: what the contact starts with where a line meets something.
   double gap_at(std::size_t p, const Point& direction, double mean, const Rays::GapOf& gap_of = {})
   {
-    double sum = 0, d = 0, whole = 0;
+    std::optional<double> first;  // the mean is taken of what others differ from it: of equals it is exact
+    double sum = 0, d = 0, at_node = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [face, i, k] : functions_at(p)) {
       const auto piece = integrals_[i];
       const double part = piece.covered[k];
       if (part == 0) continue;
-      d += part;
-      if (piece.facet < 0) {
-        whole += part;
-        continue;
+      double gap = at_node;
+      if (piece.facet >= 0) {
+        Eigen::Vector4d shape = Eigen::Vector4d::Zero();
+        shape.head(piece.points.cols()) = piece.points.row(k).transpose();
+        gap = rays_.gap(p, {static_cast<std::size_t>(piece.facet), shape}, direction, gap_of);
+      } else if (std::isnan(gap)) {
+        gap = at_node = rays_.gap(p, direction, gap_of);
       }
-      Eigen::Vector4d shape = Eigen::Vector4d::Zero();
-      shape.head(piece.points.cols()) = piece.points.row(k).transpose();
-      sum += part * rays_.gap(p, {static_cast<std::size_t>(piece.facet), shape}, direction, gap_of);
+      if (!first) first = gap;
+      d += part;
+      sum += part * (gap - *first);
     }
-    if (whole != 0) sum += whole * rays_.gap(p, direction, gap_of);
-    return std::isfinite(sum) ? sum / d : mean;
+    if (!first || !std::isfinite(*first) || !std::isfinite(sum)) return mean;
+    return *first + sum / d;
   }
 
   bool starts_in_mesh() const { return !options_.clearance && !options_.adjust && !one_surface_.anywhere(); }
