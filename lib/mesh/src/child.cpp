@@ -153,12 +153,9 @@ void limit_processor_time(double seconds)
   limit(RLIMIT_CPU, seconds > 0 ? std::ceil(before + seconds) : HUGE_VAL);
 }
 
-void confine_child(const std::string& remedy, bool must)
+bool confine_child()
 {
-  remedy_of_child = remedy;
-  if (!confine(tell_refused) && must)
-    throw Error(ExitStatus::bad_input,
-                fmt::format("{}: this system cannot keep a geometry from starting programs{}", file_of_child, remedy));
+  return confine(tell_refused);
 }
 
 Child::Child(Task task, const std::function<void(Sender&)>& work)
@@ -178,6 +175,7 @@ Child::Child(Task task, const std::function<void(Sender&)>& work)
   if (pid_ == 0) {
     error_pipe = ends[1];
     file_of_child = task_.file;
+    remedy_of_child = task_.remedy;
     std::set_terminate(tell_and_exit);
     stand_alone(parent);
     limit(RLIMIT_CORE, 0);
@@ -238,6 +236,8 @@ void Child::ended()
     throw Error(
         ExitStatus::bad_input,
         fmt::format("{}: gmsh came to no end with this file, which is likely damaged or cut off; write it anew", task_.file));
+  if (killed && WTERMSIG(status) == SIGSYS)  // the C library blocks signals while it starts a program: nobody could tell
+    throw Error(ExitStatus::bad_input, fmt::format("{}: wants to start a program{}", task_.file, task_.remedy));
   if (killed && WTERMSIG(status) == SIGKILL)
     throw Error(ExitStatus::machine,
                 fmt::format("{}: the process that had to {} it was killed, as the system does when memory runs out", task_.file,

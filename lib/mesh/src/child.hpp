@@ -19,6 +19,7 @@ struct Task {
   double seconds = 3600;    ///< until the process is stopped
   std::string longer;       ///< how to have more seconds
   std::string after_crash;  ///< advice if it crashes
+  std::string remedy;       ///< for those who want what is refused after confine_child()
   double memory = 0;        ///< bytes that no file like this can need; 0: what the machine has
 };
 
@@ -87,8 +88,8 @@ class Child {
 /// any.
 void limit_processor_time(double seconds);
 
-/// In the child: no programs and no writing from here on; `remedy` is part of what the user is told who wanted that. Throws if
-/// the system cannot do this.
-void confine_child(const std::string& remedy, bool must);
+/// In the child: no programs and no writing from here on: if the work wants that, it fails, and the message ends with
+/// Task::remedy. False if the system cannot do this.
+bool confine_child();
 
 }  // namespace mortise::mesh

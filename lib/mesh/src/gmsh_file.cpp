@@ -125,12 +125,12 @@ void GmshSession::set_sizes(const Options& options)
 
 void GmshSession::open(const std::string& file) const
 {
-  checked(file, "gmsh cannot read it", [&] { gmsh::open(file); });
+  checked(file, "gmsh cannot load it: the file is cut off or damaged", [&] { gmsh::open(file); });
 }
 
 void GmshSession::mesh(const std::string& file, int dimension) const
 {
-  checked(file, "gmsh cannot mesh it", [&] {
+  checked(file, "gmsh gave up meshing it without a word", [&] {
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parameters;
     gmsh::model::mesh::getNodes(tags, coordinates, parameters);
@@ -146,7 +146,7 @@ namespace {
 // Seconds of processor time in which any file whose reading takes time by its length alone is read many times over.
 double reading_seconds(double file_size)
 {
-  return 10 + 20e-6 * file_size;
+  return 5 + 20e-6 * file_size;
 }
 // And bytes for reading a mesh.
 double reading_memory(double file_size)
@@ -159,14 +159,15 @@ double size_of(const std::string& file)
   return static_cast<double>(std::filesystem::file_size(file, ignored));
 }
 
+constexpr const char* remedy = " (SystemCall, Save, Printf >> file and the like); if you trust it, run with --allow-scripts";
+
 void work(const Options& options, int dimension, Sender& sender)
 {
   const auto kind = kind_of(options.file);
   const GmshSession session(options.constants);
   GmshSession::set_sizes(options);
-  if (!options.allow_scripts)
-    confine_child(" (SystemCall, Save, Printf >> file and the like); if you trust it, run with --allow-scripts",
-                  kind == FileKind::geo);
+  if (!options.allow_scripts && !confine_child() && kind == FileKind::geo)
+    fail(options.file, std::string("this system cannot keep a geometry from starting programs") + remedy);
   if (kind != FileKind::geo) limit_processor_time(reading_seconds(size_of(options.file)));
   session.open(options.file);
   limit_processor_time(0);
@@ -179,9 +180,14 @@ void work(const Options& options, int dimension, Sender& sender)
 RawMesh read_gmsh(const Options& options, int dimension)
 {
   const bool geometry = is_geometry(kind_of(options.file));
-  Task task{
-      options.file, geometry ? "mesh" : "read", options.time_limit, "; mesh.time_limit allows more",
-      geometry ? "try it in gmsh itself, with another mesh algorithm or size" : "the file is likely damaged; write it anew"};
+  Task task;
+  task.file = options.file;
+  task.doing = geometry ? "mesh" : "read";
+  task.seconds = options.time_limit;
+  task.longer = "; mesh.time_limit allows more";
+  task.after_crash = geometry ? "try it in gmsh itself, with another mesh algorithm or size, or write it anew if it is damaged"
+                              : "the file is likely damaged; write it anew";
+  task.remedy = remedy;
   if (!geometry) task.memory = reading_memory(size_of(options.file));
   Child child(task, [&](Sender& sender) { work(options, dimension, sender); });
   return receive(child);

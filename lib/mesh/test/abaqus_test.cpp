@@ -160,6 +160,26 @@ TEST(Abaqus, WhatIsNotUnderstoodIsRefused)
   expect_error("", "holds no *NODE");
 }
 
+// The upper brick's top stands below the lower one: the brick is turned back as a whole, into its neighbour.
+TEST(Abaqus, CellsThatFoldIntoEachOtherAreRefused)
+{
+  auto folded = nodes;
+  for (const char* z : {" 0, 0, 2", " 1, 0, 2", " 1, 1, 2", " 0, 1, 2"}) {
+    auto below = std::string(z);
+    below.replace(below.size() - 1, 1, "-3");
+    folded.replace(folded.find(z), below.size() - 1, below);
+  }
+  expect_error(folded + bricks + "*ELSET, ELSET=all\n10, 20\n*SOLID SECTION, ELSET=all\n",
+               "elements 10 and 20 of body \"all\" lie on the same side");
+  try {  // the second triangle lies in the first
+    read_text("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n4, 0.2, 0.2\n*ELEMENT, TYPE=CPE3, ELSET=all\n1, 1, 2, 3\n2, 1, 2, 4\n", 2);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("elements 1 and 2"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(read_text(nodes + bricks + "*ELSET, ELSET=all\n10, 20\n*SOLID SECTION, ELSET=all\n").catalogue.bodies.size(), 1U);
+}
+
 // gmsh writes Abaqus' order of nodes: every node in the middle must lie amid its corners again.
 void expect_straight(const std::string& geometry, int dimension, CellType type)
 {
