@@ -58,6 +58,15 @@ void forbid_threads()
   if (auto* limit = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"))) limit(0);
 }
 
+// A rank that no launcher started needs no daemon of MPI beside it, and no folder in the temporary one, which may be full.
+void be_alone()
+{
+  for (const char* launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK"})
+    if (std::getenv(launched)) return;
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+}
+
 ExitStatus solve(const CommandLine& command_line, const Communicator& comm)
 {
   Timers timers;
@@ -90,8 +99,7 @@ int main(int argc, char** argv)
 {
   reserve_memory();
   setenv("OMPI_MCA_opal_signal", "", 0);  // faults are ours to tell
-  // A rank alone needs no daemon of MPI beside it, which it would start otherwise.
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  be_alone();
   expect_mpi();
   int no_arguments = 1;  // but the program's name: Kokkos would answer --help and take other options for its own
   const Tpetra::ScopeGuard tpetra(&no_arguments, &argv);
