@@ -6,6 +6,7 @@
 // Sample runs:  mortise inputs/hertz_sphere/hertz_sphere.yaml
 //               mpirun -n 2 mortise inputs/cantilever_3d/cantilever_3d.yaml --set solver.tolerance=1e-6
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <Tpetra_Core.hpp>
 #include <cerrno>
@@ -15,7 +16,6 @@
 #include <fstream>
 #include <iostream>
 #include <new>
-#include <sstream>
 
 #include "command_line.hpp"
 #include "run.hpp"
@@ -23,6 +23,8 @@
 namespace {
 
 using namespace mortise;
+
+constexpr std::size_t longest_deck = 50000000;  // bytes
 
 // The text of the deck, read by one rank.
 std::string read_text(const std::string& file, const Communicator& comm)
@@ -32,10 +34,14 @@ std::string read_text(const std::string& file, const Communicator& comm)
     if (!comm.root()) return;
     if (std::filesystem::is_directory(file)) throw Error(ExitStatus::bad_input, file + ": is a directory; expected a deck");
     std::ifstream stream(file);
-    std::ostringstream content;
     if (!stream) throw Error(ExitStatus::bad_input, file + ": cannot be read: " + std::strerror(errno));
-    if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
-    text = content.str();
+    text.resize(longest_deck + 1);
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > longest_deck)
+      throw Error(ExitStatus::bad_input, fmt::format("{}: is longer than {} MB, which no deck is; expected a text of some pages "
+                                                     "(meshes are named in it, by mesh.file)",
+                                                     file, longest_deck / 1000000));
   });
   comm.broadcast(text);
   return text;

@@ -69,6 +69,12 @@ void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& dec
           deck.contacts[c].name);
 }
 
+// A field of a table; nothing for what is not known yet, as the mismatch of slip bounds that are still to come.
+std::string known(double value, int digits)
+{
+  return std::isfinite(value) ? fmt::format("{:.{}e}", value, digits) : "";
+}
+
 // The rows of history.csv and the moving line.
 class History {
  public:
@@ -87,8 +93,9 @@ class History {
       return;
     }
     const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);
-    text_ += fmt::format("{},{},{},{},{},{:.6e},{:.6e},{:.6e},{:.3e},{},{},{}\n", p.what, step, p.outer, p.multiplications,
-                         p.preconditionings, p.projected_gradient, p.equality, change, p.precision, bounds, discs, state.time);
+    text_ += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.what, step, p.outer, p.multiplications, p.preconditionings,
+                         known(p.projected_gradient, 6), known(p.equality, 6), known(change, 6), known(p.precision, 3), bounds,
+                         discs, state.time);
     active_ = fmt::format("; {} open, {} slipping", bounds, discs);
   }
   const std::string& text() const { return text_; }

@@ -21,7 +21,7 @@ def main():
     products = [int(row["hessian_multiplications"]) for row in rows]
     figure, (residuals, active) = plt.subplots(2, 1, sharex=True, figsize=(7, 6))
     for name, label in (("projected_gradient", "projected gradient"), ("equality", "equality"), ("slip_bound_change", "change of slip bounds")):
-        values = [float(row[name]) for row in rows]
+        values = [float(row[name] or "nan") for row in rows]
         if name != "slip_bound_change" or int(rows[-1]["friction_step"]) > 1:
             residuals.semilogy(products, [v if v > 0 else float("nan") for v in values], "o-", markersize=3, label=label)
     residuals.set_ylabel("relative")

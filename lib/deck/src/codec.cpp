@@ -37,15 +37,21 @@ bool number(const YAML::Node& node, double& value)
   return node.IsScalar() && YAML::convert<double>::decode(node, value) && std::isfinite(value);
 }
 
+// Beyond these, areas, volumes and energies of what is told in them overflow or vanish.
+constexpr double largest = 1e50, smallest = 1e-50;
+
 }  // namespace
 
 void Codec<double>::read(double& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
 {
   double read = 0;
-  if (number(node, read) && inside(read, limits))
-    value = read;
-  else
+  if (!number(node, read) || !inside(read, limits))
     document.error(path, fmt::format("expected {}, found {}", expectation(limits, "a number"), found(node)));
+  else if (std::abs(read) > largest || (read != 0 && std::abs(read) < smallest))
+    document.error(path, fmt::format("{} is too {} to compute with; expected 0 or a size of {:g} to {:g}: take other units",
+                                     found(node), std::abs(read) > 1 ? "large" : "small", smallest, largest));
+  else
+    value = read;
 }
 
 YAML::Node Codec<double>::write(double value)

@@ -15,6 +15,7 @@
 #include "mesh/instances.hpp"
 #include "mesh/read.hpp"
 #include "mesh/topology.hpp"
+#include "room.hpp"
 #include "transfer.hpp"
 
 namespace mortise::partition {
@@ -40,10 +41,10 @@ std::vector<Global> deal(const std::vector<long long>& weight, const std::vector
   return first;
 }
 
-// How many subdomains each part gets, of which there are `copies`. A total is met as far as copies allow: the next ones go where
-// subdomains are largest.
-std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std::vector<int>& copies, int dimension,
-                                  const Options& options)
+// How many subdomains each part gets, of which there are `copies`. A total is met as far as copies and cells allow: the next ones
+// go where subdomains are largest.
+std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std::vector<std::vector<Local>>& cells,
+                                  const std::vector<int>& copies, int dimension, const Options& options)
 {
   std::vector<int> counts(nodes.size(), 1);
   if (!options.subdomains) {
@@ -57,7 +58,7 @@ std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std
   for (auto total = std::accumulate(copies.begin(), copies.end(), 0); total < *options.subdomains && !largest.empty();) {
     const auto b = largest.top().second;
     largest.pop();
-    if (total + copies[b] > *options.subdomains) continue;
+    if (total + copies[b] > *options.subdomains || counts[b] >= static_cast<int>(cells[b].size())) continue;
     total += copies[b];
     largest.emplace(static_cast<double>(nodes[b]) / ++counts[b], b);
   }
@@ -91,7 +92,7 @@ std::vector<std::vector<PieceOfPart>> cut_parts(const mesh::Mesh& parts, const m
     pieces.push_back(mesh::submesh(parts, list));
     nodes.push_back(static_cast<long long>(pieces.back().node_count()));
   }
-  const auto counts = subdomain_counts(nodes, copies, dimension, options);
+  const auto counts = subdomain_counts(nodes, of_part, copies, dimension, options);
   std::vector<std::vector<PieceOfPart>> result(copies.size());
   for (std::size_t p = 0; p < copies.size(); ++p) {
     const auto label = cut(pieces[p].cells, counts[p]);
@@ -334,16 +335,17 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
                       fmt::format("not enough memory to cut a mesh of {} cells in one piece (at most {}); take fewer cells, or "
                                   "decomposition.method grid",
                                   assembly.catalogue.cell_count, largest));
-        if (!grid && comm.root()) assembly.mesh = generate_whole(mesh, dimension, assembly.catalogue);
+        layout = layout_of_blocks(mesh, dimension, assembly.catalogue);
       } else if (comm.root()) {
         assembly = mesh::read(mesh, dimension);
-      }
-      if (mesh.file.empty())
-        layout = layout_of_blocks(mesh, dimension, assembly.catalogue);
-      else if (comm.root())
         layout = layout_of_file(mesh, assembly);
+      }
     });
     broadcast(layout.catalogue, comm);
+    require_room(layout.catalogue, comm);
+    collectively(comm, [&] {
+      if (mesh.file.empty() && !grid && comm.root()) assembly.mesh = generate_whole(mesh, dimension, assembly.catalogue);
+    });
     for (const auto& warning : assembly.warnings) context.log.warning("{}: {}", mesh.file, warning);
   }
   const auto scope = context.timers.scope("partition");

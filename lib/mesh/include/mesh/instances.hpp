@@ -39,7 +39,10 @@ struct InstanceOptions {
   std::vector<InstanceOptions> of;
 };
 
-/// The motion of every copy: entry by entry; in each, power by power of M, all of `of`.
+/// How many copies there are.
+double count_of(const std::vector<InstanceOptions>& instances);
+
+/// The motion of every copy; to be asked for only if count_of is at most most_instances: entry by entry; in each, power by power of M, all of `of`.
 std::vector<Motion> motions(const std::vector<InstanceOptions>& instances);
 
 /// Most copies of one part.
