@@ -119,6 +119,24 @@ def spice(random, deck, plane, names, top, bottom):
         deck["output"] = {"fields": random.choice([[], ["displacement"], ["stress", "von_mises"]])}
 
 
+def applied(deck):
+    """The sum of the loads of a valid deck, by what its blocks measure; None where more must be known."""
+    plane = deck["dimension"] != 3
+    if deck["dimension"] == "axisymmetric" or "steps" in deck or "scale" in deck["mesh"] or any("instances" in body for body in deck["bodies"].values()):
+        return None
+    total = [0.0] * (2 if plane else 3)
+    for load in deck["loads"]:
+        block = deck["mesh"]["blocks"][load.get("body") or load["boundary"].rsplit(".", 1)[0]]
+        axis = "xyz".index(load["boundary"][-4]) if "boundary" in load else None
+        measure = math.prod(size for i, size in enumerate(block["size"]) if i != axis)
+        force = load.get("traction") or load.get("acceleration") or [0.0] * len(total)
+        force = [measure * component for component in force]
+        if "pressure" in load:
+            force[axis] -= measure * load["pressure"] * (1 if load["boundary"].endswith("max") else -1)
+        total = [t + f for t, f in zip(total, force)]
+    return total
+
+
 def of_schema(random, schema, depth=0):
     """A value that a schema allows, near its limits where it has some."""
     if "anyOf" in schema:
@@ -259,10 +277,10 @@ def mutate_text(random, text):
 
 
 def mutant(random, schema):
-    """(text, whether it is a valid deck)."""
+    """(text, the deck itself if it is a valid one)."""
     deck = valid(random)
     if random.random() < 0.12:
-        return dump(random, deck), True
+        return dump(random, deck), deck
     for _ in range(1 + int(random.expovariate(0.8))):
         try:
             mutate_tree(random, deck, schema)
@@ -274,4 +292,4 @@ def mutant(random, schema):
         return mutant(random, schema)
     while random.random() < 0.25:
         text = mutate_text(random, text)
-    return text, False
+    return text, None
