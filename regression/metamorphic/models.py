@@ -122,7 +122,7 @@ def sector(random):
     deck = {"dimension": 3, "mesh": {"file": "sector.geo", "order": random.choice([1, 2])}, "materials": {"steel": steel},
             "bodies": {"hub": {"material": "steel"}, "rim": {"material": "steel"}},
             "supports": [{"boundary": "bore", "displacement": {"x": 0.0, "y": 0.0, "z": 0.0}}],
-            "loads": [{"name": "pull", "boundary": "mantle", "traction": [0.0, 0.0, 0.0001 * steel["young_modulus"]]}],
+            "loads": [{"name": "pull", "boundary": "mantle", "traction": [0.0, 0.0, 0.00002 * steel["young_modulus"]]}],
             "contacts": [{"secondary": f"end_{name}", "primary": f"start_{name}", **tie} for name in ("hub", "rim")]
             + [{"secondary": "rim_inner", "primary": "hub_outer", "interference": 0.002, "friction": {"coulomb": 0.3}}]}
     return deck, {"sector.geo": text}

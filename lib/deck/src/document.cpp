@@ -17,6 +17,7 @@ namespace {
 // Of a deck's errors; of a word in a message.
 constexpr std::size_t most_shown = 100;
 constexpr std::size_t longest_word = 80;
+constexpr std::size_t most_candidates = 16;  // that are listed one and all
 
 [[noreturn]] void fail(const std::string& text)
 {
@@ -226,9 +227,11 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
 {
   std::string text;
   if (const auto near = nearest(name, candidates); !near.empty()) text += fmt::format(", did you mean \"{}\"?", near);
-  if (!candidates.empty() && candidates.size() <= 12)
-    text += fmt::format(" (there {} {})", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
-  return text;
+  if (candidates.empty()) return text;
+  const auto shown = std::min<std::size_t>(candidates.size(), candidates.size() > most_candidates ? 8 : most_candidates);
+  return text + fmt::format(" (there {} {}{})", candidates.size() == 1 ? "is" : "are",
+                            fmt::join(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                            shown < candidates.size() ? fmt::format(", .. and {} more", candidates.size() - shown) : "");
 }
 
 std::string found(const YAML::Node& node)
