@@ -15,6 +15,7 @@ Parsed parse_command_line(int argc, const char* const* argv)
       ->type_name("KEY.PATH=VALUE");
   app.add_option("--output", result.output, "directory for the results, instead of the deck's")->type_name("DIR");
   app.add_flag("--check", result.check, "read deck and mesh, print what would be solved, and stop");
+  app.add_flag("--allow-scripts", result.allow_scripts, "a .geo may start programs and write files: only for those you trust");
   app.add_flag("--schema", result.schema, "print the JSON schema of a deck and stop");
   app.add_flag("--version", version, "print the version and stop");
   app.footer(

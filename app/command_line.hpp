@@ -12,6 +12,7 @@ struct CommandLine {
   std::vector<std::string> settings;  ///< key.path=value
   std::string output;                 ///< directory; empty: the deck's
   bool check = false;                 ///< read deck and mesh, say what would be solved, and stop
+  bool allow_scripts = false;         ///< a .geo may start programs and write files
   bool schema = false;                ///< print the JSON schema of a deck and stop
 };
 

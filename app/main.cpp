@@ -59,7 +59,8 @@ ExitStatus solve(const CommandLine& command_line, const Communicator& comm)
   Log log(comm, stdout);
   const Context context{comm, log, timers};
   deck::Document document(read_text(command_line.deck, comm), command_line.deck, command_line.settings);
-  const Deck deck = read_deck(document, command_line.output);
+  Deck deck = read_deck(document, command_line.output);
+  deck.mesh.allow_scripts = command_line.allow_scripts;
   document.check();
   return run(deck, document, command_line, context);
 }

@@ -189,6 +189,7 @@ RawMesh AbaqusReader::read()
   RawMesh raw;
   if (dimension_ == 2) flatten(options_.file, points_);
   add_cells(raw);
+  resolve_repeated_nodes(raw, options_.file, dimension_);  // before the faces of cells are looked for
   add_surfaces(raw);
   add_element_sets(raw);
   add_node_sets(raw);

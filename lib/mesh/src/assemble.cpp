@@ -298,6 +298,8 @@ void flatten(const std::string& file, std::vector<Point>& points)
 
 Assembly assemble(RawMesh raw, const Options& options, int dimension)
 {
+  check(raw, options.file);
+  resolve_repeated_nodes(raw, options.file, dimension);
   orient(raw, options, dimension);
   const Groups groups = group(raw, options);
   require_conforming(options.file, raw, groups);

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 #include <gmsh.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <vector>
 
 #include "base/error.hpp"
+#include "child.hpp"
+#include "file_kind.hpp"
 
 namespace mortise::mesh {
 
@@ -21,7 +20,7 @@ void fail(const std::string& file, const std::string& what)
 
 GmshSession::GmshSession(const std::map<std::string, double>& constants)
 {
-  std::vector<std::string> words{"mortise", "-nopopup", "-v", "0"};
+  std::vector<std::string> words{"mortise", "-nopopup", "-v", "2"};
   for (const auto& [name, value] : constants) {
     words.insert(words.end(), {"-setnumber", name, fmt::format("{:.17g}", value)});
   }
@@ -34,26 +33,40 @@ GmshSession::GmshSession(const std::map<std::string, double>& constants)
   gmsh::logger::start();
 }
 
-GmshSession::~GmshSession()
-{
-  gmsh::finalize();
-}
-
 namespace {
 
-// The last error that gmsh logged, if any.
+// The first error that gmsh logged, which is the cause of those that follow; "" if there is none.
 std::string logged_error()
 {
   std::vector<std::string> log;
   gmsh::logger::get(log);
-  const auto found = std::find_if(log.rbegin(), log.rend(), [](const std::string& line) { return line.rfind("Error", 0) == 0; });
-  return found == log.rend() ? std::string() : *found;
+  std::string first;
+  std::size_t more = 0;
+  for (const auto& line : log) {
+    if (!line.starts_with("Error")) continue;
+    if (first.empty())
+      first = line.substr(std::min(line.find_first_not_of(": ", 5), line.size()));
+    else
+      ++more;
+  }
+  return more == 0 ? first : fmt::format("{} (and {} more errors)", first, more);
 }
 
-bool is_geometry(const std::string& file)
+// Runs a call of gmsh and throws what it threw or logged.
+template <class Call>
+void checked(const std::string& file, const char* otherwise, const Call& call)
 {
-  const auto extension = std::filesystem::path(file).extension();
-  return extension == ".geo" || is_cad(file);
+  bool thrown = false;
+  try {
+    call();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+    thrown = true;
+  }
+  const auto error = logged_error();
+  if (!error.empty()) fail(file, "gmsh: " + error);
+  if (thrown) fail(file, otherwise);
 }
 
 // The last part of gmsh's label of an entity, "Shapes/assembly/part"; "" if it has none that somebody gave it. What the names of
@@ -88,17 +101,6 @@ void name_by_labels(int dimension)
 
 }  // namespace
 
-bool is_cad(const std::string& file)
-{
-  const auto extension = std::filesystem::path(file).extension();
-  return extension == ".step" || extension == ".stp" || extension == ".STEP" || extension == ".STP" || extension == ".brep";
-}
-
-bool is_abaqus(const std::string& file)
-{
-  return std::filesystem::path(file).extension() == ".inp";
-}
-
 void GmshSession::set_sizes(const Options& options)
 {
   if (options.size.max) gmsh::option::setNumber("Mesh.MeshSizeMax", *options.size.max / options.scale);
@@ -109,104 +111,56 @@ void GmshSession::set_sizes(const Options& options)
   gmsh::option::setNumber("Mesh.HighOrderOptimize", 1);  // cells that curved surfaces turn inside out
 }
 
-std::string GmshSession::load(const std::string& file, int dimension) const
+void GmshSession::open(const std::string& file) const
 {
-  try {
-    gmsh::open(file);
-    if (is_geometry(file) && logged_error().empty()) {
-      std::vector<std::size_t> tags;
-      std::vector<double> coordinates, parameters;
-      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-      if (is_cad(file)) name_by_labels(dimension);
-      if (tags.empty()) gmsh::model::mesh::generate(dimension);
-    }
-  } catch (...) {
-    const std::string logged = logged_error();
-    return logged.empty() ? "gmsh cannot read it" : logged;
-  }
-  return logged_error();
+  checked(file, "gmsh cannot read it", [&] { gmsh::open(file); });
+}
+
+void GmshSession::mesh(const std::string& file, int dimension) const
+{
+  checked(file, "gmsh cannot mesh it", [&] {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates, parameters;
+    gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+    if (is_cad(kind_of(file))) name_by_labels(dimension);
+    if (tags.empty()) gmsh::model::mesh::generate(dimension);
+  });
 }
 
 namespace {
 
-// Where tell_and_exit() writes.
-int error_pipe = -1;
-
-// gmsh throws strings through its own parallel loops, which ends the process: what it had to say is kept.
-[[noreturn]] void tell_and_exit()
+// Seconds of processor time in which any file of a kind whose reading takes time by its length alone is read many times over.
+double reading_seconds(const std::string& file)
 {
-  std::string text = "it gave up without a word";
-  try {
-    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
-  } catch (const std::string& said) {
-    text = said;
-  } catch (const std::exception& said) {
-    text = said.what();
-  } catch (...) {
-  }
-  _exit(write(error_pipe, text.data(), text.size()) < 0 ? 2 : 0);
+  std::error_code ignored;
+  return 10 + 20e-6 * static_cast<double>(std::filesystem::file_size(file, ignored));
 }
 
-// Meshes a geometry in a process of its own and leaves the mesh in the file `target`, for gmsh's meshers crash on some faulty
-// geometries.
-void mesh_apart(const Options& options, int dimension, const std::string& target)
+void work(const Options& options, int dimension, Sender& sender)
 {
-  int pipe_ends[2];
-  if (pipe(pipe_ends) != 0) throw Error(ExitStatus::machine, "cannot open a pipe");
-  const pid_t child = fork();
-  if (child < 0) throw Error(ExitStatus::machine, "cannot start a process for gmsh");
-  if (child == 0) {
-    for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE}) std::signal(signal_number, SIG_DFL);
-    error_pipe = pipe_ends[1];
-    std::set_terminate(tell_and_exit);
-    const GmshSession gmsh_session(options.constants);
-    GmshSession::set_sizes(options);
-    std::string error = gmsh_session.load(options.file, dimension);
-    if (error.empty()) {
-      try {
-        gmsh::option::setNumber("Mesh.Binary", 1);
-        gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
-        gmsh::write(target);
-      } catch (...) {
-        error = "gmsh cannot write " + target;
-      }
-    }
-    if (!error.empty() && write(pipe_ends[1], error.data(), error.size()) < 0) _exit(2);
-    _exit(0);
-  }
-  close(pipe_ends[1]);
-  std::string error;
-  char buffer[512];
-  for (ssize_t n = 0; (n = ::read(pipe_ends[0], buffer, sizeof buffer)) > 0;) error.append(buffer, static_cast<std::size_t>(n));
-  close(pipe_ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    error = "gmsh crashed while it meshed this geometry; try it in gmsh itself, with another mesh algorithm or size";
-  if (!error.empty()) fail(options.file, "gmsh: " + error);
+  const auto kind = kind_of(options.file);
+  const GmshSession session(options.constants);
+  GmshSession::set_sizes(options);
+  if (!options.allow_scripts)
+    confine_child(" (SystemCall, Save, Printf >> file and the like); if you trust it, run with --allow-scripts",
+                  kind == FileKind::geo);
+  if (kind != FileKind::geo) limit_processor_time(reading_seconds(options.file));
+  session.open(options.file);
+  limit_processor_time(0);
+  if (is_geometry(kind)) session.mesh(options.file, dimension);
+  send(take_from_gmsh(options, dimension), sender);
 }
 
 }  // namespace
 
-MeshFile::MeshFile(const Options& options, int dimension)
+RawMesh read_gmsh(const Options& options, int dimension)
 {
-  if (!std::filesystem::exists(options.file)) fail(options.file, "there is no such file");
-  path_ = options.file;
-  if (!is_geometry(options.file)) return;
-  path_ = (std::filesystem::temp_directory_path() / fmt::format("mortise_{}.msh", getpid())).string();
-  temporary_ = true;
-  try {
-    mesh_apart(options, dimension, path_);
-  } catch (...) {
-    remove();
-    throw;
-  }
-}
-
-void MeshFile::remove() const
-{
-  std::error_code ignored;
-  if (temporary_) std::filesystem::remove(path_, ignored);
+  const bool geometry = is_geometry(kind_of(options.file));
+  Task task{
+      options.file, geometry ? "mesh" : "read", options.time_limit, "; mesh.time_limit allows more",
+      geometry ? "try it in gmsh itself, with another mesh algorithm or size" : "the file is likely damaged; write it anew"};
+  Child child(task, [&](Sender& sender) { work(options, dimension, sender); });
+  return receive(child);
 }
 
 }  // namespace mortise::mesh

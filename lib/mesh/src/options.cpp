@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "file_kind.hpp"
 #include "mesh/cell.hpp"
 
 namespace mortise::mesh {
@@ -63,18 +64,17 @@ void describe(deck::Description<Options>& d)
   d.key("constants", &Options::constants, "Values for the DefineConstant names of a .geo file (gmsh's -setnumber).");
   d.key("size", &Options::size, "Size of the cells of a geometry, {max, min, curvature}.").hidden();
   d.key("order", &Options::order, "Order of the cells of a geometry: 1, or 2 for cells with curved sides.").at_least(1).below(3);
+  d.key("time_limit", &Options::time_limit, "Seconds after which gmsh is stopped that has not read and meshed the file.")
+      .positive()
+      .below(1e8)
+      .hidden();
   d.key("scale", &Options::scale, "Coordinates are multiplied by this.").positive();
   d.key("blocks", &Options::blocks, "Structured boxes by body name.");
   d.check([](const Options& mesh, const std::string& path, deck::Document& document) {
     if (mesh.file.empty() == mesh.blocks.empty()) document.error(path, "expected either `file` or `blocks`");
     if (mesh.file.empty() && !mesh.constants.empty())
       document.error(path + ".constants", "constants are for a `file` that gmsh meshes");
-    const bool meshed = [&] {
-      for (const char* ending : {".geo", ".step", ".stp", ".STEP", ".STP", ".brep"})
-        if (mesh.file.ends_with(ending)) return true;
-      return false;
-    }();
-    if (meshed) return;
+    if (is_geometry(kind_of(mesh.file))) return;
     if (mesh.size.max || mesh.size.min || mesh.size.curvature)
       document.error(path + ".size", "sizes are for a geometry (.geo, .step, .brep) that gmsh meshes");
     if (mesh.order) document.error(path + ".order", "the order is for a geometry (.geo, .step, .brep) that gmsh meshes");

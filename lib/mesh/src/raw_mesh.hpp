@@ -28,6 +28,20 @@ struct RawMesh {
   std::vector<std::string> warnings;
 };
 
+class Sender;
+class Child;
+
+/// Out of a child process, and what came from there.
+void send(const RawMesh& raw, Sender& to);
+RawMesh receive(Child& from);
+
+/// Throws Error(bad_input) if a number stands for what is not there. What a library made of a damaged file may be anything.
+void check(const RawMesh& raw, const std::string& file);
+
+/// Bricks, wedges and quadrilaterals that name a node several times become the wedges, tetrahedra and triangles that are meant;
+/// faces of boundaries follow. Throws Error(bad_input) where no such cell is left.
+void resolve_repeated_nodes(RawMesh& raw, const std::string& file, int dimension);
+
 /// Moves the points into a plane model's plane z = 0. Throws Error(bad_input) if they are not near.
 void flatten(const std::string& file, std::vector<Point>& points);
 

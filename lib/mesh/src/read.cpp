@@ -7,6 +7,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "file_kind.hpp"
 #include "gmsh_file.hpp"
 #include "mesh/topology.hpp"
 #include "raw_mesh.hpp"
@@ -73,6 +74,13 @@ void for_each_element(const std::string& file, int dimension, int entity, const 
 struct Nodes {
   std::unordered_map<std::size_t, Local> local;
   std::vector<Point> points;
+
+  Local of(const std::string& file, std::size_t element, std::size_t tag) const
+  {
+    const auto found = local.find(tag);
+    if (found == local.end()) fail(file, fmt::format("element {} has the node {}, which does not exist", element, tag));
+    return found->second;
+  }
 };
 
 Nodes read_nodes(const Options& options, int dimension)
@@ -87,7 +95,9 @@ Nodes read_nodes(const Options& options, int dimension)
   Nodes nodes;
   for (const std::size_t i : order) {
     nodes.local.emplace(tags[i], static_cast<Local>(nodes.points.size()));
-    nodes.points.push_back(options.scale * Point(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]));
+    const Point x(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
+    if (!x.allFinite()) fail(options.file, fmt::format("node {} has the coordinates ({}, {}, {})", tags[i], x[0], x[1], x[2]));
+    nodes.points.push_back(options.scale * x);
   }
   if (dimension == 2) flatten(options.file, nodes.points);
   return nodes;
@@ -95,7 +105,7 @@ Nodes read_nodes(const Options& options, int dimension)
 
 void read_cells(const Options& options, int dimension, const std::vector<Group>& bodies, const Nodes& nodes, RawMesh& raw)
 {
-  if (bodies.empty() && is_cad(options.file))
+  if (bodies.empty() && is_cad(kind_of(options.file)))
     fail(options.file, fmt::format("holds no {}", dimension == 3 ? "solid: its surfaces enclose no volume that is a body"
                                                                  : "face that could be a body"));
   if (bodies.empty())
@@ -109,7 +119,7 @@ void read_cells(const Options& options, int dimension, const std::vector<Group>&
                                        bodies[static_cast<std::size_t>(at->second)].name, bodies[g].name));
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, dimension);
-  const bool solids = is_cad(options.file);
+  const bool solids = is_cad(kind_of(options.file));
   for (const auto& [dim, entity] : entities) {
     const auto body = owner.find(entity);
     for_each_element(options.file, dimension, entity, [&](CellType type, std::size_t tag, std::span<const std::size_t> tags) {
@@ -117,7 +127,7 @@ void read_cells(const Options& options, int dimension, const std::vector<Group>&
         fail(options.file, fmt::format("element {} lies in entity {}, which belongs to no physical {}; add the entity to a body",
                                        tag, entity, dimension == 3 ? "volume" : "surface"));
       std::vector<Local> cell;
-      for (const std::size_t t : tags) cell.push_back(nodes.local.at(t));
+      for (const std::size_t t : tags) cell.push_back(nodes.of(options.file, tag, t));
       raw.cells.add(type, cell);
       raw.tag.push_back(tag);
       raw.volume.push_back(body->second);
@@ -130,9 +140,10 @@ void read_cells(const Options& options, int dimension, const std::vector<Group>&
 // The faces of an entity.
 void add_faces(const Options& options, int dimension, int entity, const Nodes& nodes, RawMesh::Boundary& boundary)
 {
-  for_each_element(options.file, dimension, entity, [&](CellType type, std::size_t, std::span<const std::size_t> tags) {
+  for_each_element(options.file, dimension, entity, [&](CellType type, std::size_t tag, std::span<const std::size_t> tags) {
     std::vector<Local> corners;
-    for (const std::size_t tag : tags.first(static_cast<std::size_t>(corner_count(type)))) corners.push_back(nodes.local.at(tag));
+    for (const std::size_t t : tags.first(static_cast<std::size_t>(corner_count(type))))
+      corners.push_back(nodes.of(options.file, tag, t));
     boundary.faces.push_back(face_key(corners));
   });
 }
@@ -156,11 +167,10 @@ void add_cad_faces(const Options& options, int dimension, const std::vector<Grou
     }
 }
 
-RawMesh read_gmsh(const Options& options, int dimension)
+}  // namespace
+
+RawMesh take_from_gmsh(const Options& options, int dimension)
 {
-  const MeshFile file(options, dimension);
-  const GmshSession gmsh_session({});
-  if (const auto error = gmsh_session.load(file.path(), dimension); !error.empty()) fail(options.file, "gmsh: " + error);
   const auto bodies = groups(dimension);
   Nodes nodes = read_nodes(options, dimension);
   RawMesh raw;
@@ -171,16 +181,16 @@ RawMesh read_gmsh(const Options& options, int dimension)
     for (const int entity : group.entities) add_faces(options, dimension - 1, entity, nodes, boundary);
     raw.boundaries.push_back(std::move(boundary));
   }
-  if (is_cad(options.file)) add_cad_faces(options, dimension, bodies, nodes, raw);
+  if (is_cad(kind_of(options.file))) add_cad_faces(options, dimension, bodies, nodes, raw);
   raw.points = std::move(nodes.points);
   return raw;
 }
 
-}  // namespace
-
 Assembly read(const Options& options, int dimension)
 {
-  return assemble(is_abaqus(options.file) ? read_abaqus(options, dimension) : read_gmsh(options, dimension), options, dimension);
+  check_file(options.file);
+  const bool abaqus = kind_of(options.file) == FileKind::abaqus;
+  return assemble(abaqus ? read_abaqus(options, dimension) : read_gmsh(options, dimension), options, dimension);
 }
 
 }  // namespace mortise::mesh

@@ -31,6 +31,8 @@ struct Options {
   std::map<std::string, double> constants;     ///< gmsh's -setnumber, for files that gmsh meshes
   SizeOptions size;                            ///< for files that gmsh meshes
   std::optional<int> order;                    ///< of the cells, for files that gmsh meshes
+  double time_limit = 3600;                    ///< seconds that gmsh may take
+  bool allow_scripts = false;                  ///< of the command line: a .geo may start programs and write files
   double scale = 1.0;                          ///< coordinates of the file or of the blocks are multiplied by this
   std::map<std::string, BlockOptions> blocks;  ///< by body name
 
