@@ -58,7 +58,7 @@ Memory foresee_memory(const Deck& deck, const partition::Decomposition& decompos
   collectively(comm, [&] {
     if (copies.empty()) return;
     const auto& subdomain = decomposition.subdomains[largest];
-    const auto lower = fem::stiffness(subdomain.mesh, model.materials(subdomain), deck.kinematics, model.formulation(subdomain));
+    const auto lower = model.stiffness(subdomain);
     const auto bytes = static_cast<double>(feti::ElasticSubdomain::foreseen_factor_bytes(
         lower, fem::rigid_motions(subdomain.mesh.points, deck.kinematics), subdomain.mesh.points, dimension));
     const double once = scaled / of_nested_dissection(unknowns(largest), dimension);

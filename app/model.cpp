@@ -198,13 +198,22 @@ std::vector<partition::CopyOf> Model::congruent() const
                               deck_.axisymmetric() ? partition::Motions::along_y : partition::Motions::rigid);
 }
 
+SparseMatrix Model::stiffness(const partition::Subdomain& subdomain) const
+{
+  try {
+    return fem::stiffness(subdomain.mesh, materials(subdomain), deck_.kinematics, formulation(subdomain));
+  } catch (const Error& error) {
+    const auto& body = decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];
+    throw Error(error.status(), fmt::format("body \"{}\": {}", body.name, error.what()));
+  }
+}
+
 std::vector<SparseMatrix> Model::stiffness(const std::vector<partition::CopyOf>& copies) const
 {
   std::vector<SparseMatrix> result(copies.size());
   for (std::size_t s = 0; s < copies.size(); ++s) {
     if (copies[s].original != s) continue;
-    const auto& subdomain = decomposition_.subdomains[s];
-    result[s] = fem::stiffness(subdomain.mesh, materials(subdomain), deck_.kinematics, formulation(subdomain));
+    result[s] = stiffness(decomposition_.subdomains[s]);
   }
   return result;
 }

@@ -27,6 +27,8 @@ class Model {
   double temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const;
   /// For each subdomain the first one of this rank with the same shape and material.
   std::vector<partition::CopyOf> congruent() const;
+  /// Stiffness of a subdomain: its lower triangle. Errors name the body.
+  SparseMatrix stiffness(const partition::Subdomain& subdomain) const;
   /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.
   std::vector<SparseMatrix> stiffness(const std::vector<partition::CopyOf>& copies) const;
   /// Consistent loads of every subdomain. Collective.

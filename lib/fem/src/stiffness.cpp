@@ -77,16 +77,16 @@ Sparse pattern(const Adjacency& graph, int d)
   return k;
 }
 
-void require_positive(const CellGeometry& cell, Global cell_id)
+void require_positive(const CellGeometry& cell)
 {
   for (const double volume : cell.volumes()) {
     if (volume > 0) continue;
     const auto& x = cell.coordinates();
     const auto n = static_cast<std::size_t>(cell.element().nodes);
     throw Error(ExitStatus::bad_input,
-                fmt::format("cell {} near ({:.4g}, {:.4g}, {:.4g}) is turned inside out or too distorted (its Jacobian "
+                fmt::format("a cell near ({:.4g}, {:.4g}, {:.4g}) is turned inside out or too distorted (its Jacobian "
                             "is not positive); improve the mesh there",
-                            cell_id, x[0], x[n], x.size() > 2 * n ? x[2 * n] : 0.0));
+                            x[0], x[n], x.size() > 2 * n ? x[2 * n] : 0.0));
   }
 }
 
@@ -155,7 +155,7 @@ Sparse stiffness(const mesh::Mesh& mesh, const Materials& materials, Kinematics 
     const std::size_t place = materials.place(c);
     if (computed_with != &cell.element() || computed_of != place || !is_translate(cell.coordinates(), computed_for, kinematics)) {
       cell.evaluate();
-      require_positive(cell, mesh.cell_id[c]);
+      require_positive(cell);
       computed_with = &cell.element();
       computed_for = cell.coordinates();
       computed_of = place;

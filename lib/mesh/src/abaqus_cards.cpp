@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 
 #include "abaqus_elements.hpp"
 #include "abaqus_reader.hpp"
@@ -57,6 +58,7 @@ double AbaqusReader::value(const std::string& word, int line) const
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
   if (error != std::errc() || end != text.data() + text.size())
     complain(line, fmt::format("expected a coordinate, found \"{}\"", word));
+  if (!std::isfinite(result)) complain(line, fmt::format("expected a finite coordinate, found \"{}\"", word));
   return result;
 }
 
@@ -136,6 +138,16 @@ void AbaqusReader::begin(const std::string& line)
   if (d > dimension_) complain(line_, "a plane model cannot have elements with a volume");
 }
 
+// Short lines can name more numbers than there is memory for; those of nodes and elements in the file are fewer than its bytes.
+void AbaqusReader::take_members(long long count)
+{
+  if (count > most_members_ - members_)
+    complain(line_, fmt::format("this set would hold {} numbers, together with those before more than nodes and elements that a "
+                                "file of this length can have",
+                                count));
+  members_ += count;
+}
+
 void AbaqusReader::add_to_set(std::map<std::string, Numbers>& sets, const std::vector<std::string>& words)
 {
   auto& set = sets[known_name(card_.parameters[card_.name])];
@@ -143,7 +155,8 @@ void AbaqusReader::add_to_set(std::map<std::string, Numbers>& sets, const std::v
     if (words.size() < 2) complain(line_, "expected first, last and step");
     const auto first = number(words[0], line_), last = number(words[1], line_),
                step = words.size() > 2 ? number(words[2], line_) : 1;
-    if (step < 1 || last < first || (last - first) / step > 200000000) complain(line_, "expected first <= last and a step > 0");
+    if (step < 1 || last < first || first < 0) complain(line_, "expected 0 <= first <= last and a step > 0");
+    take_members((last - first) / step + 1);
     for (auto n = first; n <= last; n += step) set.push_back(n);
     return;
   }
@@ -156,6 +169,7 @@ void AbaqusReader::add_to_set(std::map<std::string, Numbers>& sets, const std::v
     const auto other = sets.find(known_name(word));
     if (other == sets.end()) complain(line_, fmt::format("there is no set \"{}\" before this line", word));
     const auto copy = other->second;
+    take_members(static_cast<long long>(copy.size()));
     set.insert(set.end(), copy.begin(), copy.end());
   }
 }
@@ -170,6 +184,7 @@ void AbaqusReader::data(const std::string& line)
     for (std::size_t c = 0; c < 3 && c + 1 < words.size(); ++c)
       if (!words[c + 1].empty()) x[static_cast<Eigen::Index>(c)] = value(words[c + 1], line_);
     const auto n = number(words[0], line_);
+    if (n < 1) complain(line_, fmt::format("expected the number of a node, found {}", n));
     if (!node_.emplace(n, static_cast<Local>(points_.size())).second) complain(line_, fmt::format("node {} is given twice", n));
     points_.push_back(options_.scale * x);
     if (card_.has("NSET")) node_sets_[known_name(card_.parameters["NSET"])].push_back(n);
@@ -177,6 +192,7 @@ void AbaqusReader::data(const std::string& line)
     for (const auto& word : words) pending_.push_back(number(word, line_));
     if (pending_.size() <= pending_nodes_) return;  // it goes on in the next line
     if (pending_.size() > pending_nodes_ + 1) finish_element();
+    if (pending_[0] < 1) complain(line_, fmt::format("expected the number of an element, found {}", pending_[0]));
     std::vector<Local> nodes;
     for (std::size_t i = 1; i < pending_.size(); ++i) {
       const auto found = node_.find(pending_[i]);
@@ -201,7 +217,8 @@ void AbaqusReader::data(const std::string& line)
       if (std::isdigit(static_cast<unsigned char>(words[0][0])))
         set.push_back(number(words[0], line_));
       else if (const auto other = node_sets_.find(known_name(words[0])); other != node_sets_.end())
-        set.insert(set.end(), other->second.begin(), other->second.end());
+        take_members(static_cast<long long>(other->second.size())),
+            set.insert(set.end(), other->second.begin(), other->second.end());
       else
         complain(line_, fmt::format("there is no set of nodes \"{}\" before this line", words[0]));
       return;

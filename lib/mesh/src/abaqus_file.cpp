@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 
 #include "abaqus_elements.hpp"
@@ -174,6 +175,8 @@ RawMesh AbaqusReader::read()
 {
   std::ifstream stream(options_.file);
   if (!stream) fail(options_.file, "there is no such file, or it cannot be read");
+  std::error_code ignored;
+  most_members_ = 1000000 + 20 * static_cast<long long>(std::filesystem::file_size(options_.file, ignored));
   for (std::string line; !over_ && std::getline(stream, line);) {
     ++line_;
     if (line.rfind("**", 0) == 0 || trimmed(line).empty()) continue;

@@ -49,6 +49,7 @@ class AbaqusReader {
   void begin(const std::string& line);
   void data(const std::string& line);
   void finish_element();
+  void take_members(long long count);
   void add_to_set(std::map<std::string, Numbers>& sets, const std::vector<std::string>& words);
   const std::string& known_name(const std::string& name);
   std::vector<std::string> bodies() const;
@@ -79,6 +80,7 @@ class AbaqusReader {
   std::map<std::string, std::string> spelling_;  // names are the same in capitals
   std::set<std::string> left_out_;
   std::string open_surface_;
+  long long members_ = 0, most_members_ = 0;  // of sets that lines name by ranges and by other sets
 };
 
 }  // namespace mortise::mesh

@@ -70,6 +70,25 @@ std::vector<Local> turned(CellType type, std::span<const Local> nodes)
   return result;
 }
 
+// Corners of a face that are neighbours: two nodes in one place, which are meant to be one.
+void require_edges(const RawMesh& raw, std::size_t cell, double size, const std::string& file)
+{
+  const auto nodes = raw.cells[cell];
+  for (const auto& face : faces(first_order(raw.cells.type[cell])))
+    for (std::size_t i = 0; i < face.nodes.size(); ++i) {
+      const auto at = [&](std::size_t k) {
+        return raw.points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(face.nodes[k % face.nodes.size()])])];
+      };
+      const Point x = at(i);
+      if ((at(i + 1) - x).stableNorm() > 1e-9 * size) continue;
+      fail(file,
+           fmt::format("element {} ({}) of body \"{}\" has two nodes in one place, ({:.6g}, {:.6g}, {:.6g}); let it name one of "
+                       "them twice (a wedge as a brick, a triangle as a quadrilateral) or merge them",
+                       raw.tag[cell], name(raw.cells.type[cell]), raw.volumes[static_cast<std::size_t>(raw.volume[cell])], x[0],
+                       x[1], x[2]));
+    }
+}
+
 // Cells turned inside out are turned back; such without volume are an error.
 void orient(RawMesh& raw, const Options& options, int dimension)
 {
@@ -83,6 +102,7 @@ void orient(RawMesh& raw, const Options& options, int dimension)
       low = low.cwiseMin(raw.points[static_cast<std::size_t>(n)]);
       high = high.cwiseMax(raw.points[static_cast<std::size_t>(n)]);
     }
+    require_edges(raw, c, (high - low).maxCoeff(), options.file);
     if (std::abs(volume) <= 1e-12 * std::pow((high - low).maxCoeff(), dimension))
       fail(options.file, fmt::format("element {} ({}) of body \"{}\" has no volume; improve the mesh there", raw.tag[c],
                                      name(type), raw.volumes[static_cast<std::size_t>(raw.volume[c])]));

@@ -1,18 +1,9 @@
 #include "mesh/options.hpp"
 
-#include <fmt/format.h>
-
 #include "file_kind.hpp"
 #include "mesh/cell.hpp"
 
 namespace mortise::mesh {
-
-namespace {
-
-// Of a block: numbers of nodes and faces, and their sums over all blocks and instances, are to fit into 64 bits.
-constexpr double most_cells = 1e12;
-
-}  // namespace
 
 void describe(deck::Description<BlockOptions>& d)
 {
@@ -32,11 +23,6 @@ void describe(deck::Description<BlockOptions>& d)
     for (std::size_t axis = 0; axis < (plane ? 2U : 3U); ++axis)
       if (block.cells[axis] < 1 || !(block.size[axis] > 0))
         document.error(path + (block.cells[axis] < 1 ? ".cells" : ".size"), "expected a positive entry for each axis");
-    double cells = 1;
-    for (std::size_t axis = 0; axis < (plane ? 2U : 3U); ++axis) cells *= block.cells[axis];
-    if (cells > most_cells)
-      document.error(path + ".cells",
-                     fmt::format("{:.3g} cells are more than can be numbered; expected at most {:g}", cells, most_cells));
   });
 }
 

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "child.hpp"
 #include "gmsh_file.hpp"
+#include "mesh/extent.hpp"
 
 namespace mortise::mesh {
 
@@ -86,6 +88,16 @@ void check(const RawMesh& raw, const std::string& file)
   for (const auto& boundary : raw.boundaries)
     for (const auto& face : boundary.faces) sound = sound && in(face, Local{-1}, nodes);
   if (!sound) fail(file, "gmsh made a mesh of it that does not hold together; the file is likely damaged: write it anew");
+  Point low = Point::Constant(HUGE_VAL), high = -low;
+  for (const auto& x : raw.points) {
+    if (!x.allFinite()) fail(file, fmt::format("a node has the coordinates ({}, {}, {}) after mesh.scale", x[0], x[1], x[2]));
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const double size = raw.points.empty() ? 0 : (high - low).maxCoeff();
+  if (size > largest_size || size < smallest_size)
+    fail(file, fmt::format("the mesh is {:.3g} long after mesh.scale; expected {:g} to {:g}: choose another unit of length", size,
+                           smallest_size, largest_size));
 }
 
 }  // namespace mortise::mesh

@@ -35,7 +35,8 @@ class Child;
 void send(const RawMesh& raw, Sender& to);
 RawMesh receive(Child& from);
 
-/// Throws Error(bad_input) if a number stands for what is not there. What a library made of a damaged file may be anything.
+/// Throws Error(bad_input) if a number stands for what is not there, a coordinate is no finite number, or the size is out of
+/// range. What a library made of a damaged file may be anything.
 void check(const RawMesh& raw, const std::string& file);
 
 /// Bricks, wedges and quadrilaterals that name a node several times become the wedges, tetrahedra and triangles that are meant;

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "mesh/blocks.hpp"
+#include "mesh/extent.hpp"
 #include "mesh/instances.hpp"
 #include "mesh/read.hpp"
 #include "mesh/topology.hpp"
@@ -60,7 +61,7 @@ std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std
     largest.pop();
     if (total + copies[b] > *options.subdomains || counts[b] >= static_cast<int>(cells[b].size())) continue;
     total += copies[b];
-    largest.emplace(static_cast<double>(nodes[b]) / ++counts[b], b);
+    if (++counts[b] < nodes[b]) largest.emplace(static_cast<double>(nodes[b]) / counts[b], b);  // no more than there can be cells
   }
   return counts;
 }
@@ -327,6 +328,7 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
     const auto scope = context.timers.scope("mesh");
     collectively(comm, [&] {
       if (mesh.file.empty()) {
+        mesh::require_room(mesh, dimension, grid ? 1.0 / comm.size() : comm.root() ? 1 : 0);
         assembly.catalogue = mesh::block_catalogue(mesh, dimension);
         // Local numbers have 31 bits, and a cell with its nodes takes some 100 bytes of the rank that cuts the mesh.
         const auto largest = std::numeric_limits<Local>::max() / 32;
@@ -335,16 +337,23 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
                       fmt::format("not enough memory to cut a mesh of {} cells in one piece (at most {}); take fewer cells, or "
                                   "decomposition.method grid",
                                   assembly.catalogue.cell_count, largest));
-        layout = layout_of_blocks(mesh, dimension, assembly.catalogue);
       } else if (comm.root()) {
         assembly = mesh::read(mesh, dimension);
-        layout = layout_of_file(mesh, assembly);
       }
+      if (mesh.file.empty())
+        layout = layout_of_blocks(mesh, dimension, assembly.catalogue);
+      else if (comm.root())
+        layout = layout_of_file(mesh, assembly);
     });
     broadcast(layout.catalogue, comm);
-    require_room(layout.catalogue, comm);
+    require_room(layout.catalogue.node_count, layout.catalogue.cell_count, comm);
     collectively(comm, [&] {
-      if (mesh.file.empty() && !grid && comm.root()) assembly.mesh = generate_whole(mesh, dimension, assembly.catalogue);
+      if (mesh.file.empty()) {
+        mesh::require_resolved(layout, mesh::block_extents(mesh, dimension), "mesh.blocks");
+        if (!grid && comm.root()) assembly.mesh = generate_whole(mesh, dimension, assembly.catalogue);
+      } else if (comm.root()) {
+        mesh::require_resolved(layout, mesh::extents(assembly.mesh, assembly.catalogue.bodies.size()), mesh.file);
+      }
     });
     for (const auto& warning : assembly.warnings) context.log.warning("{}: {}", mesh.file, warning);
   }

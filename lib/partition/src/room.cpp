@@ -14,10 +14,9 @@ constexpr double bytes_a_node = 60, bytes_a_cell = 60;
 
 }  // namespace
 
-void require_room(const mesh::Catalogue& catalogue, const Communicator& comm)
+void require_room(Global nodes, Global cells, const Communicator& comm)
 {
-  const double nodes = static_cast<double>(catalogue.node_count), cells = static_cast<double>(catalogue.cell_count);
-  const double needed = bytes_a_node * nodes + bytes_a_cell * cells;
+  const double needed = bytes_a_node * static_cast<double>(nodes) + bytes_a_cell * static_cast<double>(cells);
   MPI_Comm machine = MPI_COMM_NULL;
   MPI_Comm_split_type(comm.mpi(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   int neighbours = 1;
@@ -30,7 +29,7 @@ void require_room(const mesh::Catalogue& catalogue, const Communicator& comm)
       fmt::format(
           "not enough memory: {:.4g} nodes and {:.4g} cells take about {:.3g} GB by themselves, {:.3g} GB more than there "
           "is; take fewer cells (in the mesh or in mesh.blocks), fewer instances, or more machines",
-          nodes, cells, needed / 1e9, excess / 1e9));
+          static_cast<double>(nodes), static_cast<double>(cells), needed / 1e9, excess / 1e9));
 }
 
 }  // namespace mortise::partition

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "base/communicator.hpp"
-#include "mesh/mesh.hpp"
+#include "base/types.hpp"
 
 namespace mortise::partition {
 
-/// Throws Error(machine) if the nodes and cells of `catalogue`, spread over the ranks, need more memory than the machines have.
-/// Collective.
-void require_room(const mesh::Catalogue& catalogue, const Communicator& comm);
+/// Throws Error(machine) if so many nodes and cells, of all instances, spread over the ranks, need more memory than the machines
+/// have. Collective.
+void require_room(Global nodes, Global cells, const Communicator& comm);
 
 }  // namespace mortise::partition

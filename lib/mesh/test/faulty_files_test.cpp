@@ -1,0 +1,196 @@
+// Files that are damaged, that are not what they are called, or that would do more than describe a mesh.
+#include <gmsh.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "base/error.hpp"
+#include "mesh/blocks.hpp"
+#include "mesh/extent.hpp"
+#include "mesh/read.hpp"
+
+namespace mortise::mesh {
+namespace {
+
+std::string path(const std::string& name)
+{
+  const auto directory = std::filesystem::temp_directory_path() / ("mortise_faulty_test_" + std::to_string(getpid()));
+  std::filesystem::create_directories(directory);
+  return (directory / name).string();
+}
+
+std::string write(const std::string& name, const std::string& text)
+{
+  std::ofstream(path(name)) << text;
+  return path(name);
+}
+
+Options options(const std::string& file)
+{
+  Options result;
+  result.file = file;
+  result.time_limit = 60;
+  return result;
+}
+
+// What reading says; "" if it succeeds.
+std::string said(const Options& options, int dimension = 3)
+{
+  try {
+    read(options, dimension);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input) << error.what();
+    EXPECT_EQ(std::string(error.what()).rfind(options.file, 0), 0U) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
+#define EXPECT_SAID(options, words) EXPECT_NE(said(options).find(words), std::string::npos) << said(options)
+
+const std::string box = "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\nPhysical Volume(\"a\") = {1};\n";
+
+// A brick in the format 4.1; `coordinate`: of its last node, `node`: the last one of the cell.
+std::string brick(const std::string& coordinate = "1", const std::string& node = "8")
+{
+  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"a\"\n$EndPhysicalNames\n$Entities\n0 0 0 1\n"
+         "1 0 0 0 1 1 1 1 1 0\n$EndEntities\n$Nodes\n1 8 1 8\n3 1 0 8\n1\n2\n3\n4\n5\n6\n7\n8\n"
+         "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 " +
+         coordinate + "\n$EndNodes\n$Elements\n1 1 1 1\n3 1 5 1\n1 1 2 3 4 5 6 7 " + node + "\n$EndElements\n";
+}
+
+TEST(FaultyFiles, NoMeshFileIsAScript)
+{
+  const auto trace = path("trace");
+  const std::string script = "SystemCall \"touch " + trace + "\";\n" + box;
+  EXPECT_SAID(options(write("evil.msh", script)), "$MeshFormat");
+  EXPECT_SAID(options(write("late.msh", script + brick())), "$MeshFormat");
+  EXPECT_SAID(options(write("evil.step", script)), "ISO-10303-21");
+  EXPECT_SAID(options(write("evil.brep", script)), "CASCADE Topology");
+  EXPECT_SAID(options(write("evil.unknown", script)), "expected .msh");
+  EXPECT_SAID(options(write("evil", script)), "expected .msh");
+  EXPECT_NE(said(options(write("evil.inp", script))), "");
+  EXPECT_NE(said(options(write("then.msh", "$MeshFormat\n" + script))), "");
+  write("aside.msh.opt", script);  // gmsh looks for options beside some files
+  said(options(write("aside.msh", brick())));
+  EXPECT_FALSE(std::filesystem::exists(trace));
+}
+
+TEST(FaultyFiles, ScriptsOnlyDescribeUnlessAllowed)
+{
+  const auto trace = path("trace_of_script");
+  for (const std::string& line :
+       {"SystemCall \"touch " + trace + "\";\n", "Printf(\"x\") > \"" + trace + "\";\n", "Mesh 3; Save \"" + trace + "\";\n"}) {
+    auto given = options(write("script.geo", box + line));
+    EXPECT_SAID(given, "--allow-scripts");
+    EXPECT_FALSE(std::filesystem::exists(trace)) << line;
+    given.allow_scripts = true;
+    EXPECT_EQ(said(given), "");
+    EXPECT_TRUE(std::filesystem::remove(trace)) << line;
+  }
+  EXPECT_EQ(said(options(write("outer.geo", "Include \"" + write("inner.geo", box) + "\";\n"))), "");  // reading is no harm
+}
+
+TEST(FaultyFiles, CausesAreKept)
+{
+  EXPECT_SAID(options(write("syntax.geo", "Point(1) = {0, 0, 0}\n\nPhysical Volume(\"a\") = {1};\n")), "line 3");
+  EXPECT_SAID(options(write("unknown.msh", brick("1", "99"))), "99");
+  EXPECT_NE(said(options(write("negative.msh", brick("1", "-1")))), "");  // gmsh crashes
+  EXPECT_SAID(options(std::filesystem::path(path("x")).parent_path().string()), "is a directory");
+  EXPECT_SAID(options(write("empty.msh", "")), "is empty");
+  EXPECT_EQ(said(options(write("whole.msh", brick()))), "");
+}
+
+TEST(FaultyFiles, NothingIsEndless)
+{
+  EXPECT_SAID(options(write("self.geo", box + "Macro f\nCall f;\nReturn\nCall f;\n")), "line 5: the macro \"f\" calls itself");
+  EXPECT_SAID(options(write("pair.geo", box + "Macro f\nCall g;\nReturn\nMacro g\n/* Call h; */ Call f;\nReturn\nCall f;\n")),
+              "calls itself");
+  EXPECT_EQ(said(options(write("ends.geo", "n = 0;\nMacro f\nn = n + 1;\nIf (n < 3)\nCall f;\nEndIf\nReturn\nCall f;\n" + box))),
+            "");
+  auto loop = options(write("loop.geo", "For i In {1:1000000000}\nx = i;\nEndFor\n" + box));
+  loop.time_limit = 0.5;
+  EXPECT_SAID(loop, "within 0.5 seconds; mesh.time_limit");
+}
+
+TEST(FaultyFiles, CadFilesThatAreCutOff)
+{
+  for (const std::string& name : {"part.brep", "part.step"}) {
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1);
+    gmsh::model::occ::synchronize();
+    gmsh::write(path(name));
+    gmsh::finalize();
+    EXPECT_EQ(said(options(path(name))), "");
+    const auto size = std::filesystem::file_size(path(name));
+    for (const double part : {0.3, 0.7, 0.97}) {
+      std::filesystem::resize_file(path(name), static_cast<std::size_t>(part * static_cast<double>(size)));
+      EXPECT_SAID(options(path(name)), "is cut off");
+    }
+  }
+}
+
+TEST(FaultyFiles, CoordinatesAreNumbers)
+{
+  for (const char* x : {"nan", "inf", "-inf", "1e999"}) {
+    EXPECT_SAID(options(write("x.msh", brick(x))), "node 8 has the coordinates");
+    EXPECT_SAID(options(write("x.inp", std::string("*NODE\n1, 0, 0, 0\n2, 0, ") + x + ", 0\n")), "x.inp:3: expected a");
+  }
+  auto scaled = options(write("scaled.msh", brick("1e300")));
+  EXPECT_SAID(scaled, "1e+300 long");
+  scaled.scale = 1e10;
+  EXPECT_SAID(scaled, "mesh.scale");
+  scaled.file = write("scaled.msh", brick());
+  scaled.scale = 1e-40;
+  EXPECT_SAID(scaled, "1e-40 long");
+}
+
+// Throws what require_resolved says about a unit block of two cells an axis.
+std::string resolved(double origin, double size, const Point& shift = Point::Zero())
+{
+  Options given;
+  given.blocks["a"] = {{origin, 0, 0}, {size, size, size}, {2, 2, 2}, "hex8"};
+  Layout layout;
+  layout.catalogue.bodies.push_back({"a", "a"});
+  layout.bodies.push_back({0, Motion{Eigen::Matrix3d::Identity(), shift}, 0, 0, {}});
+  try {
+    require_resolved(layout, block_extents(given, 3), "mesh.blocks");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Extent, CoordinatesMustTellNodesApart)
+{
+  EXPECT_EQ(resolved(0, 1), "");
+  EXPECT_EQ(resolved(1e9, 1), "");
+  EXPECT_EQ(resolved(0, 1e20), "");
+  EXPECT_EQ(resolved(0, 1e-20), "");
+  EXPECT_NE(resolved(1e11, 1).find("move the model nearer"), std::string::npos);
+  EXPECT_NE(resolved(0, 1, {0, 1e15, 0}).find("move the model nearer"), std::string::npos);
+  EXPECT_NE(resolved(0, 1e78).find("another unit of length"), std::string::npos);
+  EXPECT_NE(resolved(0, 1e-82).find("another unit of length"), std::string::npos);
+  EXPECT_NE(resolved(1e308, 1e308).find("no finite numbers"), std::string::npos);
+  EXPECT_NE(resolved(0, 1, {HUGE_VAL, 0, 0}).find("no finite numbers"), std::string::npos);
+  EXPECT_NE(resolved(std::numeric_limits<double>::quiet_NaN(), 1).find("no finite numbers"), std::string::npos);
+}
+
+TEST(Extent, BlocksMustHaveRoom)
+{
+  Options given;
+  given.blocks["a"] = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, "hex8"};
+  EXPECT_NO_THROW(require_room(given, 3, 1));
+  given.blocks["a"].cells = {2000000000, 2000000000, 2000000000};
+  EXPECT_THROW(require_room(given, 3, 0), Error);  // numbers would overflow
+  given.blocks["a"].cells = {20000, 20000, 20000};
+  EXPECT_THROW(require_room(given, 3, 1), Error);
+}
+
+}  // namespace
+}  // namespace mortise::mesh
