@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <Tpetra_Core.hpp>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -35,9 +36,10 @@ std::string read_text(const std::string& file, const Communicator& comm)
     if (std::filesystem::is_directory(file)) throw Error(ExitStatus::bad_input, file + ": is a directory; expected a deck");
     std::ifstream stream(file);
     if (!stream) throw Error(ExitStatus::bad_input, file + ": cannot be read: " + std::strerror(errno));
-    text.resize(longest_deck + 1);
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
+    for (std::array<char, 4096> part; stream && text.size() <= longest_deck;) {
+      stream.read(part.data(), part.size());
+      text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    }
     if (text.size() > longest_deck)
       throw Error(ExitStatus::bad_input, fmt::format("{}: is longer than {} MB, which no deck is; expected a text of some pages "
                                                      "(meshes are named in it, by mesh.file)",

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "scan.hpp"
+
 namespace mortise::deck {
 
 namespace {
@@ -91,7 +93,14 @@ void Codec<std::string>::read(std::string& value, const YAML::Node& node, const 
     document.error(path, "expected a word, found " + found(node));
     return;
   }
-  value = node.Scalar();
+  const auto& word = node.Scalar();
+  const auto control = std::find_if(word.begin(), word.end(), is_control);  // by an escape such as "\0", within quotes
+  if (control != word.end()) {
+    document.error(path, fmt::format("character {} of the value is no text (code {:#04x}); remove it", control - word.begin() + 1,
+                                     static_cast<unsigned char>(*control)));
+    return;
+  }
+  value = word;
   if (limits.names.empty() || std::find(limits.names.begin(), limits.names.end(), value) != limits.names.end()) return;
   if (std::find(limits.future.begin(), limits.future.end(), value) != limits.future.end())
     document.error(path, fmt::format("\"{}\" is not available in this version of Mortise (there {} {})", value,

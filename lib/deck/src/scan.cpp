@@ -132,6 +132,8 @@ class Walk : public YAML::EventHandler {
     if (value.size() > longest_name)
       keep(flaw(mark, fmt::format("a key of {} characters, \"{}...\"; expected at most {}", value.size(), value.substr(0, 30),
                                   longest_name)));
+    if (std::any_of(value.begin(), value.end(), is_control))
+      keep(flaw(mark, "a key has characters that are no text; remove them"));
     if (std::any_of(value.begin(), value.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }))
       keep(flaw(mark, fmt::format("the key \"{}...\" goes over several lines; look for quotes that are not closed",
                                   value.substr(0, value.find_first_of("\n\r\t")))));
@@ -160,6 +162,12 @@ class Walk : public YAML::EventHandler {
 
 }  // namespace
 
+bool is_control(char c)
+{
+  const auto code = static_cast<unsigned char>(c);
+  return (code < ' ' && c != '\t' && c != '\r' && c != '\n') || code == 0x7f;
+}
+
 Scan scan(const std::string& text)
 {
   std::istringstream stream(text);
@@ -183,9 +191,10 @@ std::optional<Flaw> foreign_characters(const std::string& text)
     } catch (const nlohmann::json::exception&) {
       return Flaw{number, "", "this line is not UTF-8; save the deck in that encoding"};
     }
-    for (std::size_t i = 0; i < line.size(); ++i)
-      if (const auto c = static_cast<unsigned char>(line[i]); (c < ' ' && c != '\t' && c != '\r') || c == 0x7f)
-        return Flaw{number, "", fmt::format("character {} of this line is no text (code {:#04x}); remove it", i + 1, c)};
+    if (const auto found = std::find_if(line.begin(), line.end(), is_control); found != line.end())
+      return Flaw{number, "",
+                  fmt::format("character {} of this line is no text (code {:#04x}); remove it", found - line.begin() + 1,
+                              static_cast<unsigned char>(*found))};
   }
   return {};
 }

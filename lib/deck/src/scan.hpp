@@ -19,6 +19,9 @@ struct Scan {
   std::optional<Flaw> flaw;  ///< the first
 };
 
+/// Whether a character is none of a text: not those that end lines, and no tab.
+bool is_control(char c);
+
 /// The first document in `text`. Throws YAML::Exception where it is no YAML; needs memory of the text's size.
 Scan scan(const std::string& text);
 

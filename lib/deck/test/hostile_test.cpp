@@ -9,6 +9,7 @@ namespace mortise::deck {
 namespace {
 
 struct Tree {
+  std::string title;
   double height = 1;
   int age = 1;
   std::vector<Tree> children;
@@ -17,6 +18,7 @@ struct Tree {
 void describe(Description<Tree>& d)
 {
   d.help("A tree.");
+  d.key("title", &Tree::title, "Name.");
   d.key("height", &Tree::height, "Height.");
   d.key("age", &Tree::age, "Years.");
   d.custom(
@@ -128,6 +130,13 @@ TEST(Hostile, CharactersThatAreNoText)
   expect_complaint(std::string("height: 3\nage: 1\0 2\n", 19), "tree.yaml:2: character 7 of this line is no text (code 0x00)");
   expect_complaint("height: \xc3\x28\n", "tree.yaml:1: this line is not UTF-8");
   EXPECT_EQ(complaints("\xef\xbb\xbfheight: 3\r\nage: 2\r\n"), "");  // as some editors save it
+}
+
+TEST(Hostile, EscapesThatAreNoText)
+{
+  expect_complaint("title: \"a\\0b\"\n", "tree.yaml:1: title: character 2 of the value is no text (code 0x00)");
+  expect_complaint("children:\n  - {\"he\\x04ight\": 3}\n", "tree.yaml:2: children[0]: a key has characters that are no text");
+  EXPECT_EQ(read_tree("title: \"two\\nlines\"\n").title, "two\nlines");
 }
 
 TEST(Hostile, NumbersThatAreNone)
