@@ -39,10 +39,7 @@ struct InstanceOptions {
   std::vector<InstanceOptions> of;
 };
 
-/// How many copies there are.
-double count_of(const std::vector<InstanceOptions>& instances);
-
-/// The motion of every copy; to be asked for only if count_of is at most most_instances: entry by entry; in each, power by power of M, all of `of`.
+/// The motion of every copy: entry by entry; in each, power by power of M, all of `of`.
 std::vector<Motion> motions(const std::vector<InstanceOptions>& instances);
 
 /// How many these are; a number without bounds, to be asked before they are made.
