@@ -158,7 +158,7 @@ def judge(done, names, directory=None):
     complaints = []
     if done.resident > RESIDENT:
         complaints.append(f"memory: {done.resident / 1e9:.1f} GB")
-    if found := FOREIGN.search(done.err):
+    if found := FOREIGN.search(re.sub(r"gmsh crashed \([^)]*\)", "", done.err)):  # in a process of its own
         complaints.append(f"message: it holds {found[0]!r}")
     if found := NOT_A_NUMBER.search(re.sub(r'"[^"\n]*"', "", done.out + done.err)):
         complaints.append(f"message: it holds {found[0]!r}")
