@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/error.hpp"
+#include "gmsh_file.hpp"
 #include "raw_mesh.hpp"
 
 namespace mortise::mesh {
@@ -40,10 +40,7 @@ class AbaqusReader {
     std::string side;
     int line;
   };
-  [[noreturn]] void complain(int line, const std::string& what) const
-  {
-    throw Error(ExitStatus::bad_input, fmt::format("{}:{}: {}", options_.file, line, what));
-  }
+  [[noreturn]] void complain(int line, const std::string& what) const { fail(fmt::format("{}:{}", options_.file, line), what); }
   long long number(const std::string& word, int line) const;
   double value(const std::string& word, int line) const;
   void begin(const std::string& line);

@@ -30,7 +30,7 @@ constexpr char result_follows = 'R', error_follows = 'E';
 
 // The rest is of the child alone.
 int error_pipe = -1;
-bool work_is_sent = false;
+bool work_is_sent = false, limited_by_file = false;
 std::string file_of_child, remedy_of_child;  // made before anything can go wrong
 constexpr std::size_t most_words = 4096;
 
@@ -71,7 +71,11 @@ void send_current_exception()
   } catch (const Error& error) {
     send_error(error.status(), error.what());
   } catch (const std::bad_alloc&) {
-    send_error(ExitStatus::machine, prefix + "it took more memory than the machine has for it");
+    if (limited_by_file)
+      send_error(ExitStatus::bad_input,
+                 prefix + "it takes more memory than a file of this length can mean; it is likely damaged: write it anew");
+    else
+      send_error(ExitStatus::machine, prefix + "it took more memory than the machine has for it");
   } catch (const std::string& said) {
     send_error(ExitStatus::bad_input, prefix + said);
   } catch (const std::exception& said) {
@@ -177,7 +181,9 @@ Child::Child(Task task, const std::function<void(Sender&)>& work)
     std::set_terminate(tell_and_exit);
     stand_alone(parent);
     limit(RLIMIT_CORE, 0);
-    if (std::isfinite(memory)) limit(RLIMIT_DATA, data_segment() + memory);
+    limited_by_file = task_.memory > 0 && task_.memory < memory;
+    const double room = limited_by_file ? task_.memory : memory;
+    if (std::isfinite(room)) limit(RLIMIT_DATA, data_segment() + room);
     try {
       Sender sender(error_pipe);
       work(sender);

@@ -19,6 +19,7 @@ struct Task {
   double seconds = 3600;    ///< until the process is stopped
   std::string longer;       ///< how to have more seconds
   std::string after_crash;  ///< advice if it crashes
+  double memory = 0;        ///< bytes that no file like this can need; 0: what the machine has
 };
 
 /// The child's end of the pipe.

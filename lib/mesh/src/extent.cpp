@@ -22,6 +22,23 @@ constexpr double allowed_rounding = 1e-6;  // of the shortest edge
   throw Error(ExitStatus::bad_input, fmt::format("{}: body \"{}\" {}", source, body, what));
 }
 
+// At least: number and place, and a row of Cells.
+constexpr double bytes_a_node = sizeof(Global) + sizeof(Point), bytes_a_cell = sizeof(Global) + 2 * sizeof(Local);
+constexpr double most_numbers = 9e18, most_pieces = 6;  // 63 bits; of a grid cell as tetrahedra
+
+[[noreturn]] void not_enough(double cells, const std::string& what, const std::string& details)
+{
+  throw Error(ExitStatus::machine,
+              fmt::format("not enough {} for the mesh of {:.3g} cells{}; take fewer cells", what, cells, details));
+}
+
+void require_bytes(double cells, double bytes)
+{
+  const double room = available_memory();
+  if (bytes > room)
+    not_enough(cells, "memory", fmt::format(": it alone takes {:.1f} GB, and {:.1f} GB are left", bytes / 1e9, room / 1e9));
+}
+
 // Where the corners of the box are moved.
 Extent moved(const Extent& extent, const std::optional<Motion>& motion)
 {
@@ -99,27 +116,24 @@ void require_resolved(const Layout& layout, const std::vector<Extent>& of_parts,
   }
 }
 
-void require_room(const Options& options, int dimension, double share)
+void require_room(const Options& options, int dimension, bool whole)
 {
-  constexpr double most = 1e18;  // numbers of nodes and cells have 63 bits
   double all = 0, bytes = 0;
   for (const auto& [name, block] : options.blocks) {
     const auto type = cell_type(block.element).value();
     const double cells = 1.0 * block.cells[0] * block.cells[1] * (dimension == 3 ? block.cells[2] : 1);
-    // A grid cell has at least so many nodes of its own (coordinates, number) and the cells made of it name theirs.
-    const double nodes = type == first_order(type) ? 1 : 3;
-    all += cells;
-    bytes += cells * (nodes * (sizeof(Point) + sizeof(Global)) + sizeof(Local) * static_cast<double>(node_count(type)) + 16);
+    const auto copies = options.instances.find(name);
+    all += cells * (copies == options.instances.end() ? 1.0 : static_cast<double>(copies->second.size()));
+    bytes += cells * (bytes_a_node + bytes_a_cell + sizeof(Local) * static_cast<double>(node_count(type)));
   }
-  if (!(8 * all < most))
-    throw Error(ExitStatus::machine, fmt::format("not enough memory: mesh.blocks have {:.3g} cells; take fewer", all));
-  const double room = available_memory();
-  if (share * bytes > room)
-    throw Error(
-        ExitStatus::machine,
-        fmt::format("not enough memory: the {:.3g} cells of mesh.blocks alone take {:.1f} GB on a rank, and {:.1f} GB are "
-                    "left; take fewer cells, or more machines",
-                    all, share * bytes / 1e9, room / 1e9));
+  if (8 * most_pieces * all > most_numbers) not_enough(all, "numbers", "");
+  if (whole) require_bytes(all, bytes);
+}
+
+void require_room(const Catalogue& assembly, int ranks)
+{
+  const auto cells = static_cast<double>(assembly.cell_count), nodes = static_cast<double>(assembly.node_count);
+  require_bytes(cells, (cells * (bytes_a_cell + 4 * sizeof(Local)) + nodes * bytes_a_node) / ranks);
 }
 
 }  // namespace mortise::mesh

@@ -4,6 +4,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <vector>
 
@@ -15,7 +16,10 @@ namespace mortise::mesh {
 
 void fail(const std::string& file, const std::string& what)
 {
-  throw Error(ExitStatus::bad_input, file + ": " + what);
+  auto text = what.substr(0, 1000);  // damaged files have long words, and such that a terminal obeys
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+  throw Error(ExitStatus::bad_input, file + ": " + text);
 }
 
 GmshSession::GmshSession(const std::map<std::string, double>& constants)
@@ -35,20 +39,27 @@ GmshSession::GmshSession(const std::map<std::string, double>& constants)
 
 namespace {
 
-// The first error that gmsh logged, which is the cause of those that follow; "" if there is none.
+// The first error that gmsh logged, which is the cause of those that follow; "" if there is none. Where it says no more than that
+// there was one, the first warning says more.
 std::string logged_error()
 {
   std::vector<std::string> log;
   gmsh::logger::get(log);
-  std::string first;
+  std::string first, warning;
   std::size_t more = 0;
+  const auto text = [](const std::string& line) {
+    return line.substr(std::min(line.find_first_not_of(": ", line.find(':')), line.size()));
+  };
   for (const auto& line : log) {
+    if (line.starts_with("Warning") && warning.empty()) warning = text(line);
     if (!line.starts_with("Error")) continue;
     if (first.empty())
-      first = line.substr(std::min(line.find_first_not_of(": ", 5), line.size()));
+      first = text(line);
     else
       ++more;
   }
+  if (first.starts_with("Error loading"))
+    return warning.empty() ? "cannot load it: the file is cut off or damaged" : "cannot load it: " + warning;
   return more == 0 ? first : fmt::format("{} (and {} more errors)", first, more);
 }
 
@@ -129,11 +140,20 @@ void GmshSession::mesh(const std::string& file, int dimension) const
 
 namespace {
 
-// Seconds of processor time in which any file of a kind whose reading takes time by its length alone is read many times over.
-double reading_seconds(const std::string& file)
+// Seconds of processor time in which any file whose reading takes time by its length alone is read many times over.
+double reading_seconds(double file_size)
+{
+  return 10 + 20e-6 * file_size;
+}
+// And bytes for reading a mesh.
+double reading_memory(double file_size)
+{
+  return 1e9 + 100 * file_size;
+}
+double size_of(const std::string& file)
 {
   std::error_code ignored;
-  return 10 + 20e-6 * static_cast<double>(std::filesystem::file_size(file, ignored));
+  return static_cast<double>(std::filesystem::file_size(file, ignored));
 }
 
 void work(const Options& options, int dimension, Sender& sender)
@@ -144,7 +164,7 @@ void work(const Options& options, int dimension, Sender& sender)
   if (!options.allow_scripts)
     confine_child(" (SystemCall, Save, Printf >> file and the like); if you trust it, run with --allow-scripts",
                   kind == FileKind::geo);
-  if (kind != FileKind::geo) limit_processor_time(reading_seconds(options.file));
+  if (kind != FileKind::geo) limit_processor_time(reading_seconds(size_of(options.file)));
   session.open(options.file);
   limit_processor_time(0);
   if (is_geometry(kind)) session.mesh(options.file, dimension);
@@ -159,6 +179,7 @@ RawMesh read_gmsh(const Options& options, int dimension)
   Task task{
       options.file, geometry ? "mesh" : "read", options.time_limit, "; mesh.time_limit allows more",
       geometry ? "try it in gmsh itself, with another mesh algorithm or size" : "the file is likely damaged; write it anew"};
+  if (!geometry) task.memory = reading_memory(size_of(options.file));
   Child child(task, [&](Sender& sender) { work(options, dimension, sender); });
   return receive(child);
 }

@@ -185,11 +185,14 @@ TEST(Extent, BlocksMustHaveRoom)
 {
   Options given;
   given.blocks["a"] = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, "hex8"};
-  EXPECT_NO_THROW(require_room(given, 3, 1));
-  given.blocks["a"].cells = {2000000000, 2000000000, 2000000000};
-  EXPECT_THROW(require_room(given, 3, 0), Error);  // numbers would overflow
+  EXPECT_NO_THROW(require_room(given, 3, true));
   given.blocks["a"].cells = {20000, 20000, 20000};
-  EXPECT_THROW(require_room(given, 3, 1), Error);
+  EXPECT_NO_THROW(require_room(given, 3, false));  // pieces of a grid may fit
+  EXPECT_THROW(require_room(given, 3, true), Error);
+  EXPECT_THROW(require_room(block_catalogue(given, 3), 2), Error);
+  EXPECT_NO_THROW(require_room(block_catalogue(given, 3), 1000000));
+  given.blocks["a"].cells = {2000000000, 2000000000, 2000000000};
+  EXPECT_THROW(require_room(given, 3, false), Error);  // numbers would overflow
 }
 
 }  // namespace

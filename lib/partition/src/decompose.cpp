@@ -16,7 +16,6 @@
 #include "mesh/instances.hpp"
 #include "mesh/read.hpp"
 #include "mesh/topology.hpp"
-#include "room.hpp"
 #include "transfer.hpp"
 
 namespace mortise::partition {
@@ -328,7 +327,7 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
     const auto scope = context.timers.scope("mesh");
     collectively(comm, [&] {
       if (mesh.file.empty()) {
-        mesh::require_room(mesh, dimension, grid ? 1.0 / comm.size() : comm.root() ? 1 : 0);
+        mesh::require_room(mesh, dimension, !grid && comm.root());
         assembly.catalogue = mesh::block_catalogue(mesh, dimension);
         // Local numbers have 31 bits, and a cell with its nodes takes some 100 bytes of the rank that cuts the mesh.
         const auto largest = std::numeric_limits<Local>::max() / 32;
@@ -344,10 +343,7 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
         layout = layout_of_blocks(mesh, dimension, assembly.catalogue);
       else if (comm.root())
         layout = layout_of_file(mesh, assembly);
-    });
-    broadcast(layout.catalogue, comm);
-    require_room(layout.catalogue.node_count, layout.catalogue.cell_count, comm);
-    collectively(comm, [&] {
+      if (comm.root()) mesh::require_room(layout.catalogue, comm.size());
       if (mesh.file.empty()) {
         mesh::require_resolved(layout, mesh::block_extents(mesh, dimension), "mesh.blocks");
         if (!grid && comm.root()) assembly.mesh = generate_whole(mesh, dimension, assembly.catalogue);
@@ -355,6 +351,7 @@ Decomposition decompose(const mesh::Options& mesh, const Options& options, int d
         mesh::require_resolved(layout, mesh::extents(assembly.mesh, assembly.catalogue.bodies.size()), mesh.file);
       }
     });
+    broadcast(layout.catalogue, comm);
     for (const auto& warning : assembly.warnings) context.log.warning("{}: {}", mesh.file, warning);
   }
   const auto scope = context.timers.scope("partition");

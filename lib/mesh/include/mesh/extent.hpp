@@ -28,8 +28,9 @@ inline constexpr double smallest_size = 1e-30, largest_size = 1e30;
 /// "mesh.blocks", stands in front of the message.
 void require_resolved(const Layout& layout, const std::vector<Extent>& of_parts, const std::string& source);
 
-/// Throws Error(machine) if the blocks have more cells than can be numbered, or a `share` of them does not fit into this
-/// machine's memory: to be asked before they are made.
-void require_room(const Options& options, int dimension, double share);
+/// Throws Error(machine) if there are more cells than can be numbered, or they do not fit into this machine's memory: the blocks
+/// as one piece (`whole`), and a rank's share of the assembly. To be asked before they are made.
+void require_room(const Options& blocks, int dimension, bool whole);
+void require_room(const Catalogue& assembly, int ranks);
 
 }  // namespace mortise::mesh
