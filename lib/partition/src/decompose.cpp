@@ -41,10 +41,10 @@ std::vector<Global> deal(const std::vector<long long>& weight, const std::vector
   return first;
 }
 
-// How many subdomains each part gets, of which there are `copies`. A total is met as far as copies and cells allow: the next ones
-// go where subdomains are largest.
-std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std::vector<std::vector<Local>>& cells,
-                                  const std::vector<int>& copies, int dimension, const Options& options)
+// How many subdomains each part gets, of which there are `copies`. A total is met as far as copies allow: the next ones go where
+// subdomains are largest.
+std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std::vector<int>& copies, int dimension,
+                                  const Options& options)
 {
   std::vector<int> counts(nodes.size(), 1);
   if (!options.subdomains) {
@@ -58,7 +58,7 @@ std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std
   for (auto total = std::accumulate(copies.begin(), copies.end(), 0); total < *options.subdomains && !largest.empty();) {
     const auto b = largest.top().second;
     largest.pop();
-    if (total + copies[b] > *options.subdomains || counts[b] >= static_cast<int>(cells[b].size())) continue;
+    if (total + copies[b] > *options.subdomains) continue;
     total += copies[b];
     if (++counts[b] < nodes[b]) largest.emplace(static_cast<double>(nodes[b]) / counts[b], b);  // no more than there can be cells
   }
@@ -92,7 +92,7 @@ std::vector<std::vector<PieceOfPart>> cut_parts(const mesh::Mesh& parts, const m
     pieces.push_back(mesh::submesh(parts, list));
     nodes.push_back(static_cast<long long>(pieces.back().node_count()));
   }
-  const auto counts = subdomain_counts(nodes, of_part, copies, dimension, options);
+  const auto counts = subdomain_counts(nodes, copies, dimension, options);
   std::vector<std::vector<PieceOfPart>> result(copies.size());
   for (std::size_t p = 0; p < copies.size(); ++p) {
     const auto label = cut(pieces[p].cells, counts[p]);
