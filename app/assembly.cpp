@@ -32,8 +32,8 @@ void describe_instances(Deck& deck, deck::Document& document)
     if (body.instances.empty()) continue;
     const auto path = "bodies." + name + ".instances";
     if (deck.dimension() == 2) check_motions(body.instances, path, deck.axisymmetric(), document);
-    if (const auto count = mesh::count_of(body.instances); count > mesh::most_instances) {
-      document.error(path, fmt::format("makes {} copies; at most {} are possible", count, mesh::most_instances));
+    if (const double count = mesh::count_of(body.instances); count > mesh::most_instances) {
+      document.error(path, fmt::format("makes {:.10g} copies; at most {} are possible", count, mesh::most_instances));
       continue;
     }
     auto motions = mesh::motions(body.instances);

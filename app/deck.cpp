@@ -167,11 +167,14 @@ void check_contact_names(const Deck& deck, deck::Document& document)
                      fmt::format("\"{}\" and \"{}\" have faces in common; narrow both to different bodies (body:boundary)",
                                  contact.secondary, contact.primary));
   }
-  for (std::size_t i = 0; i < deck.contacts.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (deck.contacts[i].name == deck.contacts[j].name && !(deck.contacts[i].automatic && deck.contacts[j].automatic))
-        document.error(deck.contact_path(i),
-                       fmt::format("two contacts are called \"{}\"; give one of them another `name`", deck.contacts[i].name));
+  std::map<std::string, std::size_t> first;  // contact of a name
+  for (std::size_t i = 0; i < deck.contacts.size(); ++i) {
+    const auto& contact = deck.contacts[i];
+    const auto [at, fresh] = first.emplace(contact.name, i);
+    if (!fresh && !(contact.automatic && deck.contacts[at->second].automatic))
+      document.error(deck.contact_path(i),
+                     fmt::format("two contacts are called \"{}\"; give one of them another `name`", contact.name));
+  }
 }
 
 namespace {

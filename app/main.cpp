@@ -6,8 +6,10 @@
 // Sample runs:  mortise inputs/hertz_sphere/hertz_sphere.yaml
 //               mpirun -n 2 mortise inputs/cantilever_3d/cantilever_3d.yaml --set solver.tolerance=1e-6
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <Tpetra_Core.hpp>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -15,7 +17,6 @@
 #include <fstream>
 #include <iostream>
 #include <new>
-#include <sstream>
 
 #include "command_line.hpp"
 #include "io/output_directory.hpp"
@@ -26,6 +27,8 @@ namespace {
 
 using namespace mortise;
 
+constexpr std::size_t longest_deck = 50000000;  // bytes
+
 // The text of the deck, read by one rank.
 std::string read_text(const std::string& file, const Communicator& comm)
 {
@@ -34,10 +37,15 @@ std::string read_text(const std::string& file, const Communicator& comm)
     if (!comm.root()) return;
     if (std::filesystem::is_directory(file)) throw Error(ExitStatus::bad_input, file + ": is a directory; expected a deck");
     std::ifstream stream(file);
-    std::ostringstream content;
     if (!stream) throw Error(ExitStatus::bad_input, file + ": cannot be read: " + std::strerror(errno));
-    if (stream.peek() != std::ifstream::traits_type::eof()) content << stream.rdbuf();
-    text = content.str();
+    for (std::array<char, 4096> part; stream && text.size() <= longest_deck;) {
+      stream.read(part.data(), part.size());
+      text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    }
+    if (text.size() > longest_deck)
+      throw Error(ExitStatus::bad_input, fmt::format("{}: is longer than {} MB, which no deck is; expected a text of some pages "
+                                                     "(meshes are named in it, by mesh.file)",
+                                                     file, longest_deck / 1000000));
   });
   comm.broadcast(text);
   return text;

@@ -13,6 +13,7 @@
 #include "curved_faces.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/placement.hpp"
+#include "indefinite.hpp"
 #include "report.hpp"
 
 namespace mortise {
@@ -25,7 +26,7 @@ constexpr double algebraic_part = 0.1;
 constexpr double smallest_part = 1e-6, largest_part = 0.05;
 
 // Factorizes every subdomain that is not a copy of an earlier one.
-feti::Subdomains factors(const Deck& deck, const partition::Decomposition& decomposition,
+feti::Subdomains factors(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
                          const std::vector<partition::CopyOf>& copies, std::vector<SparseMatrix> stiffness)
 {
   feti::Subdomains subdomains;
@@ -36,10 +37,17 @@ feti::Subdomains factors(const Deck& deck, const partition::Decomposition& decom
       subdomains.push_back(rotation ? std::make_shared<feti::TurnedSubdomain>(shared, *rotation, deck.dimension()) : shared);
       continue;
     }
-    const auto& points = decomposition.subdomains[s].mesh.points;
-    subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(std::move(stiffness[s]),
-                                                                  fem::rigid_motions(points, deck.kinematics), points,
-                                                                  deck.dimension(), deck.solver.subdomains.factorization));
+    const auto& subdomain = decomposition.subdomains[s];
+    const auto& points = subdomain.mesh.points;
+    try {
+      subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(std::move(stiffness[s]),
+                                                                    fem::rigid_motions(points, deck.kinematics), points,
+                                                                    deck.dimension(), deck.solver.subdomains.factorization));
+    } catch (const Error& error) {
+      if (error.status() != ExitStatus::bad_input) throw;
+      const auto& body = decomposition.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];
+      throw Error(error.status(), why_indefinite(subdomain, model.materials(subdomain), body.name));
+    }
   }
   return subdomains;
 }
@@ -210,8 +218,9 @@ void Simulation::factorize(const std::vector<partition::CopyOf>& copies)
   floating_.kinematics = deck_.kinematics;
   const auto scope = timers.scope("factorization");
   collectively(comm, [&] {
-    floating_.clusters = feti::Clusters(decomposition_, interface_, factors(deck_, decomposition_, copies, std::move(stiffness)),
-                                        floating_.nodal_stiffness, deck_.kinematics);
+    floating_.clusters =
+        feti::Clusters(decomposition_, interface_, factors(deck_, decomposition_, model_, copies, std::move(stiffness)),
+                       floating_.nodal_stiffness, deck_.kinematics);
   });
 }
 

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "deck.hpp"
 
 namespace mortise {
 
 namespace {
+
+// Of all steps.
+constexpr int most_states = 10000;
 
 template <class T>
 void add_names(const std::vector<T>& list, std::vector<std::string>& names)
@@ -87,11 +91,20 @@ void describe(deck::Description<StepOptions>& d)
         "of contacts, by their names. After the first step a preloaded bolt keeps its length but where a step names it here.");
   d.key("off", &StepOptions::off, "Names of loads and supports that cease to act.");
   d.key("on", &StepOptions::on, "Names of loads and supports that act again.");
-  d.key("increments", &StepOptions::increments, "Equilibria on the way, between which the factors change linearly.").at_least(1);
+  d.key("increments", &StepOptions::increments, "Equilibria on the way, between which the factors change linearly.")
+      .at_least(1)
+      .below(most_states + 1);
 }
 
 void check_steps(const Deck& deck, deck::Document& document)
 {
+  const double states = std::accumulate(deck.steps.begin(), deck.steps.end(), 0.0,
+                                        [](double sum, const StepOptions& step) { return sum + step.increments; });
+  if (states > most_states)
+    document.error("steps",
+                   fmt::format("ask for {:.10g} equilibria, each of which is solved and written; at most {} are possible: "
+                               "take fewer `increments`",
+                               states, most_states));
   std::vector<std::string> switched;
   add_names(deck.loads, switched);
   add_names(deck.supports, switched);

@@ -115,6 +115,9 @@ def main():
             complaints.append("no summary.json")
         elif summary_file.exists() != expected.get("summary", False):
             complaints.append("summary.json of a run that failed, or none of its states before")
+        history = directory / "history.csv"
+        if history.exists() and any(word in history.read_text() for word in (",inf", ",-inf", ",nan", ",-nan")):
+            complaints.append("history.csv has a number that is none")
         if directory.exists():
             complaints += [f"left behind: {name}" for name in left_over(directory)]
     if complaints:

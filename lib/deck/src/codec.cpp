@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "scan.hpp"
+
 namespace mortise::deck {
 
 namespace {
@@ -37,15 +39,21 @@ bool number(const YAML::Node& node, double& value)
   return node.IsScalar() && YAML::convert<double>::decode(node, value) && std::isfinite(value);
 }
 
+// Beyond these, areas, volumes and energies of what is told in them overflow or vanish.
+constexpr double largest = 1e50, smallest = 1e-50;
+
 }  // namespace
 
 void Codec<double>::read(double& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits)
 {
   double read = 0;
-  if (number(node, read) && inside(read, limits))
-    value = read;
-  else
+  if (!number(node, read) || !inside(read, limits))
     document.error(path, fmt::format("expected {}, found {}", expectation(limits, "a number"), found(node)));
+  else if (std::abs(read) > largest || (read != 0 && std::abs(read) < smallest))
+    document.error(path, fmt::format("{} is too {} to compute with; expected 0 or a size of {:g} to {:g}: take other units",
+                                     found(node), std::abs(read) > 1 ? "large" : "small", smallest, largest));
+  else
+    value = read;
 }
 
 YAML::Node Codec<double>::write(double value)
@@ -85,7 +93,14 @@ void Codec<std::string>::read(std::string& value, const YAML::Node& node, const 
     document.error(path, "expected a word, found " + found(node));
     return;
   }
-  value = node.Scalar();
+  const auto& word = node.Scalar();
+  const auto control = std::find_if(word.begin(), word.end(), is_control);  // by an escape such as "\0", within quotes
+  if (control != word.end()) {
+    document.error(path, fmt::format("character {} of the value is no text (code {:#04x}); remove it", control - word.begin() + 1,
+                                     static_cast<unsigned char>(*control)));
+    return;
+  }
+  value = word;
   if (limits.names.empty() || std::find(limits.names.begin(), limits.names.end(), value) != limits.names.end()) return;
   if (std::find(limits.future.begin(), limits.future.end(), value) != limits.future.end())
     document.error(path, fmt::format("\"{}\" is not available in this version of Mortise (there {} {})", value,

@@ -8,26 +8,26 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "scan.hpp"
 
 namespace mortise::deck {
 
 namespace {
+
+// Of a deck's errors; of a word in a message.
+constexpr std::size_t most_shown = 100;
+constexpr std::size_t longest_word = 80;
+constexpr std::size_t most_candidates = 16;  // that are listed one and all
 
 [[noreturn]] void fail(const std::string& text)
 {
   throw Error(ExitStatus::bad_input, text);
 }
 
-// Titles and names go into files that must be UTF-8; the JSON library is strict about it.
-void check_encoding(const std::string& text, const std::string& file)
+// Where something is wrong with a text as a whole.
+std::string at(const std::string& file, const Flaw& flaw)
 {
-  std::istringstream lines(text);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) try {
-      (void)nlohmann::json(line).dump();
-    } catch (const nlohmann::json::exception&) {
-      fail(fmt::format("{}:{}: this line is not UTF-8; save the deck in that encoding", file, number));
-    }
+  return fmt::format("{}:{}: {}{}{}", file, flaw.line, flaw.path, flaw.path.empty() ? "" : ": ", flaw.message);
 }
 
 // One step of a path: a key or an index.
@@ -47,13 +47,15 @@ std::vector<Step> split(const std::string& path)
   };
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (path[i] == '.') {
+      if (i == 0 || i + 1 == path.size() || path[i - 1] == '.')
+        fail(fmt::format("--set {}: a key of this path is empty; expected key.path=value, as solver.tolerance=1e-6", path));
       flush();
     } else if (path[i] == '[') {
       flush();
       const auto end = path.find(']', i);
       const auto digits = end == std::string::npos ? std::string() : path.substr(i + 1, end - i - 1);
-      if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos || digits.size() > 6)
-        fail(fmt::format("--set {}: expected an index such as [0]", path));
+      if (i == 0 || digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos || digits.size() > 6)
+        fail(fmt::format("--set {}: expected a key and an index such as loads[0]", path));
       steps.push_back({{}, std::stoul(digits), true});
       i = end;
     } else {
@@ -62,6 +64,22 @@ std::vector<Step> split(const std::string& path)
   }
   flush();
   return steps;
+}
+
+// The tree with every alias written out, so that what is set in one place does not show in another. Keys keep their lines.
+YAML::Node written_out(const YAML::Node& node)
+{
+  if (!node.IsSequence() && !node.IsMap()) {
+    YAML::Node result(node.Type());
+    if (node.IsScalar()) result = node.Scalar();
+    return result;
+  }
+  YAML::Node result(node.Type());
+  if (node.IsSequence())
+    for (const auto& entry : node) result.push_back(written_out(entry));
+  else
+    for (const auto& entry : node) result.force_insert(entry.first, written_out(entry.second));
+  return result;
 }
 
 std::string parent(const std::string& path)
@@ -90,9 +108,13 @@ std::size_t edit_distance(const std::string& a, const std::string& b)
 
 Document::Document(const std::string& text, std::string file, const std::vector<std::string>& settings) : file_(std::move(file))
 {
-  check_encoding(text, file_);
+  if (const auto flaw = foreign_characters(text)) fail(at(file_, *flaw));
   std::vector<YAML::Node> documents;
+  bool has_aliases = false;
   try {
+    const auto found = scan(text);
+    if (found.flaw) fail(at(file_, *found.flaw));
+    has_aliases = found.has_aliases;
     documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
     fail(fmt::format("{}:{}: this is not valid YAML: {}", file_, error.mark.line + 1, error.msg));
@@ -103,6 +125,7 @@ Document::Document(const std::string& text, std::string file, const std::vector<
                      documents[1].Mark().line + 1));
   root_ = documents.front();
   if (!root_.IsMap()) fail(fmt::format("{}:1: a deck is a mapping of sections such as `mesh:` and `bodies:`", file_));
+  if (has_aliases && !settings.empty()) root_ = written_out(root_);
   std::string misplaced;
   for (const auto& setting : settings) try {
       set(setting);
@@ -112,17 +135,28 @@ Document::Document(const std::string& text, std::string file, const std::vector<
   if (!misplaced.empty()) fail(misplaced);
 }
 
-void Document::set(const std::string& setting)
+namespace {
+
+// What --set gives, as a node.
+YAML::Node value_of(const std::string& setting, const std::string& text)
 {
-  const auto equals = setting.find('=');
-  if (equals == std::string::npos || equals == 0) fail(fmt::format("--set {}: expected key.path=value", setting));
-  const std::string path = setting.substr(0, equals);
-  YAML::Node value;
   try {
-    value = YAML::Load(setting.substr(equals + 1));
+    if (const auto flaw = scan(text).flaw) fail(fmt::format("--set {}: {}", setting, flaw->message));
+    return YAML::Load(text);
   } catch (const YAML::Exception& error) {
     fail(fmt::format("--set {}: the value is not valid YAML: {}", setting, error.msg));
   }
+}
+
+}  // namespace
+
+void Document::set(const std::string& setting)
+{
+  if (foreign_characters(setting)) fail("--set: a setting is not UTF-8, or has characters that are no text; type it anew");
+  const auto equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) fail(fmt::format("--set {}: expected key.path=value", setting));
+  const std::string path = setting.substr(0, equals);
+  const auto value = value_of(setting, setting.substr(equals + 1));
   YAML::Node node = root_;
   std::string walked;
   for (const auto& step : split(path)) {
@@ -171,7 +205,8 @@ void Document::check() const
   auto sorted = errors_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Complaint& a, const Complaint& b) { return a.line < b.line; });
   std::string text;
-  for (const auto& complaint : sorted) text += (text.empty() ? "" : "\n") + complaint.text;
+  for (std::size_t i = 0; i < std::min(sorted.size(), most_shown); ++i) text += (text.empty() ? "" : "\n") + sorted[i].text;
+  if (sorted.size() > most_shown) text += fmt::format("\nand {} more", sorted.size() - most_shown);
   throw Error(ExitStatus::bad_input, text);
 }
 
@@ -192,9 +227,11 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
 {
   std::string text;
   if (const auto near = nearest(name, candidates); !near.empty()) text += fmt::format(", did you mean \"{}\"?", near);
-  if (!candidates.empty() && candidates.size() <= 12)
-    text += fmt::format(" (there {} {})", candidates.size() == 1 ? "is" : "are", fmt::join(candidates, ", "));
-  return text;
+  if (candidates.empty()) return text;
+  const auto shown = std::min<std::size_t>(candidates.size(), candidates.size() > most_candidates ? 8 : most_candidates);
+  return text + fmt::format(" (there {} {}{})", candidates.size() == 1 ? "is" : "are",
+                            fmt::join(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                            shown < candidates.size() ? fmt::format(", .. and {} more", candidates.size() - shown) : "");
 }
 
 std::string found(const YAML::Node& node)
@@ -202,7 +239,11 @@ std::string found(const YAML::Node& node)
   if (!node.IsDefined() || node.IsNull()) return "nothing";
   if (node.IsSequence()) return "a list";
   if (node.IsMap()) return "a mapping";
-  return "\"" + node.Scalar() + "\"";
+  const auto& word = node.Scalar();
+  if (word.size() <= longest_word) return "\"" + word + "\"";
+  std::size_t end = longest_word;
+  while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0) == 0x80) --end;  // not within a character
+  return fmt::format("\"{}...\" ({} characters)", word.substr(0, end), word.size());
 }
 
 }  // namespace mortise::deck

@@ -38,7 +38,7 @@ bool applies(Formulation formulation, mesh::CellType type)
 void describe(deck::Description<Material>& d)
 {
   d.help("Linear isotropic elasticity, in any consistent units.");
-  d.key("young_modulus", &Material::young_modulus, "Young's modulus.").required().above(1e-100).below(1e100);
+  d.key("young_modulus", &Material::young_modulus, "Young's modulus.").required().positive();
   d.key("poisson_ratio", &Material::poisson_ratio, "Poisson's ratio.").required().above(-1).below(0.5);
   d.key("density", &Material::density, "Mass a volume, for accelerations.").at_least(0);
   d.key("thermal_expansion", &Material::thermal_expansion, "Strain a degree, for changes of temperature.");

@@ -48,7 +48,8 @@ int CholmodSolver<Matrix, Vector>::symbolicFactorization_impl()
 template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::numericFactorization_impl()
 {
-  if (!factor_->factorize(lower())) throw std::runtime_error("CHOLMOD: the matrix is not positive definite");
+  if (!factor_->factorize(lower()))
+    throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain is not positive definite");
   factor_->prepare_for_many_solves();
   this->setNnzLU(factor_->factor_bytes() / sizeof(double));
   return 0;
@@ -126,9 +127,12 @@ DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower, i
     data_->solver->symbolicFactorization().numericFactorization();
   } catch (const Error&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(ExitStatus::machine,
+                "not enough memory for the factor of a subdomain; smaller ones need less (decomposition.unknowns_per_subdomain)");
   } catch (const std::exception& error) {
-    throw Error(ExitStatus::machine, "the stiffness matrix of a subdomain cannot be factorized (" + std::string(error.what()) +
-                                         "); look for cells without volume and for extreme material data");
+    throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain cannot be factorized (" + std::string(error.what()) +
+                                           "); look for cells without volume and for extreme material data");
   }
   if (auto* ours = dynamic_cast<CholmodSolver<CrsMatrix, MultiVector>*>(data_->solver.get())) {
     data_->cholesky = ours->release();

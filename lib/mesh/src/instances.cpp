@@ -20,21 +20,24 @@ Point point(const std::array<double, 3>& x)
   return {x[0], x[1], x[2]};
 }
 
-// The k-th power of the entry's motion. The rotation is one by k times the angle, so that no rounding adds up in it.
-Motion power(const InstanceOptions& entry, int k)
+// The powers of the entry's motion, from the first-th up to the one before the last-th. Each rotation is one by k times the
+// angle, so that no rounding adds up in it.
+std::vector<Motion> powers(const InstanceOptions& entry, int first, int last)
 {
-  Motion motion;
+  std::vector<Motion> result;
   if (!entry.rotate) {
-    motion.translation = k * point(entry.translate);
-    return motion;
+    for (int k = first; k < last; ++k) result.push_back({Eigen::Matrix3d::Identity(), k * point(entry.translate)});
+    return result;
   }
   const Point axis = point(entry.rotate->axis).normalized(), centre = point(entry.rotate->center);
   const double angle = entry.rotate->angle * std::numbers::pi / 180;
-  const auto turned = [&](int times) { return Eigen::AngleAxisd(times * angle, axis).toRotationMatrix(); };
-  motion.rotation = turned(k);
-  motion.translation = centre - motion.rotation * centre;
-  for (int j = 0; j < k; ++j) motion.translation += turned(j) * point(entry.translate);
-  return motion;
+  Point shift = Point::Zero();  // of all turns before
+  for (int k = 0; k < last; ++k) {
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(k * angle, axis).toRotationMatrix();
+    if (k >= first) result.push_back({turned, centre - turned * centre + shift});
+    shift += turned * point(entry.translate);
+  }
+  return result;
 }
 
 // 36, or 360/35.
@@ -71,7 +74,7 @@ Motion compose(const Motion& second, const Motion& first)
 
 double count_of(const std::vector<InstanceOptions>& instances)
 {
-  double sum = 0;
+  double sum = 0;  // which does not overflow
   for (const auto& entry : instances) sum += entry.count.value_or(1) * (entry.of.empty() ? 1 : count_of(entry.of));
   return sum;
 }
@@ -82,10 +85,8 @@ std::vector<Motion> motions(const std::vector<InstanceOptions>& instances)
   for (const auto& entry : instances) {
     const auto inner = entry.of.empty() ? std::vector<Motion>(1) : motions(entry.of);
     const int first = entry.count ? 0 : 1, last = entry.count ? *entry.count : 2;
-    for (int k = first; k < last; ++k) {
-      const Motion outer = power(entry, k);
+    for (const auto& outer : powers(entry, first, last))
       for (const auto& motion : inner) result.push_back(compose(outer, motion));
-    }
   }
   return result;
 }
@@ -146,8 +147,8 @@ void describe(deck::Description<InstanceOptions>& d)
         return {{"type", "array"}, {"items", {{"type", "object"}}}};
       });
   d.check([](const InstanceOptions& entry, const std::string& path, deck::Document& document) {
-    if (const auto count = count_of({entry}); count > most_instances)
-      document.error(path, fmt::format("makes {} copies; at most {} are possible", count, most_instances));
+    if (const double count = count_of({entry}); count > most_instances)
+      document.error(path, fmt::format("makes {:.10g} copies; at most {} are possible", count, most_instances));
   });
 }
 

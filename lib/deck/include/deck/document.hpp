@@ -13,7 +13,8 @@ namespace mortise::deck {
 class Document {
  public:
   /// Parses `text` and lays `settings`, each "path=value" with a YAML value, over it. Throws Error(bad_input) where the text is
-  /// no UTF-8, no YAML, not one mapping, or settings cannot be placed (all of these at once).
+  /// no UTF-8, no YAML, not one mapping, larger or deeper than a deck can be once its aliases are written out, or settings cannot
+  /// be placed (all of these at once).
   Document(const std::string& text, std::string file, const std::vector<std::string>& settings);
 
   const YAML::Node& root() const { return root_; }

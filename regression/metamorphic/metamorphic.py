@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""Solves random models, each again after changes that must leave the answers as they were: other ranks, subdomains, clusters,
+algorithms, preconditioners, units, order and place of the bodies (relations.py). Of steps that have no equilibrium both runs must say so.
+
+    metamorphic.py MORTISE --count 20 --seed 1 --models blocks rings bolt sector
+
+Exit status 1 if any answer differs by more than its tolerance; the model and both decks are then kept below --finds.
+"""
+import argparse
+import copy
+import json
+import math
+import multiprocessing
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import yaml
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import models
+import relations
+
+# Relative to the largest of its kind; all models are solved to 1e-9 (friction to 1e-8).
+TOLERANCE = {"strain_energy": 1e-6, "max_displacement": 1e-6, "max_von_mises": 1e-5, "reaction": 1e-6, "contact": 1e-6, "area": 1e-6}
+
+
+def solve(arguments, deck, files, ranks, directory):
+    shutil.rmtree(directory, ignore_errors=True)
+    directory.mkdir(parents=True)
+    for name, text in files.items():
+        (directory / name).write_text(text)
+    (directory / "deck.yaml").write_text(yaml.safe_dump(deck, sort_keys=False))
+    command = [str(arguments.mortise), str(directory / "deck.yaml"), "--output", str(directory / "results")]
+    environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_THREAD_LIMIT="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    if ranks > 1:
+        command = [arguments.mpiexec, "--oversubscribe", "-n", str(ranks)] + command
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600)
+    (directory / "log.txt").write_text(done.stdout + done.stderr)
+    summary = json.loads((directory / "results" / "summary.json").read_text()) if done.returncode == 0 else None
+    return done.returncode, summary
+
+
+def answers(summary):
+    """{name: (kind of unit, value, scale to which its tolerance relates)}; vectors by their lengths, which turns leave alone."""
+    length = lambda v: math.sqrt(sum(x * x for x in v))
+    force = max([length(r["force"]) for r in summary["reactions"]] + [length(c["force"]) for c in summary["contacts"]] + [0])
+    result = {"strain_energy": ("energy", summary["strain_energy"], abs(summary["strain_energy"])),
+              "max_displacement": ("length", summary["max_displacement"], summary["max_displacement"]),
+              "max_von_mises": ("stress", summary["max_von_mises"], summary["max_von_mises"])}
+    for i, value in enumerate(sorted(length(r["force"]) for r in summary["reactions"])):
+        result[f"reaction.{i}"] = ("force", value, force)
+    for i, contact in enumerate(summary["contacts"]):
+        result[f"contact.{i}"] = ("force", length(contact["force"]), force)
+        result[f"max_pressure.{i}"] = ("stress", contact["max_pressure"], summary["max_von_mises"])
+    return result
+
+
+def compare(one, other, factors):
+    complaints = []
+    a, b = answers(one), answers(other)
+    if a.keys() != b.keys():
+        return [f"other answers: {sorted(a)} and {sorted(b)}"]
+    for name, (unit, value, scale) in a.items():
+        tolerance = TOLERANCE.get(name.split(".")[0], 1e-4)
+        found = b[name][1] / factors[unit]
+        if not abs(found - value) <= tolerance * scale + 1e-300:
+            complaints.append(f"{name}: {value:.9g} and {found:.9g}, {abs(found - value) / scale:.1e} apart")
+    return complaints
+
+
+def tight(deck):
+    deck["solver"] = {"tolerance": 1e-9}
+    deck["friction_loop"] = {"tolerance": 1e-8}
+    return deck
+
+
+def work(task):
+    """(name of the model, how it ended, relations tried, complaints)."""
+    arguments, kind, number = task
+    source = random.Random(f"{arguments.seed} {kind} {number}")
+    deck, files = models.MODELS[kind](source)
+    tight(deck)
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        status, reference = solve(arguments, deck, files, 1, scratch / "reference")
+        complaints, tried = [], []
+        if status not in (0, 3):
+            complaints.append((None, f"exit status {status}"))
+        chosen = relations.RELATIONS if arguments.relations <= 0 else source.sample(relations.RELATIONS, arguments.relations)
+        for relation in chosen if status in (0, 3) else []:
+            changed = relations.change(relation, source, deck)
+            if changed is None:
+                continue
+            tried.append(relation.__name__)
+            other_deck, factors, ranks = changed
+            other_status, other = solve(arguments, other_deck, files, ranks, scratch / relation.__name__)
+            found = compare(reference, other, factors) if status == other_status == 0 else [f"exit status {status} and {other_status}"] * (status != other_status)
+            complaints += [(relation.__name__, text) for text in found]
+        if complaints:
+            kept = arguments.finds / f"{kind}_{arguments.seed}_{number}"
+            shutil.rmtree(kept, ignore_errors=True)
+            shutil.copytree(scratch, kept, ignore=lambda folder, names: [n for n in names if n == "results" or (pathlib.Path(folder) == scratch and n != "reference" and n not in {c[0] for c in complaints})])
+    return f"{kind} {number}", status, tried, complaints
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mortise", type=pathlib.Path)
+    parser.add_argument("--models", nargs="+", choices=list(models.MODELS), default=list(models.MODELS))
+    parser.add_argument("--count", type=int, default=10, help="models of each kind")
+    parser.add_argument("--relations", type=int, default=0, help="so many for each model, picked at random; 0: all")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--mpiexec", default="mpirun")
+    parser.add_argument("--finds", type=pathlib.Path, default=pathlib.Path("metamorphic_finds"))
+    arguments = parser.parse_args()
+    arguments.mortise, arguments.finds = arguments.mortise.resolve(), arguments.finds.resolve()
+
+    tasks = [(arguments, kind, number) for number in range(arguments.first, arguments.first + arguments.count) for kind in arguments.models]
+    solved = comparisons = bad = 0
+    with multiprocessing.Pool(arguments.jobs) as pool:
+        for name, status, tried, complaints in pool.imap_unordered(work, tasks):
+            solved += status == 0
+            comparisons += len(tried)
+            bad += bool(complaints)
+            for relation, text in complaints:
+                print(f"{name}, {relation or 'as it is'}: {text}", flush=True)
+    print(f"{len(tasks)} models, {solved} with an equilibrium, {comparisons} comparisons; {bad} models with differences")
+    return 1 if bad or solved < 0.7 * len(tasks) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
