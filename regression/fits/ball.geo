@@ -13,3 +13,4 @@ Physical Volume("ball") = {1};
 Physical Volume("block") = {4};
 Physical Surface("surface") = Boundary{Volume{1};};
 Physical Surface("socket") = {Surface In BoundingBox{-r - 1, -r - 1, -r - 1, r + 1, r + 1, 1}};
+Physical Surface("bottom") = {Surface In BoundingBox{-16, -16, -16, 16, 16, -14}};

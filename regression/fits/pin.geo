@@ -32,13 +32,11 @@ If(plane)
   Physical Curve("hole") = {Curve In BoundingBox{-r - 1, -r - 1, -1, r + 1, r + 1, 1}};
   Physical Curve("hole") -= {100};
   Physical Curve("shank") = {100};
+  Physical Curve("left") = {Curve In BoundingBox{-26, -26, -1, -24, 26, 1}};
 Else
   If(kind == 0)
     a[] = Extrude{0, 0, 12}{Surface{3};};
     b[] = Extrude{0, 0, 12}{Surface{4};};
-  ElseIf(kind == 1)
-    a[] = Extrude{0, 0, 12}{Surface{3}; Layers{3};};
-    b[] = Extrude{0, 0, 12}{Surface{4}; Layers{4};};
   Else
     a[] = Extrude{0, 0, 12}{Surface{3}; Layers{3}; Recombine;};
     b[] = Extrude{0, 0, 12}{Surface{4}; Layers{4}; Recombine;};
@@ -49,4 +47,6 @@ Else
   Physical Surface("hole") = {Surface In BoundingBox{-r - 1, -r - 1, -1, r + 1, r + 1, 13}};
   Physical Surface("hole") -= {b[]};
   Physical Surface("hole") -= {4};
+  Physical Surface("left") = {Surface In BoundingBox{-26, -26, -1, -24, 26, 13}};
+  Physical Surface("end") = {4};
 EndIf

@@ -152,7 +152,7 @@ TEST(Fit, ClearanceGoesForObstaclesToo)
   pair.options.clearance = 0;
   EXPECT_EQ(find(pair, {}, comm).gaps, std::vector<double>(25, 0.0));
   pair.options.clearance.reset();
-  pair.options.adjust = 0.104;
+  pair.options.adjust = 0.101;
   const auto adjusted = find(pair, {}, comm).gaps;
   EXPECT_EQ(std::count(adjusted.begin(), adjusted.end(), 0.0), 5);
 }
