@@ -2,16 +2,17 @@
 """Whether the side that carries the multipliers matters: partly covered contacts, each solved with either side as the secondary one
 and with contacts that are found.
 
-    sides.py MORTISE [pattern ...] [--quick] [--cells hex20 tet10 ...] [--laws ...] [--sizes 0 1 2] [--table FILE] [--markdown FILE]
-             [--ranks N] [--mpiexec MPIEXEC] [--list]
+    sides.py MORTISE [model ...] [--quick] [--cells hex20 tet10 ...] [--laws frictionless coulomb] [--sizes 0 1 2] [--commands]
+             [--markdown FILE] [--ranks N] [--mpiexec MPIEXEC] [--list]
 
-A model is named by itself. Its figures: the largest recovered pressure and the largest von Mises stress, both at least `away` from the lines
-where the exact ones are infinite (edges that are pressed into a surface), the work done, forces. Required: either side's within 10 % of the
-other's on every mesh, 1 % in energy, forces to 1e-6. Exit status 1 if a case fails. Needs numpy.
+A model may be a pattern. --quick solves a selection on the first meshes. Figures: the largest recovered pressure and the largest von Mises
+stress, both farther than `away` from the lines where the exact ones are infinite (edges pressed into a surface, clamped borders); the strain
+energy; forces. Required: the three solutions within 10 % of each other in stress and 2 % in energy on every mesh, forces to 1e-6; the last
+mesh near the reference, which is a much finer mesh's. Blocks loaded a fiftieth of a cell inside or beyond the edge they would tip about must
+stand or end with exit 3. Exit status 1 if a case fails. --commands prints how to run what failed. Needs numpy.
 """
 
 import argparse
-import collections
 import dataclasses
 import fnmatch
 import pathlib
@@ -42,7 +43,7 @@ def block_cell(cell):
     return [f"mesh.blocks.{body}.element={cell}" for body in ("lower", "upper")]
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Model:
     """One arrangement. sides: boundaries of each contact, the first of them secondary in the deck. away(x, y, z) -> distance from the
     lines where stress is infinite, in units of a distance that is about one cell of the first size. load: its component and size."""
@@ -59,7 +60,8 @@ class Model:
     laws: tuple = ("frictionless", "coulomb")
     coefficient: float = 0.15
     extra: Optional[Callable] = None  # extra(result) -> {figure: (value, exact or None, tolerance)}
-    search: float = 0  # search_distance of the contacts that are found
+    reference: dict = dataclasses.field(default_factory=dict)  # law: {figure: value of a much finer mesh}
+    quick: tuple = ()  # (cell, law) of the quick selection
 
 
 def h(*values):
@@ -169,7 +171,7 @@ MODELS = [
         "pin_in_lug",
         "A pin that sticks out of the hole of a plate, clearance 0.05",
         "pin_in_lug.yaml",
-        [("hole", "pin")],
+        [("hole", "pin_side")],
         SOLIDS,
         h(3, 2, 1.4),
         pin_away,
@@ -243,7 +245,7 @@ class Run:
     law: str
     side: str
     status: int
-    text: str = ""
+    words: tuple = ()  # of the command line
     figures: dict = dataclasses.field(default_factory=dict)
     peaks: dict = dataclasses.field(default_factory=dict)
     exact: dict = dataclasses.field(default_factory=dict)  # figure: (expected, tolerance)
@@ -251,17 +253,13 @@ class Run:
     unknowns: int = 0
     seconds: float = 0.0
 
-    def key(self):
-        return self.model.name, self.cell, self.size, self.law
-
 
 def settings(model, cell, size, law, side):
     """side: "auto", or the number of the side that is secondary."""
     words = [*model.cell(cell), *model.sizes[size]]
     friction = f", friction: {{coulomb: {model.coefficient}}}" if law == "coulomb" else ""
     if side == "auto":
-        search = f", search_distance: {model.search}" if model.search else ""
-        return words + [f"contacts=[{{auto: true{friction}{search}}}]"]
+        return words + [f"contacts=[{{auto: true{friction}}}]"]
     entries = [f"{{name: contact{i}, secondary: {s[side]}, primary: {s[1 - side]}{friction}}}" for i, s in enumerate(model.sides)]
     return words + [f"contacts=[{', '.join(entries)}]"]
 
@@ -312,13 +310,15 @@ def solve(program, model, cell, size, law, side):
     words = settings(model, cell, size, law, side)
     status, text, directory, seconds = program.attempt(DECKS / model.deck, words)
     name = side if side == "auto" else model.sides[0][side]
-    run = Run(model, cell, size, law, name, status, text, seconds=seconds)
+    run = Run(model, cell, size, law, name, status, tuple(words), seconds=seconds)
     if status in (0, 2):
         evaluate(run, Result(directory, seconds))
     return run
 
 
+# How far the solutions may be apart, and how far from the reference on the last mesh (first order, second order).
 LIMITS = {"pressure": 0.1, "von Mises": 0.1, "energy": 0.02, "shear share": 0.1, "stick width": 0.1}
+FROM_REFERENCE = {"pressure": (0.25, 0.15), "von Mises": (0.25, 0.15), "energy": (0.1, 0.03)}
 
 
 def judge(runs):
@@ -334,10 +334,72 @@ def judge(runs):
         if values and not max(values) <= (1 + limit) * min(values):
             shown = ", ".join(f"{run.side} {run.figures[name]:.4g}" for run in solved)
             complaints.append(f"{name}: {shown}")
+    return complaints + [word for run in solved for word in far_from_reference(run)]
+
+
+def far_from_reference(run):
+    if run.size + 1 < len(run.model.sizes):
+        return []
+    complaints = []
+    for name, expected in run.model.reference.get(run.law, {}).items():
+        limit = FROM_REFERENCE[name][run.cell in SECOND]
+        if not abs(run.figures[name] - expected) <= limit * expected:
+            complaints.append(f"{name} of {run.side}: {run.figures[name]:.4g}, reference {expected:.4g} to {limit:g}")
     return complaints
 
 
-HEAD = f"{'model':20} {'cell':8} {'size':4} {'law':12} {'secondary':16} {'pressure':>10} {'(peak)':>10} {'v. Mises':>10} {'(peak)':>10} {'energy':>11} {'force':>16} {'products':>8} {'exit':>4}  other"
+# Blocks that stand or tip. The edge a block tips about crosses cells of the upper block that hangs over it (`edge`), or of the lower block
+# on which the upper one stands (`foot`); the load's resultant is `offset` cells of the side that is partly covered beyond it.
+
+
+def tipping_settings(cell, kind, across, offset, side):
+    plane = cell in PLANE
+    up, middle = ("y", "") if plane else ("z", "0.2, ")
+    words = block_cell(cell) + [f"mesh.blocks.upper.cells=[{across}, {'3' if plane else '4, 3'}]"]
+    if kind == "edge":
+        words.append(f"mesh.blocks.upper.origin=[{0.5 + offset / across}, {middle}0.5]")
+    else:
+        couple = 6 * (0.5 + offset * 2 / 9) / (0.4 if plane else 0.24)
+        vector = lambda size: f"[0, {size}]" if plane else f"[0, 0, {size}]"
+        words.append(f"mesh.blocks.upper.origin=[{-0.55 if across == 6 else -0.4}, {middle}0.5]")
+        words += [f"loads[1].traction={vector(couple)}", f"loads[2].traction={vector(-couple)}"]
+    friction = "friction: {coulomb: 0.5}"
+    sides = [f"upper.{up}min", f"lower.{up}max"]
+    entry = f"auto: true, {friction}" if side == "auto" else f"name: contact, secondary: {sides[side]}, primary: {sides[1 - side]}, {friction}"
+    return words + [f"contacts=[{{{entry}}}]"]
+
+
+def tips(program, cell, offsets=(-0.02, 0.02), commands=False):
+    """Runs all of a cell's blocks; what is wrong."""
+    complaints = []
+    deck = DECKS / ("tipping_2d.yaml" if cell in PLANE else "tipping.yaml")
+    for kind in ("edge", "foot"):
+        for across in (6, 5):
+            for side in (0, 1, "auto"):
+                for offset in offsets:
+                    words = tipping_settings(cell, kind, across, offset, side)
+                    status, text, directory, _ = program.attempt(deck, words)
+                    expected = 3 if offset > 0 else 0
+                    name = f"{kind}, {across} cells, {'auto' if side == 'auto' else ('upper', 'lower')[side] + ' secondary'}, {offset:+g} cells"
+                    if status != expected:
+                        complaints.append(f"{name}: exit status {status}, expected {expected}")
+                    elif status == 3 and 'body "upper" rotates' not in text:
+                        complaints.append(f"{name}: not said that the upper block rotates")
+                    elif status == 0:
+                        force = abs(Result(directory, 0).summary["contacts"][0]["force"][1 if cell in PLANE else 2])
+                        if not abs(force - 6) <= 6e-6:
+                            complaints.append(f"{name}: force {force:.8g}, expected 6")
+                    else:
+                        continue
+                    if commands and complaints and complaints[-1].startswith(name):
+                        complaints[-1] += "\n" + command(deck, words)
+    return complaints
+
+
+HEAD = (
+    f"{'model':20} {'cell':8} {'size':4} {'law':12} {'secondary':15} {'pressure':>9} {'(peak)':>9} {'v. Mises':>9} {'(peak)':>9} {'energy':>11} "
+    f"{'force':>14} {'products':>8} {'exit':>4}  other"
+)
 
 
 def line(run):
@@ -345,42 +407,89 @@ def line(run):
     number = lambda values, name, form: format(values[name], form) if name in values else "-"
     other = " ".join(f"{name.replace(' ', '_')}={f[name]:.5g}" for name in f if name not in ("pressure", "von Mises", "energy", "force"))
     return (
-        f"{run.model.name:20} {run.cell:8} {run.size:<4} {run.law:12} {run.side:16} {number(f, 'pressure', '.5g'):>10} {number(p, 'pressure', '.5g'):>10} "
-        f"{number(f, 'von Mises', '.5g'):>10} {number(p, 'von Mises', '.5g'):>10} {number(f, 'energy', '.6g'):>11} {number(f, 'force', '.10g'):>16} {run.products:>8} {run.status:>4}  {other}"
-    )
+        f"{run.model.name:20} {run.cell:8} {run.size:<4} {run.law:12} {run.side:15} {number(f, 'pressure', '.5g'):>9} {number(p, 'pressure', '.5g'):>9} "
+        f"{number(f, 'von Mises', '.5g'):>9} {number(p, 'von Mises', '.5g'):>9} {number(f, 'energy', '.6g'):>11} {number(f, 'force', '.9g'):>14} "
+        f"{run.products:>8} {run.status:>4}  {other}"
+    ).rstrip()
+
+
+def command(deck, words):
+    return f"    mortise {deck} " + " ".join(f"--set '{word}'" for word in words)
+
+
+def cases(arguments):
+    """(model, cell, law, size) that were asked for."""
+    wanted = lambda value, values: not values or value in values
+    for model in MODELS:
+        if arguments.model and not any(fnmatch.fnmatch(model.name, pattern) for pattern in arguments.model):
+            continue
+        for cell in model.cells:
+            for law in model.laws:
+                for size in range(len(model.sizes)):
+                    quick = not arguments.quick or (size == 0 and (cell, law) in model.quick)
+                    if quick and wanted(cell, arguments.cells) and wanted(law, arguments.laws) and wanted(size, arguments.sizes):
+                        yield model, cell, law, size
+
+
+def tipping_cells(arguments):
+    if arguments.model and not any(fnmatch.fnmatch("tipping", pattern) for pattern in arguments.model):
+        return []
+    cells = ["quad4", "hex20", "tet10"] if arguments.quick else PLANE + SOLIDS
+    return [cell for cell in cells if not arguments.cells or cell in arguments.cells]
+
+
+def markdown(groups, tipped):
+    """A line a model, law and cell: the first and the last mesh, the secondary sides and `auto` in turn."""
+    of = lambda runs, name: " / ".join(f"{run.figures[name]:.4g}" if name in run.figures else f"exit {run.status}" for run in runs)
+    text = ["| model, law | cell | unknowns | pressure | von Mises | energy | other | verdict |", "|---|---|---|---|---|---|---|---|"]
+    for (model, cell, law, _), (runs, complaints) in groups.items():
+        other = "; ".join(f"{name} {of(runs, name)}" for name in runs[0].figures if name not in ("pressure", "von Mises", "energy", "force"))
+        text.append(
+            f"| `{model.name}`, {law} | {cell} | {runs[0].unknowns:,} | {of(runs, 'pressure')} | {of(runs, 'von Mises')} | {of(runs, 'energy')} | {other} | "
+            f"{'**fails**' if complaints else 'passed'} |"
+        )
+    for cell, complaints in tipped.items():
+        text.append(f"| `tipping` | {cell} | | | | | stands at -0.02 cells, tips at +0.02 | {f'**{len(complaints)} of 24 fail**' if complaints else 'passed'} |")
+    return "\n".join(text) + "\n"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("mortise")
-    parser.add_argument("pattern", nargs="*")
+    parser.add_argument("mortise", nargs="?")
+    parser.add_argument("model", nargs="*")
+    parser.add_argument("--quick", action="store_true")
     parser.add_argument("--cells", nargs="*")
     parser.add_argument("--laws", nargs="*")
     parser.add_argument("--sizes", nargs="*", type=int)
-    parser.add_argument("--table", type=pathlib.Path)
+    parser.add_argument("--commands", action="store_true")
+    parser.add_argument("--markdown", type=pathlib.Path)
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--mpiexec", default="mpirun")
+    parser.add_argument("--list", action="store_true")
     arguments = parser.parse_intermixed_args()
+    if arguments.list or arguments.mortise is None:
+        print(*(model.name for model in MODELS), "tipping", sep="\n")
+        return 0
     program = study.Program(arguments.mortise, arguments.ranks, arguments.mpiexec)
-    groups, failed = collections.OrderedDict(), 0
+    groups, tipped, seconds = {}, {}, 0.0
     print(HEAD)
-    for model in MODELS:
-        if arguments.pattern and not any(fnmatch.fnmatch(model.name, p) for p in arguments.pattern):
-            continue
-        for cell in model.cells:
-            if arguments.cells and cell not in arguments.cells:
-                continue
-            for law in model.laws:
-                if arguments.laws and law not in arguments.laws:
-                    continue
-                for size in range(len(model.sizes)):
-                    if arguments.sizes and size not in arguments.sizes:
-                        continue
-                    runs = [solve(program, model, cell, size, law, side) for side in (0, 1, "auto")]
-                    print(*map(line, runs), sep="\n", flush=True)
-                    complaints = judge(runs)
-                    print(*(f"    FAILED {complaint}" for complaint in complaints), sep="\n", flush=True)
-                    failed += bool(complaints)
+    for model, cell, law, size in cases(arguments):
+        runs = [solve(program, model, cell, size, law, side) for side in (0, 1, "auto")]
+        complaints = judge(runs)
+        print(*map(line, runs), *(f"  FAILED: {complaint}" for complaint in complaints), sep="\n", flush=True)
+        if complaints and arguments.commands:
+            print(*(command(DECKS / model.deck, run.words) for run in runs), sep="\n", flush=True)
+        groups[model, cell, law, size] = runs, complaints
+        seconds += sum(run.seconds for run in runs)
+    for cell in tipping_cells(arguments):
+        tipped[cell] = tips(program, cell, commands=arguments.commands)
+        print(f"tipping, {cell}: {'FAILED' if tipped[cell] else 'passed'}", *(f"  FAILED: {c}" for c in tipped[cell]), sep="\n", flush=True)
+    failed = sum(bool(complaints) for _, complaints in groups.values()) + sum(map(bool, tipped.values()))
+    print(f"{failed} of {len(groups) + len(tipped)} cases failed; {seconds:.0f} s of CPU in the program, without the tipping blocks")
+    if not groups and not tipped:
+        parser.error("no such case")
+    if arguments.markdown:
+        arguments.markdown.write_text(markdown(groups, tipped))
     return 1 if failed else 0
 
 

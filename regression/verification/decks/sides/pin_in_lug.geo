@@ -33,6 +33,6 @@ end() = Surface In BoundingBox {-W - e, -e, t + over - e, W + e, W + e, t + over
 Physical Surface("pin_end") = {end()};
 pin() = Surface In BoundingBox {-r - e, -e, -e, r + e, r + e, t + over + e};
 both() = Boundary { Volume{2}; }; both() -= sy(); both() -= sz(); both() -= end();
-Physical Surface("pin") = {both()};
+Physical Surface("pin_side") = {both()};
 hole() = Surface In BoundingBox {-R - e, -e, -e, R + e, R + e, t + e}; hole() -= sy(); hole() -= sz(); hole() -= both();
 Physical Surface("hole") = {hole()};
