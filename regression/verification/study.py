@@ -85,7 +85,8 @@ class Program:
         words = [self.mortise, str(deck)] + [word for setting in settings for word in ("--set", setting)]
         return [self.mpiexec, "--oversubscribe", "-n", str(self.ranks)] + words if self.ranks > 1 else words
 
-    def run(self, deck, settings, generate=None):
+    def attempt(self, deck, settings, generate=None):
+        """Exit status, what was printed, the directory of the results, seconds of CPU."""
         self.runs += 1
         directory = pathlib.Path(self.scratch.name) / str(self.runs)
         if generate:
@@ -98,9 +99,14 @@ class Program:
             self.command(deck, settings) + ["--output", str(directory)], capture_output=True, text=True, env=environment, timeout=1200
         )
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        if done.returncode != 0:
-            raise Failed(f"{deck.name} {' '.join(settings)}: exit status {done.returncode}\n{(done.stdout + done.stderr)[-2000:]}")
-        return Result(directory, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        return done.returncode, done.stdout + done.stderr, directory, seconds
+
+    def run(self, deck, settings, generate=None):
+        status, text, directory, seconds = self.attempt(deck, settings, generate)
+        if status != 0:
+            raise Failed(f"{deck.name} {' '.join(settings)}: exit status {status}\n{text[-2000:]}")
+        return Result(directory, seconds)
 
     def refuses(self, case):
         """Whether this version of the program does not have the case's `dimension`; it must say so itself."""

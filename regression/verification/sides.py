@@ -1,0 +1,531 @@
+#!/usr/bin/env python3
+"""Whether the side that carries the multipliers matters: partly covered contacts, each solved with either side as the secondary one
+and with contacts that are found.
+
+    sides.py MORTISE [model ...] [--quick] [--cells hex20 tet10 ...] [--laws frictionless coulomb] [--sizes 0 1 2] [--commands]
+             [--markdown FILE] [--ranks N] [--mpiexec MPIEXEC] [--list]
+
+A model may be a pattern. --quick solves a selection on the first meshes. Figures: the largest recovered pressure and the largest von Mises
+stress, both farther than `away` from the lines where the exact ones are infinite (edges pressed into a surface, clamped borders); the strain
+energy; forces. Required: the three solutions within 10 % of each other in stress and 2 % in energy on every mesh, forces to 1e-6; the last
+mesh near the reference, which is a much finer mesh's. Blocks loaded a fiftieth of a cell inside or beyond the edge they would tip about must
+stand or end with exit 3. Exit status 1 if a case fails. --commands prints how to run what failed. Needs numpy.
+"""
+
+import argparse
+import dataclasses
+import fnmatch
+import pathlib
+import sys
+from typing import Callable, Optional
+
+import numpy as np
+
+import study
+from results import Result
+
+DECKS = study.HERE / "decks" / "sides"
+SHAPES = {"tet": 0, "tri": 0, "hex": 1, "quad": 1, "prism": 2}
+SOLIDS = ["hex8", "hex20", "hex27", "tet4", "tet10", "prism6", "prism15"]
+PLANE = ["tri3", "tri6", "quad4", "quad8", "quad9"]
+SECOND = {"hex20", "hex27", "tet10", "prism15", "prism18", "tri6", "quad8", "quad9"}
+INCOMPLETE = {"hex20", "prism15", "quad8"}
+LAWS = {"frictionless": None, "coulomb": 0.15}
+
+
+def gmsh_cell(cell):
+    """The constants of the geometries that make this cell."""
+    values = {"shape": SHAPES[cell.rstrip("0123456789")], "order": 2 if cell in SECOND else 1, "incomplete": int(cell in INCOMPLETE)}
+    return [f"mesh.constants.{key}={value}" for key, value in values.items()]
+
+
+def block_cell(cell):
+    return [f"mesh.blocks.{body}.element={cell}" for body in ("lower", "upper")]
+
+
+@dataclasses.dataclass(eq=False)
+class Model:
+    """One arrangement. sides: boundaries of each contact, the first of them secondary in the deck. away(x, y, z) -> distance from the
+    lines where stress is infinite, in units of a distance that is about one cell of the first size. load: its component and size."""
+
+    name: str
+    title: str
+    deck: str
+    sides: list
+    cells: list
+    sizes: list  # settings, one list a size, from coarse to fine
+    away: Callable
+    load: tuple
+    cell: Callable = gmsh_cell
+    laws: tuple = ("frictionless", "coulomb")
+    coefficient: float = 0.15
+    extra: Optional[Callable] = None  # extra(result) -> {figure: (value, exact or None, tolerance)}
+    reference: dict = dataclasses.field(default_factory=dict)  # law: {figure: value of a much finer mesh}
+    force_tolerance: float = 1e-6
+    quick: tuple = ()  # (cell, law) of the quick selection
+    coarse: Callable = lambda cell: 0  # number of sizes on which a cell has too few faces in the contact for stresses: forces alone are judged
+
+
+def h(*values):
+    return [[f"mesh.constants.h={value}"] for value in values]
+
+
+def from_circle(radius, place, axis):
+    """Distance from a circle about an axis."""
+
+    def distance(*x):
+        along = x[axis]
+        across = np.sqrt(sum(x[i] ** 2 for i in range(len(x)) if i != axis))
+        return np.hypot(across - radius, along - place)
+
+    return distance
+
+
+def pin_away(x, y, z):
+    return np.minimum(from_circle(10, 5, 2)(x, y, z), 9 - z) / 3
+
+
+def ball_away(x, y, z):
+    return np.minimum(from_circle(4, -np.sqrt(84), 1)(x, y, z), from_circle(10 * np.sqrt(0.75), -5, 1)(x, y, z)) / 1.5
+
+
+def roller_away(x, y, z):
+    return np.where(np.hypot(x, y) < 3, np.abs(z - 5) / 1.0, 10)
+
+
+def disc_away(x, y, z):
+    edge = np.where(np.hypot(x, y) < 12.5, np.hypot(x - 4, z), 25)
+    return np.minimum(edge, from_circle(10, 0, 2)(x, y, z)) / 2.5
+
+
+def block_away(offset, axis):
+    def away(*x):
+        edges = np.minimum(np.hypot(x[0] - 1, x[axis] - 1), np.hypot(x[0] - offset, x[axis] - 1))
+        return np.minimum(edges, np.hypot(np.abs(x[0]) - 1, x[axis])) / 0.25  # the base is clamped
+
+    return away
+
+
+def strip_figures(result):
+    """Share of the load that acts as shear, and the width that sticks, both in the contact's tractions."""
+    from cases.common import by_x
+
+    x, traction, areas = by_x(result, "contact_traction")
+    pressed = np.abs(traction[:, 1]) > 0
+    share = np.sum(areas * np.abs(traction[:, 0])) / np.sum(areas * np.abs(traction[:, 1]))
+    stuck = pressed & (result.contact.fields["contact_status"][np.argsort(result.contact.points[:, 0], kind="stable")] == 1)
+    return {"shear share": (share, None, 0.1), "stick width": (float(np.sum(areas[stuck])), None, 0.1)}
+
+
+def v_figures(result):
+    forces = sorted((contact["force"] for contact in result.summary["contacts"]), key=lambda f: -abs(f[1]))[:2]  # the blocks touch, too
+    return {
+        "sideways": (max((abs(abs(f[0]) - 2) for f in forces)) + 2, 2, 0.01),
+        "upwards": (max((abs(abs(f[1]) - 2) for f in forces)) + 2, 2, 0.01),
+    }
+
+
+def blocks(n, offset, dimension):
+    """Cells of the two blocks, n times as many as at first; in space the width keeps its cells."""
+    y = lambda width: [] if dimension == 2 else [width]
+    words = lambda cells: f"[{', '.join(map(str, cells))}]"
+    origin = [offset] + y(0) + [1]
+    return [
+        f"mesh.blocks.lower.cells={words([8 * n, *y(4), 4 * n])}",
+        f"mesh.blocks.upper.cells={words([5 * n, *y(5), 4 * n])}",
+        f"mesh.blocks.upper.origin={words(origin)}",
+    ]
+
+
+QUICK_BLOCKS = {  # in a plane, in space
+    "tenth": ((("quad8", "frictionless"),), (("hex8", "coulomb"),)),
+    "third": ((("tri3", "coulomb"),), (("tet10", "frictionless"),)),
+    "two_thirds": ((("quad4", "frictionless"),), (("prism6", "frictionless"),)),
+}
+
+
+def block_models():
+    for name, part in (("tenth", 0.1), ("third", 1 / 3), ("two_thirds", 2 / 3)):
+        offset = 0.2 * part
+        for dimension, deck, cells, up in ((3, "block_over_edge", SOLIDS, "z"), (2, "block_over_edge_2d", PLANE, "y")):
+            yield Model(
+                f"block_{name}" + ("_2d" if dimension == 2 else ""),
+                f"A block that hangs over an edge by {name.replace('_', ' ')} of a cell",
+                f"{deck}.yaml",
+                [(f"upper.{up}min", f"lower.{up}max")],
+                cells,
+                [blocks(n, offset, dimension) for n in (1, 2, 3)],
+                block_away(offset, dimension - 1),
+                (dimension - 1, 10),
+                block_cell,
+                quick=QUICK_BLOCKS[name][dimension - 2],
+            )
+
+
+def roller_models():
+    for name, lengths in (("longer", (6, 5)), ("shorter", (5, 6))):
+        sizes = [[*s, f"mesh.constants.roller={lengths[0]}", f"mesh.constants.track={lengths[1]}"] for s in h(0.3, 0.2, 0.14)]
+        yield Model(
+            f"roller_{name}",
+            f"A roller {name} than its track",
+            "roller_on_track.yaml",
+            [("track_surface", "roller_surface")],
+            SOLIDS,
+            sizes,
+            roller_away,
+            (1, 5000),
+            quick=(("hex20", "frictionless"),) if name == "longer" else (("tet10", "coulomb"),),
+        )
+
+
+MODELS = [
+    Model(
+        "pin_in_lug",
+        "A pin that sticks out of the hole of a plate, clearance 0.05",
+        "pin_in_lug.yaml",
+        [("hole", "pin_side")],
+        SOLIDS,
+        h(3, 2, 1.4),
+        pin_away,
+        (0, 2500),
+        quick=(("tet10", "coulomb"), ("hex20", "frictionless"), ("prism15", "frictionless")),
+        coarse=lambda cell: int(cell == "tet4"),
+    ),
+    Model(
+        "ball_in_socket",
+        "A ball in a part of a sphere, both rims of which cross its faces",
+        "ball_in_socket.yaml",
+        [("socket_surface", "ball_surface")],
+        SOLIDS,
+        h(1.5, 1, 0.7),
+        ball_away,
+        (1, 10e3),
+        quick=(("tet10", "frictionless"), ("hex27", "coulomb")),
+        reference={
+            "frictionless": {"pressure": 225.5, "von Mises": 478, "energy": 105.85},
+            "coulomb": {"pressure": 193.3, "von Mises": 314.5, "energy": 85.2},
+        },
+    ),
+    Model(
+        "ball_in_socket_2d",
+        "The same, axisymmetric",
+        "ball_in_socket_2d.yaml",
+        [("socket_surface", "ball_surface")],
+        PLANE,
+        h(1.5, 0.8, 0.4),
+        lambda x, y, z: ball_away(x, y, 0 * z),
+        (1, 40e3),
+        quick=(("tri6", "frictionless"), ("quad4", "coulomb")),
+        reference={
+            "frictionless": {"pressure": 225.5, "von Mises": 478, "energy": 423.4},
+            "coulomb": {"pressure": 193.3, "von Mises": 314.5, "energy": 340.9},
+        },
+    ),
+    *roller_models(),
+    Model(
+        "disc_on_plate",
+        "A disc on a plate over whose edge it hangs",
+        "disc_on_plate.yaml",
+        [("disc_bottom", "plate_top")],
+        SOLIDS,
+        h(2.5, 1.7, 1.2),
+        disc_away,
+        (2, 10e3),
+        quick=(("hex8", "frictionless"), ("prism15", "coulomb")),
+    ),
+    *block_models(),
+    Model(
+        "cylinder_in_v",
+        "A cylinder in a V without friction: half the load sideways at each face",
+        "cylinder_in_v.yaml",
+        [("rim_left", "face_left"), ("rim_right", "face_right")],
+        PLANE,
+        h(0.15, 0.04, 0.025),
+        lambda x, y, z: 0 * x + 10,
+        (1, 4),
+        laws=("frictionless",),
+        extra=v_figures,
+        quick=(("tri3", "frictionless"), ("quad9", "frictionless")),
+        coarse=lambda cell: 1,
+        force_tolerance=1e-4,  # the cylinder's spin is free but for its facets, which take a little of the load
+    ),
+    Model(
+        "strip",
+        "A cylinder on a block, a / R = 0.12, friction 0.1, pressed alone",
+        "strip.yaml",
+        [("block_top", "cylinder_surface")],
+        PLANE,
+        h(0.6, 0.4, 0.25),
+        lambda x, y, z: np.where(np.hypot(x, y) < 12, 10, 0),
+        (1, 65.25e3),
+        laws=("coulomb",),
+        coefficient=0.1,
+        extra=strip_figures,
+        quick=(("quad8", "coulomb"),),
+    ),
+]
+
+
+@dataclasses.dataclass
+class Run:
+    model: Model
+    cell: str
+    size: int
+    law: str
+    side: str
+    status: int
+    words: tuple = ()  # of the command line
+    figures: dict = dataclasses.field(default_factory=dict)
+    peaks: dict = dataclasses.field(default_factory=dict)
+    exact: dict = dataclasses.field(default_factory=dict)  # figure: (expected, tolerance)
+    products: int = 0
+    unknowns: int = 0
+    seconds: float = 0.0
+
+
+def settings(model, cell, size, law, side):
+    """side: "auto", or the number of the side that is secondary."""
+    words = [*model.cell(cell), *model.sizes[size]]
+    friction = f", friction: {{coulomb: {model.coefficient}}}" if law == "coulomb" else ""
+    if side == "auto":
+        return words + [f"contacts=[{{auto: true{friction}}}]"]
+    entries = [f"{{name: contact{i}, secondary: {s[side]}, primary: {s[1 - side]}{friction}}}" for i, s in enumerate(model.sides)]
+    return words + [f"contacts=[{', '.join(entries)}]"]
+
+
+# Pieces of the edges of faces and lines, by their VTK type.
+EDGES = {
+    3: [(0, 1)],
+    21: [(0, 2), (2, 1)],
+    5: [(0, 1), (1, 2), (2, 0)],
+    22: [(0, 3), (3, 1), (1, 4), (4, 2), (2, 5), (5, 0)],
+    9: [(0, 1), (1, 2), (2, 3), (3, 0)],
+    23: [(0, 4), (4, 1), (1, 5), (5, 2), (2, 6), (6, 3), (3, 7), (7, 0)],
+}
+EDGES[28] = EDGES[23] + [(4, 8), (8, 6), (5, 8), (8, 7)]
+
+
+def largest(points, values, away):
+    """The largest value farther than one unit from the lines, and the largest of all."""
+    far = away(*points.T) >= 1
+    return float(values[far].max(initial=0)), float(values.max(initial=0))
+
+
+def largest_on_edges(grid, values, away):
+    """The same between the nodes, along edges: either side's nodes lie at other distances from the lines, near which pressure is steep."""
+    edges = np.vstack([nodes[:, pair] for kind, _, nodes in grid.groups() for pair in EDGES[kind]])
+    t = np.linspace(0, 1, 11)[:, None]
+    along = lambda field: np.concatenate([(1 - s) * field[edges[:, 0]] + s * field[edges[:, 1]] for s in t])
+    return largest(along(grid.points), along(values), away)
+
+
+def evaluate(run, result):
+    summary = result.summary
+    component, load = run.model.load
+    grid, contact = result.solution, result.contact
+    run.figures["von Mises"], run.peaks["von Mises"] = largest(grid.points, grid.fields["von_mises"], run.model.away)
+    run.figures["pressure"], run.peaks["pressure"] = largest_on_edges(contact, contact.fields["contact_pressure_recovered"], run.model.away)
+    run.figures["energy"] = summary["strain_energy"]
+    run.figures["force"] = sum(abs(c["force"][component]) for c in summary["contacts"])
+    run.exact["force"] = (load, run.model.force_tolerance)
+    if run.model.extra:
+        for name, (value, expected, tolerance) in run.model.extra(result).items():
+            run.figures[name] = value
+            run.exact[name] = (expected, tolerance)
+    run.products, run.unknowns = summary["hessian_multiplications"], summary["primal_unknowns"]
+
+
+def solve(program, model, cell, size, law, side):
+    words = settings(model, cell, size, law, side)
+    status, text, directory, seconds = program.attempt(DECKS / model.deck, words)
+    name = side if side == "auto" else model.sides[0][side]
+    run = Run(model, cell, size, law, name, status, tuple(words), seconds=seconds)
+    if status in (0, 2):
+        evaluate(run, Result(directory, seconds))
+    return run
+
+
+# How far the solutions may be apart, and how far from the reference on the last mesh (first order, second order).
+LIMITS = {"pressure": 0.1, "von Mises": 0.1, "energy": 0.02, "shear share": 0.1, "stick width": 0.1}
+FROM_REFERENCE = {"pressure": (0.25, 0.15), "von Mises": (0.25, 0.15), "energy": (0.1, 0.03)}
+
+
+def judge(runs):
+    """What is wrong with the runs of one case, size and law."""
+    complaints = [f"{run.side}: exit status {run.status}" for run in runs if run.status != 0]
+    solved = [run for run in runs if run.status == 0]
+    for run in solved:
+        for name, (expected, tolerance) in run.exact.items():
+            if expected is not None and not abs(run.figures[name] - expected) <= tolerance * expected:
+                complaints.append(f"{name} of {run.side}: {run.figures[name]:.8g}, expected {expected:g} to {tolerance:g}")
+    if runs[0].size < runs[0].model.coarse(runs[0].cell):
+        return complaints
+    for name, limit in LIMITS.items():
+        values = [run.figures[name] for run in solved if name in run.figures]
+        if values and not max(values) <= (1 + limit) * min(values):
+            shown = ", ".join(f"{run.side} {run.figures[name]:.4g}" for run in solved)
+            complaints.append(f"{name}: {shown}")
+    return complaints + [word for run in solved for word in far_from_reference(run)]
+
+
+def far_from_reference(run):
+    if run.size + 1 < len(run.model.sizes):
+        return []
+    complaints = []
+    for name, expected in run.model.reference.get(run.law, {}).items():
+        limit = FROM_REFERENCE[name][run.cell in SECOND]
+        if not abs(run.figures[name] - expected) <= limit * expected:
+            complaints.append(f"{name} of {run.side}: {run.figures[name]:.4g}, reference {expected:.4g} to {limit:g}")
+    return complaints
+
+
+# Blocks that stand or tip. The edge a block tips about crosses cells of the upper block that hangs over it (`edge`), or of the lower block
+# on which the upper one stands (`foot`); a `pad` stands inside one of the lower block's cells. The load's resultant is `offset` cells of the side
+# that is partly covered beyond the edge.
+TIPPING = [(kind, across, offset) for kind in ("edge", "foot") for across in (6, 5) for offset in (-0.02, 0.02)] + [("pad", 3, -0.2), ("pad", 3, 0.02)]
+
+
+def tipping_settings(cell, kind, across, offset, side):
+    plane = cell in PLANE
+    up, middle = ("y", "") if plane else ("z", "0.2, ")
+    words = block_cell(cell) + [f"mesh.blocks.upper.cells=[{across}, {'3' if plane else '4, 3'}]"]
+    if kind == "edge":
+        words.append(f"mesh.blocks.upper.origin=[{0.5 + offset / across}, {middle}0.5]")
+    else:
+        half, cell_below = (0.5, 2 / 9) if kind == "foot" else (0.15, 2 / 3)
+        couple = 6 * (half + offset * cell_below) / (2 * half * 0.4 * (1 if plane else 0.6 if kind == "foot" else 0.3))
+        vector = lambda size: f"[0, {size}]" if plane else f"[0, 0, {size}]"
+        if kind == "foot":
+            words.append(f"mesh.blocks.upper.origin=[{-0.55 if across == 6 else -0.4}, {middle}0.5]")
+        else:
+            words.append(f"mesh.blocks.upper.origin=[-0.1, {middle}0.5]")
+            words += [f"mesh.blocks.upper.size=[0.3, {'' if plane else '0.3, '}0.4]", f"mesh.blocks.lower.cells=[3, {'' if plane else '1, '}2]"]
+        words += [f"loads[1].traction={vector(couple)}", f"loads[2].traction={vector(-couple)}"]
+    friction = "friction: {coulomb: 0.5}"
+    sides = [f"upper.{up}min", f"lower.{up}max"]
+    entry = f"auto: true, {friction}" if side == "auto" else f"name: contact, secondary: {sides[side]}, primary: {sides[1 - side]}, {friction}"
+    return words + [f"contacts=[{{{entry}}}]"]
+
+
+def tips(program, cell, commands=False):
+    """Runs all of a cell's blocks; what is wrong."""
+    complaints = []
+    plane = cell in PLANE
+    deck = DECKS / ("tipping_2d.yaml" if plane else "tipping.yaml")
+    for kind, across, offset in TIPPING:
+        for side in (0, 1, "auto"):
+            words = tipping_settings(cell, kind, across, offset, side)
+            status, text, directory, _ = program.attempt(deck, words)
+            expected, wrong = 3 if offset > 0 else 0, None
+            if status != expected:
+                wrong = f"exit status {status}, expected {expected}"
+            elif status == 3 and 'body "upper" rotates' not in text:
+                wrong = "not said that the upper block rotates"
+            elif status == 0:
+                force = abs(Result(directory, 0).summary["contacts"][0]["force"][1 if plane else 2])
+                wrong = None if abs(force - 6) <= 6e-6 else f"force {force:.8g}, expected 6"
+            if wrong:
+                name = f"{kind}, {across} cells, {'auto' if side == 'auto' else ('upper', 'lower')[side] + ' secondary'}, {offset:+g} cells"
+                complaints.append(f"{name}: {wrong}" + ("\n" + command(deck, words) if commands else ""))
+    return complaints
+
+
+HEAD = (
+    f"{'model':20} {'cell':8} {'size':4} {'law':12} {'secondary':15} {'pressure':>9} {'(peak)':>9} {'v. Mises':>9} {'(peak)':>9} {'energy':>11} "
+    f"{'force':>14} {'products':>8} {'exit':>4}  other"
+)
+
+
+def line(run):
+    f, p = run.figures, run.peaks
+    number = lambda values, name, form: format(values[name], form) if name in values else "-"
+    other = " ".join(f"{name.replace(' ', '_')}={f[name]:.5g}" for name in f if name not in ("pressure", "von Mises", "energy", "force"))
+    return (
+        f"{run.model.name:20} {run.cell:8} {run.size:<4} {run.law:12} {run.side:15} {number(f, 'pressure', '.5g'):>9} {number(p, 'pressure', '.5g'):>9} "
+        f"{number(f, 'von Mises', '.5g'):>9} {number(p, 'von Mises', '.5g'):>9} {number(f, 'energy', '.6g'):>11} {number(f, 'force', '.9g'):>14} "
+        f"{run.products:>8} {run.status:>4}  {other}"
+    ).rstrip()
+
+
+def command(deck, words):
+    return f"    mortise {deck} " + " ".join(f"--set '{word}'" for word in words)
+
+
+def cases(arguments):
+    """(model, cell, law, size) that were asked for."""
+    wanted = lambda value, values: not values or value in values
+    for model in MODELS:
+        if arguments.model and not any(fnmatch.fnmatch(model.name, pattern) for pattern in arguments.model):
+            continue
+        for cell in model.cells:
+            for law in model.laws:
+                for size in range(len(model.sizes)):
+                    quick = not arguments.quick or (size == 0 and (cell, law) in model.quick)
+                    if quick and wanted(cell, arguments.cells) and wanted(law, arguments.laws) and wanted(size, arguments.sizes):
+                        yield model, cell, law, size
+
+
+def tipping_cells(arguments):
+    if arguments.model and not any(fnmatch.fnmatch("tipping", pattern) for pattern in arguments.model):
+        return []
+    cells = ["quad8", "tet10"] if arguments.quick else PLANE + SOLIDS
+    return [cell for cell in cells if not arguments.cells or cell in arguments.cells]
+
+
+def markdown(groups, tipped):
+    """A line a model, law and cell: the first and the last mesh, the secondary sides and `auto` in turn."""
+    of = lambda runs, name: " / ".join(f"{run.figures[name]:.4g}" if name in run.figures else f"exit {run.status}" for run in runs)
+    text = ["| model, law | cell | unknowns | pressure | von Mises | energy | other | verdict |", "|---|---|---|---|---|---|---|---|"]
+    for (model, cell, law, _), (runs, complaints) in groups.items():
+        other = "; ".join(f"{name} {of(runs, name)}" for name in runs[0].figures if name not in ("pressure", "von Mises", "energy", "force"))
+        text.append(
+            f"| `{model.name}`, {law} | {cell} | {runs[0].unknowns:,} | {of(runs, 'pressure')} | {of(runs, 'von Mises')} | {of(runs, 'energy')} | {other} | "
+            f"{'**fails**' if complaints else 'passed'} |"
+        )
+    for cell, complaints in tipped.items():
+        text.append(f"| `tipping` | {cell} | | | | | stands inside the edge, tips beyond it | {f'**{len(complaints)} of {3 * len(TIPPING)} fail**' if complaints else 'passed'} |")
+    return "\n".join(text) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mortise", nargs="?")
+    parser.add_argument("model", nargs="*")
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--cells", nargs="*")
+    parser.add_argument("--laws", nargs="*")
+    parser.add_argument("--sizes", nargs="*", type=int)
+    parser.add_argument("--commands", action="store_true")
+    parser.add_argument("--markdown", type=pathlib.Path)
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--mpiexec", default="mpirun")
+    parser.add_argument("--list", action="store_true")
+    arguments = parser.parse_intermixed_args()
+    if arguments.list or arguments.mortise is None:
+        print(*(model.name for model in MODELS), "tipping", sep="\n")
+        return 0
+    program = study.Program(arguments.mortise, arguments.ranks, arguments.mpiexec)
+    groups, tipped, seconds = {}, {}, 0.0
+    print(HEAD)
+    for model, cell, law, size in cases(arguments):
+        runs = [solve(program, model, cell, size, law, side) for side in (0, 1, "auto")]
+        complaints = judge(runs)
+        print(*map(line, runs), *(f"  FAILED: {complaint}" for complaint in complaints), sep="\n", flush=True)
+        if complaints and arguments.commands:
+            print(*(command(DECKS / model.deck, run.words) for run in runs), sep="\n", flush=True)
+        groups[model, cell, law, size] = runs, complaints
+        seconds += sum(run.seconds for run in runs)
+    for cell in tipping_cells(arguments):
+        tipped[cell] = tips(program, cell, commands=arguments.commands)
+        print(f"tipping, {cell}: {'FAILED' if tipped[cell] else 'passed'}", *(f"  FAILED: {c}" for c in tipped[cell]), sep="\n", flush=True)
+    failed = sum(bool(complaints) for _, complaints in groups.values()) + sum(map(bool, tipped.values()))
+    print(f"{failed} of {len(groups) + len(tipped)} cases failed; {seconds:.0f} s of CPU in the program, without the tipping blocks")
+    if not groups and not tipped:
+        parser.error("no such case")
+    if arguments.markdown:
+        arguments.markdown.write_text(markdown(groups, tipped))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
