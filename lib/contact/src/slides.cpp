@@ -174,27 +174,23 @@ Slide::Form speed(const Slide& slide, const Point& x)
   return v.transpose() * v;
 }
 
-constexpr int most_terms = 10;
-using Terms = Eigen::Matrix<double, most_terms, 1>;
+constexpr int terms = 10;
+using Terms = Eigen::Matrix<double, terms, 1>;
 
-Terms polynomials(const Slide& slide, const Point& x, int count)
+Terms polynomials(const Slide& slide, const Point& x)
 {
   const Point r = (x - slide.centre) / slide.length;
   Terms result;
   result << 1, r[0], r[1], r[2], r[0] * r[0], r[1] * r[1], r[2] * r[2], r[0] * r[1], r[1] * r[2], r[0] * r[2];
-  result.tail(most_terms - count).setZero();
   return result;
 }
 
-// Few faces know a constant alone.
-int terms(double faces)
-{
-  return faces >= 40 ? 10 : faces >= 12 ? 4 : 1;
-}
+// Fewer faces cannot tell facets from what they stand for.
+constexpr double enough_faces = 20;
 
 struct Sums {
-  Eigen::Matrix<double, most_terms, most_terms> gram = Eigen::Matrix<double, most_terms, most_terms>::Zero();
-  Eigen::Matrix<double, most_terms, 6> mixed = Eigen::Matrix<double, most_terms, 6>::Zero();
+  Eigen::Matrix<double, terms, terms> gram = Eigen::Matrix<double, terms, terms>::Zero();
+  Eigen::Matrix<double, terms, 6> mixed = Eigen::Matrix<double, terms, 6>::Zero();
   Slide::Form whole = Slide::Form::Zero(), speed = Slide::Form::Zero();
 };
 static_assert(sizeof(Sums) == sizeof(double) * (100 + 60 + 72));
@@ -265,7 +261,7 @@ std::vector<Slide> slides(std::span<const Pair> pairs, const constraint::Contact
     for (const auto& at : quadrature(face, kinematics)) {
       const double w = at.normal.norm();
       const auto speed_here = normal_speed(result[k], at.x, at.normal / w);
-      const Terms p = polynomials(result[k], at.x, terms(extents[k].faces));
+      const Terms p = polynomials(result[k], at.x);
       sums[k].gram += w * p * p.transpose();
       sums[k].mixed += w * p * speed_here.transpose();
       sums[k].whole += w * speed_here * speed_here.transpose();
@@ -275,8 +271,10 @@ std::vector<Slide> slides(std::span<const Pair> pairs, const constraint::Contact
   comm.sum_in_place({reinterpret_cast<double*>(sums.data()), sums.size() * sizeof(Sums) / sizeof(double)});
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const auto inverse = sums[k].gram.completeOrthogonalDecomposition();
-    result[k].smooth = sums[k].mixed.transpose() * inverse.solve(sums[k].mixed) / extents[k].area;
     result[k].whole = sums[k].whole / extents[k].area;
+    result[k].smooth = result[k].whole;
+    if (extents[k].faces >= enough_faces)
+      result[k].smooth = sums[k].mixed.transpose() * inverse.solve(sums[k].mixed) / extents[k].area;
     result[k].speed = sums[k].speed / extents[k].area;
   }
   return result;
