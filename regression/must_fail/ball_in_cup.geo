@@ -9,9 +9,8 @@ Box(5) = {-1, -1, 0, 2, 2, 10};
 BooleanUnion(6) = { Volume{4}; Delete; }{ Volume{5}; Delete; };
 Physical Volume("cup") = {3};
 Physical Volume("ball") = {6};
-s() = Surface In BoundingBox {-5.2, -5.2, -5.2, 5.2, 5.2, 0.1}; Physical Surface("hollow") = {s()};
+s() = Surface In BoundingBox {-5.2, -5.2, -5.2, 5.2, 5.2, 5.2}; Physical Surface("round") = {s()};  // of both
 s() = Surface In BoundingBox {-8.1, -8.1, -8.1, 8.1, 8.1, -7.9}; Physical Surface("ground") = {s()};
 s() = Surface In BoundingBox {-1.1, -1.1, 9.9, 1.1, 1.1, 10.1}; Physical Surface("handle") = {s()};
-s() = Surface In BoundingBox {-5.1, -5.1, -5.1, 5.1, 5.1, 5.1}; Physical Surface("ball_surface") = {s()};
 Mesh.MeshSizeMax = size; Mesh.MeshSizeMin = size;
 Mesh.ElementOrder = order;

@@ -48,8 +48,6 @@ class Slideways {
     Eigen::MatrixXd found(basis.rows(), 0);
     if (own_.empty()) return found;
     for (const auto* sides : {&own_, &other_}) {
-      const Eigen::MatrixXd rest = basis * complement(basis.transpose() * found);
-      if (rest.cols() == 0) break;
       Eigen::MatrixXd felt = Eigen::MatrixXd::Zero(basis.rows(), basis.rows());
       Eigen::MatrixXd speed = exact * exact * Eigen::MatrixXd::Identity(basis.rows(), basis.rows());
       for (const auto& [contact, parts] : *sides)
@@ -57,18 +55,15 @@ class Slideways {
           felt += part.smooth / std::pow(part.tolerance(), 2);
           speed += part.speed;
         }
-      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(rest.transpose() * felt * rest,
-                                                                            rest.transpose() * speed * rest);
-      Eigen::MatrixXd accepted = found;
-      for (Eigen::Index k = 0; k < rest.cols(); ++k) {
-        const Eigen::VectorXd v = rest * eigen.eigenvectors().col(k).normalized();
-        if (!slides(v)) continue;
-        accepted.conservativeResize(Eigen::NoChange, accepted.cols() + 1);
-        accepted.rightCols(1) = v;
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * felt * basis,
+                                                                            basis.transpose() * speed * basis);
+      for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+        const Eigen::VectorXd v = basis * eigen.eigenvectors().col(k).normalized();
+        const Eigen::VectorXd rest = v - found * (found.transpose() * v);
+        if (rest.norm() < 0.1 || !slides(v)) continue;  // known by its other side, or not free
+        found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+        found.rightCols(1) = rest.normalized();
       }
-      if (accepted.cols() == found.cols()) continue;
-      const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(accepted).householderQ();
-      found = q.leftCols(accepted.cols());
     }
     return found;
   }
