@@ -100,6 +100,7 @@ Eigen::MatrixXd unfelt_by(const Eigen::VectorXd& counts, const Eigen::MatrixXd& 
                           double tolerance, const Communicator& comm)
 {
   Eigen::MatrixXd result(basis.rows(), 0);
+  if (basis.cols() == 0) return result;
   for (const auto& v : unfelt(counts.asDiagonal() * rows * basis, tolerance, comm)) {
     result.conservativeResize(Eigen::NoChange, result.cols() + 1);
     result.rightCols(1) = basis * v;

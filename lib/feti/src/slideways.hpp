@@ -46,7 +46,7 @@ class Slideways {
   Eigen::MatrixXd free(const Eigen::MatrixXd& basis) const
   {
     Eigen::MatrixXd found(basis.rows(), 0);
-    if (own_.empty()) return found;
+    if (own_.empty() || basis.cols() == 0) return found;
     for (const auto* sides : {&own_, &other_}) {
       Eigen::MatrixXd felt = Eigen::MatrixXd::Zero(basis.rows(), basis.rows());
       Eigen::MatrixXd speed = exact * exact * Eigen::MatrixXd::Identity(basis.rows(), basis.rows());
