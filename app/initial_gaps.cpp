@@ -12,7 +12,7 @@ namespace {
 
 // Of an interference: an overlap of the meshes below this part of it is their error.
 constexpr double part_of_interference = 0.1;
-constexpr std::size_t most_lines = 40, most_warnings = 10;
+constexpr std::size_t most_lines = 40;
 
 // 0 for what rounding leaves of it.
 double plain(double gap, double touching)
@@ -42,23 +42,28 @@ double unasked_overlap(const contact::InitialGap& gap, const contact::Options& c
   return overlap > asked ? overlap : 0;
 }
 
-void warn_of_overlap(const contact::InitialGap& gap, const contact::Options& contact, Log& log)
+Warning overlap_warning(const contact::InitialGap& gap, const contact::Options& contact)
 {
   const double overlap = gap.largest_overlap();
-  log.warning(
-      "contact {}: the two sides overlap by {:.3g} at ({:.5g}, {:.5g}, {:.5g}) before any load, which presses them together and "
-      "which "
-      "`interference` does not ask for. If it is the meshes' error: `adjust: {:.2g}`, or `clearance: 0` where the two fit. If it "
-      "is "
-      "meant: `clearance: 0, interference: {:.3g}`",
-      contact.name, overlap, gap.at[0], gap.at[1], gap.at[2], 1.1 * overlap, overlap + std::max(contact.interference, 0.0));
+  Warning warning{
+      "overlap",
+      fmt::format("contact {}: the two sides overlap by {:.3g} at ({:.5g}, {:.5g}, {:.5g}) before any load, which presses them "
+                  "together and which `interference` does not ask for",
+                  contact.name, overlap, gap.at[0], gap.at[1], gap.at[2]),
+      fmt::format(
+          "if it is the meshes' error: `adjust: {:.2g}`, or `clearance: 0` where the two fit; if it is meant: `clearance: "
+          "0, interference: {:.3g}`",
+          1.1 * overlap, overlap + std::max(contact.interference, 0.0))};
+  warning.at = gap.at;
+  warning.contact = contact.name;
+  warning.value = overlap;
+  return warning;
 }
 
 }  // namespace
 
-void report_initial_gaps(const std::vector<contact::InitialGap>& gaps, const Deck& deck, bool all, const Context& context)
+std::vector<Warning> report_initial_gaps(const std::vector<contact::InitialGap>& gaps, const Deck& deck, bool all, Log& log)
 {
-  auto& log = context.log;
   std::vector<std::size_t> met;  // contacts that have points
   for (std::size_t c = 0; c < gaps.size(); ++c)
     if (gaps[c].area > 0) met.push_back(c);
@@ -71,10 +76,9 @@ void report_initial_gaps(const std::vector<contact::InitialGap>& gaps, const Dec
 
   std::erase_if(met, [&](std::size_t c) { return unasked_overlap(gaps[c], deck.contacts[c]) == 0; });
   std::stable_sort(met.begin(), met.end(), [&](std::size_t a, std::size_t b) { return gaps[a].smallest < gaps[b].smallest; });
-  for (const std::size_t c : std::span(met).first(std::min(most_warnings, met.size())))
-    warn_of_overlap(gaps[c], deck.contacts[c], log);
-  if (met.size() > most_warnings)
-    log.warning("{} more contacts overlap, by less; see `initial_gap` in summary.json", met.size() - most_warnings);
+  std::vector<Warning> warnings;
+  for (const std::size_t c : met) warnings.push_back(overlap_warning(gaps[c], deck.contacts[c]));
+  return warnings;
 }
 
 }  // namespace mortise

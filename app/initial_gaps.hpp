@@ -3,14 +3,15 @@
 
 #include <vector>
 
-#include "base/context.hpp"
+#include "base/log.hpp"
+#include "base/warning.hpp"
 #include "contact/fit.hpp"
 #include "deck.hpp"
 
 namespace mortise {
 
-/// A line a contact, of the first contacts or of `all`, and a warning for each overlap that no `interference` asks for.
+/// Prints a line a contact, of the first contacts or of `all`; the overlaps that no `interference` asks for, the largest first.
 /// `gaps`: the same on every rank.
-void report_initial_gaps(const std::vector<contact::InitialGap>& gaps, const Deck& deck, bool all, const Context& context);
+std::vector<Warning> report_initial_gaps(const std::vector<contact::InitialGap>& gaps, const Deck& deck, bool all, Log& log);
 
 }  // namespace mortise

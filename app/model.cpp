@@ -41,9 +41,6 @@ Model::Selection Model::select(const std::string& name) const
   return {static_cast<int>(std::find(known.begin(), known.end(), boundary) - known.begin()), bodies_called(body)};
 }
 
-namespace {
-
-// The names of a body's materials, each once.
 std::vector<std::string> material_names(const fem::BodyOptions& body)
 {
   if (body.volumes.empty()) return {body.material};
@@ -52,8 +49,6 @@ std::vector<std::string> material_names(const fem::BodyOptions& body)
     if (std::find(names.begin(), names.end(), material) == names.end()) names.push_back(material);
   return names;
 }
-
-}  // namespace
 
 fem::Materials Model::materials(const partition::Subdomain& subdomain) const
 {
@@ -304,6 +299,26 @@ std::vector<mesh::Surface> Model::support_surfaces() const
   }
   if (deck_.axisymmetric()) surfaces.emplace_back();
   return surfaces;
+}
+
+Model::Facts Model::facts(const std::string& boundary, const Communicator& comm) const
+{
+  const auto [index, on_body] = select(boundary);
+  std::vector<double> sums(4, 0.0);
+  double softest = std::numeric_limits<double>::infinity();
+  for (const auto& subdomain : decomposition_.subdomains) {
+    if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+    const auto moments = fem::moments(subdomain.mesh, index, deck_.kinematics);
+    if (!(moments.area > 0)) continue;
+    sums[3] += moments.area;
+    for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)] += moments.first[c];
+    const auto own = materials(subdomain);
+    for (std::size_t m = 0; m < own.count(); ++m) softest = std::min(softest, own[m].young_modulus);
+  }
+  comm.sum_in_place(sums);
+  softest = comm.min(softest);
+  if (!(sums[3] > 0)) return {};
+  return {sums[3], Point(sums[0], sums[1], sums[2]) / sums[3], softest};
 }
 
 std::vector<bool> Model::supported(const Communicator& comm) const

@@ -11,6 +11,9 @@
 
 namespace mortise {
 
+/// The names of a body's materials, each once.
+std::vector<std::string> material_names(const fem::BodyOptions& body);
+
 /// The deck's names resolved on this rank's subdomains. Refers to the deck and the decomposition.
 class Model {
  public:
@@ -41,6 +44,14 @@ class Model {
   std::vector<mesh::Surface> support_surfaces() const;
   /// For each body whether one of the deck's supports lies on it. Collective.
   std::vector<bool> supported(const Communicator& comm) const;
+  /// A boundary by its name in the deck: its area, its centre, and the smallest Young's modulus of its bodies.
+  struct Facts {
+    double area = 0;
+    Point centre = Point::Zero();
+    double young_modulus = 0;
+  };
+  /// Collective.
+  Facts facts(const std::string& boundary, const Communicator& comm) const;
   std::vector<contact::Pair> contact_pairs(const LoadState& state) const;
   std::vector<friction::Law> friction_laws() const;
   /// Of the preloaded contacts. Those that are locked are held at `shortenings`, one for each, of the state before.

@@ -7,6 +7,7 @@
 
 #include "contact/cyclic.hpp"
 #include "fem/stress.hpp"
+#include "post/drift.hpp"
 
 namespace mortise {
 
@@ -35,8 +36,16 @@ struct Recovered {
   std::vector<Eigen::MatrixXd> nodal_stress;  // nodes x 6 blocks
   std::vector<Eigen::VectorXd> cell_von_mises;
   double squared_error = 0;  // in the energy norm, over all ranks
+  post::MeshError error;     // where it is
   double strain_energy = 0;  // of the elastic strain, over all ranks
 };
+
+Point centre(const mesh::Mesh& mesh, std::size_t cell)
+{
+  Point sum = Point::Zero();
+  for (const Local n : mesh.cells[cell]) sum += mesh.points[static_cast<std::size_t>(n)];
+  return sum / static_cast<double>(mesh.cells[cell].size());
+}
 
 Recovered recover(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const LoadState& state,
                   const partition::Interface& interface, const std::vector<Eigen::VectorXd>& displacement,
@@ -44,6 +53,8 @@ Recovered recover(const Deck& deck, const partition::Decomposition& decompositio
 {
   Recovered result;
   const auto blocks = model.most_materials();
+  const auto bodies = decomposition.catalogue.bodies.size();
+  result.error = {0, std::vector<post::Found>(bodies), std::vector<double>(bodies, 0.0)};
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     auto field = fem::stresses(subdomain.mesh, model.materials(subdomain), deck.kinematics, displacement[s],
@@ -60,9 +71,13 @@ Recovered recover(const Deck& deck, const partition::Decomposition& decompositio
       for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(blocks); ++k)
         if (sums(n, 7 * k + 6) > 0) stress.row(n).segment(6 * k, 6) = sums.row(n).segment(7 * k, 6) / sums(n, 7 * k + 6);
     const auto& subdomain = decomposition.subdomains[s];
-    result.squared_error += fem::squared_errors(subdomain.mesh, model.materials(subdomain), deck.kinematics, displacement[s],
-                                                stress, model.formulation(subdomain), model.temperature_change(subdomain, state))
-                                .sum();
+    const auto errors = fem::squared_errors(subdomain.mesh, model.materials(subdomain), deck.kinematics, displacement[s], stress,
+                                            model.formulation(subdomain), model.temperature_change(subdomain, state));
+    result.squared_error += errors.sum();
+    result.error.part[static_cast<std::size_t>(subdomain.body)] += errors.sum();
+    for (Eigen::Index c = 0; c < errors.size(); ++c)
+      if (auto& worst = result.error.cells[static_cast<std::size_t>(subdomain.body)]; errors[c] > worst.value)
+        worst = {errors[c], centre(subdomain.mesh, static_cast<std::size_t>(c))};
     result.nodal_stress[s] = std::move(stress);
   }
   result.squared_error = comm.sum(result.squared_error);
@@ -113,6 +128,9 @@ void recover_stress(const Deck& deck, const partition::Decomposition& decomposit
   if (squared_norm > 0) {
     estimate.discretization = std::sqrt(recovered.squared_error / squared_norm);
     estimate.algebraic /= std::sqrt(squared_norm);
+    results.mesh_error = {estimate.discretization, post::largest_of_ranks(recovered.error.cells, comm), recovered.error.part};
+    comm.sum_in_place(results.mesh_error.part);
+    for (auto& part : results.mesh_error.part) part /= std::max(recovered.squared_error, 1e-300);
   }
   peak = over_ranks(peak, comm);
   results.summary.max_von_mises = peak.value;
@@ -173,28 +191,6 @@ void contact_states(const Deck& deck, const feti::DualProblem& problem, const fr
   const double energy = std::max(results.summary.strain_energy, results.rounding_of_energy);
   slackness = comm.sum(slackness);
   results.summary.residuals.complementarity = energy > 0 ? slackness / (2 * energy) : slackness;
-}
-
-// A surface that closes where the search for contact ended may have closed farther on as well.
-void warn_of_short_search(const Deck& deck, const std::vector<contact::Pair>& pairs, const feti::DualProblem& problem,
-                          const Results& results, const Context& context)
-{
-  const auto& contacts = problem.constraints().contacts;
-  const auto reaches = contact::search_distances(pairs, context.comm);
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    if (pairs[c].options.law == contact::Law::bonded) continue;
-    double widest = 0;
-    for (std::size_t i = 0; i < results.points.size(); ++i)
-      if (results.points[i].contact == static_cast<int>(c) && results.points[i].status != contact::Status::open)
-        widest = std::max(widest, contacts.points[i].gap + pairs[c].options.interference);
-    widest = context.comm.max(widest);
-    const double reach = reaches[c];
-    if (widest > 0.7 * reach)
-      context.log.warning(
-          "contact {} closes over gaps of up to {:.3g}, close to the search distance {:.3g}: set a larger search_distance and "
-          "solve again",
-          deck.contacts[c].name, widest, reach);
-  }
 }
 
 // Forces of the supports on the bodies, by boundary.
@@ -274,8 +270,18 @@ void sum_up(const partition::Decomposition& decomposition, const feti::DualProbl
   summary.residuals.equilibrium = problem.imbalance(results.displacement, solved.solution.x);
 }
 
+// How far supports, gaps and overlaps may move a body.
+double prescribed(const constraint::Constraints& constraints, const Communicator& comm)
+{
+  double held = 0, gap = 0;
+  for (const auto& h : constraints.held) held = std::max(held, std::abs(h.value));
+  for (const auto& i : constraints.inclined) held = std::max(held, std::abs(i.value));
+  for (const auto& point : constraints.contacts.points) gap = std::max(gap, std::abs(point.gap));
+  return comm.max(held) + comm.max(gap);
+}
+
 // All that is known of this equilibrium, for post::verdict().
-post::Evidence evidence(const Deck& deck, const friction::Result& solved, const Results& results)
+post::Evidence evidence(const Deck& deck, const friction::Result& solved, const Results& results, post::Drift drift)
 {
   const auto& residuals = results.summary.residuals;
   post::Evidence e;
@@ -289,17 +295,20 @@ post::Evidence evidence(const Deck& deck, const friction::Result& solved, const 
   e.complementarity = residuals.complementarity;
   e.imbalance = results.imbalance;
   e.algebraic_error = results.summary.error_estimate.algebraic;
+  e.drift = std::move(drift);
   return e;
 }
 
 void print_contacts(const io::StateSummary& s, Log& log)
 {
-  for (const auto& c : s.contacts)
-    log.line(
-        "  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), largest pressure {:.5g} ({:.5g} at one node), area "
-        "{:.4g}; {} open, {} "
-        "stick, {} slip",
-        c.name, c.force[0], c.force[1], c.force[2], c.max_recovered_pressure, c.max_pressure, c.area, c.open, c.stick, c.slip);
+  for (const auto& c : s.contacts) {
+    std::string pressure;
+    if (c.max_pressure > 0 || !(c.max_tension > 0))
+      pressure = fmt::format("largest pressure {:.5g} ({:.5g} at one node), ", c.max_recovered_pressure, c.max_pressure);
+    if (c.max_tension > 0) pressure += fmt::format("largest tension {:.5g} at one node, ", c.max_tension);
+    log.line("  contact {}: force on the secondary side ({:.5g}, {:.5g}, {:.5g}), {}area {:.4g}; {} open, {} stick, {} slip",
+             c.name, c.force[0], c.force[1], c.force[2], pressure, c.area, c.open, c.stick, c.slip);
+  }
   for (const auto& c : s.contacts)
     if (c.preload) log.line("  preload {}: force {:.6g}, shortened by {:.6g}", c.name, c.preload->force, c.preload->shortening);
 }
@@ -329,9 +338,9 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   sum_up(decomposition, problem, floating, solved, results);
   recover_stress(deck, decomposition, model, simulation.state(), simulation.interface(), context.comm, results);
   contact_states(deck, problem, solved, results);
-  warn_of_short_search(deck, pairs, problem, results, context);
   reactions(deck, problem, solved, results);
   results.surfaces = contact::surface_states(results.points, pairs, context.comm);
+  const auto tensions = post::largest_tensions(results.points, deck.contacts.size(), context.comm);
   for (std::size_t c = 0; c < deck.contacts.size(); ++c) {
     const auto& r = results.resultants[c];
     if (const auto turn = contact::turn_of(deck.contacts[c]))
@@ -347,7 +356,8 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
                                         r.open,
                                         r.stick,
                                         r.slip,
-                                        largest(results.surfaces[c].recovered_pressure)});
+                                        largest(results.surfaces[c].recovered_pressure),
+                                        tensions[c]});
     const auto& gap = simulation.initial_gaps()[c];
     results.summary.contacts.back().initial_gap = {gap.smallest, gap.largest_overlap(), gap.touching_area};
   }
@@ -360,11 +370,15 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
   double size = std::max({results.applied.norm(), results.reaction.norm(), results.rounding_of_force, 1e-300});
   for (const auto& r : results.resultants) size = std::max(size, r.force.norm());
   for (const auto& r : results.summary.reactions) size = std::max(size, std::hypot(r.force[0], r.force[1], r.force[2]));
+  results.largest_force = size;
   results.gauges = problem.gauge_force(solved.solution.x);
   results.imbalance =
       (results.applied + results.reaction + results.obstacles + results.neighbours + results.gauges).norm() / size;
   results.push_of_facets = results.gauges.norm() / size;
-  results.verdict = post::verdict(evidence(deck, solved, results));
+  results.verdict = post::verdict(
+      evidence(deck, solved, results,
+               post::drift(decomposition, deck.kinematics, post::body_sizes(decomposition, deck.kinematics, context.comm),
+                           results.displacement, prescribed(simulation.constraints(), context.comm), context.comm)));
   results.summary.converged = results.verdict.status == ExitStatus::solved;
   results.summary.exit_status = static_cast<int>(results.verdict.status);
   return results;

@@ -5,6 +5,7 @@
 #include "contact/state.hpp"
 #include "io/summary.hpp"
 #include "io/vtk.hpp"
+#include "post/strength.hpp"
 #include "post/verdict.hpp"
 #include "simulation.hpp"
 
@@ -29,6 +30,8 @@ struct Results {
   Point neighbours = Point::Zero();                         ///< sum of what the sectors beside a cyclic one pull with
   Point gauges = Point::Zero();  ///< what holds free motions against the push of facets, which is no force of the model
   double push_of_facets = 0;     ///< its size, relative to the largest force
+  double largest_force = 0;      ///< of loads, supports, contacts
+  post::MeshError mesh_error;    ///< where the estimated error is
   double imbalance = 0;          ///< of the sums of all these forces, relative to the largest one
   post::Verdict verdict;         ///< of this equilibrium
   io::Summary summary;
@@ -65,7 +68,7 @@ class FieldFiles {
 /// The lines on the terminal after a load step that is not the last.
 void print_step(const Results& results, const Context& context);
 
-/// The last lines on the terminal, for an engineer to judge. Collective.
+/// The lines on the terminal at the end, for an engineer to judge, but for warnings. Collective.
 void print(const Results& results, const Context& context);
 
 }  // namespace mortise

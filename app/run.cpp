@@ -20,6 +20,7 @@
 #include "report.hpp"
 #include "simulation.hpp"
 #include "untouched.hpp"
+#include "warnings.hpp"
 
 namespace mortise {
 
@@ -56,21 +57,6 @@ void print_check(const partition::Decomposition& decomposition, const constraint
   for (std::size_t c = 0; c < points.size(); ++c) context.log.line("  contact {}: {} points", deck.contacts[c].name, points[c]);
   context.log.line("  memory expected: about {:.1f} GB, {:.1f} GB of it for the factors of the subdomains", memory.total / 1e9,
                    memory.factors / 1e9);
-}
-
-// A contact that finds no partner does nothing: the bodies would pass through each other unnoticed.
-void warn_of_idle_contacts(const constraint::Contacts& contacts, const Deck& deck, const Context& context)
-{
-  std::vector<double> points(deck.contacts.size(), 0.0);
-  for (const auto& point : contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
-  context.comm.sum_in_place(points);
-  for (std::size_t c = 0; c < points.size(); ++c)
-    if (points[c] == 0)
-      context.log.warning(
-          "contact {} has no point: its surfaces do not face each other within the search distance, or share less than a "
-          "twentieth of "
-          "a cell, and nothing keeps them apart; look at the names, set a larger search_distance, or refine the secondary side",
-          deck.contacts[c].name);
 }
 
 // In a table: nothing where there is no number yet.
@@ -244,9 +230,11 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   Simulation simulation(deck, decomposition, model, states.front(), context);
   stages.end("supports and contact", "contact");
   const auto& constraints = simulation.constraints();
-  warn_of_idle_contacts(constraints.contacts, deck, context);
-  report_initial_gaps(simulation.initial_gaps(), deck, command_line.check, context);
-  judge_untouched(deck, decomposition, model, states.front(), simulation.pairs(), constraints.contacts, context);
+  Warnings warnings;
+  for (auto& warning : check_model(deck, decomposition, model, simulation, comm)) warnings.tell(std::move(warning), log);
+  for (auto& warning : report_initial_gaps(simulation.initial_gaps(), deck, command_line.check, log))
+    warnings.tell(std::move(warning), log);
+  judge_untouched(deck, decomposition, model, states.front(), simulation.pairs(), constraints.contacts, context, warnings);
   const auto copies = model.congruent();
   const auto memory = foresee_memory(deck, decomposition, model, copies, comm);
   if (command_line.check) print_check(decomposition, constraints, memory, deck, context);
@@ -263,6 +251,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   Results results;
   const auto write_summary = [&](bool finished) {
     results.summary.finished = finished;
+    results.summary.warnings = warnings.all();
     results.summary.time["total"] = comm.max(MPI_Wtime() - start);
     results.summary.peak_memory_bytes = comm.sum(static_cast<double>(peak_memory()));
     collectively(comm, [&] {
@@ -277,6 +266,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
     Results found = evaluate(deck, decomposition, model, simulation, context);
     if (found.verdict.status == ExitStatus::no_equilibrium) throw Error(found.verdict.status, found.verdict.reason);
     add_up(state, results.summary, found);
+    warnings.add(check_results(deck, decomposition, model, simulation, found, comm));
     {
       const auto scope = timers.scope("output");
       files.write(simulation, found, state.time, last || !found.summary.converged, comm);
@@ -328,7 +318,8 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   log.line("  seconds on the ranks       min     mean      max");
   for (const auto& spread : spreads)
     log.line("    {:<18} {:8.2f} {:8.2f} {:8.2f}", spread.stage, spread.min, spread.mean, spread.max);
-  return results.summary.converged ? ExitStatus::solved : ExitStatus::not_converged;
+  print(warnings, log);
+  return results.verdict.status;
 }
 
 }  // namespace mortise

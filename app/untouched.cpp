@@ -109,7 +109,8 @@ std::vector<std::string> searches(const std::vector<contact::Pair>& pairs, std::
 }  // namespace
 
 void judge_untouched(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const LoadState& state,
-                     const std::vector<contact::Pair>& pairs, const constraint::Contacts& contacts, const Context& context)
+                     const std::vector<contact::Pair>& pairs, const constraint::Contacts& contacts, const Context& context,
+                     Warnings& found)
 {
   const auto& comm = context.comm;
   const auto& bodies = decomposition.catalogue.bodies;
@@ -134,8 +135,12 @@ void judge_untouched(const Deck& deck, const partition::Decomposition& decomposi
                                   why[b]);
     if (moving[b])
       loaded += "\n  " + text;
-    else if (++warnings <= most)
-      context.log.warning("{}; its rigid motions are set to zero", text);
+    else if (++warnings <= most) {
+      Warning w{"untouched_body", text, "its rigid motions are set to zero: support it, or let a contact reach it"};
+      w.body = bodies[b].name;
+      w.value = near.distance;
+      found.tell(std::move(w), context.log);
+    }
   }
   if (warnings > most) context.log.warning("... and {} more bodies that touch nothing", warnings - most);
   if (!loaded.empty())

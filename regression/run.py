@@ -9,6 +9,7 @@ A deck NAME.yaml has its expectations beside it in NAME.expected.json, or in the
     {"quantities": {"strain_energy": {"value": 1.25, "relative": 1e-3}, "contacts.0.force.2": {"value": -50, "absolute": 1e-2}},
      "residuals": {"equilibrium": 1e-6},            limits that replace the default ones below
      "exit_status": 0, "output": ["text that the terminal must show"],
+     "warnings": ["locking"],                            the kinds of all warnings of a run, sorted
      "summary": true,                                    a run that fails leaves that of the load steps before
      "address_space": 3000000000}                        bytes that the run may take
 
@@ -111,6 +112,11 @@ def main():
                 return 0
             if status == 0:
                 complaints += judge(summary, expected)
+            kinds = sorted(warning["kind"] for warning in summary["warnings"])
+            if kinds != expected.get("warnings", kinds):
+                complaints.append(f"warnings {kinds}, expected {expected['warnings']}")
+            complaints += [f"the last lines do not show the warning {warning['text']!r}" for warning in summary["warnings"]
+                           if warning["text"] not in done.stdout[done.stdout.find("seconds on the ranks"):]]
         elif status in (0, 2):
             complaints.append("no summary.json")
         elif summary_file.exists() != expected.get("summary", False):

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "by_node.hpp"
 #include "fem/element.hpp"
@@ -61,19 +62,38 @@ std::vector<At> quadrature(const Face& face, fem::Kinematics kinematics)
   return result;
 }
 
-// The faces that have a node in a row of their contact.
-std::vector<Face> touched(std::span<const Pair> pairs, const constraint::Contacts& contacts, const Communicator& comm)
+// A node in rows of a contact, with the sum of their normals, out of its own body.
+struct Touch {
+  Global node;
+  int contact, side;
+  double x, y, z;
+  Point normal() const { return {x, y, z}; }
+};
+
+std::vector<Touch> touches(const constraint::Contacts& contacts)
 {
-  struct Touch {
-    Global node;
-    int contact;
-  };
-  std::vector<Touch> mine;
+  std::map<std::tuple<Global, int, int>, Point> sums;
   for (const auto& point : contacts.points) {
-    mine.push_back({point.node, point.contact});
-    for (const auto& entry : contacts.rows[point.row])
-      if (mine.back().node != entry.node) mine.push_back({entry.node, point.contact});
+    Global before = -1;
+    for (const auto& entry : contacts.rows[point.row]) {
+      const double sign = entry.coefficient * point.normal[entry.component];
+      if (entry.node == before || sign == 0) continue;
+      before = entry.node;
+      const auto place = sums.emplace(std::tuple(entry.node, point.contact, sign > 0 ? 1 : 0), Point::Zero()).first;
+      place->second += sign > 0 ? point.normal : Point(-point.normal);
+    }
+    sums.emplace(std::tuple(point.node, point.contact, 1), point.normal);  // one whose entries supports hold
   }
+  std::vector<Touch> result;
+  for (const auto& [key, n] : sums) result.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), n[0], n[1], n[2]});
+  return result;
+}
+
+// The faces that have a node in a row of their contact and look where it pushes: not the end of a pin whose skin is in a hole.
+std::vector<Face> touched(std::span<const Pair> pairs, const constraint::Contacts& contacts, fem::Kinematics kinematics,
+                          const Communicator& comm)
+{
+  const auto mine = touches(contacts);
   std::vector<Global> nodes;
   for (const auto& pair : pairs) {
     nodes.insert(nodes.end(), pair.secondary.node_id.begin(), pair.secondary.node_id.end());
@@ -81,28 +101,32 @@ std::vector<Face> touched(std::span<const Pair> pairs, const constraint::Contact
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  std::map<Global, std::vector<int>> contacts_of;
-  for (const auto& touch : answer(by_node(std::span<const Touch>(mine), comm), ask(nodes, comm), comm)) {
-    auto& list = contacts_of[touch.node];
-    if (std::find(list.begin(), list.end(), touch.contact) == list.end()) list.push_back(touch.contact);
-  }
+  const auto known = answer(by_node(std::span<const Touch>(mine), comm), ask(nodes, comm), comm);
+  const auto looks = [&](const mesh::Surface& surface, std::size_t face, int contact, int side) {
+    Point normal = Point::Zero();
+    for (const auto& at : quadrature({{contact, side, 0}, &surface, face}, kinematics)) normal += at.normal;
+    normal.normalize();
+    return std::ranges::any_of(surface.faces[face], [&](Local n) {
+      const Global node = surface.node_id[static_cast<std::size_t>(n)];
+      Point sum = Point::Zero();
+      auto at = std::lower_bound(known.begin(), known.end(), node, [](const Touch& a, Global b) { return a.node < b; });
+      for (; at != known.end() && at->node == node; ++at)
+        if (at->contact == contact && at->side == side) sum += at->normal();
+      return sum.dot(normal) > 0.5 * sum.norm();
+    });
+  };
   std::vector<Face> result;
   for (std::size_t c = 0; c < pairs.size(); ++c)
     for (const int side : {0, 1}) {
-      if (pairs[c].options.law == Law::bonded || (side == 0 && !pairs[c].primary)) continue;
+      if (pairs[c].options.law == Law::bonded || pairs[c].options.cyclic || (side == 0 && !pairs[c].primary)) continue;
       const mesh::Surface& surface = side == 1 ? pairs[c].secondary : *pairs[c].primary;
       const auto count = result.size();
-      const auto add = [&](const auto& counts) {
-        for (std::size_t f = 0; f < surface.faces.size(); ++f)
-          if (counts(f)) result.push_back({{static_cast<int>(c), side, surface.body[f]}, &surface, f});
-      };
-      add([&](std::size_t f) {
-        return std::ranges::any_of(surface.faces[f], [&](Local n) {
-          const auto found = contacts_of.find(surface.node_id[static_cast<std::size_t>(n)]);
-          return found != contacts_of.end() && std::ranges::count(found->second, static_cast<int>(c)) > 0;
-        });
-      });
-      if (!comm.any(result.size() > count)) add([](std::size_t) { return true; });
+      const Key key{static_cast<int>(c), side, 0};
+      for (std::size_t f = 0; f < surface.faces.size(); ++f)
+        if (looks(surface, f, key.contact, side)) result.push_back({{key.contact, side, surface.body[f]}, &surface, f});
+      if (comm.any(result.size() > count)) continue;
+      for (std::size_t f = 0; f < surface.faces.size(); ++f)
+        result.push_back({{key.contact, side, surface.body[f]}, &surface, f});
     }
   return result;
 }
@@ -174,27 +198,23 @@ Slide::Form speed(const Slide& slide, const Point& x)
   return v.transpose() * v;
 }
 
-constexpr int most_terms = 10;
-using Terms = Eigen::Matrix<double, most_terms, 1>;
+constexpr int terms = 10;
+using Terms = Eigen::Matrix<double, terms, 1>;
 
-Terms polynomials(const Slide& slide, const Point& x, int count)
+Terms polynomials(const Slide& slide, const Point& x)
 {
   const Point r = (x - slide.centre) / slide.length;
   Terms result;
   result << 1, r[0], r[1], r[2], r[0] * r[0], r[1] * r[1], r[2] * r[2], r[0] * r[1], r[1] * r[2], r[0] * r[2];
-  result.tail(most_terms - count).setZero();
   return result;
 }
 
-// Few faces know a constant alone.
-int terms(double faces)
-{
-  return faces >= 40 ? 10 : faces >= 12 ? 4 : 1;
-}
+// Fewer faces cannot tell facets from what they stand for.
+constexpr double enough_faces = 20;
 
 struct Sums {
-  Eigen::Matrix<double, most_terms, most_terms> gram = Eigen::Matrix<double, most_terms, most_terms>::Zero();
-  Eigen::Matrix<double, most_terms, 6> mixed = Eigen::Matrix<double, most_terms, 6>::Zero();
+  Eigen::Matrix<double, terms, terms> gram = Eigen::Matrix<double, terms, terms>::Zero();
+  Eigen::Matrix<double, terms, 6> mixed = Eigen::Matrix<double, terms, 6>::Zero();
   Slide::Form whole = Slide::Form::Zero(), speed = Slide::Form::Zero();
 };
 static_assert(sizeof(Sums) == sizeof(double) * (100 + 60 + 72));
@@ -218,7 +238,7 @@ std::vector<Key> all_keys(const std::vector<Face>& faces, const Communicator& co
 std::vector<Slide> slides(std::span<const Pair> pairs, const constraint::Contacts& contacts, fem::Kinematics kinematics,
                           const Communicator& comm)
 {
-  const auto faces = touched(pairs, contacts, comm);
+  const auto faces = touched(pairs, contacts, kinematics, comm);
   const auto tilt = tilts(faces, kinematics == fem::Kinematics::solid, comm);
   const auto keys = all_keys(faces, comm);
   const auto place = [&](const Key& key) {
@@ -265,7 +285,7 @@ std::vector<Slide> slides(std::span<const Pair> pairs, const constraint::Contact
     for (const auto& at : quadrature(face, kinematics)) {
       const double w = at.normal.norm();
       const auto speed_here = normal_speed(result[k], at.x, at.normal / w);
-      const Terms p = polynomials(result[k], at.x, terms(extents[k].faces));
+      const Terms p = polynomials(result[k], at.x);
       sums[k].gram += w * p * p.transpose();
       sums[k].mixed += w * p * speed_here.transpose();
       sums[k].whole += w * speed_here * speed_here.transpose();
@@ -275,8 +295,10 @@ std::vector<Slide> slides(std::span<const Pair> pairs, const constraint::Contact
   comm.sum_in_place({reinterpret_cast<double*>(sums.data()), sums.size() * sizeof(Sums) / sizeof(double)});
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const auto inverse = sums[k].gram.completeOrthogonalDecomposition();
-    result[k].smooth = sums[k].mixed.transpose() * inverse.solve(sums[k].mixed) / extents[k].area;
     result[k].whole = sums[k].whole / extents[k].area;
+    result[k].smooth = result[k].whole;
+    if (extents[k].faces >= enough_faces)
+      result[k].smooth = sums[k].mixed.transpose() * inverse.solve(sums[k].mixed) / extents[k].area;
     result[k].speed = sums[k].speed / extents[k].area;
   }
   return result;

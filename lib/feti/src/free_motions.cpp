@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+
+#include "slideways.hpp"
 
 namespace mortise::feti {
 
@@ -18,40 +21,12 @@ constexpr double exactly = 1e-7;
 // Facets excuse the normal rows of contacts alone: what supports, bonds and friction feel of a motion counts this often.
 constexpr double support_weight = 1e3;
 
-// v of the rigid motions of one body, scaled so that |v| is about 1 on it: 3 translations and 3 rotations about its principal
-// axes, each by the nodes' distance from that axis (the spin of a slender bar has a short arm), or 2 and 1, or 1 along the axis
-// of revolution.
-RigidMotion unit_motion(int body, const BodyFrame& frame, int index, fem::Kinematics kinematics)
-{
-  RigidMotion motion{body, frame.centre};
-  const int dimension = fem::dimension(kinematics);
-  if (kinematics == fem::Kinematics::axisymmetric)
-    motion.translation[1] = 1;
-  else if (index < dimension)
-    motion.translation[index] = 1;
-  else
-    motion.rotation = frame.axes.col(dimension == 2 ? 2 : index - dimension) / frame.arms[dimension == 2 ? 2 : index - dimension];
-  return motion;
-}
-
 Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& points, int dimension)
 {
   Eigen::VectorXd v(static_cast<Eigen::Index>(points.size()) * dimension);
   for (std::size_t n = 0; n < points.size(); ++n)
     v.segment(static_cast<Eigen::Index>(n) * dimension, dimension) = motion.at(points[n]).head(dimension);
   return v;
-}
-
-RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eigen::VectorXd>& amplitudes,
-                    fem::Kinematics kinematics)
-{
-  RigidMotion motion{body, frame.centre};
-  for (int k = 0; k < amplitudes.size(); ++k) {
-    const auto unit = unit_motion(body, frame, k, kinematics);
-    motion.translation += amplitudes[k] * unit.translation;
-    motion.rotation += amplitudes[k] * unit.rotation;
-  }
-  return motion;
 }
 
 // Everything body-wise: A maps the amplitudes of the bodies' motions to kernel coordinates of the clusters.
@@ -120,125 +95,59 @@ std::vector<Eigen::VectorXd> unfelt(const Eigen::MatrixXd& rows, double toleranc
   return result;
 }
 
-// The part of a space of amplitudes, columns orthonormal, that is orthogonal to `taken`, whose columns are so too.
-Eigen::MatrixXd complement(const Eigen::MatrixXd& taken)
+// Of the space of `basis`, orthonormal columns, what the rows that `counts` marks with 1 do not feel. Collective.
+Eigen::MatrixXd unfelt_by(const Eigen::VectorXd& counts, const Eigen::MatrixXd& rows, const Eigen::MatrixXd& basis,
+                          double tolerance, const Communicator& comm)
 {
-  const auto modes = taken.rows();
-  if (taken.cols() == 0) return Eigen::MatrixXd::Identity(modes, modes);
-  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(taken).householderQ();
-  return q.rightCols(modes - taken.cols());
+  Eigen::MatrixXd result(basis.rows(), 0);
+  if (basis.cols() == 0) return result;
+  for (const auto& v : unfelt(counts.asDiagonal() * rows * basis, tolerance, comm)) {
+    result.conservativeResize(Eigen::NoChange, result.cols() + 1);
+    result.rightCols(1) = basis * v;
+  }
+  return result;
 }
 
-// Of the rows that `counts` marks with 1 the mean of what they feel, squared, as a form; no row is no form. Collective.
-Eigen::MatrixXd mean_square(const Eigen::MatrixXd& rows, const Eigen::VectorXd& counts, const Communicator& comm)
+// The bodies that bonded contacts join, with the others alone: each body by itself first, then the sets of several.
+std::vector<std::vector<int>> units(const SparseMatrix& felt, const constraint::Contacts& contacts, Local first_contact,
+                                    int bodies, int modes, const Communicator& comm)
 {
-  const Eigen::MatrixXd marked = counts.asDiagonal() * rows;
-  Eigen::MatrixXd gram = marked.transpose() * marked;
-  comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
-  double count = 0;
-  for (Eigen::Index r = 0; r < marked.rows(); ++r) count += marked.row(r).squaredNorm() > 0;
-  return gram / std::max(comm.sum(count), 1.0);
-}
-
-// What the surfaces in contact of one body, and those that they touch, say of its motions.
-class Slideways {
- public:
-  Slideways(int body, const BodyFrame& frame, fem::Kinematics kinematics, std::span<const constraint::Slide> slides)
-  {
-    std::vector<int> contacts;
-    for (const auto& slide : slides)
-      if (slide.body == body) contacts.push_back(slide.contact);
-    for (const auto& slide : slides) {
-      if (std::find(contacts.begin(), contacts.end(), slide.contact) == contacts.end()) continue;
-      const int modes = fem::rigid_motion_count(kinematics);
-      Eigen::MatrixXd there(6, modes);  // the body's unit motions at the slide's centre
-      for (int k = 0; k < modes; ++k) {
-        const auto motion = unit_motion(body, frame, k, kinematics);
-        there.col(k) << motion.at(slide.centre), motion.rotation * slide.length;
-      }
-      auto& side = slide.body == body ? own_[slide.contact] : other_[slide.contact];
-      side.push_back({there.transpose() * slide.whole * there, there.transpose() * slide.smooth * there,
-                      there.transpose() * slide.speed * there, slide.tilt});
-    }
-  }
-
-  // Motions in the space of `basis` that surfaces let slide along themselves, orthonormal; `fixed` are mean squares of what
-  // supports, bonds and friction feel.
-  Eigen::MatrixXd free(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& fixed) const
-  {
-    Eigen::MatrixXd found(basis.rows(), 0);
-    if (own_.empty()) return found;
-    for (const auto* sides : {&own_, &other_}) {
-      const Eigen::MatrixXd rest = basis * complement(basis.transpose() * found);
-      if (rest.cols() == 0) break;
-      Eigen::MatrixXd felt = fixed / (exactly * exactly), speed = 1e-12 * Eigen::MatrixXd::Identity(fixed.rows(), fixed.cols());
-      for (const auto& [contact, parts] : *sides)
-        for (const auto& part : parts) {
-          felt += part.smooth / std::pow(part.tolerance(), 2);
-          speed += part.speed;
-        }
-      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(rest.transpose() * felt * rest,
-                                                                            rest.transpose() * speed * rest);
-      Eigen::MatrixXd accepted = found;
-      for (Eigen::Index k = 0; k < rest.cols(); ++k) {
-        const Eigen::VectorXd v = rest * eigen.eigenvectors().col(k).normalized();
-        if (v.dot(fixed * v) > exactly * exactly || !slides(v)) continue;
-        accepted.conservativeResize(Eigen::NoChange, accepted.cols() + 1);
-        accepted.rightCols(1) = v;
-      }
-      if (accepted.cols() == found.cols()) continue;
-      const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(accepted).householderQ();
-      found = q.leftCols(accepted.cols());
-    }
-    return found;
-  }
-
-  // The root mean square of what the surfaces feel of a motion, facets left out.
-  double felt(const Eigen::VectorXd& v) const
-  {
-    double result = 0;
-    for (const auto& [contact, parts] : own_) {
-      const auto side = [&](const std::vector<Part>& all) {
-        double worst = 0;
-        for (const auto& part : all) worst = std::max(worst, v.dot(part.smooth * v));
-        return worst;
-      };
-      const auto facing = other_.find(contact);
-      result = std::max(result, facing == other_.end() ? side(parts) : std::min(side(parts), side(facing->second)));
-    }
-    return std::sqrt(std::max(result, 0.0));
-  }
-
- private:
-  struct Part {
-    Eigen::MatrixXd whole, smooth, speed;
-    double tilt;
-    // Polygons differ from the curve by the square of the angle between their edges.
-    double tolerance() const { return 0.4 * tilt + exactly; }
-    bool slides(const Eigen::VectorXd& v) const
-    {
-      const double square = v.dot(speed * v) + 1e-12;
-      return v.dot(smooth * v) <= tolerance() * tolerance() * square &&
-             v.dot(whole * v) <= (tilt_share * tilt + exactly * exactly) * square;
-    }
-    static constexpr double tilt_share = 2;  // of n . v squared that may be due to tilts: teeth are more
+  struct Bond {
+    int one, other;
   };
-  using Sides = std::map<int, std::vector<Part>>;  // by contact
-
-  // Whether at each contact one of the two surfaces slides along itself.
-  bool slides(const Eigen::VectorXd& v) const
-  {
-    const auto all = [&](const std::vector<Part>& parts) {
-      return std::all_of(parts.begin(), parts.end(), [&](const Part& part) { return part.slides(v); });
-    };
-    return std::all_of(own_.begin(), own_.end(), [&](const auto& contact) {
-      const auto facing = other_.find(contact.first);
-      return all(contact.second) || (facing != other_.end() && all(facing->second));
-    });
+  std::vector<Bond> bonds;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows(felt);
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    if (!contacts.bonded[i]) continue;
+    int before = -1;
+    for (decltype(rows)::InnerIterator entry(rows, first_contact + static_cast<Local>(contacts.points[i].row)); entry; ++entry) {
+      const int body = static_cast<int>(entry.col()) / modes;
+      if (std::abs(entry.value()) < 1e-9 || body == before) continue;
+      if (before >= 0 && (bonds.empty() || bonds.back().one != before || bonds.back().other != body))
+        bonds.push_back({before, body});
+      before = body;
+    }
   }
-
-  Sides own_, other_;
-};
+  std::vector<int> root(static_cast<std::size_t>(bodies));
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int b) {
+    while (root[static_cast<std::size_t>(b)] != b) b = root[static_cast<std::size_t>(b)];
+    return b;
+  };
+  for (const auto& bond : comm.all_gather(bonds)) {
+    const int a = find(bond.one), b = find(bond.other);
+    root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  std::map<int, std::vector<int>> sets;
+  std::vector<std::vector<int>> result;
+  for (int b = 0; b < bodies; ++b) {
+    result.push_back({b});
+    sets[find(b)].push_back(b);
+  }
+  for (auto& [first, set] : sets)
+    if (set.size() > 1) result.push_back(std::move(set));
+  return result;
+}
 
 // Takes out of `felt` what a cut that is tightened to a force gives way to, part * s with the s that is nearest to each motion,
 // and adds what the force works on it. `first`: the first contact row of `felt`.
@@ -279,7 +188,7 @@ std::string describe(const RigidMotion& motion, double size)
   const auto print = [](const Point& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0], p[1], p[2]); };
   const auto clean = [](Point p) { return Point((p.array().abs() < 1e-4 * p.cwiseAbs().maxCoeff()).select(0.0, p)); };
   const double turning = motion.rotation.norm() * size;
-  if (turning < 1e-2 * motion.translation.norm() || turning == 0)
+  if (turning < 2e-2 * motion.translation.norm() || turning == 0)
     return "moves along " + print(clean(motion.translation.normalized()));
   if (turning < 0.5 * motion.translation.norm())
     return "moves along " + print(clean(motion.translation.normalized())) + ", turning as it goes";
@@ -378,19 +287,36 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
 
   std::vector<FreeMotion> found;
   std::vector<Eigen::VectorXd> amplitudes;  // of each found motion, over all bodies
-  const auto add = [&](int b, const Eigen::VectorXd& v, double motion_felt, bool slideway) {
-    FreeMotion motion;
-    motion.felt = motion_felt;
-    motion.slideway = slideway;
-    motion.motions.push_back(combine(b, bodies.frames[b], v, kinematics));
-    motion.work = bodies.force[b] > 0 ? std::abs(bodies.generalised.segment(b * modes, modes).dot(v)) / bodies.force[b] : 0;
-    amplitudes.emplace_back(Eigen::VectorXd::Zero(body_count * modes));
-    amplitudes.back().segment(b * modes, modes) = v;
-    found.push_back(std::move(motion));
-  };
-  for (int b = 0; b < body_count; ++b) {
-    const Eigen::MatrixXd rows = weight_of_row.asDiagonal() * Eigen::MatrixXd(felt.middleCols(b * modes, modes));
-    const auto drives = bodies.generalised.segment(b * modes, modes);
+  for (const auto& unit : units(felt, contacts, first_contact, body_count, modes, comm)) {
+    // Bodies of which one moves by itself are left to the joint motions below.
+    if (unit.size() > 1 && std::any_of(found.begin(), found.end(), [&](const FreeMotion& motion) {
+          return std::find(unit.begin(), unit.end(), motion.motions.front().body) != unit.end();
+        }))
+      continue;
+    const auto& frame = bodies.frames[static_cast<std::size_t>(unit.front())];
+    // From amplitudes of the first body to those of all bodies that move with it.
+    Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(body_count * modes, modes);
+    double force = 0;
+    for (const int b : unit) {
+      for (int k = 0; k < modes; ++k)
+        spread.block(b * modes, k, modes, 1) = amplitudes_of(unit_motion(unit.front(), frame, k, kinematics),
+                                                             bodies.frames[static_cast<std::size_t>(b)], kinematics);
+      force += bodies.force[b];
+    }
+    const Eigen::MatrixXd rows = weight_of_row.asDiagonal() * Eigen::MatrixXd(felt * spread.sparseView(1.0, 1e-14));
+    const Eigen::VectorXd drives = spread.transpose() * bodies.generalised;
+    const auto add = [&](const Eigen::VectorXd& v, double motion_felt, bool slideway) {
+      FreeMotion motion;
+      motion.felt = motion_felt;
+      motion.slideway = slideway;
+      for (const int b : unit) {
+        motion.motions.push_back(combine(unit.front(), frame, v, kinematics));
+        motion.motions.back().body = b;
+      }
+      motion.work = force > 0 ? std::abs(drives.dot(v)) / force : 0;
+      amplitudes.emplace_back(spread * v);
+      found.push_back(std::move(motion));
+    };
     // Three kinds, each in what the ones before leave: what rows do not feel at all; what lets surfaces slide along themselves;
     // what rows hardly feel.
     Eigen::MatrixXd taken(modes, 0);
@@ -400,12 +326,12 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
       taken.rightCols(1) = v;
     }
     turn_to_loads(taken, drives);
-    for (const auto& v : taken.colwise()) add(b, v, largest(rows * v, comm), false);
+    for (const auto& v : taken.colwise()) add(v, largest(rows * v, comm), false);
 
-    const Slideways slideways(b, bodies.frames[b], kinematics, slides);
-    Eigen::MatrixXd sliding = slideways.free(complement(taken), mean_square(rows, fixed_row, comm));
+    const Slideways slideways(unit, frame, kinematics, slides);
+    Eigen::MatrixXd sliding = slideways.free(unfelt_by(fixed_row, rows, complement(taken), exactly * support_weight, comm));
     turn_to_loads(sliding, drives);
-    for (const auto& v : sliding.colwise()) add(b, v, slideways.felt(v), true);
+    for (const auto& v : sliding.colwise()) add(v, slideways.felt(v), true);
 
     Eigen::MatrixXd all(modes, taken.cols() + sliding.cols());
     all << taken, sliding;
@@ -415,7 +341,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
     for (const auto& amplitude : unfelt(rows_of_rest, nearly, comm)) {
       const Eigen::VectorXd v = rest * amplitude;
       const double worst = largest(rows * v, comm);
-      if (along_surfaces(rows, v, combine(b, bodies.frames[b], v, kinematics)) && worst <= 3 * nearly) add(b, v, worst, false);
+      if (along_surfaces(rows, v, combine(unit.front(), frame, v, kinematics)) && worst <= 3 * nearly) add(v, worst, false);
     }
   }
 

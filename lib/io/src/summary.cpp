@@ -26,6 +26,27 @@ Json communication(const Summary::Communication& c)
           {"collective_bytes", number(c.collective_bytes)}};
 }
 
+Json name(const std::string& text)
+{
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
+Json warning(const Warning& w)
+{
+  Json json{{"kind", w.kind},
+            {"text", w.text},
+            {"place",
+             {{"coordinates", w.at ? vector({(*w.at)[0], (*w.at)[1], (*w.at)[2]}) : Json(nullptr)},
+              {"body", name(w.body)},
+              {"boundary", name(w.boundary)},
+              {"contact", name(w.contact)}}},
+            {"value", number(w.value)},
+            {"limit", number(w.limit)},
+            {"cure", w.cure}};
+  if (!w.step.empty()) json["step"] = w.step;
+  return json;
+}
+
 void add_work(const StateSummary& s, Json& json)
 {
   json["friction_steps"] = s.friction_steps;
@@ -56,7 +77,8 @@ void add_state(const StateSummary& s, Json& json)
                                 {"open", c.open},
                                 {"stick", c.stick},
                                 {"slip", c.slip},
-                                {"max_recovered_pressure", number(c.max_recovered_pressure)}});
+                                {"max_recovered_pressure", number(c.max_recovered_pressure)},
+                                {"max_tension", number(c.max_tension)}});
     if (c.initial_gap)
       json["contacts"].back()["initial_gap"] = {{"smallest", number(c.initial_gap->smallest)},
                                                 {"largest_overlap", number(c.initial_gap->largest_overlap)},
@@ -83,6 +105,8 @@ std::string to_json(const Summary& s)
             {"bodies", s.bodies}};
   add_work(s, json);
   add_state(s, json);
+  json["warnings"] = Json::array();
+  for (const auto& w : s.warnings) json["warnings"].push_back(warning(w));
   for (const auto& step : s.steps) {
     Json state{{"name", step.name}, {"time", number(step.time)}, {"converged", step.converged}};
     add_work(step, state);

@@ -58,6 +58,7 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "max_displacement",
                                "reactions",
                                "contacts",
+                               "warnings",
                                "time",
                                "peak_memory_bytes",
                                "communication"}));
@@ -65,7 +66,7 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
   EXPECT_EQ(keys(json["error_estimate"]), (Names{"discretization", "algebraic"}));
   EXPECT_EQ(keys(json["reactions"][0]), (Names{"boundary", "force"}));
   EXPECT_EQ(keys(json["contacts"][0]),
-            (Names{"name", "force", "max_pressure", "area", "open", "stick", "slip", "max_recovered_pressure"}));
+            (Names{"name", "force", "max_pressure", "area", "open", "stick", "slip", "max_recovered_pressure", "max_tension"}));
   EXPECT_EQ(keys(json["time"]),
             (Names{"total", "mesh", "partition", "assembly", "contact", "factorization", "solve", "multiplication", "output"}));
   EXPECT_EQ(keys(json["communication"]), (Names{"total", "set_up", "solve", "multiplication"}));
@@ -89,6 +90,23 @@ TEST(Summary, ValuesComeBack)
   EXPECT_EQ(json["communication"]["solve"]["largest"]["bytes"], 20);
   EXPECT_EQ(json["communication"]["solve"]["mean"]["collectives"], 7.5);
   EXPECT_EQ(json["communication"]["set_up"]["largest"]["messages"], 0);
+}
+
+TEST(Summary, WarningsSayWhatWhereAndWhatToDo)
+{
+  auto s = sample();
+  s.warnings.push_back({"large_displacement", "far", "hold it", Point(1, 2, 3), "plate", "", "", 1.5, 0.05, "pull"});
+  s.warnings.push_back({"facet_push", "push", "refine"});
+  const auto json = Json::parse(to_json(s))["warnings"];
+  ASSERT_EQ(json.size(), 2U);
+  EXPECT_EQ(keys(json[0]), (std::vector<std::string>{"kind", "text", "place", "value", "limit", "cure", "step"}));
+  EXPECT_EQ(keys(json[0]["place"]), (std::vector<std::string>{"coordinates", "body", "boundary", "contact"}));
+  EXPECT_EQ(json[0]["place"]["coordinates"], (Json{1, 2, 3}));
+  EXPECT_EQ(json[0]["place"]["body"], "plate");
+  EXPECT_TRUE(json[0]["place"]["contact"].is_null());
+  EXPECT_EQ(json[0]["value"], 1.5);
+  EXPECT_TRUE(json[1]["place"]["coordinates"].is_null());
+  EXPECT_FALSE(json[1].contains("step"));
 }
 
 TEST(Summary, WhatIsNotFiniteOrNotEstimatedIsNull)

@@ -17,7 +17,7 @@ struct Slide {
   Point centre = Point::Zero();
   double length = 1;
   Form whole = Form::Zero();   ///< of (n . v)^2
-  Form smooth = Form::Zero();  ///< of the square of what n . v has in common with polynomials of low degree
+  Form smooth = Form::Zero();  ///< of the square of what n . v has in common with quadratic polynomials; of few faces the whole
   Form speed = Form::Zero();   ///< of |v|^2
   double tilt = 0;             ///< of the squared angle between a face and the mean of the faces at its nodes, but for kinks
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "base/warning.hpp"
 
 namespace mortise::io {
 
@@ -35,6 +36,7 @@ struct StateSummary {
     double max_pressure, area;
     long long open, stick, slip;
     double max_recovered_pressure = 0;  ///< averaged over the faces at a node
+    double max_tension = 0;             ///< of bonded contacts, averaged likewise; >= 0
     struct Preload {
       double force, shortening;
     };
@@ -59,6 +61,7 @@ struct Summary : StateSummary {
     std::string name;
     double time = 0;
   };
+  std::vector<Warning> warnings;       ///< of all states, the worst of each kind and place
   std::vector<Step> steps;             ///< if the deck has load steps: all states that were solved
   std::map<std::string, double> time;  ///< seconds a stage, the largest over the ranks
   double peak_memory_bytes = 0;        ///< summed over the ranks

@@ -1,0 +1,119 @@
+// Rigid motions that let surfaces in contact slide along themselves: free, whatever the facets of the mesh resist.
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "constraint/slide.hpp"
+#include "unit_motions.hpp"
+
+namespace mortise::feti {
+
+/// What the surfaces in contact of bodies that move as one, and those that they touch, say of their motions, amplitudes of the
+/// first body's.
+class Slideways {
+ public:
+  Slideways(const std::vector<int>& bodies, const BodyFrame& frame, fem::Kinematics kinematics,
+            std::span<const constraint::Slide> slides)
+  {
+    const auto moves = [&](int body) { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); };
+    std::map<int, bool> inside, outside;  // contacts that have a side on the bodies, and on others or on obstacles
+    std::map<int, int> sides;
+    for (const auto& slide : slides) {
+      (moves(slide.body) ? inside : outside)[slide.contact] = true;
+      sides[slide.contact] |= slide.secondary ? 1 : 2;
+    }
+    for (const auto& slide : slides) {
+      const bool obstacle = sides[slide.contact] != 3;
+      if (!inside.contains(slide.contact) || (!obstacle && !outside.contains(slide.contact))) continue;
+      const int modes = fem::rigid_motion_count(kinematics);
+      Eigen::MatrixXd there(6, modes);  // the body's unit motions at the slide's centre
+      for (int k = 0; k < modes; ++k) {
+        const auto motion = unit_motion(bodies.front(), frame, k, kinematics);
+        there.col(k) << motion.at(slide.centre), motion.rotation * slide.length;
+      }
+      auto& side = moves(slide.body) ? own_[slide.contact] : other_[slide.contact];
+      side.push_back({there.transpose() * slide.whole * there, there.transpose() * slide.smooth * there,
+                      there.transpose() * slide.speed * there, slide.tilt});
+    }
+  }
+
+  // Motions in the space of `basis`, orthonormal columns, that surfaces let slide along themselves, orthonormal.
+  Eigen::MatrixXd free(const Eigen::MatrixXd& basis) const
+  {
+    Eigen::MatrixXd found(basis.rows(), 0);
+    if (own_.empty() || basis.cols() == 0) return found;
+    for (const auto* sides : {&own_, &other_}) {
+      Eigen::MatrixXd felt = Eigen::MatrixXd::Zero(basis.rows(), basis.rows());
+      Eigen::MatrixXd speed = exact * exact * Eigen::MatrixXd::Identity(basis.rows(), basis.rows());
+      for (const auto& [contact, parts] : *sides)
+        for (const auto& part : parts) {
+          felt += part.smooth / std::pow(part.tolerance(), 2);
+          speed += part.speed;
+        }
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * felt * basis,
+                                                                            basis.transpose() * speed * basis);
+      for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+        const Eigen::VectorXd v = basis * eigen.eigenvectors().col(k).normalized();
+        const Eigen::VectorXd rest = v - found * (found.transpose() * v);
+        if (rest.norm() < 0.1 || !slides(v)) continue;  // known by its other side, or not free
+        found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+        found.rightCols(1) = rest.normalized();
+      }
+    }
+    return found;
+  }
+
+  // The root mean square of what the surfaces feel of a motion, facets left out.
+  double felt(const Eigen::VectorXd& v) const
+  {
+    double result = 0;
+    for (const auto& [contact, parts] : own_) {
+      const auto side = [&](const std::vector<Part>& all) {
+        double worst = 0;
+        for (const auto& part : all) worst = std::max(worst, v.dot(part.smooth * v));
+        return worst;
+      };
+      const auto facing = other_.find(contact);
+      result = std::max(result, facing == other_.end() ? side(parts) : std::min(side(parts), side(facing->second)));
+    }
+    return std::sqrt(std::max(result, 0.0));
+  }
+
+ private:
+  static constexpr double exact = 1e-6;  // what flat surfaces leave by rounding
+  struct Part {
+    Eigen::MatrixXd whole, smooth, speed;
+    double tilt;
+    // What facets leave in quadratic polynomials is a small part of the angles between them: 1 to 7 % on meshes of cylinders.
+    double tolerance() const { return 0.1 * std::sqrt(tilt) + exact; }
+    bool slides(const Eigen::VectorXd& v) const
+    {
+      const double square = v.dot(speed * v) + 1e-12;
+      return v.dot(smooth * v) <= tolerance() * tolerance() * square &&
+             v.dot(whole * v) <= (tilt_share * tilt + exact * exact) * square;
+    }
+    static constexpr double tilt_share = 2;  // of n . v squared that may be due to tilts: teeth are more
+  };
+  using Sides = std::map<int, std::vector<Part>>;  // by contact
+
+  // Whether at each contact one of the two surfaces slides along itself.
+  bool slides(const Eigen::VectorXd& v) const
+  {
+    const auto all = [&](const std::vector<Part>& parts) {
+      return std::all_of(parts.begin(), parts.end(), [&](const Part& part) { return part.slides(v); });
+    };
+    return std::all_of(own_.begin(), own_.end(), [&](const auto& contact) {
+      const auto facing = other_.find(contact.first);
+      return all(contact.second) || (facing != other_.end() && all(facing->second));
+    });
+  }
+
+  Sides own_, other_;
+};
+
+}  // namespace mortise::feti

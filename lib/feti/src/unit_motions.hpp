@@ -1,0 +1,23 @@
+// The rigid motions of a body by their amplitudes.
+#pragma once
+
+#include "feti/free_motions.hpp"
+
+namespace mortise::feti {
+
+/// v of the rigid motions of one body, scaled so that |v| is about 1 on it: 3 translations and 3 rotations about its principal
+/// axes, each by the nodes' distance from that axis (the spin of a slender bar has a short arm), or 2 and 1, or 1 along the axis
+/// of revolution.
+RigidMotion unit_motion(int body, const BodyFrame& frame, int index, fem::Kinematics kinematics);
+
+/// The sum of unit motions times their amplitudes.
+RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eigen::VectorXd>& amplitudes,
+                    fem::Kinematics kinematics);
+
+/// The amplitudes of a rigid motion, of a body with that frame; the reverse of combine().
+Eigen::VectorXd amplitudes_of(const RigidMotion& motion, const BodyFrame& frame, fem::Kinematics kinematics);
+
+/// An orthonormal basis of what is orthogonal to the orthonormal columns of `taken`.
+Eigen::MatrixXd complement(const Eigen::MatrixXd& taken);
+
+}  // namespace mortise::feti

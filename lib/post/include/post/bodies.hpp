@@ -1,0 +1,32 @@
+// What is known of each body as a whole, the same on every rank.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "fem/options.hpp"
+#include "partition/decomposition.hpp"
+
+namespace mortise::post {
+
+/// The largest value found on a body, and where.
+struct Found {
+  double value = -std::numeric_limits<double>::infinity();
+  Point at = Point::Zero();
+
+  void take(double other, const Point& place)
+  {
+    if (other > value) *this = {other, place};
+  }
+};
+
+/// Of each body the largest over all ranks; `mine` has an entry for each body of the catalogue. Collective.
+std::vector<Found> largest_of_ranks(const std::vector<Found>& mine, const Communicator& comm);
+
+/// The size of each body: the diagonal of the box round it, in axisymmetry round the whole turn. Collective.
+std::vector<double> body_sizes(const partition::Decomposition& decomposition, fem::Kinematics kinematics,
+                               const Communicator& comm);
+
+}  // namespace mortise::post

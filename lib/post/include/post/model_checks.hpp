@@ -1,0 +1,41 @@
+// What can be seen of a model before it is solved: materials, units and contacts that do not go together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/warning.hpp"
+#include "contact/mortar.hpp"
+#include "fem/options.hpp"
+
+namespace mortise::post {
+
+/// A body's material, one entry for each.
+struct BodyMaterial {
+  std::string body;
+  double size = 0;  ///< of the body
+  fem::Material material;
+  fem::Formulation formulation = fem::Formulation::standard;
+  bool first_order = true;  ///< some cell of it has straight edges
+};
+
+/// "locking": Poisson's ratio above 0.45 with standard cells of first order, which are then far too stiff; plane stress is
+/// exempt, as are the formulations for such materials.
+std::vector<Warning> locking(const std::vector<BodyMaterial>& bodies, fem::Kinematics kinematics);
+
+/// A load on a boundary as force over area.
+struct AppliedStress {
+  std::string boundary;
+  double stress = 0;
+  double young_modulus = 0;  ///< of its bodies, the smallest
+};
+
+/// "mixed_units": a load above a tenth of Young's modulus, or below its 1e-9th part; a wave that takes longer than a second to
+/// cross a body, or less than 1e-10 s, by its size over sqrt(E / density) (7850 kg/m3 with MPa and mm: 20 s for 100 mm).
+std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const std::vector<AppliedStress>& loads);
+
+/// "doubled_contact": two contacts have faces in common on both of their sides, so that each presses as if the other were not
+/// there. Collective.
+std::vector<Warning> doubled_contacts(std::span<const contact::Pair> pairs, const Communicator& comm);
+
+}  // namespace mortise::post

@@ -1,0 +1,52 @@
+// Forces and errors that the model cannot mean: pressures of the size of Young's modulus, supports that carry too much for their
+// area, meshes too coarse for what they show.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/warning.hpp"
+#include "contact/state.hpp"
+#include "post/bodies.hpp"
+
+namespace mortise::post {
+
+/// "large_pressure": the recovered pressure of a contact exceeds a hundredth of the smaller Young's modulus of its bodies, which
+/// `softest` has for each body. `surfaces` as of contact::surface_states(). Collective.
+std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
+                                     const std::vector<double>& softest, const std::vector<std::string>& bodies,
+                                     const Communicator& comm);
+
+/// The largest tension, force over area at one point, of each contact; 0 where none pulls. Collective.
+std::vector<double> largest_tensions(std::span<const contact::PointState> points, std::size_t contacts, const Communicator& comm);
+
+/// What a support does, and what it lies on.
+struct SupportLoad {
+  std::string boundary;
+  std::array<double, 3> force{};  ///< resultant
+  double area = 0;                ///< of its faces; of the whole turn in axisymmetry, in planes times the thickness 1
+  Point centre = Point::Zero();
+  double young_modulus = 0;  ///< the smallest of its bodies
+};
+
+/// "strained_support": resultant over area exceeds a hundredth of Young's modulus: no real seat bears that, so the area is not
+/// what was meant (a sliver, one face of a mesh to stop a rigid motion), or the load is not. `forces`: the largest force of the
+/// model; a resultant below a millionth of it is rounding.
+std::vector<Warning> strained_supports(const std::vector<SupportLoad>& supports, double forces);
+
+/// Where the estimated error of the mesh is.
+struct MeshError {
+  double relative = 0;       ///< of all, in the energy norm
+  std::vector<Found> cells;  ///< of each body: the largest squared error of a cell, at the cell's centre
+  std::vector<double> part;  ///< of each body: its part of the squared error
+};
+
+/// "coarse_mesh": the relative error exceeds 25 %.
+std::vector<Warning> coarse_mesh(const MeshError& error, const std::vector<std::string>& bodies);
+
+/// "facet_push": facets push bodies along motions that nothing resists with more than a thousandth of the largest force; `part`
+/// is what holds against it over that force, `force` itself.
+std::vector<Warning> facet_push(double part, const Point& force);
+
+}  // namespace mortise::post

@@ -1,0 +1,145 @@
+#include "post/model_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "wording.hpp"
+
+namespace mortise::post {
+
+namespace {
+
+constexpr double nearly_incompressible = 0.45;
+constexpr double most_stress = 0.1, least_stress = 1e-9;  // over Young's modulus
+constexpr double longest = 1, shortest = 1e-10;           // seconds, or whatever unit: a wave through a body
+
+Warning stress_in_other_units(const AppliedStress& load)
+{
+  const double part = load.stress / load.young_modulus;
+  Warning w{"mixed_units",
+            fmt::format("the load on \"{}\" is {:.3g} on the average, {:.2g} of Young's modulus {:.4g}: units look mixed",
+                        load.boundary, load.stress, part, load.young_modulus),
+            "take one set: N, mm, MPa, t/mm3, or N, m, Pa, kg/m3; look at mesh.scale as well"};
+  w.boundary = load.boundary;
+  w.value = part;
+  w.limit = part > most_stress ? most_stress : least_stress;
+  return w;
+}
+
+}  // namespace
+
+std::vector<Warning> locking(const std::vector<BodyMaterial>& bodies, fem::Kinematics kinematics)
+{
+  if (kinematics == fem::Kinematics::plane_stress) return {};
+  std::vector<Warning> result;
+  for (const auto& b : bodies) {
+    if (!(b.material.poisson_ratio > nearly_incompressible) || b.formulation != fem::Formulation::standard || !b.first_order)
+      continue;
+    Warning w{
+        "locking",
+        fmt::format("body \"{}\" has Poisson's ratio {:.4g} and standard cells of first order, which lock: it is far too stiff",
+                    b.body, b.material.poisson_ratio),
+        "formulation: bbar (hex8, quad4, prism6), or cells of second order (mesh.order: 2)"};
+    w.body = b.body;
+    w.value = b.material.poisson_ratio;
+    w.limit = nearly_incompressible;
+    result.push_back(std::move(w));
+  }
+  return worst(std::move(result), "bodies");
+}
+
+std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const std::vector<AppliedStress>& loads)
+{
+  std::vector<Warning> too_large, too_small, waves;
+  for (const auto& load : loads) {
+    if (!(load.stress > 0) || !(load.young_modulus > 0)) continue;
+    const double part = load.stress / load.young_modulus;
+    if (part > most_stress) too_large.push_back(stress_in_other_units(load));
+    if (part < least_stress) too_small.push_back(stress_in_other_units(load));
+  }
+  for (const auto& b : bodies) {
+    if (!(b.material.density > 0)) continue;
+    const double time = b.size / std::sqrt(b.material.young_modulus / b.material.density);
+    if (time <= longest && time >= shortest) continue;
+    Warning w{"mixed_units",
+              fmt::format(
+                  "a sound wave would take {:.2g} s through body \"{}\" of size {:.3g} (Young's modulus {:.4g}, density {:.4g}): "
+                  "units look mixed",
+                  time, b.body, b.size, b.material.young_modulus, b.material.density),
+              "take one set: N, mm, MPa and density in t/mm3 (steel 7.85e-9), or N, m, Pa and kg/m3"};
+    w.body = b.body;
+    w.value = time;
+    w.limit = time > longest ? longest : shortest;
+    waves.push_back(std::move(w));
+  }
+  std::vector<Warning> result;
+  for (auto& group :
+       {worst(std::move(too_large), "loads"), worst(std::move(too_small), "loads"), worst(std::move(waves), "bodies")})
+    result.insert(result.end(), group.begin(), group.end());
+  return result;
+}
+
+std::vector<Warning> doubled_contacts(std::span<const contact::Pair> pairs, const Communicator& comm)
+{
+  // For each face of this rank the sides it is on, 2 * contact + (0 primary, 1 secondary); a face stands on one rank. Most faces
+  // have the same ones as their neighbours.
+  std::map<Global, std::vector<int>> sides;
+  std::map<Global, Point> places;
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    for (const int side : {0, 1}) {
+      if (side == 0 && !pairs[c].primary) continue;
+      const auto& surface = side == 1 ? pairs[c].secondary : *pairs[c].primary;
+      for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        sides[surface.face_id[f]].push_back(2 * static_cast<int>(c) + side);
+        places.emplace(surface.face_id[f], surface.points[static_cast<std::size_t>(surface.faces[f].front())]);
+      }
+    }
+  std::map<std::vector<int>, Global> kinds;  // and a face of each
+  for (const auto& [face, on] : sides)
+    if (on.size() > 1) kinds.emplace(on, face);
+  // Two contacts that share a face, and by which sides; the place for messages is that of the lowest face.
+  struct Shared {
+    int first, second;  // sides
+    Global face;
+    double x, y, z;
+  };
+  std::map<std::pair<int, int>, Global> pairs_of_sides;
+  for (const auto& [on, face] : kinds)
+    for (std::size_t j = 0; j < on.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i)
+        if (on[i] / 2 != on[j] / 2) pairs_of_sides.emplace(std::pair(on[i], on[j]), face);
+  std::vector<Shared> mine;
+  for (const auto& [both, face] : pairs_of_sides) {
+    const Point& at = places.at(face);
+    mine.push_back({both.first, both.second, face, at[0], at[1], at[2]});
+  }
+  std::map<std::pair<int, int>, Shared> shared;
+  for (const auto& s : comm.all_gather(mine)) {
+    const auto [place, fresh] = shared.emplace(std::pair(s.first, s.second), s);
+    if (!fresh && s.face < place->second.face) place->second = s;
+  }
+  std::vector<Warning> result;
+  for (const auto& [both, at] : shared) {
+    if (both.first % 2 == 0) continue;  // seen from its secondary side
+    if (!shared.contains({both.first - 1, both.second % 2 == 1 ? both.second - 1 : both.second + 1})) continue;
+    const auto &a = pairs[static_cast<std::size_t>(both.first / 2)].options,
+               &b = pairs[static_cast<std::size_t>(both.second / 2)].options;
+    Warning w{
+        "doubled_contact",
+        fmt::format("contacts {} and {} have faces in common on both sides, as at {}: each acts there as if the other were not",
+                    a.name, b.name, spell({at.x, at.y, at.z})),
+        "leave one of them out, or narrow their boundaries"};
+    w.at = Point(at.x, at.y, at.z);
+    w.contact = a.name;
+    w.boundary = a.secondary;
+    w.value = 2;
+    w.limit = 1;
+    result.push_back(std::move(w));
+  }
+  return worst(std::move(result), "pairs of contacts");
+}
+
+}  // namespace mortise::post

@@ -1,0 +1,121 @@
+// What is found without a solution, and what needs numbers alone: each threshold from both sides.
+#include "post/model_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include "post/strength.hpp"
+
+namespace mortise::post {
+namespace {
+
+BodyMaterial steel()
+{
+  return {"plate", 100, {2.1e5, 0.3, 7.85e-9, 0}, fem::Formulation::standard, true};
+}
+
+TEST(Locking, is_for_nearly_incompressible_standard_cells_of_first_order)
+{
+  auto body = steel();
+  EXPECT_TRUE(locking({body}, fem::Kinematics::solid).empty());
+  body.material.poisson_ratio = 0.49;
+  const auto found = locking({steel(), body}, fem::Kinematics::plane_strain);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, "locking");
+  EXPECT_EQ(found[0].body, "plate");
+  EXPECT_EQ(found[0].value, 0.49);
+  EXPECT_TRUE(locking({body}, fem::Kinematics::plane_stress).empty());
+  auto other = body;
+  other.formulation = fem::Formulation::bbar;
+  EXPECT_TRUE(locking({other}, fem::Kinematics::solid).empty());
+  other = body;
+  other.first_order = false;
+  EXPECT_TRUE(locking({other}, fem::Kinematics::solid).empty());
+}
+
+TEST(MixedUnits, densities_that_go_with_other_lengths)
+{
+  EXPECT_TRUE(mixed_units({steel()}, {}).empty());
+  const BodyMaterial si{"plate", 0.1, {2.1e11, 0.3, 7850, 0}, fem::Formulation::standard, true};
+  EXPECT_TRUE(mixed_units({si}, {}).empty());
+  const BodyMaterial gel{"gel", 0.1, {1e4, 0.4, 1000, 0}, fem::Formulation::standard, true};
+  EXPECT_TRUE(mixed_units({gel}, {}).empty());
+  auto mixed = steel();
+  mixed.material.density = 7850;  // kg/m3 beside mm and MPa
+  const auto found = mixed_units({steel(), mixed}, {});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, "mixed_units");
+  EXPECT_NEAR(found[0].value, 19.3, 0.1);
+  mixed = si;
+  mixed.material.density = 7.85e-9;
+  EXPECT_EQ(mixed_units({mixed}, {}).size(), 1U);
+}
+
+TEST(MixedUnits, loads_that_go_with_other_moduli)
+{
+  EXPECT_TRUE(mixed_units({}, {{"top", 250, 2.1e5}, {"top", 0, 2.1e5}, {"top", 1e4, 2.1e11}}).empty());
+  EXPECT_EQ(mixed_units({}, {{"top", 250e6, 2.1e5}}).size(), 1U);
+  EXPECT_EQ(mixed_units({}, {{"top", 100, 2.1e11}}).size(), 1U);
+  const auto found = mixed_units({}, {{"top", 250e6, 2.1e5}, {"side", 500e6, 2.1e5}});
+  ASSERT_EQ(found.size(), 1U);  // the worst speaks for both
+  EXPECT_EQ(found[0].boundary, "side");
+  EXPECT_NE(found[0].text.find("1 other loads"), std::string::npos);
+}
+
+TEST(StrainedSupports, force_over_area)
+{
+  const SupportLoad seat{"seat", {0, 0, 1e5}, 100, Point(1, 2, 3), 2.1e5};
+  EXPECT_TRUE(strained_supports({seat}, 1e5).empty());
+  auto sliver = seat;
+  sliver.area = 1;
+  const auto found = strained_supports({seat, sliver}, 1e5);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].value, 1e5);
+  EXPECT_EQ(found[0].limit, 2.1e3);
+  EXPECT_EQ(*found[0].at, Point(1, 2, 3));
+  sliver.area = 0;
+  EXPECT_EQ(strained_supports({sliver}, 1e5).size(), 1U);
+  sliver.force = {1e-3, 0, 0};  // rounding
+  EXPECT_TRUE(strained_supports({sliver}, 1e5).empty());
+}
+
+TEST(CoarseMesh, says_where_and_how_much_of_it)
+{
+  MeshError error;
+  error.relative = 0.3;
+  error.cells = {{1, Point(0, 0, 0)}, {4, Point(1, 2, 3)}};
+  error.part = {0.2, 0.8};
+  const auto found = coarse_mesh(error, {"left", "right"});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].body, "right");
+  EXPECT_EQ(*found[0].at, Point(1, 2, 3));
+  EXPECT_NE(found[0].text.find("80 % of its square"), std::string::npos);
+  error.relative = 0.25;
+  EXPECT_TRUE(coarse_mesh(error, {"left", "right"}).empty());
+}
+
+TEST(FacetPush, from_a_thousandth_of_the_largest_force)
+{
+  EXPECT_TRUE(facet_push(1e-3, Point(0, 0, 1)).empty());
+  const auto found = facet_push(1e-2, Point(0, 0, 10));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].value, 1e-2);
+}
+
+TEST(Tensions, are_of_what_pulls)
+{
+  contact::PointState pulls, presses, open;
+  pulls.force = -6;
+  pulls.area = 2;
+  pulls.status = contact::Status::stick;
+  presses = pulls;
+  presses.force = 8;
+  presses.contact = 1;
+  open = pulls;
+  open.status = contact::Status::open;
+  open.contact = 2;
+  const std::vector<contact::PointState> points{pulls, presses, open};
+  EXPECT_EQ(largest_tensions(points, 3, Communicator()), (std::vector<double>{3, 0, 0}));
+}
+
+}  // namespace
+}  // namespace mortise::post
