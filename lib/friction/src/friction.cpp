@@ -42,8 +42,14 @@ bool any_coulomb(const std::vector<Law>& laws)
   return std::any_of(laws.begin(), laws.end(), [](const Law& law) { return law.kind == Law::Kind::coulomb; });
 }
 
-[[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu)
+// `proven`: `nu` proves that no forces balance the loads; else the search for such forces just did not settle.
+[[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven)
 {
+  if (!proven)
+    throw Error(ExitStatus::not_converged,
+                "no forces were found that balance the loads, but nothing proves that there are none; " + problem.runaway(nu) +
+                    " nearly freely. Look at Young's moduli and sizes: rounding is too coarse where "
+                    "stiffnesses differ by 1e12. Or give that body a support of its own");
   throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.runaway(nu) +
                                               "; contacts can only push and friction is limited, so nothing holds it against "
                                               "the loads. Support it, or look at the direction of the loads and at the friction");
@@ -113,6 +119,18 @@ class CoulombBounds {
 
 namespace {
 
+// Forces that bounds just allowed may be more than the law allows, by what bounds and normal forces still differ by. That counts
+// as error; and where no forces within the law balance the loads there is no equilibrium, however little they lack. One product.
+void judge_by_law(const feti::DualProblem& problem, qp::Hessian& hessian, qp::Solution& solution)
+{
+  const qp::Projection nearest = qp::project(solution.x, problem.equality(), problem.set().with_cones());
+  if (nearest.empty) no_equilibrium(problem, nearest.nu, true);
+  Vector beyond(solution.x, Teuchos::Copy), product(beyond.getMap());
+  beyond.update(-1, nearest.point, 1);
+  hessian.apply(beyond, product);
+  solution.error += std::sqrt(std::max(beyond.dot(product), 0.0));
+}
+
 // How far to go towards the next bounds of the fixed point: Aitken's rule, which makes a swing about a point settle there [Irons
 // and Tuck, IJNME 1 (1969)].
 class Relaxation {
@@ -155,9 +173,9 @@ qp::Solution solve_by_smalse(const qp::Problem& programme, std::optional<qp::Sol
     if (!found.feasible) return found;
     found.error = qp::error_bound(programme, found, preconditioner);
     if (!found.converged) return found;
-    const double least = found.hessian_norm > 0 ? qp::relative_size(programme, tolerance) / std::sqrt(found.hessian_norm) : 0;
     if (!goal.allowed_error || tolerance <= finest) {
-      found.converged = qp::believable(found.error, least, found.x, found.nu, goal);
+      found.converged =
+          qp::believable(found.error, qp::rounding_of_error(programme, found.hessian_norm), found.x, found.nu, goal);
       if (found.converged || tolerance <= rounding) return found;
       tolerance *= 0.1;
     } else {
@@ -178,7 +196,8 @@ struct Solver::Run {
   std::vector<double> bounds, previous_bounds;
   std::optional<qp::Solution> solution;  // at first that of the load step before
   bool solved = false;                   // `solution` is of this load step
-  Eigen::VectorXd escape;                // nu of the last Tresca problem that was infeasible
+  Eigen::VectorXd escape;                // nu of the last Tresca problem that was infeasible,
+  bool proven = false;                   // and whether it proves that
   double change = 1, least_change = 1;
   int step = 0, outer = 0, preconditionings = 0;
   bool settled = false;
@@ -241,13 +260,18 @@ bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
                       : solve_by_smalse(programme_, run.solution, goal, problem_.preconditioner(), run.watch);
   if (!next.feasible) {
     run.escape = next.nu;
+    run.proven = next.empty;
     return false;
   }
   if (newton_ && !next.converged &&
       !hessian_.exhausted()) {  // it crawls where bodies are soft and slender: the slower, steadier one
     run.count(next);
     next = solve_by_smalse(programme_, next, goal, problem_.preconditioner(), run.watch);
-    if (!next.feasible) no_equilibrium(problem_, next.nu);
+    if (!next.feasible) {
+      run.escape = next.nu;
+      run.proven = next.empty;
+      return false;
+    }
   }
   run.count(next);
   run.solution = std::move(next);
@@ -264,7 +288,8 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
   if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu)) return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
-         qp::believable(solution.error, 0, solution.x, solution.nu, run.goal);
+         qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
+                        run.goal);
 }
 
 // ||.||_F of what multipliers on the edge of their discs would move by with the bounds `wanted`. One product.
@@ -277,7 +302,8 @@ double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run
     const auto discs = problem_.set().discs();
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const Eigen::Vector2d at = qp::from_centre(discs[i], x);
-      if (!std::isfinite(wanted[i]) || !std::isfinite(run.bounds[i]) || at.norm() < 0.99 * run.bounds[i] || at.norm() == 0) continue;
+      if (!std::isfinite(wanted[i]) || !std::isfinite(run.bounds[i]) || at.norm() < 0.99 * run.bounds[i] || at.norm() == 0)
+        continue;
       for (int k = 0; k < discs[i].size(); ++k)
         to[discs[i].index[static_cast<std::size_t>(k)]] = (wanted[i] - run.bounds[i]) * at[k] / at.norm();
     }
@@ -286,6 +312,20 @@ double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run
   problem_.equality().project(moved);
   hessian_.apply(moved, product);
   return std::sqrt(std::max(moved.dot(product), 0.0));
+}
+
+// Bounds that leave a feasible point: those of the forces within the cones of friction that balance the loads and are nearest to
+// the present ones. Where there are none, nothing obeys the law. In a set of given bounds they would be on the edge, so bounds
+// are a little larger.
+void Solver::admit(Run& run)
+{
+  constexpr double room = 1 + 1e-6;
+  constexpr double balanced = 1e-6;  // of all forces: what a search that does not settle may leave
+  const qp::FeasibleSet cones = problem_.set().with_cones();
+  const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), cones);
+  if (!nearest.found && nearest.residual > balanced) no_equilibrium(problem_, nearest.nu, nearest.empty);
+  run.previous_bounds = run.bounds = slip_bounds(problem_, laws_, &nearest.point);
+  for (auto& bound : run.bounds) bound *= room;
 }
 
 // Tresca problems until their bounds are at rest.
@@ -302,10 +342,11 @@ void Solver::fixed_point(Run& run)
         run.least_change <= options_.tolerance ? tightest : std::max(tightest, std::min(loose, 0.1 * run.least_change));
     const bool first = !run.solved;
     if (!solve_tresca({tolerance, {}, run.goal.energy_norm}, run)) {
-      // Bounds from inexact normal forces may fall short by as much: go half way back before giving up.
-      if (!run.solved || ++infeasible > most_infeasible) no_equilibrium(problem_, run.escape);
-      for (std::size_t i = 0; i < run.bounds.size(); ++i)
-        run.bounds[i] = std::isinf(run.previous_bounds[i]) ? 2 * run.bounds[i] : 0.5 * (run.bounds[i] + run.previous_bounds[i]);
+      if (!run.solved) no_equilibrium(problem_, run.escape, run.proven);
+      // Bounds from inexact normal forces may fall short by as much. That is no proof: forces within the cones of friction may
+      // balance the loads still.
+      if (++infeasible > most_infeasible || run.step >= options_.max_steps) return;
+      admit(run);
       continue;
     }
     run.solved = true;
@@ -341,9 +382,10 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   if (coulomb) {
     if (newton_) renew_at_faces(run);
     fixed_point(run);
+    if (run.solved && !hessian_.exhausted()) judge_by_law(problem_, hessian_, *run.solution);
   } else {
     run.step = 1;
-    if (!solve_tresca(run.goal, run)) no_equilibrium(problem_, run.escape);
+    if (!solve_tresca(run.goal, run)) no_equilibrium(problem_, run.escape, run.proven);
     run.settled = true;
     run.change = 0;
   }
