@@ -121,10 +121,14 @@ namespace {
 
 // Forces that bounds just allowed may be more than the law allows, by what bounds and normal forces still differ by. That counts
 // as error; and where no forces within the law balance the loads there is no equilibrium, however little they lack. One product.
-void judge_by_law(const feti::DualProblem& problem, qp::Hessian& hessian, qp::Solution& solution)
+void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::Hessian& hessian, qp::Solution& solution)
 {
   const qp::Projection nearest = qp::project(solution.x, problem.equality(), problem.set().with_cones());
-  if (nearest.empty) no_equilibrium(problem, nearest.nu, true);
+  if (nearest.empty) {  // with bounds that are given bodies slide; along the edge of a cone they would also lift
+    problem.set().set_radii(slip_bounds(problem, laws, &solution.x));
+    const qp::Projection given = qp::project(solution.x, problem.equality(), problem.set());
+    no_equilibrium(problem, given.empty ? given.nu : nearest.nu, true);
+  }
   Vector beyond(solution.x, Teuchos::Copy), product(beyond.getMap());
   beyond.update(-1, nearest.point, 1);
   hessian.apply(beyond, product);
@@ -283,7 +287,9 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
 {
   auto& solution = *run.solution;
   if (!run.goal.allowed_error || !std::isfinite(solution.error))
-    return run.change <= options_.tolerance && tolerance <= run.goal.residual;
+    return run.change <= options_.tolerance && tolerance <= run.goal.residual && solution.converged &&
+           qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
+                          run.goal);
   solution.error += error_of_bounds(wanted, run);
   if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu)) return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
@@ -323,7 +329,8 @@ void Solver::admit(Run& run)
   constexpr double balanced = 1e-6;  // of all forces: what a search that does not settle may leave
   const qp::FeasibleSet cones = problem_.set().with_cones();
   const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), cones);
-  if (!nearest.found && nearest.residual > balanced) no_equilibrium(problem_, nearest.nu, nearest.empty);
+  if (!nearest.found && nearest.residual > balanced)
+    no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, nearest.empty);
   run.previous_bounds = run.bounds = slip_bounds(problem_, laws_, &nearest.point);
   for (auto& bound : run.bounds) bound *= room;
 }
@@ -334,14 +341,16 @@ void Solver::fixed_point(Run& run)
   constexpr int most_infeasible = 5;
   Relaxation relaxation(problem_.communicator());
   int infeasible = 0;
+  double strictness = 1;
   while (!run.settled) {
     ++run.step;
     // Looser again would bring swings of its own; and bounds that rest but for a loose tolerance would stay where they are.
-    const double tightest = run.goal.allowed_error ? 0.1 * options_.tolerance : run.goal.residual;
+    const double tightest =
+        std::max(rounding, strictness * (run.goal.allowed_error ? 0.1 * options_.tolerance : run.goal.residual));
     const double tolerance =
         run.least_change <= options_.tolerance ? tightest : std::max(tightest, std::min(loose, 0.1 * run.least_change));
     const bool first = !run.solved;
-    if (!solve_tresca({tolerance, {}, run.goal.energy_norm}, run)) {
+    if (!solve_tresca({tolerance}, run)) {
       if (!run.solved) no_equilibrium(problem_, run.escape, run.proven);
       // Bounds from inexact normal forces may fall short by as much. That is no proof: forces within the cones of friction may
       // balance the loads still.
@@ -354,6 +363,8 @@ void Solver::fixed_point(Run& run)
     run.change =
         first ? 1.0 : relative_change(wanted, run.bounds, programme_, run.solution->hessian_norm, problem_.communicator());
     run.settled = !first && at_rest(wanted, tolerance, run);
+    // Bounds at rest beside an error that is too large.
+    if (!run.settled && run.change <= options_.tolerance && tolerance <= tightest) strictness *= 0.1;
     if (run.settled || run.step >= options_.max_steps || hessian_.exhausted()) return;
     run.least_change = first ? 1.0 : std::min(run.least_change, run.change);
     const double part = relaxation(run.bounds, wanted);
@@ -382,7 +393,7 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   if (coulomb) {
     if (newton_) renew_at_faces(run);
     fixed_point(run);
-    if (run.solved && !hessian_.exhausted()) judge_by_law(problem_, hessian_, *run.solution);
+    if (run.solved && !hessian_.exhausted()) judge_by_law(problem_, laws_, hessian_, *run.solution);
   } else {
     run.step = 1;
     if (!solve_tresca(run.goal, run)) no_equilibrium(problem_, run.escape, run.proven);

@@ -1,6 +1,7 @@
 // When a solver of quadratic programmes may stop, and what it returns.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,7 +20,7 @@ struct Goal {
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> energy_norm = {};
 
   /// Part of the energy norm that the error may be for a small residual to count as a solution.
-  double credible() const { return allowed_error ? 1e-3 : std::sqrt(residual); }
+  double credible() const { return allowed_error ? 1e-2 : std::max(std::sqrt(residual), 1e-3); }
 };
 
 /// What a solve leaves, and what the next one of a sequence may start from.
