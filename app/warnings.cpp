@@ -171,7 +171,7 @@ std::vector<Warning> idle_contacts(const constraint::Contacts& contacts, const D
     Warning w{
         "idle_contact",
         fmt::format("contact {} has no point: its surfaces do not face each other within the search distance, or share less than "
-                    "a twentieth of a cell, and nothing keeps them apart",
+                    "a hundredth of a cell, and nothing keeps them apart",
                     deck.contacts[c].name),
         "look at the names, set a larger search_distance, or refine the secondary side"};
     w.contact = deck.contacts[c].name;

@@ -14,7 +14,8 @@ namespace mortise::feti {
 namespace {
 
 constexpr std::size_t block_columns = 64;    // copies that go through one matrix together
-constexpr int relaxations = 20;              // steps that look for the least energy inside
+constexpr int relaxations = 100;             // steps at most that look for the least energy inside
+constexpr double relaxed = 0.01;             // of that energy: gain of a step that ends them
 constexpr std::size_t most_interfaces = 32;  // of the copies of one subdomain; where they differ more all get what any needs
 
 using Nodes = std::vector<Local>;
@@ -60,12 +61,13 @@ double relaxed_energy(const SubdomainOperator& subdomain, const std::vector<bool
   double energy = u.dot(force);
   Eigen::VectorXd residual = release(-force), z = residual.cwiseQuotient(diagonal), direction = z;
   double product = residual.dot(z);
-  for (int step = 0; step < relaxations && product > 1e-3 * energy; ++step) {
+  for (int step = 0; step < relaxations && product > 0; ++step) {
     const Eigen::VectorXd image = release(subdomain.apply(direction));
     const double curvature = direction.dot(image);
     if (!(curvature > 0)) break;
     const double length = product / curvature;
     energy -= length * product;
+    if (length * product < relaxed * energy) break;
     residual -= length * image;
     z = residual.cwiseQuotient(diagonal);
     const double next = residual.dot(z);

@@ -230,6 +230,35 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
   }
 }
 
+// Residuals r = P F x are what an error x with G x = 0 leaves: (r'x)^2 / x'F x is at most their energy, and not far below it,
+// where r'M r of the lumped preconditioner may be.
+TEST(DualProblem, TheEnergyOfAResidualBoundsTheErrorBehindIt)
+{
+  for (const double jump : {1.0, 1e4})
+    for (const char* kind : {"lumped", "dirichlet"}) {
+      const Cube cube(jump, true);
+      Options options;
+      options.preconditioner = kind;
+      const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, options,
+                                cube.context);
+      const auto map = problem.hessian().getDomainMap();
+      for (int wave = 1; wave < 30; wave += 4) {
+        Vector x(map), r(map), z(map);
+        for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i)
+          view(x)[i] = std::sin(0.1 * wave * static_cast<double>(map->getGlobalElement(i)));
+        problem.equality().project(x);
+        problem.hessian().apply(x, r);
+        const double square = x.dot(r);
+        problem.equality().project(r);
+        const double energy = problem.preconditioner()->energy(r);
+        problem.preconditioner()->apply(r, z);
+        EXPECT_GE(energy, (1 - 1e-9) * square);
+        EXPECT_LE(energy, 20 * square);
+        EXPECT_LE(energy, (1 + 1e-9) * z.dot(r) + 1e-2 * energy);
+      }
+    }
+}
+
 TEST(DualProblem, AFloatingBodyThatIsPulledIsNamed)
 {
   const Cube cube(1, false);

@@ -42,8 +42,14 @@ bool any_coulomb(const std::vector<Law>& laws)
   return std::any_of(laws.begin(), laws.end(), [](const Law& law) { return law.kind == Law::Kind::coulomb; });
 }
 
-[[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu)
+// `proven`: `nu` proves that no forces balance the loads; else the search for such forces just did not settle.
+[[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven)
 {
+  if (!proven)
+    throw Error(ExitStatus::not_converged,
+                "no forces were found that balance the loads, but nothing proves that there are none; " + problem.runaway(nu) +
+                    " nearly freely. Look at Young's moduli and sizes: rounding is too coarse where "
+                    "stiffnesses differ by 1e12. Or give that body a support of its own");
   throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.runaway(nu) +
                                               "; contacts can only push and friction is limited, so nothing holds it against "
                                               "the loads. Support it, or look at the direction of the loads and at the friction");
@@ -113,6 +119,22 @@ class CoulombBounds {
 
 namespace {
 
+// Forces that bounds just allowed may be more than the law allows, by what bounds and normal forces still differ by. That counts
+// as error; and where no forces within the law balance the loads there is no equilibrium, however little they lack. One product.
+void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::Hessian& hessian, qp::Solution& solution)
+{
+  const qp::Projection nearest = qp::project(solution.x, problem.equality(), problem.set().with_cones());
+  if (nearest.empty) {  // with bounds that are given bodies slide; along the edge of a cone they would also lift
+    problem.set().set_radii(slip_bounds(problem, laws, &solution.x));
+    const qp::Projection given = qp::project(solution.x, problem.equality(), problem.set());
+    no_equilibrium(problem, given.empty ? given.nu : nearest.nu, true);
+  }
+  Vector beyond(solution.x, Teuchos::Copy), product(beyond.getMap());
+  beyond.update(-1, nearest.point, 1);
+  hessian.apply(beyond, product);
+  solution.error += std::sqrt(std::max(beyond.dot(product), 0.0));
+}
+
 // How far to go towards the next bounds of the fixed point: Aitken's rule, which makes a swing about a point settle there [Irons
 // and Tuck, IJNME 1 (1969)].
 class Relaxation {
@@ -155,9 +177,9 @@ qp::Solution solve_by_smalse(const qp::Problem& programme, std::optional<qp::Sol
     if (!found.feasible) return found;
     found.error = qp::error_bound(programme, found, preconditioner);
     if (!found.converged) return found;
-    const double least = found.hessian_norm > 0 ? qp::relative_size(programme, tolerance) / std::sqrt(found.hessian_norm) : 0;
     if (!goal.allowed_error || tolerance <= finest) {
-      found.converged = qp::believable(found.error, least, found.x, found.nu, goal);
+      found.converged =
+          qp::believable(found.error, qp::rounding_of_error(programme, found.hessian_norm), found.x, found.nu, goal);
       if (found.converged || tolerance <= rounding) return found;
       tolerance *= 0.1;
     } else {
@@ -178,7 +200,8 @@ struct Solver::Run {
   std::vector<double> bounds, previous_bounds;
   std::optional<qp::Solution> solution;  // at first that of the load step before
   bool solved = false;                   // `solution` is of this load step
-  Eigen::VectorXd escape;                // nu of the last Tresca problem that was infeasible
+  Eigen::VectorXd escape;                // nu of the last Tresca problem that was infeasible,
+  bool proven = false;                   // and whether it proves that
   double change = 1, least_change = 1;
   int step = 0, outer = 0, preconditionings = 0;
   bool settled = false;
@@ -241,13 +264,18 @@ bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
                       : solve_by_smalse(programme_, run.solution, goal, problem_.preconditioner(), run.watch);
   if (!next.feasible) {
     run.escape = next.nu;
+    run.proven = next.empty;
     return false;
   }
   if (newton_ && !next.converged &&
       !hessian_.exhausted()) {  // it crawls where bodies are soft and slender: the slower, steadier one
     run.count(next);
     next = solve_by_smalse(programme_, next, goal, problem_.preconditioner(), run.watch);
-    if (!next.feasible) no_equilibrium(problem_, next.nu);
+    if (!next.feasible) {
+      run.escape = next.nu;
+      run.proven = next.empty;
+      return false;
+    }
   }
   run.count(next);
   run.solution = std::move(next);
@@ -259,12 +287,15 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
 {
   auto& solution = *run.solution;
   if (!run.goal.allowed_error || !std::isfinite(solution.error))
-    return run.change <= options_.tolerance && tolerance <= run.goal.residual;
+    return run.change <= options_.tolerance && tolerance <= run.goal.residual && solution.converged &&
+           qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
+                          run.goal);
   solution.error += error_of_bounds(wanted, run);
   if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu)) return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
-         qp::believable(solution.error, 0, solution.x, solution.nu, run.goal);
+         qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
+                        run.goal);
 }
 
 // ||.||_F of what multipliers on the edge of their discs would move by with the bounds `wanted`. One product.
@@ -277,7 +308,8 @@ double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run
     const auto discs = problem_.set().discs();
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const Eigen::Vector2d at = qp::from_centre(discs[i], x);
-      if (!std::isfinite(wanted[i]) || !std::isfinite(run.bounds[i]) || at.norm() < 0.99 * run.bounds[i] || at.norm() == 0) continue;
+      if (!std::isfinite(wanted[i]) || !std::isfinite(run.bounds[i]) || at.norm() < 0.99 * run.bounds[i] || at.norm() == 0)
+        continue;
       for (int k = 0; k < discs[i].size(); ++k)
         to[discs[i].index[static_cast<std::size_t>(k)]] = (wanted[i] - run.bounds[i]) * at[k] / at.norm();
     }
@@ -288,24 +320,42 @@ double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run
   return std::sqrt(std::max(moved.dot(product), 0.0));
 }
 
+// Bounds that leave a feasible point: those of the forces within the cones of friction that balance the loads and are nearest to
+// the present ones. Where there are none, nothing obeys the law. In a set of given bounds they would be on the edge, so bounds
+// are a little larger.
+void Solver::admit(Run& run)
+{
+  constexpr double room = 1 + 1e-6;
+  constexpr double balanced = 1e-6;  // of all forces: what a search that does not settle may leave
+  const qp::FeasibleSet cones = problem_.set().with_cones();
+  const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), cones);
+  if (!nearest.found && nearest.residual > balanced)
+    no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, nearest.empty);
+  run.previous_bounds = run.bounds = slip_bounds(problem_, laws_, &nearest.point);
+  for (auto& bound : run.bounds) bound *= room;
+}
+
 // Tresca problems until their bounds are at rest.
 void Solver::fixed_point(Run& run)
 {
   constexpr int most_infeasible = 5;
   Relaxation relaxation(problem_.communicator());
   int infeasible = 0;
+  double strictness = 1;
   while (!run.settled) {
     ++run.step;
     // Looser again would bring swings of its own; and bounds that rest but for a loose tolerance would stay where they are.
-    const double tightest = run.goal.allowed_error ? 0.1 * options_.tolerance : run.goal.residual;
+    const double tightest =
+        std::max(rounding, strictness * (run.goal.allowed_error ? 0.1 * options_.tolerance : run.goal.residual));
     const double tolerance =
         run.least_change <= options_.tolerance ? tightest : std::max(tightest, std::min(loose, 0.1 * run.least_change));
     const bool first = !run.solved;
-    if (!solve_tresca({tolerance, {}, run.goal.energy_norm}, run)) {
-      // Bounds from inexact normal forces may fall short by as much: go half way back before giving up.
-      if (!run.solved || ++infeasible > most_infeasible) no_equilibrium(problem_, run.escape);
-      for (std::size_t i = 0; i < run.bounds.size(); ++i)
-        run.bounds[i] = std::isinf(run.previous_bounds[i]) ? 2 * run.bounds[i] : 0.5 * (run.bounds[i] + run.previous_bounds[i]);
+    if (!solve_tresca({tolerance}, run)) {
+      if (!run.solved) no_equilibrium(problem_, run.escape, run.proven);
+      // Bounds from inexact normal forces may fall short by as much. That is no proof: forces within the cones of friction may
+      // balance the loads still.
+      if (++infeasible > most_infeasible || run.step >= options_.max_steps) return;
+      admit(run);
       continue;
     }
     run.solved = true;
@@ -313,6 +363,8 @@ void Solver::fixed_point(Run& run)
     run.change =
         first ? 1.0 : relative_change(wanted, run.bounds, programme_, run.solution->hessian_norm, problem_.communicator());
     run.settled = !first && at_rest(wanted, tolerance, run);
+    // Bounds at rest beside an error that is too large.
+    if (!run.settled && run.change <= options_.tolerance && tolerance <= tightest) strictness *= 0.1;
     if (run.settled || run.step >= options_.max_steps || hessian_.exhausted()) return;
     run.least_change = first ? 1.0 : std::min(run.least_change, run.change);
     const double part = relaxation(run.bounds, wanted);
@@ -341,9 +393,10 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   if (coulomb) {
     if (newton_) renew_at_faces(run);
     fixed_point(run);
+    if (run.solved && !hessian_.exhausted()) judge_by_law(problem_, laws_, hessian_, *run.solution);
   } else {
     run.step = 1;
-    if (!solve_tresca(run.goal, run)) no_equilibrium(problem_, run.escape);
+    if (!solve_tresca(run.goal, run)) no_equilibrium(problem_, run.escape, run.proven);
     run.settled = true;
     run.change = 0;
   }

@@ -50,9 +50,15 @@ double error_bound(const Problem& problem, const Solution& solution, FacePrecond
   return error_bound(problem, solution.x, project(moved, problem.equality, problem.set), norm, preconditioner);
 }
 
-bool believable(double error, double least, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal)
+double rounding_of_error(const Problem& problem, double norm)
 {
-  if (!goal.energy_norm || !std::isfinite(error) || error <= goal.credible() * least) return true;
+  constexpr double part = 1e-7;
+  return part * problem.linear.norm2() / std::sqrt(norm > 0 ? norm : 1);
+}
+
+bool believable(double error, double rounding, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal)
+{
+  if (!goal.energy_norm || !std::isfinite(error) || error <= rounding) return true;
   return error <= goal.credible() * goal.energy_norm(x, nu);
 }
 

@@ -31,19 +31,9 @@ constexpr int max_retreats = 8;               // of slip bounds
 constexpr int max_retreats_to_z = 2;          // quarters of the way back, before the step becomes a gradient projection
 constexpr int max_safeguards = 12;            // after which another algorithm will do better
 constexpr double finest = 1e-7;               // residual over ||P b|| that is enough where no error is allowed
-constexpr double at_rest = 0.05;  // of normal forces: change that is still to come
-constexpr double certain = 0.1;    // of the allowed error, at which their change does not matter
+constexpr double at_rest = 0.05;              // of normal forces: change that is still to come
+constexpr double certain = 0.1;               // of the allowed error, at which their change does not matter
 constexpr double first_look = 0.1;            // part of the first error at which the allowed one is asked for
-
-// ||x - x*||_A from upper bounds of it and energies. A bound is too large by a factor that the preconditioner decides; squared, it
-// is at most what the energy that was gained between two points says of their bounds, if it is the same at both.
-class ErrorEstimate {
- public:
-  double operator()(double bound, double energy)
-  {
-    return bound;
-  }
-};
 
 // Whether normal forces are at rest: by how much they are still to change, if they change like the error.
 class ContactForces {
@@ -163,6 +153,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   Solution result(feasible.point, Vector(map), feasible.nu);
   if (!feasible.found) {
     result.feasible = false;
+    result.empty = feasible.empty;
     return result;
   }
   preconditionings_ = 0;
@@ -187,7 +178,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   double energy = energy_of(z, g);
   y.assign(z);
   gy.assign(g);
-  double residual = 0, mismatch = 0, best = std::numeric_limits<double>::infinity();
+  double residual = 0, mismatch = 0, best = std::numeric_limits<double>::infinity(), best_error = best;
   int since_best = 0;
   FeasibleSet::Active active{};
   const auto report = [&](const char* what) {
@@ -199,7 +190,6 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       start && start->nu.size() == equality.size() ? Eigen::VectorXd(start->nu * (step_length / norm_)) : Eigen::VectorXd();
   bool moved = false;            // y differs from z
   std::optional<Vector> beyond;  // y after a longer step, where bounds follow the solution
-  ErrorEstimate estimate;
   double faint = renewal ? first_faint_renewed : first_faint;
   double first_error = 0, allowed = -1;  // negative: not asked for yet
   bool doubtful = false;                 // a small residual beside a large error
@@ -224,6 +214,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     }
     if (!next.found) {  // bounds that leave no feasible point, for a start there was one
       result.feasible = false;
+      result.empty = next.empty;
       result.nu = next.nu;
       return result;
     }
@@ -269,23 +260,23 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     result.nu = natural.nu * norm_;
     ++result.outer_iterations;
     const double worst = std::max(residual, mismatch);
-    result.error = estimate(error_bound(problem_, z, natural, norm_, preconditioner_), energy) *
-                   (residual > 0 ? worst / residual : 1.0);
+    result.error = error_bound(problem_, z, natural, norm_, preconditioner_) * (residual > 0 ? worst / residual : 1.0);
     preconditionings_ += preconditioner_ ? 1 : 0;
     report("outer");
     const double to_come = contact.change_to_come(z, result.error);
     // Infinite while points stick whose bounds are still to come.
     if (first_error == 0 && std::isfinite(result.error)) first_error = result.error;
     const bool small = worst <= (goal.allowed_error ? finest : goal.residual) * size;
-    result.converged = small && believable(result.error, size / std::sqrt(norm_), z, result.nu, goal);
+    result.converged = small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal);
     doubtful = small && !result.converged;
     if (goal.allowed_error && !result.converged && std::isfinite(result.error) &&
         result.error <= (allowed < 0 ? first_look * first_error : allowed)) {
       allowed = goal.allowed_error(z, result.nu);
       result.converged = result.error <= (to_come <= at_rest ? 1 : certain) * allowed;
     }
-    since_best = worst < 0.9 * best ? 0 : since_best + 1;
+    since_best = worst < 0.9 * best || (doubtful && result.error < 0.9 * best_error) ? 0 : since_best + 1;
     best = std::min(best, worst);
+    best_error = std::min(best_error, result.error);
     if (since_best > 1) faint *= 0.1;  // perhaps it is these that matter
     if (result.converged || hessian.exhausted() || result.outer_iterations >= max_faces ||
         since_best >= (renewal ? renewal_patience : patience) || result.safeguards > max_safeguards)

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <map>
 
 namespace mortise::qp {
 
@@ -68,9 +69,12 @@ FeasibleSet FeasibleSet::compact() const
 {
   FeasibleSet result = *this;
   Local next = 0;
-  for (auto& bound : result.bounds_) bound.index = next++;
-  for (auto& disc : result.discs_)
+  std::map<Local, Local> place;
+  for (auto& bound : result.bounds_) bound.index = place[bound.index] = next++;
+  for (auto& disc : result.discs_) {
     for (int c = 0; c < disc.size(); ++c) disc.index[static_cast<std::size_t>(c)] = next++;
+    if (const auto normal = place.find(disc.normal); normal != place.end()) disc.normal = normal->second;
+  }
   return result;
 }
 
@@ -78,6 +82,13 @@ void FeasibleSet::set_coefficients(std::span<const double> coefficients)
 {
   assert(coefficients.size() == discs_.size());
   for (std::size_t i = 0; i < discs_.size(); ++i) discs_[i].coefficient = coefficients[i];
+}
+
+FeasibleSet FeasibleSet::with_cones() const
+{
+  FeasibleSet result = *this;
+  result.cones_ = true;
+  return result;
 }
 
 FeasibleSet FeasibleSet::shifted(const Eigen::Ref<const Eigen::VectorXd>& shift) const
@@ -91,8 +102,19 @@ FeasibleSet FeasibleSet::shifted(const Eigen::Ref<const Eigen::VectorXd>& shift)
 
 void FeasibleSet::project(Eigen::Ref<Eigen::VectorXd> x) const
 {
+  if (cones_)  // before the bounds, which would move their normal unknowns
+    for (const auto& disc : discs_) {
+      if (!is_cone(disc)) continue;
+      const Eigen::Vector2d tangential = gather(disc, x);
+      const double t = tangential.norm(), n = x[disc.normal], mu = disc.coefficient;
+      if (t <= mu * n) continue;
+      const double pressed = std::max((n + mu * t) / (1 + mu * mu), 0.0);
+      x[disc.normal] = pressed;
+      scatter(disc, t > 0 ? Eigen::Vector2d(tangential * (mu * pressed / t)) : tangential, x);
+    }
   for (const auto& bound : bounds_) x[bound.index] = std::max(x[bound.index], bound.lower);
   for (const auto& disc : discs_) {
+    if (is_cone(disc)) continue;
     const Eigen::Vector2d y = from_centre(disc, x);
     const double norm = y.norm();
     if (norm > disc.radius) scatter(disc, centre(disc) + y * (disc.radius / norm), x);

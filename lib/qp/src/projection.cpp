@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace mortise::qp {
@@ -15,6 +18,7 @@ constexpr double far = 0.25;         // part of a step below which it was much t
 constexpr double runaway = 1e10;     // of ||G' nu|| over ||e|| and ||y||, at which C counts as empty
 constexpr double target = 1e-13;     // of the residual
 constexpr double acceptable = 1e-8;  // at which a projection that makes no more progress counts as found
+constexpr double far_away = 1e6;     // times ||e|| and ||y||: larger points are none
 constexpr int max_tries = 10;        // steps that do not halve it
 constexpr double settled = 1e-9;     // at which fewer steps are tried
 constexpr int max_stalled = 3;
@@ -40,6 +44,25 @@ SparseMatrix columns_of(const SparseMatrix& g, std::span<const Local> columns)
   return result;
 }
 
+// I - D of a cone at (t, n); nothing inside of it.
+std::optional<LostBlock> lost_of_cone(const Disc& disc, const Eigen::Vector2d& t, double n)
+{
+  const double length = t.norm(), mu = disc.coefficient;
+  if (length <= mu * n) return {};
+  LostBlock block;
+  block.index = {disc.index[0], disc.index[1], disc.normal};
+  block.matrix(0, 0) = block.matrix(2, 2) = 1;
+  if (disc.size() == 2) block.matrix(1, 1) = 1;
+  const double pressed = (n + mu * length) / (1 + mu * mu);
+  if (pressed <= 0) return block;
+  // D is the projector on the edge (n, t) = (1, mu) and, along the circle, mu pressed / length.
+  const Eigen::Vector2d out = t / length, along(-out[1], out[0]);
+  const Eigen::Vector3d edge = Eigen::Vector3d(mu * out[0], mu * out[1], 1) / std::sqrt(1 + mu * mu);
+  block.matrix -= edge * edge.transpose();
+  if (disc.size() == 2) block.matrix.topLeftCorner<2, 2>() -= mu * pressed / length * along * along.transpose();
+  return block;
+}
+
 }  // namespace
 
 // The gradient of the dual function at one nu; vectors over the constrained unknowns.
@@ -55,7 +78,7 @@ Projector::Projector(const EqualityConstraint& equality, const FeasibleSet& set)
       set_(set),
       constrained_(set.constrained()),
       columns_(columns_of(equality.local(), constrained_)),
-      matrix_(equality, blocks_of(set, false))
+      matrix_(equality, blocks_of(set, set.has_cones()))
 {
 }
 
@@ -111,9 +134,18 @@ double Projector::search(const Evaluation& now, const Evaluation& full, const Ei
 std::vector<LostBlock> Projector::lost(const Eigen::VectorXd& w) const
 {
   std::vector<LostBlock> blocks;
-  Local next = 0;  // w is in the order of FeasibleSet::constrained()
+  Local next = 0;                   // w is in the order of FeasibleSet::constrained()
+  std::map<Local, double> pressed;  // of the normal unknowns of cones
+  if (set_.has_cones())
+    for (const auto& disc : set_.discs())
+      if (set_.is_cone(disc)) pressed[disc.normal] = 0;
   for (const auto& bound : set_.bounds()) {
-    if (w[next++] > bound.lower) continue;
+    const double value = w[next++];
+    if (const auto found = pressed.find(bound.index); found != pressed.end()) {
+      found->second = value;
+      continue;
+    }
+    if (value > bound.lower) continue;
     auto& block = blocks.emplace_back();
     block.index[0] = bound.index;
     block.matrix(0, 0) = 1;
@@ -122,6 +154,10 @@ std::vector<LostBlock> Projector::lost(const Eigen::VectorXd& w) const
     const Eigen::Vector2d y(w[next] - disc.centre[0], disc.size() == 2 ? w[next + 1] - disc.centre[1] : 0.0);
     next += disc.size();
     const double distance = y.norm();
+    if (set_.is_cone(disc)) {
+      if (auto block = lost_of_cone(disc, y, pressed.at(disc.normal))) blocks.push_back(*block);
+      continue;
+    }
     if (distance <= disc.radius) continue;
     const Eigen::Vector2d n = y / distance;
     auto& block = blocks.emplace_back();
@@ -133,6 +169,32 @@ std::vector<LostBlock> Projector::lost(const Eigen::VectorXd& w) const
           Eigen::Matrix2d::Identity() - disc.radius / distance * (Eigen::Matrix2d::Identity() - n * n.transpose());
   }
   return blocks;
+}
+
+// What points of C must at least be long, as nu shows: with w = -G'nu, -e'nu = w'x <= sum of radius |w| over the discs + ||v||
+// ||x|| for every x of C, v the part of w that points into Omega for ever.
+double Projector::least_norm(const Eigen::VectorXd& nu, const Vector& like) const
+{
+  Vector w(like.getMap());
+  equality_.add_transpose(-1, nu, w);
+  auto values = view(w);
+  double held = 0;
+  for (const auto& disc : set_.discs()) {
+    if (set_.is_cone(disc) || std::isinf(disc.radius)) continue;
+    double square = 0;
+    for (int k = 0; k < disc.size(); ++k)
+      square += std::pow(std::exchange(values[disc.index[static_cast<std::size_t>(k)]], 0.0), 2);
+    held += disc.radius * std::sqrt(square);
+  }
+  std::vector<Disc> cones;
+  for (const auto& disc : set_.discs())
+    if (set_.is_cone(disc)) cones.push_back(disc);
+  std::vector<Bound> bounds(set_.bounds().begin(), set_.bounds().end());
+  for (auto& bound : bounds) bound.lower = 0;
+  const FeasibleSet directions(std::move(bounds), std::move(cones));
+  (set_.has_cones() ? directions.with_cones() : directions).project(values);
+  const double gained = -equality_.right_side().dot(nu) - equality_.communicator().sum(held);
+  return gained > 0 ? gained / std::max(w.norm2(), std::numeric_limits<double>::min()) : 0;
 }
 
 Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
@@ -202,6 +264,7 @@ Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
   result.argument.assign(y);
   equality_.add_transpose(-1, result.nu, result.argument);
   result.found = result.residual <= acceptable;
+  result.empty = !result.found && least_norm(result.nu, y) > far_away * scale;
   return result;
 }
 

@@ -52,6 +52,7 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
   Solution result(feasible.point, Vector(map), feasible.nu);
   if (!feasible.found) {
     result.feasible = false;
+    result.empty = feasible.empty;
     return result;
   }
   result.hessian_norm = start ? start->hessian_norm : projected_norm(hessian, equality);

@@ -22,6 +22,32 @@ Eigen::VectorXd random(std::mt19937& generator, double scale)
   return Eigen::VectorXd::NullaryExpr(9, [&](Eigen::Index) { return normal(generator); });
 }
 
+// Normal unknowns 0 and 3 with cones over (1, 2) and over 4 alone.
+TEST(FeasibleSet, ConesAreProjectedOn)
+{
+  FeasibleSet discs({{0, 0}, {3, 0}}, {{{1, 2}, 0, {0, 0}, 0, 0.3}, {{4, -1}, 0, {0, 0}, 3, 1.5}});
+  const FeasibleSet set = discs.with_cones();
+  std::mt19937 generator(2);
+  int inside = 0, tips = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Eigen::VectorXd x = random(generator, 2);
+    Eigen::VectorXd p = x, other = random(generator, 2);
+    set.project(p);
+    set.project(other);
+    EXPECT_LE((x - p).dot(other - p), 1e-12);
+    EXPECT_LE(std::hypot(p[1], p[2]), 0.3 * p[0] + 1e-14);
+    EXPECT_LE(std::abs(p[4]), 1.5 * p[3] + 1e-14);
+    Eigen::VectorXd again = p;
+    set.project(again);
+    EXPECT_LT((again - p).norm(), 1e-13);
+    inside += p == x;
+    tips += p[0] == 0;
+  }
+  EXPECT_GT(inside, 0);
+  EXPECT_GT(tips, 10);
+  EXPECT_FALSE(discs.has_cones());
+}
+
 TEST(FeasibleSet, ProjectionIsNearestPoint)
 {
   std::mt19937 generator(1);

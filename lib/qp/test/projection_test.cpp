@@ -62,5 +62,33 @@ TEST(Projection, DiscsLimitWhatFrictionCanCarry)
   EXPECT_FALSE(project(Vector(map), slips, set).found);
 }
 
+// Points with a normal unknown and two tangential ones: pressed together by 6, they carry 0.3 * 6 sideways, whatever share of the
+// pressure each of them takes.
+TEST(Projection, ConesLimitWhatFrictionCanCarry)
+{
+  constexpr int n = 12;
+  const Local blocks = n / 3 / world().size() + (world().rank() < n / 3 % world().size() ? 1 : 0);
+  const auto map = Teuchos::rcp(new Map(n, static_cast<std::size_t>(3 * blocks), 0, teuchos(world())));
+  std::vector<Bound> bounds;
+  std::vector<Disc> discs;
+  for (Local i = 0; i < 3 * blocks; i += 3) {
+    bounds.push_back({i, 0});
+    discs.push_back({{i + 1, i + 2}, 0, {0, 0}, i, 0.3});
+  }
+  const FeasibleSet set = FeasibleSet(bounds, discs).with_cones();
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(3, n);
+  for (int i = 0; i < n; ++i) g(i % 3, i) = 1;
+  const auto columns = local_columns(g, *map);
+  const auto at = [&](double sideways) {
+    return EqualityConstraint(columns, Eigen::Vector3d(6, 0.6 * sideways, 0.8 * sideways), world());
+  };
+  const EqualityConstraint holds = at(1.8 * 0.9999), slips = at(1.8 * 1.0001);
+  const Projection result = project(Vector(map), holds, set);
+  ASSERT_TRUE(result.found);
+  Eigen::VectorXd sum = g * gathered(result.point, world());
+  EXPECT_LT((sum - holds.right_side()).norm(), 1e-9);
+  EXPECT_FALSE(project(Vector(map), slips, set).found);
+}
+
 }  // namespace
 }  // namespace mortise::qp

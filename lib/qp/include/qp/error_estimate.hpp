@@ -18,9 +18,12 @@ double error_bound(const Problem& problem, const Vector& x, const Projection& na
 /// The same of a solution whose `gradient` and `hessian_norm` are set. Collective.
 double error_bound(const Problem& problem, const Solution& solution, FacePreconditioner* preconditioner);
 
+/// The square root of what rounding may make of energies: errors below it are none. Collective.
+double rounding_of_error(const Problem& problem, double norm);
+
 /// Whether an error is small enough for a small residual at the point x with the multipliers nu to be believed, see
-/// Goal::credible; `least`: what the energy norm is at least. True where the goal knows no energy norm. Infinite errors are those
-/// of points that stick without a limit, which is no law yet, and believed. Collective.
-bool believable(double error, double least, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal);
+/// Goal::credible; errors below `rounding` are. True where the goal knows no energy norm. Infinite errors are those of points
+/// that stick without a limit, which is no law yet, and believed. Collective.
+bool believable(double error, double rounding, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal);
 
 }  // namespace mortise::qp

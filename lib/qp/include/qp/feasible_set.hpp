@@ -45,6 +45,14 @@ class FeasibleSet {
   /// The coefficients of Coulomb friction, one for each disc; 0 where the radius is given.
   void set_coefficients(std::span<const double> coefficients);
 
+  /// The set of Coulomb's law itself, in which discs with a coefficient are cones ||x_t|| <= coefficient x[normal]: larger than
+  /// with any radii that an x of it gives, and convex, so that where it does not meet {G x = e} nothing obeys the law. It can be
+  /// projected on; split() and feasible_step() are not for it.
+  FeasibleSet with_cones() const;
+  bool has_cones() const { return cones_; }
+  /// Of a disc of a set with cones: whether it is one.
+  bool is_cone(const Disc& disc) const { return cones_ && disc.coefficient > 0 && disc.normal >= 0; }
+
   /// Omega - shift: the set of all x - shift.
   FeasibleSet shifted(const Eigen::Ref<const Eigen::VectorXd>& shift) const;
 
@@ -73,6 +81,7 @@ class FeasibleSet {
  private:
   std::vector<Bound> bounds_;
   std::vector<Disc> discs_;
+  bool cones_ = false;
 };
 
 /// x minus the centre of the disc, over its unknowns; the second entry of an interval is 0.

@@ -1,6 +1,7 @@
 // When a solver of quadratic programmes may stop, and what it returns.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,7 +20,7 @@ struct Goal {
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> energy_norm = {};
 
   /// Part of the energy norm that the error may be for a small residual to count as a solution.
-  double credible() const { return allowed_error ? 1e-3 : std::sqrt(residual); }
+  double credible() const { return allowed_error ? 1e-2 : std::max(std::sqrt(residual), 1e-3); }
 };
 
 /// What a solve leaves, and what the next one of a sequence may start from.
@@ -34,6 +35,7 @@ struct Solution {
   Eigen::VectorXd nu;  ///< multipliers of G x = e: A x - b + G' nu lies in the normal cone of -Omega; same on all ranks
   bool converged = false;
   bool feasible = true;  ///< false: {G x = e} and Omega do not meet; nu is then a direction that proves it, x is not solved for
+  bool empty = false;    ///< not feasible, and nu proves it, see Projection::empty
   int outer_iterations = 0;
   int preconditionings = 0;
   int safeguards = 0;             ///< steps of face Newton that went up and were taken back

@@ -1,0 +1,80 @@
+// What residuals claim of errors, against the errors.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "qp/error_estimate.hpp"
+#include "qp/face_newton.hpp"
+#include "random_programme.hpp"
+
+namespace mortise::qp {
+namespace {
+
+// The inverse of a dense matrix: the energy of a residual is exact, but for what G and constraints take of it.
+class Inverse : public FacePreconditioner {
+ public:
+  Inverse(const Eigen::MatrixXd& a, Teuchos::RCP<const Map> map) : inverse_(a.inverse(), map, world()) {}
+  void fix(std::span<const Local>) override {}
+  Teuchos::RCP<const Map> getDomainMap() const override { return inverse_.getDomainMap(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return inverse_.getRangeMap(); }
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override
+  {
+    inverse_.apply(x, y, mode, alpha, beta);
+  }
+
+ private:
+  DenseOperator inverse_;
+};
+
+double error_of(const RandomProgramme& programme, const Vector& x, const Eigen::VectorXd& exact)
+{
+  const Eigen::VectorXd e = gathered(x, world()) - exact;
+  return std::sqrt(e.dot(programme.dense * e));
+}
+
+TEST(ErrorBound, IsOneAtEveryPointAndNotFarAbove)
+{
+  RandomProgramme programme;
+  Inverse inverse(programme.dense, programme.map);
+  const Eigen::VectorXd exact = gathered(FaceNewton(programme.problem, nullptr).solve({}, {1e-12}, nullptr, {}).x, world());
+  const double norm = FaceNewton(programme.problem, nullptr).solve({}, {1e-2}, nullptr, {}).hessian_norm;
+  Projector projector(programme.equality, programme.set);
+  for (const double distance : {1.0, 1e-1, 1e-2, 1e-4, 1e-6})
+    for (int trial = 0; trial < 10; ++trial) {
+      Solution point(projector(local_part(exact + distance * programme.random(RandomProgramme::n, 1), programme.map)).point,
+                     Vector(programme.map), {});
+      programme.hessian.apply(point.x, point.gradient);
+      point.gradient.update(-1, programme.b, 1);
+      point.hessian_norm = norm;
+      const double error = error_of(programme, point.x, exact), bound = error_bound(programme.problem, point, &inverse);
+      EXPECT_GE(bound, (1 - 1e-5) * error) << distance;
+      EXPECT_LE(bound, 10 * error) << distance;
+    }
+}
+
+// A small residual beside a large error is no solution where the goal knows how large solutions are.
+TEST(ErrorBound, SmallResidualsAreBelievedWithSmallErrorsAlone)
+{
+  RandomProgramme programme;
+  const auto norm = [](double value) { return [value](const Vector&, const Eigen::VectorXd&) { return value; }; };
+  const Vector x(programme.map);
+  Goal goal{1e-4};
+  EXPECT_TRUE(believable(1.0, 0, x, {}, goal));  // it does not know
+  goal.energy_norm = norm(50);
+  EXPECT_TRUE(believable(0.4, 0, x, {}, goal));
+  EXPECT_FALSE(believable(0.6, 0, x, {}, goal));
+  EXPECT_TRUE(believable(0.6, 0.7, x, {}, goal));  // rounding
+
+  // A solution that is a million times smaller than its problem asks for more products, or it is none.
+  Goal loose{1e-3}, strict{1e-3};
+  strict.energy_norm = norm(1e-3);
+  const Solution first = FaceNewton(programme.problem, nullptr).solve({}, loose, nullptr, {});
+  const Solution second = FaceNewton(programme.problem, nullptr).solve({}, strict, nullptr, {});
+  EXPECT_TRUE(first.converged);
+  EXPECT_TRUE(second.converged);
+  EXPECT_GT(first.error, strict.credible() * 1e-3);
+  EXPECT_LE(second.error, strict.credible() * 1e-3);
+}
+
+}  // namespace
+}  // namespace mortise::qp

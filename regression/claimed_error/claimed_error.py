@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Measures whether errors are what runs claim: random models, each solved at `tolerance: auto` and again tightly.
+
+    claimed_error.py MORTISE [--count 40] [--seed 1] [--family NAME ...] [--set key=value ...] [--keep DIRECTORY] [--quick] [--limit SECONDS]
+
+A line a model: exit status, products (auto, tight), the error that the run claims and the true one, of the solver, in the energy norm; what displacements,
+contact forces and largest pressures are off by; and the ratio of true to claimed. The energy norm of the difference comes from the dual energies in history.csv
+where there is no Coulomb friction (2 (E - E_tight) is no less than its square), and from the stresses at the nodes where there is. A tight run that does not
+converge tells nothing, and the model does not count. Fails if more than 5 % of the runs with exit status 0 are off by more than 1.5 times what they claim.
+Errors below 1e-3 count as claimed: they matter to nobody.
+"""
+import argparse
+import csv
+import json
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+import yaml
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+sys.path.insert(0, str(HERE.parent / "verification"))
+import models  # noqa: E402
+import results  # noqa: E402
+
+INPUTS = HERE.parent.parent / "inputs"
+TIGHT = ["solver.tolerance=1e-10", "solver.preconditioner=dirichlet", "friction_loop.tolerance=1e-8"]
+FACTOR, PART, FLOOR = 1.5, 0.05, 1e-3
+
+
+def solve(mortise, deck, directory, settings, limit):
+    """Exit status and summary (None without one)."""
+    environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_THREAD_LIMIT="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    command = [mortise, str(deck), "--output", str(directory)]
+    for value in settings:
+        command += ["--set", value]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=limit)
+    except subprocess.TimeoutExpired:
+        return "time", None
+    path = directory / "summary.json"
+    if done.returncode not in (0, 2, 3) or not path.exists():
+        return done.returncode, None
+    return done.returncode, json.loads(path.read_text())
+
+
+def dual_energy(directory):
+    rows = list(csv.DictReader((directory / "history.csv").open()))
+    return float(rows[-1]["dual_energy"])
+
+
+def stress_difference(one, other):
+    """Relative, in the energy norm of the stresses at the nodes, each with the volume that is its."""
+    read = [results.read_vtu(next(d.glob("solution*.vtu"))) for d in (one, other)]
+    points, stress = read[0]["Points"], [r["PointData"]["stress"] for r in read]
+    points = next(iter(points.values()))
+    cells = read[0]["Cells"]
+    volume = np.zeros(len(points))
+    start = 0
+    for end in cells["offsets"]:
+        nodes = cells["connectivity"][start:end]
+        size = np.ptp(points[nodes], axis=0)
+        volume[nodes] += np.prod(size[size > 0]) / len(nodes)
+        start = end
+    def square(s):
+        return float(np.sum(volume[:, None] * s**2 * np.array([1, 1, 1, 2, 2, 2])))
+    return np.sqrt(square(stress[0] - stress[1]) / max(square(stress[1]), 1e-300))
+
+
+def relative(a, b):
+    return abs(a - b) / max(abs(b), 1e-300)
+
+
+def compare(auto, tight, found, exact, coulomb):
+    """Claimed and true errors of the run `auto`, against `tight`."""
+    energy = exact["strain_energy"]
+    gained = dual_energy(auto) - dual_energy(tight)  # not a number where SMALSE finished
+    true = stress_difference(auto, tight) if coulomb or not np.isfinite(gained) else np.sqrt(max(gained, 0) / energy)
+    force = max((np.linalg.norm(np.subtract(a["force"], b["force"])) / max(np.linalg.norm(b["force"]), 1e-300)
+                 for a, b in zip(found["contacts"], exact["contacts"])), default=0)
+    pressure = max((relative(a["max_recovered_pressure"], b["max_recovered_pressure"]) for a, b in zip(found["contacts"], exact["contacts"])), default=0)
+    return {"claimed": found["error_estimate"]["algebraic"], "true": true, "energy": relative(found["strain_energy"], energy),
+            "displacement": relative(found["max_displacement"], exact["max_displacement"]), "force": force, "pressure": pressure}
+
+
+def measure(arguments, family, number, directory):
+    deck = models.model(family, random.Random(f"{arguments.seed} {family} {number}"), INPUTS)
+    if geometry := deck.pop("geometry", None):
+        (directory / geometry[0]).write_text(geometry[1])
+    path = directory / "deck.yaml"
+    path.write_text(yaml.safe_dump(deck, sort_keys=False))
+    status, found = solve(arguments.mortise, path, directory / "auto", arguments.set, arguments.limit)
+    exact_status, exact = solve(arguments.mortise, path, directory / "tight", TIGHT, arguments.limit)
+    if exact_status != 0:
+        _, exact = solve(arguments.mortise, path, directory / "tight", TIGHT + ["solver.tolerance=1e-8"], arguments.limit)
+        exact_status = _
+    line = f"{family:10} {number:4}  exit {status} {exact_status}"
+    if found:
+        line += f"  products {found['hessian_multiplications']:5}"
+    if not found or not exact or status != 0 or exact_status != 0:
+        print(line, flush=True)
+        return {"family": family, "status": status, "judged": False}
+    coulomb = any("coulomb" in contact.get("friction", {}) for contact in deck["contacts"])
+    row = compare(directory / "auto", directory / "tight", found, exact, coulomb)
+    row["ratio"] = row["true"] / max(row["claimed"] or 0.0, FLOOR / FACTOR)
+    print(line + f" {exact['hessian_multiplications']:6}  mesh {found['error_estimate']['discretization'] or 0:8.2e}  claimed {row['claimed'] or 0:8.2e}  true {row['true']:8.2e}"
+          f"  ratio {row['ratio']:6.2f}  displacement {row['displacement']:8.1e}  force {row['force']:8.1e}  pressure {row['pressure']:8.1e}"
+          + ("  ***" if row["ratio"] > FACTOR else ""), flush=True)
+    return {"family": family, "status": status, "judged": True, **row}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mortise", type=lambda p: str(pathlib.Path(p).resolve()))
+    parser.add_argument("--count", type=int, default=40, help="models, dealt out to the families in turn")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--family", nargs="*", default=models.FAMILIES, choices=models.FAMILIES)
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--keep", type=pathlib.Path, help="where decks and results stay")
+    parser.add_argument("--limit", type=float, default=120, help="seconds of each run")
+    arguments = parser.parse_args()
+    rows = []
+    with tempfile.TemporaryDirectory() as scratch:
+        for i in range(arguments.count):
+            family = arguments.family[i % len(arguments.family)]
+            directory = (arguments.keep or pathlib.Path(scratch)) / f"{family}_{i}"
+            directory.mkdir(parents=True, exist_ok=True)
+            rows.append(measure(arguments, family, i, directory))
+    judged = [r for r in rows if r["judged"]]
+    bad = [r for r in judged if r["ratio"] > FACTOR]
+    print(f"{len(rows)} models, {len(judged)} judged; {len(bad)} are off by more than {FACTOR} times what they claim; median ratio "
+          f"{np.median([r['ratio'] for r in judged]) if judged else float('nan'):.2f}")
+    not_solved = [r for r in rows if r["status"] != 0]
+    print(f"{len(not_solved)} not solved: {[(r['family'], r['status']) for r in not_solved]}")
+    return 1 if len(bad) > PART * len(judged) or not judged else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
