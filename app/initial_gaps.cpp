@@ -54,7 +54,7 @@ Warning overlap_warning(const contact::InitialGap& gap, const contact::Options& 
           "if it is the meshes' error: `adjust: {:.2g}`, or `clearance: 0` where the two fit; if it is meant: `clearance: "
           "0, interference: {:.3g}`",
           1.1 * overlap, overlap + std::max(contact.interference, 0.0))};
-  warning.at = gap.at;
+  warning.at = Point(gap.at[0], gap.at[1], gap.at[2]);
   warning.contact = contact.name;
   warning.value = overlap;
   return warning;
