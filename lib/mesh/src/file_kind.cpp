@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
 
 #include "gmsh_file.hpp"
 #include "script_check.hpp"
@@ -79,6 +80,45 @@ void check_brep_end(const std::string& file, std::ifstream& stream)
                            std::min(ended, shapes)));
 }
 
+// gmsh reads as many lines of nodes and elements as the file says there are, and leaves out the rest without a word. Texts only:
+// in binary files what follows is out of step and is noticed.
+void check_msh_counts(const std::string& file, std::ifstream& stream)
+{
+  stream.clear();
+  stream.seekg(0);
+  double version = 0;
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    const bool format = line.starts_with("$MeshFormat"), nodes = line.starts_with("$Nodes");
+    if (!format && !nodes && !line.starts_with("$Elements")) continue;
+    const auto section = line.substr(0, line.find_last_not_of(" \r\t") + 1);
+    if (!std::getline(stream, line)) break;
+    ++number;
+    std::istringstream words(line);
+    if (format) {
+      int binary = 0;
+      words >> version >> binary;
+      if (binary != 0) return;
+      continue;
+    }
+    if (version < 2 || (version >= 3 && version < 4.1)) continue;
+    long long blocks = 0, count = -1, lines = 0;
+    if (version >= 4) words >> blocks;
+    words >> count;
+    const int first = number;
+    while (std::getline(stream, line) && !line.starts_with('$')) {
+      ++number;
+      if (line.find_first_not_of(" \r\t") != std::string::npos) ++lines;
+    }
+    ++number;
+    const auto expected = version >= 4 ? blocks + (nodes ? 2 : 1) * count : count;
+    if (lines != expected)
+      fail(file, fmt::format("line {}: {} is to have {} lines after this one, and has {}; the file is cut off or damaged", first,
+                             section, expected, lines));
+  }
+}
+
 void check_content(const std::string& file, std::ifstream& stream, FileKind kind)
 {
   if (kind == FileKind::abaqus) return;  // our own reader says more
@@ -87,6 +127,7 @@ void check_content(const std::string& file, std::ifstream& stream, FileKind kind
   const auto has = [&](const char* words) { return head.find(words) != std::string::npos; };
   if (kind == FileKind::msh && !head.starts_with("$MeshFormat") && !head.starts_with("$Comments") && !head.starts_with("$NOD"))
     fail(file, "is no .msh file: its first line must be $MeshFormat; a geometry must have the ending .geo, .step or .brep");
+  if (kind == FileKind::msh) check_msh_counts(file, stream);
   if (kind == FileKind::step && !has("ISO-10303-21")) fail(file, "is no STEP file: it does not begin with ISO-10303-21");
   if (kind == FileKind::step && piece(stream, -4096, 4096).find("END-ISO-10303-21") == std::string::npos)
     fail(file, "is cut off: END-ISO-10303-21 is missing at its end; write it anew");

@@ -104,6 +104,23 @@ TEST(FaultyFiles, CausesAreKept)
   EXPECT_EQ(said(options(write("whole.msh", brick()))), "");
 }
 
+// gmsh itself would read this without its last element.
+TEST(FaultyFiles, LinesTooManyAreNotLost)
+{
+  const std::string cells[2] = {"1 5 2 1 1 1 2 3 4 5 6 7 8\n", "2 5 2 1 1 5 6 7 8 9 10 11 12\n"};
+  const auto two = [&](const std::string& between) {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"a\"\n$EndPhysicalNames\n$Nodes\n12\n"
+           "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 0 0 2\n10 1 0 2\n11 1 1 2\n12 0 1 2\n"
+           "$EndNodes\n$Elements\n2\n" +
+           cells[0] + between + cells[1] + "$EndElements\n";
+  };
+  EXPECT_EQ(said(options(write("two.msh", two("")))), "");
+  EXPECT_SAID(options(write("two.msh", two(cells[0]))), "line 24: $Elements is to have 2 lines after this one, and has 3");
+  auto more = brick();
+  more.insert(more.find("$EndElements"), "2 1 2 3 4 5 6 7 8\n");
+  EXPECT_SAID(options(write("more.msh", more)), "$Elements is to have 2 lines");
+}
+
 TEST(FaultyFiles, NothingIsEndless)
 {
   EXPECT_SAID(options(write("self.geo", box + "Macro f\nCall f;\nReturn\nCall f;\n")), "line 5: the macro \"f\" calls itself");
