@@ -21,7 +21,7 @@ namespace mortise {
 
 namespace {
 
-constexpr unsigned grace = 5;          // seconds until the process ends though it has come to no safe place
+constexpr unsigned grace = 10;         // seconds until the process ends though it has come to no safe place
 constexpr int blas_patience = 500000;  // microseconds of CPU, for what takes some tens of them
 
 // Bytes that MPI and a run of a few cells take. Libraries that find no room end in ways of their own, so it is asked for first.

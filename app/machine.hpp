@@ -22,7 +22,7 @@ void catch_faults();
 void expect_mpi();
 void note_mpi_started();
 
-/// Throws Error(machine) on all ranks if any of them has been told to end. Cheap enough for every product. Collective.
+/// Throws Error(machine) on all ranks if any of them has been told to end. One number is summed: cheap, but not free. Collective.
 void end_if_told(const Communicator& comm);
 
 /// Has BLAS take its work space now, since OpenBLAS tries for ever if it finds no room for it, and sees whether there is room for
