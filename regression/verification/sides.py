@@ -189,7 +189,7 @@ MODELS = [
         pin_away,
         (0, 2500),
         quick=(("tet10", "coulomb"), ("hex20", "frictionless"), ("prism15", "frictionless")),
-        coarse=lambda cell: int(cell == "tet4"),
+        coarse=lambda cell: 2 if cell == "tet4" else 0,
     ),
     Model(
         "ball_in_socket",
