@@ -89,7 +89,7 @@ def keep(finds, mortise, files, solve, done, complaints, number, seed):
     folder.mkdir(parents=True, exist_ok=True)
     for name, data in files.items():
         (folder / name).write_bytes(data)
-    options = "--output /tmp/fuzz_results" if solve else "--check"
+    options = "--output results" if solve else "--check"
     (folder / "run.sh").write_text(f'cd "$(dirname "$0")" && ${{MORTISE:-{mortise}}} deck.yaml {options}\n')
     (folder / "found.txt").write_text("\n".join(complaints) + f"\n\nexit status {done.status}\n--- stdout\n{done.out[-3000:]}\n--- stderr\n{done.err[-3000:]}\n")
 
