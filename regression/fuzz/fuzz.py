@@ -89,7 +89,7 @@ def keep(finds, mortise, files, solve, done, complaints, number, seed):
     folder.mkdir(parents=True, exist_ok=True)
     for name, data in files.items():
         (folder / name).write_bytes(data)
-    options = "--output /tmp/fuzz_results" if solve else "--check"
+    options = "--output results" if solve else "--check"
     (folder / "run.sh").write_text(f'cd "$(dirname "$0")" && ${{MORTISE:-{mortise}}} deck.yaml {options}\n')
     (folder / "found.txt").write_text("\n".join(complaints) + f"\n\nexit status {done.status}\n--- stdout\n{done.out[-3000:]}\n--- stderr\n{done.err[-3000:]}\n")
 
@@ -143,16 +143,19 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             seeds = meshes.seeds(scratch)
     statuses, kinds, solved, begin = collections.Counter(), collections.Counter(), 0, time.time()
-    with multiprocessing.get_context("fork").Pool(arguments.jobs, start, (arguments, seeds, schema)) as pool:
-        for number, status, untouched, solve, complaints in pool.imap_unordered(work, range(arguments.first, arguments.first + arguments.count)):
-            statuses["changed " * (not untouched) + ("solve " if solve else "check ") + str(status)] += 1
-            solved += untouched and solve and status == 0
-            if complaints:
-                kinds[signature(complaints)] += 1
-                print(f"case {number}: " + "; ".join(complaints), flush=True)
-            if (done := sum(statuses.values())) % 500 == 0:
-                print(f"{done} cases, {time.time() - begin:.0f} s", flush=True)
-    print(f"{arguments.count} {arguments.what}, seed {arguments.seed}, {time.time() - begin:.0f} s: {sum(kinds.values())} finds")
+    try:
+        with multiprocessing.get_context("fork").Pool(arguments.jobs, start, (arguments, seeds, schema)) as pool:
+            for number, status, untouched, solve, complaints in pool.imap_unordered(work, range(arguments.first, arguments.first + arguments.count)):
+                statuses["changed " * (not untouched) + ("solve " if solve else "check ") + str(status)] += 1
+                solved += untouched and solve and status == 0
+                if complaints:
+                    kinds[signature(complaints)] += 1
+                    print(f"case {number}: " + "; ".join(complaints), flush=True)
+                if (done := sum(statuses.values())) % 500 == 0:
+                    print(f"{done} cases, {time.time() - begin:.0f} s", flush=True)
+    except KeyboardInterrupt:
+        pass  # what there is so far
+    print(f"{sum(statuses.values())} {arguments.what}, seed {arguments.seed}, {time.time() - begin:.0f} s: {sum(kinds.values())} finds")
     for name, count in sorted(statuses.items()):
         print(f"  {name}: {count}")
     for kind, count in kinds.most_common():

@@ -13,8 +13,8 @@ namespace mortise::feti {
 class DirectSolver {
  public:
   /// Factorizes the matrix with lower triangle `lower`, of nodes with `block` components each, by the solver called `name`, one
-  /// of direct_solvers(). Throws Error(bad_input) for another name, also if the matrix is not positive definite, and Error(machine) if
-  /// memory runs out.
+  /// of direct_solvers(). Throws Error(bad_input) for another name, also if the matrix is not positive definite, and
+  /// Error(machine) if memory runs out.
   DirectSolver(const std::string& name, const SparseMatrix& lower, int block = 1);
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
