@@ -12,6 +12,5 @@ s() = Surface In BoundingBox {-10.1, -4.1, -0.1, 10.1, -3.9, 12.1}; Physical Sur
 s() = Surface In BoundingBox {-0.1, -0.1, -0.1, 10.1, 10.1, 12.1}; Physical Surface("right") = {s()};
 s() = Surface In BoundingBox {-10.1, -0.1, -0.1, 0.1, 10.1, 12.1}; Physical Surface("left") = {s()};
 s() = Surface In BoundingBox {-5.1, 2, 0.9, 5.1, 12.2, 11.1}; Physical Surface("skin") = {s()};
-s() = Surface In BoundingBox {-5.1, 2, 10.9, 5.1, 12.2, 11.1}; Physical Surface("face") = {s()};
 Mesh.MeshSizeMax = size; Mesh.MeshSizeMin = size;
 Mesh.ElementOrder = order;

@@ -47,23 +47,29 @@ class Slideways {
   {
     Eigen::MatrixXd found(basis.rows(), 0);
     if (own_.empty() || basis.cols() == 0) return found;
+    std::vector<Eigen::VectorXd> candidates;
     for (const auto* sides : {&own_, &other_}) {
-      Eigen::MatrixXd felt = Eigen::MatrixXd::Zero(basis.rows(), basis.rows());
+      Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(basis.rows(), basis.rows());
       Eigen::MatrixXd speed = exact * exact * Eigen::MatrixXd::Identity(basis.rows(), basis.rows());
       for (const auto& [contact, parts] : *sides)
         for (const auto& part : parts) {
-          felt += part.smooth / std::pow(part.tolerance(), 2);
+          normal += part.smooth / std::pow(part.tolerance(), 2);
           speed += part.speed;
         }
-      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * felt * basis,
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * normal * basis,
                                                                             basis.transpose() * speed * basis);
       for (Eigen::Index k = 0; k < basis.cols(); ++k) {
         const Eigen::VectorXd v = basis * eigen.eigenvectors().col(k).normalized();
-        const Eigen::VectorXd rest = v - found * (found.transpose() * v);
-        if (rest.norm() < 0.1 || !slides(v)) continue;  // known by its other side, or not free
-        found.conservativeResize(Eigen::NoChange, found.cols() + 1);
-        found.rightCols(1) = rest.normalized();
+        if (slides(v)) candidates.push_back(v);
       }
+    }
+    // What a plane says of a motion is exact, what a cylinder says of it is not: the least felt ones first.
+    std::stable_sort(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) { return felt(a) < felt(b); });
+    for (const auto& v : candidates) {
+      const Eigen::VectorXd rest = v - found * (found.transpose() * v);
+      if (rest.norm() < 0.1) continue;  // known by the other side
+      found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+      found.rightCols(1) = rest.normalized();
     }
     return found;
   }
