@@ -46,10 +46,10 @@ bool any_coulomb(const std::vector<Law>& laws)
 [[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven)
 {
   if (!proven)
-    throw Error(ExitStatus::not_converged,
-                "no forces were found that balance the loads, but nothing proves that there are none; " + problem.runaway(nu) +
-                    " nearly freely. Look at Young's moduli and sizes: rounding is too coarse where "
-                    "stiffnesses differ by 1e12. Or give that body a support of its own");
+    throw Error(ExitStatus::bad_input,
+                "no forces were found that balance the loads, though nothing proves that there are none: " + problem.runaway(nu) +
+                    " nearly freely, and stiffnesses that differ by 1e12 are too far apart for rounding. "
+                    "Look at the units of young_modulus and of sizes, or support that body");
   throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.runaway(nu) +
                                               "; contacts can only push and friction is limited, so nothing holds it against "
                                               "the loads. Support it, or look at the direction of the loads and at the friction");
@@ -320,6 +320,18 @@ double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run
   return std::sqrt(std::max(moved.dot(product), 0.0));
 }
 
+// Where forces within the law balance the loads, but those that the bodies' stiffness asks for never do: no equilibrium if they
+// fall short by more than this.
+void Solver::refuse_if_far(const Run& run)
+{
+  constexpr double short_of = 0.05;
+  auto larger = slip_bounds(problem_, laws_, &run.solution->x);
+  for (auto& bound : larger) bound *= 1 + short_of;
+  problem_.set().set_radii(larger);
+  const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), problem_.set());
+  if (nearest.empty) no_equilibrium(problem_, nearest.nu, true);
+}
+
 // Bounds that leave a feasible point: those of the forces within the cones of friction that balance the loads and are nearest to
 // the present ones. Where there are none, nothing obeys the law. In a set of given bounds they would be on the edge, so bounds
 // are a little larger.
@@ -331,16 +343,17 @@ void Solver::admit(Run& run)
   const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), cones);
   if (!nearest.found && nearest.residual > balanced)
     no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, nearest.empty);
-  run.previous_bounds = run.bounds = slip_bounds(problem_, laws_, &nearest.point);
+  run.bounds = slip_bounds(problem_, laws_, &nearest.point);
   for (auto& bound : run.bounds) bound *= room;
 }
 
 // Tresca problems until their bounds are at rest.
 void Solver::fixed_point(Run& run)
 {
-  constexpr int most_infeasible = 5;
+  constexpr int retreats = 4;  // in a row
+  constexpr int most_failures = 15;
   Relaxation relaxation(problem_.communicator());
-  int infeasible = 0;
+  int infeasible = 0, failures = 0;
   double strictness = 1;
   while (!run.settled) {
     ++run.step;
@@ -352,13 +365,20 @@ void Solver::fixed_point(Run& run)
     const bool first = !run.solved;
     if (!solve_tresca({tolerance}, run)) {
       if (!run.solved) no_equilibrium(problem_, run.escape, run.proven);
-      // Bounds from inexact normal forces may fall short by as much. That is no proof: forces within the cones of friction may
-      // balance the loads still.
-      if (++infeasible > most_infeasible || run.step >= options_.max_steps) return;
+      if (++failures > most_failures || run.step >= options_.max_steps) {
+        refuse_if_far(run);
+        return;
+      }
+      // Bounds from inexact normal forces may fall short by as much: half way back, now and then to what surely is feasible.
+      auto half_way = run.bounds;
+      for (std::size_t i = 0; i < half_way.size(); ++i)
+        half_way[i] = std::isinf(run.previous_bounds[i]) ? 2 * half_way[i] : 0.5 * (half_way[i] + run.previous_bounds[i]);
       admit(run);
+      if (++infeasible % retreats != 0) run.bounds = std::move(half_way);
       continue;
     }
     run.solved = true;
+    infeasible = 0;
     auto wanted = slip_bounds(problem_, laws_, &run.solution->x);
     run.change =
         first ? 1.0 : relative_change(wanted, run.bounds, programme_, run.solution->hessian_norm, problem_.communicator());

@@ -70,6 +70,7 @@ class Solver {
   bool solve_tresca(const qp::Goal& goal, Run& run);
   bool at_rest(const std::vector<double>& wanted, double tolerance, Run& run);
   double error_of_bounds(const std::vector<double>& wanted, const Run& run);
+  void refuse_if_far(const Run& run);
   void admit(Run& run);
   void fixed_point(Run& run);
 
