@@ -160,7 +160,7 @@ def judge(done, names, directory=None):
         complaints.append(f"memory: {done.resident / 1e9:.1f} GB")
     if found := FOREIGN.search(re.sub(r"gmsh crashed \([^)]*\)", "", done.err)):  # in a process of its own
         complaints.append(f"message: it holds {found[0]!r}")
-    if found := NOT_A_NUMBER.search(re.sub(r'"[^"\n]*"', "", done.out + done.err)):
+    if found := NOT_A_NUMBER.search(re.sub(r"\"[^\"\n]*\"|'[^'\n]*'", "", done.out + done.err)):
         complaints.append(f"message: it holds {found[0]!r}")
     lines = [line for line in done.err.splitlines() if line.strip()]
     if done.status == 1:
