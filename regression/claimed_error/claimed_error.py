@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures whether errors are what runs claim: random models, each solved at `tolerance: auto` and again tightly.
 
-    claimed_error.py MORTISE [--count 40] [--seed 1] [--family NAME ...] [--set key=value ...] [--keep DIRECTORY] [--quick] [--limit SECONDS]
+    claimed_error.py MORTISE [--count 40] [--seed 1] [--family NAME ...] [--set key=value ...] [--keep DIRECTORY] [--limit SECONDS]
 
 A line a model: exit status, products (auto, tight), the error that the run claims and the true one, of the solver, in the energy norm; what displacements,
 contact forces and largest pressures are off by; and the ratio of true to claimed. The energy norm of the difference comes from the dual energies in history.csv
