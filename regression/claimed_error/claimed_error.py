@@ -50,8 +50,8 @@ def solve(mortise, deck, directory, settings, limit):
 
 
 def dual_energy(directory):
-    rows = list(csv.DictReader((directory / "history.csv").open()))
-    return float(rows[-1]["dual_energy"])
+    energies = [row["dual_energy"] for row in csv.DictReader((directory / "history.csv").open())]
+    return float([energy for energy in energies if energy][-1])
 
 
 def stress_difference(one, other):

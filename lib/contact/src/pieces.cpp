@@ -44,7 +44,7 @@ std::array<Eigen::MatrixXd, mesh::cell_types> table(const Make& make)
 constexpr double slit = 1e-4;
 // Points of a facet closer to dependence than this span no basis, and what a function sees below this part of the facet's cover
 // is next to nothing.
-constexpr double least_rcond = 0.02, least_part = 0.02;
+constexpr double least_rcond = 1e-6, least_part = 0.02;
 
 Plane nearest_on(const Plane& a, const Plane& b, const Plane& x)
 {

@@ -45,20 +45,35 @@ Point normal_of(const Eigen::MatrixXd& gradient, const mesh::Surface& surface, s
   return {tangents(1, 0), -tangents(0, 0), 0};
 }
 
-std::vector<At> quadrature(const Face& face, fem::Kinematics kinematics)
+At at_point(const Face& face, fem::Kinematics kinematics, const Eigen::VectorXd& shape, const Eigen::MatrixXd& gradient,
+            double weight)
 {
   const auto& surface = *face.surface;
-  const fem::Element& element = fem::element(surface.faces.type[face.face]);
   const auto nodes = surface.faces[face.face];
+  At at;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    at.x += shape[static_cast<Eigen::Index>(i)] * surface.points[static_cast<std::size_t>(nodes[i])];
+  at.normal = weight * fem::thickness(kinematics, at.x[0]) *
+              normal_of(gradient, surface, face.face, kinematics == fem::Kinematics::solid);
+  return at;
+}
+
+// Exact for squares of linear fields: the one point of a triangle's stiffness sees nothing of what turns about it.
+std::vector<At> quadrature(const Face& face, fem::Kinematics kinematics)
+{
+  const auto type = face.surface->faces.type[face.face];
+  const fem::Element& element = fem::element(type);
   std::vector<At> result;
-  for (std::size_t q = 0; q < element.points(); ++q) {
-    At at;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      at.x += element.shape[q][static_cast<Eigen::Index>(i)] * surface.points[static_cast<std::size_t>(nodes[i])];
-    at.normal = element.weight[q] * fem::thickness(kinematics, at.x[0]) *
-                normal_of(element.gradient[q], surface, face.face, kinematics == fem::Kinematics::solid);
-    result.push_back(at);
+  if (type == mesh::CellType::tri3) {
+    for (int corner = 0; corner < 3; ++corner) {
+      Eigen::VectorXd shape = Eigen::VectorXd::Constant(3, 1.0 / 6);
+      shape[corner] = 2.0 / 3;
+      result.push_back(at_point(face, kinematics, shape, element.gradient[0], element.weight[0] / 3));
+    }
+    return result;
   }
+  for (std::size_t q = 0; q < element.points(); ++q)
+    result.push_back(at_point(face, kinematics, element.shape[q], element.gradient[q], element.weight[q]));
   return result;
 }
 

@@ -111,7 +111,9 @@ void DualProblem::renew_right_sides()
 
 bool DualProblem::driven(const FreeMotion& motion, double work)
 {
-  return work > std::max(no_work, 3 * motion.felt);
+  // What facets make of a body, its centre beside its axis, works on its motions, too.
+  constexpr double work_of_facets = 1e-3;
+  return work > std::max({no_work, motion.slideway ? work_of_facets : 0.0, 3 * motion.felt});
 }
 
 bool DualProblem::renew()

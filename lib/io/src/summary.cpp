@@ -26,23 +26,21 @@ Json communication(const Summary::Communication& c)
           {"collective_bytes", number(c.collective_bytes)}};
 }
 
-Json name(const std::string& text)
+// What is not known of the place has no key.
+Json place(const Warning& w)
 {
-  return text.empty() ? Json(nullptr) : Json(text);
+  Json json = Json::object();
+  if (w.at) json["coordinates"] = vector({(*w.at)[0], (*w.at)[1], (*w.at)[2]});
+  if (!w.body.empty()) json["body"] = w.body;
+  if (!w.boundary.empty()) json["boundary"] = w.boundary;
+  if (!w.contact.empty()) json["contact"] = w.contact;
+  return json;
 }
 
 Json warning(const Warning& w)
 {
-  Json json{{"kind", w.kind},
-            {"text", w.text},
-            {"place",
-             {{"coordinates", w.at ? vector({(*w.at)[0], (*w.at)[1], (*w.at)[2]}) : Json(nullptr)},
-              {"body", name(w.body)},
-              {"boundary", name(w.boundary)},
-              {"contact", name(w.contact)}}},
-            {"value", number(w.value)},
-            {"limit", number(w.limit)},
-            {"cure", w.cure}};
+  Json json{{"kind", w.kind},           {"text", w.text},           {"place", place(w)},
+            {"value", number(w.value)}, {"limit", number(w.limit)}, {"cure", w.cure}};
   if (!w.step.empty()) json["step"] = w.step;
   return json;
 }

@@ -24,8 +24,7 @@ constexpr double imbalance_limit = 1e-3;
 constexpr double error_limit = 0.25;
 constexpr double slack = 1.1;  // of an allowed error, since it was asked for some products before
 
-constexpr double drifting = 0.5;  // sizes, if some number does not fit
-constexpr double gone = 100;      // sizes, whatever the numbers say
+constexpr double drifting = 0.5;  // sizes
 
 // `name value (limit limit)` of what exceeds its limit; not a number exceeds any.
 std::string unfit(const Evidence& e)
@@ -65,7 +64,7 @@ Verdict verdict(const Evidence& e)
 {
   const std::string wrong = unfit(e);
   const bool unfinished = !e.converged || !wrong.empty();
-  if (e.drift.sizes > gone || (unfinished && e.limit.empty() && e.drift.sizes > drifting) || std::isnan(e.drift.sizes))
+  if ((unfinished && e.limit.empty() && e.drift.sizes > drifting) || std::isnan(e.drift.sizes))
     return {
         ExitStatus::no_equilibrium, "NO EQUILIBRIUM.",
         fmt::format("no equilibrium: {}, {:.3g} times its size, and what little holds it is no support: facets of the mesh, or "

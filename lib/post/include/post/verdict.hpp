@@ -35,8 +35,8 @@ struct Verdict {
 };
 
 /// Solved: the solver says so, and no number exceeds its limit (a residual: the fixed limit, or the deck's tolerance if that is
-/// larger). No equilibrium: a body drifts by half its size while some number does not fit, or by a hundred sizes. Else not
-/// converged. Depends on its argument alone.
+/// larger), however far bodies move: something soft may carry them. No equilibrium: a body drifts by half its size while some
+/// number does not fit. Else not converged. Depends on its argument alone.
 Verdict verdict(const Evidence& evidence);
 
 }  // namespace mortise::post
