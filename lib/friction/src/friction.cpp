@@ -165,6 +165,13 @@ class Relaxation {
   double part_ = 1;
 };
 
+// Whether the residual of a solution with an estimated error that is good enough fits it.
+bool fits(const qp::Solution& solution, const qp::Goal& goal)
+{
+  return solution.projected_gradient <= qp::Goal::largest_residual ||
+         qp::believable(solution.error, 0, solution.x, solution.nu, goal);
+}
+
 // SMALSE-M for one set of slip bounds. Where the goal is an allowed error, with tolerances that fall until it is reached.
 qp::Solution solve_by_smalse(const qp::Problem& programme, std::optional<qp::Solution> start, const qp::Goal& goal,
                              qp::FacePreconditioner* preconditioner, const qp::Observer& observer)
@@ -184,7 +191,7 @@ qp::Solution solve_by_smalse(const qp::Problem& programme, std::optional<qp::Sol
       tolerance *= 0.1;
     } else {
       const double allowed = goal.allowed_error(found.x, found.nu);
-      if (found.error <= allowed) return found;
+      if (found.error <= allowed && fits(found, goal)) return found;
       tolerance = std::max(finest, tolerance * std::clamp(0.5 * allowed / found.error, 0.03, 0.5));
     }
     start = std::move(found);
@@ -294,7 +301,8 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
            qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
                           run.goal);
   solution.error += error_of_bounds(wanted, run);
-  if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu)) return true;
+  if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu) && fits(solution, run.goal))
+    return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
          qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,

@@ -272,7 +272,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     if (goal.allowed_error && !result.converged && std::isfinite(result.error) &&
         result.error <= (allowed < 0 ? first_look * first_error : allowed)) {
       allowed = goal.allowed_error(z, result.nu);
-      result.converged = result.error <= (to_come <= at_rest ? 1 : certain) * allowed;
+      result.converged = result.error <= (to_come <= at_rest ? 1 : certain) * allowed &&
+                         (worst <= Goal::largest_residual * size || believable(result.error, 0, z, result.nu, goal));
     }
     since_best = worst < 0.9 * best || (doubtful && result.error < 0.9 * best_error) ? 0 : since_best + 1;
     best = std::min(best, worst);

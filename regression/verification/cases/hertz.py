@@ -267,10 +267,10 @@ CASES = [
     Case(
         "two_spheres",
         "Two spheres, approach 4 mm: a/R = 0.2",
-        "Code_Aster SSNV104 (p0 2798.3) and Hertz; 6 % allowed at a/R = 0.2, 15 and 10 % where the equators count",
+        "Code_Aster SSNV104 (p0 2798.3) and Hertz; 6 % allowed at a/R = 0.2, 22 and 10 % where the equators count",
         DECKS / "two_spheres.yaml",
         [Mesh(f"h = {h}", h, constants(h=h)) for h in (3, 2, 1.4)],
-        [Quantity("a of F", 0.06), Quantity("p0 of F", 0.05), Quantity("F of d", 0.15), Quantity("p0 of d", 0.1)],
+        [Quantity("a of F", 0.06), Quantity("p0 of F", 0.05), Quantity("F of d", 0.22), Quantity("p0 of d", 0.1)],
         spheres,
     ),
     Case(

@@ -51,7 +51,7 @@ CASES = [
         "Johnson (1985), (2.64)",
         DECKS / "punch.yaml",
         [Mesh(f"h = {h}", h, constants(h=h) + [f"loads[0].force=[0, {-LOAD / 2}]"]) for h in SIZES],
-        [Quantity("pressure, x < 0.9 a", 0.15, 1, floor=0.003), Quantity("p in the middle", 0.07, 1, floor=0.003), Quantity("force", 1e-7)],
+        [Quantity("pressure, x < 0.9 a", 0.18, 1, floor=0.003), Quantity("p in the middle", 0.07, 1, floor=0.003), Quantity("force", 1e-7)],
         flat,
         lambda axes, runs: plot_pressure(axes, runs, lambda x: formulas.flat_punch(np.minimum(x, 0.995), 1, LOAD), 1.0),
     ),

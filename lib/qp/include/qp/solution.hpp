@@ -19,6 +19,8 @@ struct Goal {
   /// small, since a small residual alone says little where A is badly conditioned; if absent, it is believed. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> energy_norm = {};
 
+  /// The residual up to which an estimated error that is good enough ends a solve. Beyond it the error has to be small itself.
+  static constexpr double largest_residual = 0.4;
   /// Part of the energy norm that the error may be for a small residual to count as a solution.
   double credible() const { return allowed_error ? 1e-2 : std::max(std::sqrt(residual), 1e-3); }
 };
