@@ -271,12 +271,12 @@ void Simulation::solve(const LoadState& state, const friction::Observer& observe
     const auto estimating = timers.scope("error estimate");
     return energy_norms(deck_, decomposition_, model_, state_, interface_, problem_->displacement(lambda, nu), comm);
   };
-  const friction::Accuracy accuracy{
-      [&](const Vector& lambda, const Eigen::VectorXd& nu) {
-        const auto [error, solution] = norms(lambda, nu);
-        return std::clamp(algebraic_part * error, smallest_part * solution, largest_part * solution);
-      },
-      [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms(lambda, nu).solution; }};
+  const friction::Accuracy accuracy{[&](const Vector& lambda, const Eigen::VectorXd& nu) {
+                                      const auto [error, solution] = norms(lambda, nu);
+                                      return std::clamp(algebraic_part * error, smallest_part * solution,
+                                                        largest_part * solution);
+                                    },
+                                    [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms(lambda, nu).solution; }};
   const auto count_on = [&](int step, double change, qp::Progress progress) {
     progress.multiplications += multiplications_before_;
     observer(step, change, progress);

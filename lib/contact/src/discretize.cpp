@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <ranges>
 #include <tuple>
 
 #include "base/error.hpp"
 #include "by_node.hpp"
 #include "contact/cyclic.hpp"
 #include "contact/mortar.hpp"
+#include "cut_faces.hpp"
 #include "face_integrals.hpp"
 #include "held_nodes.hpp"
 #include "one_surface.hpp"
@@ -42,12 +42,6 @@ struct Pressed {
   Global node;
 };
 
-// The k-th function of a piece of a face.
-struct Function {
-  std::size_t face, piece;
-  Eigen::Index k;
-};
-
 // One contact on its way from faces to rows: those of the nodes that are this rank's.
 class Builder {
  public:
@@ -63,6 +57,7 @@ class Builder {
         pressed_(pressed),
         places_(find_places(secondary_)),
         primary_places_(find_places(primary_)),
+        faces_(secondary_, places_, share.own),
         tree_(tree_of_facets(primary_)),
         rays_(secondary_, places_, primary_, primary_places_, tree_, options.obstacle, reach),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, places_, primary_, curved, turn_of(options), comm)
@@ -96,11 +91,10 @@ class Builder {
 
   void add_rows(constraint::Contacts& contacts)
   {
-    choose_faces();
     integrate_faces();
     choose_places();
     if (!nodal()) make_faces_dual();
-    sort_by_places();
+    faces_.sort_by_places();
     for (std::size_t p = 0; p < places_.all.size(); ++p)
       if (own(p) && kept_[p]) add_place(p, contacts);
   }
@@ -109,52 +103,12 @@ class Builder {
   bool nodal() const { return options_.discretization == "node_to_segment"; }
   bool own(std::size_t place) const { return share_.own[static_cast<std::size_t>(places_.all[place].node)] != 0; }
   bool bonded() const { return options_.law == Law::bonded; }
-  std::span<const Local> node_places(std::size_t face) const
-  {
-    return std::span(places_.of_node)
-        .subspan(static_cast<std::size_t>(secondary_.faces.offset[face]), secondary_.faces[face].size());
-  }
-  // The pieces of a face in round_.
-  std::ranges::iota_view<std::size_t, std::size_t> pieces(std::size_t face) const
-  {
-    return {static_cast<std::size_t>(first_piece_[face]), static_cast<std::size_t>(end_piece_[face])};
-  }
-  // The place that a function of a piece belongs to.
-  std::size_t place_of(std::size_t face, const PieceStore::View& piece, Eigen::Index k) const
-  {
-    const auto node =
-        piece.facet < 0
-            ? static_cast<std::size_t>(k)
-            : static_cast<std::size_t>(secondary_.corners[static_cast<std::size_t>(piece.facet)][static_cast<std::size_t>(k)]);
-    return static_cast<std::size_t>(node_places(face)[node]);
-  }
-
-  // The faces round this rank's nodes, whose share of the rows is needed, and those round their nodes, whose integrals are.
-  void choose_faces()
-  {
-    std::vector<char> touched = share_.own;
-    const auto touches = [&](std::size_t f) {
-      const auto nodes = secondary_.faces[f];
-      return std::any_of(nodes.begin(), nodes.end(), [&](Local n) { return touched[static_cast<std::size_t>(n)] != 0; });
-    };
-    for (std::size_t f = 0; f < secondary_.faces.size(); ++f)
-      if (touches(f)) near_.push_back(f);
-    for (const std::size_t f : near_)
-      for (const Local n : secondary_.faces[f]) touched[static_cast<std::size_t>(n)] = 1;
-    for (std::size_t f = 0; f < secondary_.faces.size(); ++f)
-      if (touches(f)) round_.push_back(f);
-  }
-
   void integrate_faces()
   {
     Integrator integrator(secondary_, places_, primary_, primary_places_, tree_, reach_);
-    first_piece_.assign(secondary_.faces.size(), 0);
-    end_piece_ = first_piece_;
-    for (const std::size_t f : round_) {
-      first_piece_[f] = static_cast<Local>(integrals_.size());
-      const bool mortar = !options_.obstacle && !nodal();
-      for (const auto& piece : mortar ? integrator.integrate(f) : integrator.integrate_whole(f)) integrals_.add(piece);
-      end_piece_[f] = static_cast<Local>(integrals_.size());
+    const bool mortar = !options_.obstacle && !nodal();
+    for (const std::size_t f : faces_.round()) {
+      faces_.add(f, mortar ? integrator.integrate(f) : integrator.integrate_whole(f));
       if (!mortar) uncover(f);
     }
   }
@@ -162,8 +116,8 @@ class Builder {
   // Takes out what does not meet the other side: over an obstacle all of a face unless all its nodes face it, nodes one by one.
   void uncover(std::size_t face)
   {
-    auto covered = integrals_[pieces(face).front()].covered;
-    const auto places = node_places(face);
+    auto covered = faces_.piece(faces_.pieces(face).front()).covered;
+    const auto places = faces_.node_places(face);
     if (!nodal()) {
       if (!std::all_of(places.begin(), places.end(), [&](Local p) { return rays_.meets(static_cast<std::size_t>(p)); }))
         covered.setZero();
@@ -180,12 +134,12 @@ class Builder {
   {
     const auto count = places_.all.size();
     std::vector<double> covered(count, 0.0), whole(count, 0.0);
-    for (const std::size_t f : round_)  // in the order of the faces, whatever the ranks
-      for (const std::size_t i : pieces(f)) {
-        const auto piece = integrals_[i];
+    for (const std::size_t f : faces_.round())  // in the order of the faces, whatever the ranks
+      for (const std::size_t i : faces_.pieces(f)) {
+        const auto piece = faces_.piece(i);
         for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
-          covered[place_of(f, piece, k)] += piece.covered[k];
-          whole[place_of(f, piece, k)] += piece.whole[k];
+          covered[faces_.place_of(f, piece, k)] += piece.covered[k];
+          whole[faces_.place_of(f, piece, k)] += piece.whole[k];
         }
       }
     for (std::size_t p = 0; p < count; ++p)
@@ -210,8 +164,8 @@ class Builder {
     // surface that a support moves as a whole, they stay: their rows are felt by the primary side alone (and dropped in
     // add_place() if that is held, too).
     std::vector<char> stranded(count, 0);
-    for (const std::size_t f : round_) {
-      const auto places = node_places(f);
+    for (const std::size_t f : faces_.round()) {
+      const auto places = faces_.node_places(f);
       if (std::all_of(places.begin(), places.end(), [&](Local p) { return left_out(static_cast<std::size_t>(p)); }))
         for (const Local p : places) stranded[static_cast<std::size_t>(p)] = 1;
     }
@@ -234,60 +188,37 @@ class Builder {
   void keep_small_pieces(const Allowed& allowed)
   {
     std::vector<std::size_t> more;
-    for (const std::size_t f : round_)
-      for (const std::size_t i : pieces(f)) {
-        const auto piece = integrals_[i];
+    for (const std::size_t f : faces_.round())
+      for (const std::size_t i : faces_.pieces(f)) {
+        const auto piece = faces_.piece(i);
         if (piece.facet < 0 || piece.covered.sum() < least_piece * piece.whole.sum()) continue;
         bool any = false;
-        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) any = any || kept_[place_of(f, piece, k)];
+        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) any = any || kept_[faces_.place_of(f, piece, k)];
         for (Eigen::Index k = 0; k < piece.covered.size() && !any; ++k)
-          if (const auto p = place_of(f, piece, k); allowed(p)) more.push_back(p);
+          if (const auto p = faces_.place_of(f, piece, k); allowed(p)) more.push_back(p);
       }
     for (const std::size_t p : more) kept_[p] = 1;
   }
 
   void make_faces_dual()
   {
-    for (const std::size_t f : near_)
-      for (const std::size_t i : pieces(f)) {
-        auto piece = integrals_[i];
+    for (const std::size_t f : faces_.near())
+      for (const std::size_t i : faces_.pieces(f)) {
+        auto piece = faces_.piece(i);
         Few<char, 9> kept;
-        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) kept.push_back(kept_[place_of(f, piece, k)]);
+        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) kept.push_back(kept_[faces_.place_of(f, piece, k)]);
         make_dual(piece, kept);
       }
   }
 
-  // The functions that belong to each place, ascending by face and piece.
-  void sort_by_places()
-  {
-    first_.assign(places_.all.size() + 1, 0);
-    const auto each = [&](const auto& use) {
-      for (const std::size_t f : near_)
-        for (const std::size_t i : pieces(f)) {
-          const auto piece = integrals_[i];
-          for (Eigen::Index k = 0; k < piece.covered.size(); ++k) use(place_of(f, piece, k), Function{f, i, k});
-        }
-    };
-    each([&](std::size_t p, const Function&) { ++first_[p + 1]; });
-    for (std::size_t p = 0; p < places_.all.size(); ++p) first_[p + 1] += first_[p];
-    at_.resize(first_.back());
-    auto next = first_;
-    each([&](std::size_t p, const Function& function) { at_[next[p]++] = function; });
-  }
-
-  std::span<const Function> functions_at(std::size_t p) const
-  {
-    return std::span(at_).subspan(first_[p], first_[p + 1] - first_[p]);
-  }
-
   // The coefficients of a place's rows that come from one function.
-  void add_terms(const Function& function)
+  void add_terms(const CutFaces::Function& function)
   {
     const auto nodes = secondary_.faces[function.face];
     const auto add = [&](Local node, bool on_primary, double value) {
       if (value != 0) terms_.push_back({node, on_primary, value});
     };
-    const auto piece = integrals_[function.piece];
+    const auto piece = faces_.piece(function.piece);
     if (nodal()) return add_nodal_terms(function.face, piece, function.k);
     for (std::size_t j = 0; j < nodes.size(); ++j) add(nodes[j], false, piece.mass(function.k, static_cast<Eigen::Index>(j)));
     for (std::size_t j = 0; j < piece.nodes.size(); ++j)
@@ -297,7 +228,7 @@ class Builder {
   // u_s - sum_j N_j u_j at what each node meets, weighted with the node's share of the face.
   void add_nodal_terms(std::size_t face, const PieceStore::View& piece, Eigen::Index k)
   {
-    const auto places = node_places(face);
+    const auto places = faces_.node_places(face);
     const auto nodes = secondary_.faces[face];
     const auto& control = control_values(secondary_.faces.type[face]);
     for (Eigen::Index l = 0; l < control.cols(); ++l) {
@@ -333,8 +264,8 @@ class Builder {
   {
     terms_.clear();
     double d = 0, rise = 0;
-    for (const auto& function : functions_at(p)) {
-      const auto piece = integrals_[function.piece];
+    for (const auto& function : faces_.at(p)) {
+      const auto piece = faces_.piece(function.piece);
       d += piece.covered[function.k];
       if (!nodal()) rise += piece.rise[function.k];
       add_terms(function);
@@ -352,8 +283,8 @@ class Builder {
     const Point& node = secondary_.points[static_cast<std::size_t>(place.node)];
     Point shift = Point::Zero(), turn = Point::Zero();
     double d = 0;
-    for (const auto& [face, i, k] : functions_at(p)) {
-      const auto piece = integrals_[i];
+    for (const auto& [face, i, k] : faces_.at(p)) {
+      const auto piece = faces_.piece(i);
       d += piece.covered[k];
       if (piece.facet < 0) continue;
       const auto facet = static_cast<std::size_t>(piece.facet);
@@ -428,8 +359,8 @@ class Builder {
   {
     std::optional<double> first;  // the mean is taken of what others differ from it: of equals it is exact
     double sum = 0, d = 0, at_node = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& [face, i, k] : functions_at(p)) {
-      const auto piece = integrals_[i];
+    for (const auto& [face, i, k] : faces_.at(p)) {
+      const auto piece = faces_.piece(i);
       const double part = piece.covered[k];
       if (part == 0) continue;
       double gap = at_node;
@@ -469,7 +400,8 @@ class Builder {
   const Side &secondary_, &primary_;
   const std::vector<Pressed>& pressed_;
   Places places_, primary_places_;
-  Tree tree_;  // of the primary facets
+  CutFaces faces_;  // once dual, those near have their share of the rows
+  Tree tree_;       // of the primary facets
   Rays rays_;
   OneSurface one_surface_;
   InitialGap initial_gap_;
@@ -478,16 +410,11 @@ class Builder {
   double reach_;
   double crossing_ = 0;
   double covered_area_ = 0;
-  std::vector<std::size_t> near_, round_;       // faces; see choose_faces()
-  PieceStore integrals_;                        // of the faces in round_; once dual, those in near_ have their share of the rows
-  std::vector<Local> first_piece_, end_piece_;  // of each face in integrals_
-  std::vector<Directions> directions_;          // of each place
-  std::vector<char> freed_;                     // of each place: its row keeps what supports hold of the secondary side
-  std::vector<char> kept_;                      // of each place
-  std::vector<double> cover_;                   // of each place
-  std::vector<std::size_t> first_;              // of each place its first entry in at_
-  std::vector<Function> at_;
-  std::vector<Term> terms_;  // of the place at work
+  std::vector<Directions> directions_;  // of each place
+  std::vector<char> freed_;             // of each place: its row keeps what supports hold of the secondary side
+  std::vector<char> kept_;              // of each place
+  std::vector<double> cover_;           // of each place
+  std::vector<Term> terms_;             // of the place at work
 };
 
 }  // namespace

@@ -17,6 +17,8 @@ constexpr double beyond_border = 1;
 // nearly covered lie so far beyond its border, and where the surfaces are curved projections along normals of facets and lines
 // along the direction of contact differ a little.
 constexpr double part_past = 0.4;
+// Of that what a node may miss that lies on the border but for the tilt of its normal.
+constexpr double on_border = 0.1;
 
 // The largest change of the normals along the edges of a facet, per length.
 double curvature_of(const Side& side, const Places& places, std::size_t facet)
@@ -124,7 +126,7 @@ const Opposite& Rays::meet(std::size_t p)
     if (obstacle_)
       opposite.gap = distance_[p];
     else
-      opposite = shoot(secondary_.points[static_cast<std::size_t>(place.node)], place.normal, reach_);
+      opposite = shoot_past(secondary_.points[static_cast<std::size_t>(place.node)], place.normal, reach_, on_border * past_[p]);
     met_.push_back(opposite);
   }
   return met_[static_cast<std::size_t>(known_[p])];

@@ -1,0 +1,59 @@
+// The faces of a secondary side in pieces, and which functions of which pieces belong to each place.
+#pragma once
+
+#include <ranges>
+#include <span>
+#include <vector>
+
+#include "pieces.hpp"
+#include "places.hpp"
+
+namespace mortise::contact {
+
+class CutFaces {
+ public:
+  /// The k-th function of a piece of a face.
+  struct Function {
+    std::size_t face, piece;
+    Eigen::Index k;
+  };
+
+  /// Both must outlive it. `own`: of each node whether this rank makes its rows.
+  CutFaces(const Side& side, const Places& places, const std::vector<char>& own);
+
+  /// Faces round this rank's nodes, whose share of the rows is needed; ascending.
+  const std::vector<std::size_t>& near() const { return near_; }
+  /// And those round their nodes, whose integrals are.
+  const std::vector<std::size_t>& round() const { return round_; }
+
+  /// The next face of round() with its pieces.
+  void add(std::size_t face, std::span<const PieceIntegrals> pieces);
+  std::ranges::iota_view<std::size_t, std::size_t> pieces(std::size_t face) const { return {begin_[face], end_[face]}; }
+  PieceStore::View piece(std::size_t i) { return store_[i]; }
+
+  /// The places at the nodes of a face.
+  std::span<const Local> node_places(std::size_t face) const
+  {
+    return std::span(places_.of_node).subspan(static_cast<std::size_t>(side_.faces.offset[face]), side_.faces[face].size());
+  }
+  /// The place that a function belongs to.
+  std::size_t place_of(std::size_t face, const PieceStore::View& piece, Eigen::Index k) const;
+
+  /// Sorts the functions of near() by their places, ascending by face and piece.
+  void sort_by_places();
+  std::span<const Function> at(std::size_t place) const
+  {
+    return std::span(functions_).subspan(first_[place], first_[place + 1] - first_[place]);
+  }
+
+ private:
+  const Side& side_;
+  const Places& places_;
+  std::vector<std::size_t> near_, round_;
+  PieceStore store_;
+  std::vector<std::size_t> begin_, end_;  // of each face in store_
+  std::vector<std::size_t> first_;        // of each place in functions_
+  std::vector<Function> functions_;
+};
+
+}  // namespace mortise::contact
