@@ -50,7 +50,7 @@ class Walk : public YAML::EventHandler {
     descend(mark, levels);
     if (is_key()) {
       if (levels > 1) keep(flaw(mark, no_name));
-      frames_.back().key = "*";
+      frames_.back().key.assign(1, '*');
     }
     end();
   }
