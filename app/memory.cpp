@@ -20,11 +20,6 @@ constexpr double dirichlet_part = 0.8;       // of a factor: the preconditioner'
 constexpr double joints = 45;                // averages that join a subdomain to others of its cluster, each a vector of it
 constexpr double margin = 0.9;               // of what is available
 
-double of_nested_dissection(double unknowns, int dimension)
-{
-  return dimension == 3 ? std::pow(unknowns, 4.0 / 3) : unknowns * std::log2(unknowns + 1);
-}
-
 // Sum over the ranks that share this rank's memory. Collective.
 double sum_on_machine(double x, const Communicator& comm)
 {
@@ -36,6 +31,11 @@ double sum_on_machine(double x, const Communicator& comm)
 }
 
 }  // namespace
+
+double of_nested_dissection(double unknowns, int dimension)
+{
+  return dimension == 3 ? std::pow(unknowns, 4.0 / 3) : unknowns * std::log2(unknowns + 1);
+}
 
 Memory foresee_memory(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
                       const std::vector<partition::CopyOf>& copies, const Communicator& comm)

@@ -13,6 +13,9 @@ struct Memory {
   double excess = 0;  ///< of the machine that lacks most, what it will lack; negative if there is enough everywhere
 };
 
+/// Entries of the factor of a mesh with so many unknowns, up to a constant: n log n in planes, n^(4/3) in space.
+double of_nested_dissection(double unknowns, int dimension);
+
 /// From the analysis of the largest subdomain of each rank; the others' factors are scaled from it. `copies` as of
 /// Model::congruent. Collective.
 Memory foresee_memory(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,

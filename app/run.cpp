@@ -9,6 +9,7 @@
 
 #include "auto_contacts.hpp"
 #include "base/traffic.hpp"
+#include "effort.hpp"
 #include "initial_gaps.hpp"
 #include "io/files.hpp"
 #include "io/output_directory.hpp"
@@ -16,6 +17,7 @@
 #include "machine.hpp"
 #include "memory.hpp"
 #include "partition/decompose.hpp"
+#include "partition/whole_bodies.hpp"
 #include "patterns.hpp"
 #include "report.hpp"
 #include "simulation.hpp"
@@ -201,71 +203,118 @@ class Stages {
   std::map<std::string, double> before_;
 };
 
-}  // namespace
-
-ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& command_line, const Context& context)
+// Of the problem that is being solved.
+io::Summary sizes(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const Communicator& comm)
 {
-  auto& [comm, log, timers] = context;
-  const double start = MPI_Wtime();
-  const Traffic before_all = traffic();
-  Deck deck = given;
-  std::optional<io::OutputDirectory> output;
-  if (!command_line.check) output.emplace(deck.output.directory, std::vector{document.file(), deck.mesh.file}, comm);
-  auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
-  if (command_line.check) print_listing(decomposition, deck.kinematics, context);
-  resolve_patterns(deck, document, decomposition, comm);
-  check_names(deck, document, decomposition.catalogue);
-  document.check();
-  const auto meetings = resolve_auto(deck, document, decomposition, context);
-  document.check();
-  print_header(deck, decomposition, context);
-  Stages stages(context);
-  stages.end("mesh", "mesh");
-  stages.end("partition", "partition");
-  print_meetings(meetings, given, deck, decomposition, command_line.check, context);
-  if (output) output->clear();
+  io::Summary result;
+  for (const auto& subdomain : decomposition.subdomains)
+    result.primal_unknowns += static_cast<Global>(subdomain.mesh.node_count()) * problem.dimension();
+  result.primal_unknowns = comm.sum(result.primal_unknowns);
+  result.dual_unknowns = problem.dual_unknowns();
+  result.subdomains = decomposition.subdomain_count();
+  result.clusters = decomposition.clustered() ? decomposition.cluster_count() : 0;
+  result.kernel_dimension = problem.kernel_dimension();
+  return result;
+}
 
+void copy_sizes(const io::Summary& from, io::Summary& to)
+{
+  to.primal_unknowns = from.primal_unknowns;
+  to.dual_unknowns = from.dual_unknowns;
+  to.subdomains = from.subdomains;
+  to.clusters = from.clusters;
+  to.kernel_dimension = from.kernel_dimension;
+}
+
+// Where products with F find no end, bodies are taken whole and the problem solved directly; where rounding spoils that (cells a
+// thousand times as long as thick), the first way is gone to its end.
+enum class Attempt { first, direct, last };
+constexpr int products_to_show_it = 40;  // that a direct solution is one
+
+// What a direct solution may fall on where products with F do not: rounding.
+bool may_be_tried_again(const Error& error)
+{
+  return error.status() == ExitStatus::bad_input || error.status() == ExitStatus::not_converged;
+}
+
+// A run on its way: what all attempts share.
+struct Way {
+  const Deck& given;
+  deck::Document& document;
+  const CommandLine& command_line;
+  const Context& context;
+  Deck deck;
+  Stages& stages;
+  History history{deck, context};
+  Warnings warnings{};
+  Attempt attempt = Attempt::first;
+  int spent = 0;        // products of the attempts before this one
+  io::Summary sizes{};  // of the problem as the deck cuts it, from the first attempt
+  double start = MPI_Wtime();
+  Traffic before_all = traffic();
+};
+
+// All load states on one decomposition; nothing if the solver gave up, and bodies are to be taken whole.
+std::optional<ExitStatus> carry_out(Way& way, const partition::Decomposition& decomposition)
+{
+  auto& deck = way.deck;
+  auto& [comm, log, timers] = way.context;
+  const auto& context = way.context;
+  auto& stages = way.stages;
+  auto& warnings = way.warnings;
+  const bool check = way.command_line.check;
   const Model model(deck, decomposition);
-  model.require_fit(document, comm);
+  model.require_fit(way.document, comm);
   const auto states = load_states(deck);
-  Simulation simulation(deck, decomposition, model, states.front(), context);
-  stages.end("supports and contact", "contact");
+  Simulation simulation(deck, decomposition, model, states.front(), way.spent, context);
   const auto& constraints = simulation.constraints();
-  Warnings warnings;
-  for (auto& warning : check_model(deck, decomposition, model, simulation, comm)) warnings.tell(std::move(warning), log);
-  for (auto& warning : report_initial_gaps(simulation.initial_gaps(), deck, command_line.check, log))
-    warnings.tell(std::move(warning), log);
-  judge_untouched(deck, decomposition, model, states.front(), simulation.pairs(), constraints.contacts, context, warnings);
+  if (way.attempt == Attempt::first) {
+    stages.end("supports and contact", "contact");
+    for (auto& warning : check_model(deck, decomposition, model, simulation, comm)) warnings.tell(std::move(warning), log);
+    for (auto& warning : report_initial_gaps(simulation.initial_gaps(), deck, check, log)) warnings.tell(std::move(warning), log);
+    judge_untouched(deck, decomposition, model, states.front(), simulation.pairs(), constraints.contacts, context, warnings);
+  }
   const auto copies = model.congruent();
   const auto memory = foresee_memory(deck, decomposition, model, copies, comm);
-  if (command_line.check) print_check(decomposition, constraints, memory, deck, context);
+  if (check) print_check(decomposition, constraints, memory, deck, context);
   require(memory, deck, decomposition);
-  if (command_line.check) return ExitStatus::solved;
+  if (check) return ExitStatus::solved;
 
   simulation.factorize(copies);
   stages.end("assembly", "assembly");
   stages.end("factorization", "factorization");
   print_copies(copies, decomposition, context);
+  if (way.attempt == Attempt::first && deck.solver.programme.algorithm == "auto")
+    simulation.lose_patience_after(
+        patience_with_products(effort_of_direct(decomposition, simulation.floating(), constraints, comm), comm));
+  else if (way.attempt == Attempt::direct)
+    simulation.lose_patience_after(products_to_show_it);
+  else if (deck.solver.programme.algorithm == "direct")
+    require_room_for_direct(effort_of_direct(decomposition, simulation.floating(), constraints, comm), comm);
 
-  History history(deck, context);
   FieldFiles files(deck, decomposition);
   Results results;
   const auto write_summary = [&](bool finished) {
     results.summary.finished = finished;
     results.summary.warnings = warnings.all();
-    results.summary.time["total"] = comm.max(MPI_Wtime() - start);
+    results.summary.time["total"] = comm.max(MPI_Wtime() - way.start);
     results.summary.peak_memory_bytes = comm.sum(static_cast<double>(peak_memory()));
     collectively(comm, [&] {
       if (comm.root()) io::write_text(deck.output.directory + "/summary.json", io::to_json(results.summary));
     });
   };
-  // `results` are those of the last state whose files are written: what the summary tells is on the disk.
+  // `results` are those of the last state whose files are written: what the summary tells is on the disk. False if the solver
+  // gave up.
   const auto solve = [&](const LoadState& state, bool last) {
-    simulation.solve(state, [&](int step, double change, const qp::Progress& p) { history.note(state, step, change, p); });
+    simulation.solve(state, [&](int step, double change, const qp::Progress& p) { way.history.note(state, step, change, p); });
     log.end_progress();
     stages.end("solve", "solve");
+    if (simulation.solved().gave_up) return false;
     Results found = evaluate(deck, decomposition, model, simulation, context);
     if (found.verdict.status == ExitStatus::no_equilibrium) throw Error(found.verdict.status, found.verdict.reason);
+    found.summary.algorithm = deck.solver.programme.algorithm == "auto" ? "face_newton" : deck.solver.programme.algorithm;
+    if (way.attempt == Attempt::direct) copy_sizes(way.sizes, found.summary);
+    if (results.summary.version.empty()) found.summary.hessian_multiplications += way.spent;
     add_up(state, results.summary, found);
     warnings.add(check_results(deck, decomposition, model, simulation, found, comm));
     {
@@ -273,23 +322,28 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
       files.write(simulation, found, state.time, last || !found.summary.converged, comm);
       collectively(comm, [&] {
         if (!comm.root()) return;
-        io::write_text(deck.output.directory + "/history.csv", history.text());
+        io::write_text(deck.output.directory + "/history.csv", way.history.text());
         if (results.summary.version.empty())  // the first state
-          io::write_text(deck.output.directory + "/deck.yaml", io::written_mark() + "\n" + write_deck(given));
+          io::write_text(deck.output.directory + "/deck.yaml", io::written_mark() + "\n" + write_deck(way.given));
       });
     }
     results = std::move(found);
     stages.end("output", "output");
+    return true;
   };
   for (std::size_t i = 0; i < states.size(); ++i) {
     const auto& state = states[i];
     const bool last = i + 1 == states.size();
     print_state(state, i, states, log);
     try {
-      solve(state, last);
+      if (!solve(state, last)) {
+        way.spent = simulation.multiplications();
+        if (way.attempt == Attempt::first) way.sizes = sizes(decomposition, simulation.problem(), comm);
+        return {};
+      }
     } catch (const Error& error) {
       log.end_progress();
-      if (i == 0) throw;
+      if (i == 0 || (way.attempt == Attempt::direct && may_be_tried_again(error))) throw;
       results.summary.converged = false;
       results.summary.exit_status = static_cast<int>(error.status());
       try {
@@ -308,7 +362,7 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
     write_summary(false);
     simulation.settle(results.displacement);
   }
-  note_communication(timers, traffic() - before_all, comm, results.summary);
+  note_communication(timers, traffic() - way.before_all, comm, results.summary);
   const auto spreads = timers.spread(comm);
   for (const auto& spread : spreads) results.summary.time[spread.stage] = spread.max;
   write_summary(true);
@@ -321,6 +375,50 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
     log.line("    {:<18} {:8.2f} {:8.2f} {:8.2f}", spread.stage, spread.min, spread.mean, spread.max);
   print(warnings, log);
   return results.verdict.status;
+}
+
+}  // namespace
+
+ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& command_line, const Context& context)
+{
+  auto& [comm, log, timers] = context;
+  const double start = MPI_Wtime();
+  const Traffic before_all = traffic();
+  Deck deck = given;
+  std::optional<io::OutputDirectory> output;
+  if (!command_line.check) output.emplace(deck.output.directory, std::vector{document.file(), deck.mesh.file}, comm);
+  auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
+  if (deck.solver.programme.algorithm == "direct") decomposition = partition::whole_bodies(decomposition, comm);
+  if (command_line.check) print_listing(decomposition, deck.kinematics, context);
+  resolve_patterns(deck, document, decomposition, comm);
+  check_names(deck, document, decomposition.catalogue);
+  document.check();
+  const auto meetings = resolve_auto(deck, document, decomposition, context);
+  document.check();
+  print_header(deck, decomposition, context);
+  Stages stages(context);
+  stages.end("mesh", "mesh");
+  stages.end("partition", "partition");
+  print_meetings(meetings, given, deck, decomposition, command_line.check, context);
+  if (output) output->clear();
+
+  Way way{given, document, command_line, context, std::move(deck), stages};
+  way.start = start;
+  way.before_all = before_all;
+  if (const auto status = carry_out(way, decomposition)) return *status;
+  log.line("  {} products with F, and no end near: a direct solution, with every body whole, costs as much", way.spent);
+  const auto whole = partition::whole_bodies(decomposition, comm);
+  way.attempt = Attempt::direct;
+  way.deck.solver.programme.algorithm = "direct";
+  try {
+    if (const auto status = carry_out(way, whole)) return *status;
+  } catch (const Error& error) {
+    if (!may_be_tried_again(error)) throw;
+  }
+  log.line("  the direct solution does not settle, or rounding spoils it: back to products with F");
+  way.attempt = Attempt::last;
+  way.deck.solver.programme.algorithm = "face_newton";
+  return carry_out(way, decomposition).value();
 }
 
 }  // namespace mortise

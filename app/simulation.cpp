@@ -135,8 +135,8 @@ qp::Solution carry_multipliers(const feti::DualProblem& from, const constraint::
 }  // namespace
 
 Simulation::Simulation(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                       const LoadState& first, const Context& context)
-    : deck_(deck), decomposition_(decomposition), model_(model), context_(context)
+                       const LoadState& first, int spent, const Context& context)
+    : deck_(deck), decomposition_(decomposition), model_(model), context_(context), multiplications_(spent)
 {
   const auto scope = context.timers.scope("contact");
   support_nodes_ = model.support_nodes(context.comm);
@@ -235,7 +235,7 @@ void Simulation::build_problem()
   auto options = deck_.solver.programme;
   options.max_multiplications -= multiplications_;
   multiplications_before_ = multiplications_;
-  solver_ = std::make_unique<friction::Solver>(*problem_, model_.friction_laws(), deck_.friction_loop, options);
+  solver_ = std::make_unique<friction::Solver>(*problem_, model_.friction_laws(), deck_.friction_loop, options, patience_);
 }
 
 // A new problem, with the multipliers and the slip of the present one; its rows are there already if they were `moved`.

@@ -12,9 +12,10 @@ namespace mortise {
 /// Heavy: neither copies nor moves.
 class Simulation {
  public:
-  /// Supports and contacts of the first state. Its arguments outlive it. Collective.
+  /// Supports and contacts of the first state. `spent`: products of an earlier attempt. The other arguments outlive it.
+  /// Collective.
   Simulation(const Deck& deck, const partition::Decomposition& decomposition, const Model& model, const LoadState& first,
-             const Context& context);
+             int spent, const Context& context);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -23,6 +24,10 @@ class Simulation {
   /// Finds the equilibrium of a state: the first one first, then the others in their order. Throws Error(no_equilibrium).
   /// Collective.
   void solve(const LoadState& state, const friction::Observer& observer);
+  /// From now on solve() gives up after so many products, see friction::Result::gave_up.
+  void lose_patience_after(std::optional<int> products) { patience_ = products; }
+  /// Products of all solves.
+  int multiplications() const { return multiplications_; }
   /// Friction counts slip from the state that was solved last. `displacement` as of DualProblem. Collective.
   void settle(const std::vector<Eigen::VectorXd>& displacement);
 
@@ -64,6 +69,7 @@ class Simulation {
   std::unique_ptr<friction::Result> solved_;              // of the state before, while a new one is being solved
   std::vector<double> shortenings_;                       // of the preloaded contacts in the state before
   int multiplications_ = 0, multiplications_before_ = 0;  // of all problems, of those before this one
+  std::optional<int> patience_;
 };
 
 }  // namespace mortise

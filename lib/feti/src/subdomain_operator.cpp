@@ -93,8 +93,15 @@ std::vector<Local> fixing_nodes(std::span<const Point> points, const Eigen::Matr
     }
     if (best_quality > 0.05) break;
   }
-  if (best_quality < 1e-6) best = all;  // so few nodes, or so flat, that only all of them will do
-  return best;
+  if (best_quality > 1e-6) return best;
+  // The middles of the slices of a beam stand on its axis and do not keep it from turning about that. What spans most of the
+  // motions does [Businger and Golub, Numer. Math. 7 (1965)].
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(kernel.transpose());
+  for (Eigen::Index i = 0; i < kernel.cols(); ++i)
+    best.push_back(static_cast<Local>(pivots.colsPermutation().indices()[i] / dimension));
+  std::sort(best.begin(), best.end());
+  best.erase(std::unique(best.begin(), best.end()), best.end());
+  return quality(kernel, best, dimension) < 1e-6 ? all : best;  // so few nodes, or so flat, that only all of them will do
 }
 
 std::vector<double> nodal_stiffness(const SparseMatrix& lower, int dimension)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "contact_settled.hpp"
 #include "qp/error_estimate.hpp"
 #include "qp/smalse.hpp"
 
@@ -13,10 +14,11 @@ namespace mortise::friction {
 
 namespace {
 
-constexpr double loose = 1e-2;         // tolerance of the first Tresca problem, and the loosest of all
-constexpr double finest = 1e-7;        // tolerance of SMALSE-M that is enough where no error is allowed
-constexpr double rounding = 1e-12;     // tolerance of SMALSE-M below which there is nothing to gain
-constexpr double worth_a_look = 0.05;  // change of the slip bounds at which the allowed error is asked for
+constexpr double loose = 1e-2;               // tolerance of the first Tresca problem, and the loosest of all
+constexpr double finest = 1e-7;              // tolerance of SMALSE-M that is enough where no error is allowed
+constexpr double rounding_of_direct = 1e-4;  // of the energy norm: error that a direct solution may leave
+constexpr double rounding = 1e-12;           // tolerance of SMALSE-M below which there is nothing to gain
+constexpr double worth_a_look = 0.05;        // change of the slip bounds at which the allowed error is asked for
 
 // ||a - b|| over all ranks; points that stick without limit in either do not count.
 double distance(const std::vector<double>& a, const std::vector<double>& b, const Communicator& comm)
@@ -220,11 +222,13 @@ struct Solver::Run {
   }
 };
 
-Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver)
+Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver,
+               std::optional<int> patience)
     : problem_(problem),
       laws_(std::move(laws)),
       options_(options),
       solver_(solver),
+      patience_(patience),
       hessian_(problem.hessian(), solver.max_multiplications),
       driven_(problem.linear().getMap()),
       programme_{hessian_, problem.linear(), problem.equality(), problem.set(), problem.pull() ? &driven_ : nullptr}
@@ -236,7 +240,9 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
         law.kind == Law::Kind::coulomb && problem.points()[i].disc >= 0)
       coefficients[static_cast<std::size_t>(problem.points()[i].disc)] = law.value;
   problem.set().set_coefficients(coefficients);
-  if (solver.algorithm == "face_newton") newton_ = std::make_unique<qp::FaceNewton>(programme_, problem.preconditioner());
+  if (solver.algorithm == "direct") explicit_ = std::make_unique<feti::ExplicitProblem>(problem);
+  if (solver.algorithm != "smalse")
+    newton_ = std::make_unique<qp::FaceNewton>(programme_, explicit_ ? explicit_.get() : problem.preconditioner());
 }
 
 Solver::~Solver() = default;
@@ -277,7 +283,7 @@ bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
     run.proven = next.empty;
     return false;
   }
-  if (newton_ && !next.converged &&
+  if (newton_ && !next.converged && !patience_ &&
       !hessian_.exhausted()) {  // it crawls where bodies are soft and slender: the slower, steadier one
     run.count(next);
     next = solve_by_smalse(programme_, next, goal, problem_.preconditioner(), run.watch);
@@ -405,25 +411,41 @@ void Solver::fixed_point(Run& run)
   }
 }
 
+// The exact solution, from which face Newton then starts: it needs no more than the products that show it.
+void Solver::solve_directly(Run& run)
+{
+  problem_.set().set_radii(run.bounds);
+  run.watch({"direct", 0, hessian_.count()});
+  auto found = explicit_->solve();
+  if (found.settled && run.goal.allowed_error) run.goal.exact = rounding_of_direct;
+  qp::Solution solution(found.x, found.x, found.nu);
+  if (run.solution) solution.hessian_norm = run.solution->hessian_norm;
+  run.solution = std::move(solution);
+}
+
 Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer)
 {
   const bool coulomb = any_coulomb(laws_);
   const int before = hessian_.count();
+  if (patience_) hessian_.set_limit(std::min(solver_.max_multiplications, before + *patience_));
   if (problem_.pull()) hessian_.apply(*problem_.pull(), driven_);
   Run run;
-  if (solver_.tolerance.value)
+  if (solver_.tolerance.value) {
     run.goal.residual = *solver_.tolerance.value;
-  else
+  } else {
     run.goal.allowed_error = accuracy.allowed_error;
+    run.goal.settled = [this](const Vector& x, const Vector& change) { return contact_settled(problem_, x, change); };
+  }
   run.goal.energy_norm = accuracy.energy_norm;
   if (start) run.solution = *start;
   run.bounds = run.previous_bounds = slip_bounds(problem_, laws_, nullptr);
   run.watch = [&](const qp::Progress& progress) {
     if (observer) observer(run.step, run.change, progress);
   };
+  if (explicit_) solve_directly(run);
   if (coulomb) {
     if (newton_) renew_at_faces(run);
-    fixed_point(run);
+    if (!patience_ || !run.solved) fixed_point(run);
     if (run.solved && !hessian_.exhausted()) judge_by_law(problem_, laws_, hessian_, *run.solution);
   } else {
     run.step = 1;
@@ -435,6 +457,7 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   result.steps = run.step;
   result.change = run.change;
   result.converged = run.settled && result.solution.converged;
+  result.gave_up = patience_ && !result.converged && hessian_.count() < solver_.max_multiplications;
   if (!result.converged && hessian_.exhausted())
     result.limit = "solver.max_multiplications";
   else if (!result.converged && coulomb && run.step >= options_.max_steps)

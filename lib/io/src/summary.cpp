@@ -100,7 +100,8 @@ std::string to_json(const Summary& s)
             {"subdomains", s.subdomains},
             {"clusters", s.clusters},
             {"kernel_dimension", s.kernel_dimension},
-            {"bodies", s.bodies}};
+            {"bodies", s.bodies},
+            {"algorithm", s.algorithm}};
   add_work(s, json);
   add_state(s, json);
   json["warnings"] = Json::array();

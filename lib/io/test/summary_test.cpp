@@ -48,6 +48,7 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "clusters",
                                "kernel_dimension",
                                "bodies",
+                               "algorithm",
                                "friction_steps",
                                "outer_iterations",
                                "hessian_multiplications",

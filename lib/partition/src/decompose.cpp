@@ -23,25 +23,6 @@ namespace mortise::partition {
 
 namespace {
 
-// Contiguous ranges of subdomains, whole clusters, with about the same sum of weights for each rank.
-std::vector<Global> deal(const std::vector<long long>& weight, const std::vector<Global>& clusters, int ranks)
-{
-  const auto total = static_cast<double>(std::accumulate(weight.begin(), weight.end(), 0LL));
-  const auto weight_of = [&](std::size_t cluster) {
-    return static_cast<double>(std::accumulate(weight.begin() + clusters[cluster], weight.begin() + clusters[cluster + 1], 0LL));
-  };
-  std::vector<Global> first{0};
-  double sum = 0;
-  std::size_t next = 0;
-  for (int r = 1; r < ranks; ++r) {
-    const double aim = total * r / ranks;
-    while (next + 1 < clusters.size() && sum + 0.5 * weight_of(next) < aim) sum += weight_of(next++);
-    first.push_back(clusters[next]);
-  }
-  first.push_back(clusters.back());
-  return first;
-}
-
 // How many subdomains each part gets, of which there are `copies`. A total is met as far as copies allow: the next ones go where
 // subdomains are largest.
 std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std::vector<int>& copies, int dimension,

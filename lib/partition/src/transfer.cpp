@@ -1,6 +1,7 @@
 #include "transfer.hpp"
 
 #include <cstring>
+#include <numeric>
 #include <type_traits>
 
 namespace mortise::partition {
@@ -48,6 +49,24 @@ void for_each_part(S& subdomain, const Visit& visit)
 }
 
 }  // namespace
+
+std::vector<Global> deal(const std::vector<long long>& weight, const std::vector<Global>& clusters, int ranks)
+{
+  const auto total = static_cast<double>(std::accumulate(weight.begin(), weight.end(), 0LL));
+  const auto weight_of = [&](std::size_t cluster) {
+    return static_cast<double>(std::accumulate(weight.begin() + clusters[cluster], weight.begin() + clusters[cluster + 1], 0LL));
+  };
+  std::vector<Global> first{0};
+  double sum = 0;
+  std::size_t next = 0;
+  for (int r = 1; r < ranks; ++r) {
+    const double aim = total * r / ranks;
+    while (next + 1 < clusters.size() && sum + 0.5 * weight_of(next) < aim) sum += weight_of(next++);
+    first.push_back(clusters[next]);
+  }
+  first.push_back(clusters.back());
+  return first;
+}
 
 void pack(const Subdomain& subdomain, std::vector<char>& bytes)
 {

@@ -56,10 +56,10 @@ double rounding_of_error(const Problem& problem, double norm)
   return part * problem.linear.norm2() / std::sqrt(norm > 0 ? norm : 1);
 }
 
-bool believable(double error, double rounding, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal)
+bool believable(double error, double rounding, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal, bool finest)
 {
   if (!goal.energy_norm || !std::isfinite(error) || error <= rounding) return true;
-  return error <= goal.credible() * goal.energy_norm(x, nu);
+  return error <= goal.credible(finest) * goal.energy_norm(x, nu);
 }
 
 }  // namespace mortise::qp

@@ -30,6 +30,7 @@ constexpr int settlings = 2;                  // renewals of slip bounds by a pr
 constexpr int max_retreats = 8;               // of slip bounds
 constexpr int max_retreats_to_z = 2;          // quarters of the way back, before the step becomes a gradient projection
 constexpr int max_safeguards = 12;            // after which another algorithm will do better
+constexpr double rounded = 1e-12;             // the same that no step makes smaller
 constexpr double finest = 1e-7;               // residual over ||P b|| that is enough where no error is allowed
 constexpr double at_rest = 0.05;              // of normal forces: change that is still to come
 constexpr double certain = 0.1;               // of the allowed error, at which their change does not matter
@@ -267,7 +268,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     // Infinite while points stick whose bounds are still to come.
     if (first_error == 0 && std::isfinite(result.error)) first_error = result.error;
     const bool small = worst <= (goal.allowed_error ? finest : goal.residual) * size;
-    result.converged = small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal);
+    result.converged =
+        small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal, worst <= rounded * size);
     doubtful = small && !result.converged;
     if (goal.allowed_error && !result.converged && std::isfinite(result.error) &&
         result.error <= (allowed < 0 ? first_look * first_error : allowed)) {
@@ -275,6 +277,16 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       result.converged = result.error <= (to_come <= at_rest ? 1 : certain) * allowed &&
                          (worst <= Goal::largest_residual * size || believable(result.error, 0, z, result.nu, goal));
     }
+    if (goal.allowed_error && result.converged && goal.settled && preconditioner_) {
+      Vector gap(z, Teuchos::Copy), change(map);
+      gap.update(-norm_, natural.point, norm_);
+      preconditioner_->fix({});
+      preconditioner_->apply(gap, change);
+      ++preconditionings_;
+      result.converged = goal.settled(z, change);
+    }
+    if (!result.converged && goal.exact > 0 && std::isfinite(result.error))
+      result.converged = result.error <= goal.exact * goal.energy_norm(z, result.nu);
     since_best = worst < 0.9 * best || (doubtful && result.error < 0.9 * best_error) ? 0 : since_best + 1;
     best = std::min(best, worst);
     best_error = std::min(best_error, result.error);

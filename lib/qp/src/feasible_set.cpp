@@ -73,7 +73,8 @@ FeasibleSet FeasibleSet::compact() const
   for (auto& bound : result.bounds_) bound.index = place[bound.index] = next++;
   for (auto& disc : result.discs_) {
     for (int c = 0; c < disc.size(); ++c) disc.index[static_cast<std::size_t>(c)] = next++;
-    if (const auto normal = place.find(disc.normal); normal != place.end()) disc.normal = normal->second;
+    const auto normal = place.find(disc.normal);
+    disc.normal = normal == place.end() ? -1 : normal->second;
   }
   return result;
 }

@@ -63,6 +63,8 @@ class DualProblem {
   const qp::FeasibleSet& set() const { return set_; }
   const std::vector<PointRows>& points() const { return points_; }  ///< one for each contact point of this rank
   const constraint::Constraints& constraints() const { return constraints_; }
+  int dimension() const { return decomposition_.catalogue.dimension; }
+  const Clusters& clusters() const { return floating_.clusters; }
   const Communicator& communicator() const { return comm_; }
   Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
   int kernel_dimension() const { return floating_.clusters.kernel_dimension(); }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "feti/dual_problem.hpp"
+#include "feti/explicit_problem.hpp"
 #include "friction/options.hpp"
 #include "qp/face_newton.hpp"
 #include "qp/options.hpp"
@@ -35,6 +36,7 @@ struct Result {
   double change = 0;  ///< relative, of the slip bounds in the last step
   bool converged = false;
   std::string limit = {};   ///< the key of the deck that ended it before, if one did
+  bool gave_up = false;     ///< patience ended, and it might go on
   int multiplications = 0;  ///< of this load step
   int preconditionings = 0;
   int outer_iterations = 0;  ///< of all Tresca problems
@@ -53,8 +55,10 @@ struct Accuracy {
 /// A sequence of load steps on one dual problem, which may be renewed between them: what was learnt about F stays.
 class Solver {
  public:
-  /// The problem outlives it. laws[c] is that of contact c. Collective.
-  Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver);
+  /// The problem outlives it. laws[c] is that of contact c. `patience`: products after which each solve gives up; it then also
+  /// gives up where face Newton makes no more progress. Collective.
+  Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver,
+         std::optional<int> patience = {});
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
@@ -73,14 +77,17 @@ class Solver {
   void refuse_if_far(const Run& run);
   void admit(Run& run);
   void fixed_point(Run& run);
+  void solve_directly(Run& run);
 
   feti::DualProblem& problem_;
   std::vector<Law> laws_;
   Options options_;
   qp::Options solver_;
+  std::optional<int> patience_;
   qp::Hessian hessian_;
   Vector driven_;
   qp::Problem programme_;
+  std::unique_ptr<feti::ExplicitProblem> explicit_;  // of the direct solution
   std::unique_ptr<qp::FaceNewton> newton_;
 };
 

@@ -54,6 +54,7 @@ struct StateSummary {
 struct Summary : StateSummary {
   bool finished = true;  ///< false while states are still to come: then `converged` is false and `exit_status` null
   std::string version, title;
+  std::string algorithm;  ///< that solved the last state
   int exit_status = 0, ranks = 1;
   Global primal_unknowns = 0, dual_unknowns = 0, subdomains = 0, kernel_dimension = 0, bodies = 0;
   Global clusters = 0;  ///< of subdomains; 0 without

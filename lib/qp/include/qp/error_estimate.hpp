@@ -22,8 +22,8 @@ double error_bound(const Problem& problem, const Solution& solution, FacePrecond
 double rounding_of_error(const Problem& problem, double norm);
 
 /// Whether an error is small enough for a small residual at the point x with the multipliers nu to be believed, see
-/// Goal::credible; errors below `rounding` are. True where the goal knows no energy norm. Infinite errors are those of points
-/// that stick without a limit, which is no law yet, and believed. Collective.
-bool believable(double error, double rounding, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal);
+/// Goal::credible; errors below `rounding` are. `finest`: the residual itself is rounding. True where the goal knows no energy
+/// norm. Infinite errors are those of points that stick without a limit, which is no law yet, and believed. Collective.
+bool believable(double error, double rounding, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal, bool finest = false);
 
 }  // namespace mortise::qp

@@ -8,7 +8,7 @@
 namespace mortise::qp {
 
 struct Options {
-  std::string algorithm = "face_newton";
+  std::string algorithm = "auto";
   deck::OrAuto<double> tolerance;   ///< relative: reduced projected gradient and equality residual over ||P d||
   int max_multiplications = 10000;  ///< with F, in the whole run
 };

@@ -26,6 +26,7 @@ class Hessian {
   }
   int count() const { return count_; }
   bool exhausted() const { return count_ >= limit_; }
+  void set_limit(int limit) { limit_ = limit; }
   Teuchos::RCP<const Map> map() const { return a_->getDomainMap(); }
 
  private:

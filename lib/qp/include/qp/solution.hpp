@@ -15,14 +15,21 @@ struct Goal {
   /// If given, face Newton stops by this instead: the error, in the norm of A, that is good enough at the present point x with
   /// the multipliers nu. Asked for only where the error comes near. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> allowed_error = {};
+  /// With an allowed error, whether the point x, which a solution differs from by about `change`, will do; asked where the error
+  /// would. Collective.
+  std::function<bool(const Vector& x, const Vector& change)> settled = {};
   /// The size of what is solved for, in the norm of the error (that of A, as Solution::error). Asked for where a residual is
   /// small, since a small residual alone says little where A is badly conditioned; if absent, it is believed. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> energy_norm = {};
 
+  /// Part of the energy norm. An error below it ends face Newton whatever the residual: for a start that is exact.
+  double exact = 0;
+
   /// The residual up to which an estimated error that is good enough ends a solve. Beyond it the error has to be small itself.
   static constexpr double largest_residual = 0.4;
-  /// Part of the energy norm that the error may be for a small residual to count as a solution.
-  double credible() const { return allowed_error ? 1e-2 : std::max(std::sqrt(residual), 1e-3); }
+  /// Part of the energy norm that the error may be for a small residual to count as a solution; more than 1e-3 where the residual
+  /// is `rounding`, so that nothing can make the error smaller.
+  double credible(bool rounding = false) const { return allowed_error || rounding ? 1e-2 : std::max(std::sqrt(residual), 1e-3); }
 };
 
 /// What a solve leaves, and what the next one of a sequence may start from.

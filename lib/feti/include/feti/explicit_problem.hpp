@@ -1,0 +1,42 @@
+// The dual problem as matrices, for a direct solution.
+#pragma once
+
+#include "feti/dual_problem.hpp"
+#include "qp/condensed_newton.hpp"
+
+namespace mortise::feti {
+
+/// F and G on rank 0; of use where multipliers are some thousand. As an operator it is F^-1, the best of all preconditioners.
+/// Heavy: neither copies nor moves.
+class ExplicitProblem : public qp::FacePreconditioner {
+ public:
+  /// Solves for the columns of K^+ B', subdomain by subdomain, as many as its rows of B. Not for clusters of several subdomains.
+  /// The problem outlives it. Throws as qp::CondensedNewton. Collective.
+  explicit ExplicitProblem(const DualProblem& problem);
+
+  struct Result {
+    Vector x;
+    Eigen::VectorXd nu;
+    bool settled = false;
+    int steps = 0;
+  };
+  /// The solution with the loads, bounds and given slip bounds that the problem has by now, exact to rounding if `settled`.
+  /// Collective.
+  Result solve() const;
+
+  Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
+  /// y = alpha F^-1 x + beta y. Collective.
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
+  void fix(std::span<const Local>) override {}  // of all x there are the bound holds the more
+
+ private:
+  qp::FeasibleSet whole_set() const;
+  std::vector<double> to_root(const Eigen::Ref<const Eigen::VectorXd>& own) const;
+  void from_root(std::vector<double> all, Vector& x) const;
+
+  const DualProblem& problem_;
+  std::unique_ptr<qp::CondensedNewton> newton_;  // rank 0
+};
+
+}  // namespace mortise::feti

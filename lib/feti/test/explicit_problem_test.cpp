@@ -1,0 +1,184 @@
+// A block that floats on another: the dual operator as a matrix against products with it, and the direct solution against face
+// Newton's.
+#include "feti/explicit_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "constraint/supports.hpp"
+#include "fem/loads.hpp"
+#include "fem/stiffness.hpp"
+#include "partition/decompose.hpp"
+#include "qp/face_newton.hpp"
+
+namespace mortise::feti {
+namespace {
+
+constexpr double coefficient = 0.4;
+
+// Held at z = 0; pressed down and pushed sideways on top, where the upper block stands on the nodes of the lower one.
+struct Stack {
+  Communicator comm;
+  Timers timers;
+  Log log{comm, nullptr};
+  Context context{comm, log, timers};
+  partition::Decomposition decomposition;
+  std::unique_ptr<partition::NodeDirectory> directory;
+  partition::Interface interface;
+  Floating floating;
+  constraint::Constraints constraints;
+
+  Stack(const Point& traction, int pieces) : comm(MPI_COMM_WORLD)
+  {
+    mesh::Options mesh;
+    mesh.blocks["lower"] = {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"};
+    mesh.blocks["upper"] = {{0, 0, 1}, {1, 1, 2}, {3, 3, 4}, "hex8"};
+    partition::Options options;
+    options.method = "grid";
+    options.counts["lower"] = {1, 1, 1};
+    options.counts["upper"] = {1, 1, pieces};
+    decomposition = partition::decompose(mesh, options, 3, context);
+    Subdomains subdomains;
+    const auto load_on = boundary("upper.zmax");
+    for (const auto& s : decomposition.subdomains) {
+      auto stiffness = fem::stiffness(s.mesh, fem::Material{1000, 0.3, 0, 0}, fem::Kinematics::solid);
+      floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
+      floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
+      fem::add_traction(s.mesh, load_on, fem::Kinematics::solid, traction, floating.load.back());
+      subdomains.push_back(std::make_shared<ElasticSubdomain>(
+          std::move(stiffness), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
+    }
+    directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
+    interface = partition::find_interface(decomposition, *directory, comm);
+    floating.clusters = Clusters(decomposition, interface, subdomains, floating.nodal_stiffness, fem::Kinematics::solid);
+    const std::vector<constraint::SupportOptions> supports{{"lower.zmin", {0, 0, 0}}};
+    constraints.held = constraint::hold(supports, std::vector<std::vector<Global>>{side("lower.zmin").node_id}, 3, comm);
+    touch();
+  }
+
+  int boundary(const std::string& name) const
+  {
+    const auto& names = decomposition.catalogue.boundaries;
+    return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+  }
+  mesh::Surface side(const std::string& name) const
+  {
+    return partition::boundary_surface(decomposition, boundary(name), {true, true});
+  }
+
+  struct Node {
+    double x, y;
+    Global id;
+  };
+  std::vector<Node> nodes_of(const std::string& name) const
+  {
+    const auto surface = side(name);
+    std::vector<Node> nodes;
+    for (std::size_t i = 0; i < surface.points.size(); ++i)
+      nodes.push_back({surface.points[i][0], surface.points[i][1], surface.node_id[i]});
+    nodes = comm.all_gather(nodes);
+    std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
+    nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.id == b.id; }), nodes.end());
+    return nodes;
+  }
+
+  // Node by node; rows stand on the ranks in turn.
+  void touch()
+  {
+    const auto above = nodes_of("upper.zmin"), below = nodes_of("lower.zmax");
+    auto& contacts = constraints.contacts;
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      if (static_cast<int>(i) % comm.size() != comm.rank()) continue;
+      const std::vector<Point> frame{Point(0, 0, -1), Point(0.6, 0.8, 0), Point(0.8, -0.6, 0)};
+      contacts.points.push_back({0, above[i].id, 1, frame[0], {frame[1], frame[2]}, contacts.rows.size()});
+      contacts.bonded.push_back(false);
+      for (const auto& axis : frame) {
+        for (int c = 0; c < 3; ++c)
+          if (axis[c] != 0) {
+            contacts.rows.entries.push_back({above[i].id, c, axis[c]});
+            contacts.rows.entries.push_back({below[i].id, c, -axis[c]});
+          }
+        contacts.rows.close(0);
+      }
+    }
+  }
+};
+
+TEST(ExplicitProblem, IsTheInverseOfTheDualOperator)
+{
+  const Stack stack(Point(1, 0.5, -10), 2);
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, {},
+                      stack.context);
+  ExplicitProblem direct(problem);
+  const auto map = problem.hessian().getDomainMap();
+  for (Global row = 0; row < problem.dual_unknowns(); row += 7) {  // F^-1 F e_i = e_i
+    Vector unit(map), product(map), back(map);
+    if (const Local i = map->getLocalElement(row); i != Teuchos::OrdinalTraits<Local>::invalid()) view(unit)[i] = 1;
+    problem.hessian().apply(unit, product);
+    direct.apply(product, back, Teuchos::NO_TRANS, 1, 0);
+    back.update(-1, unit, 1);
+    EXPECT_LT(back.normInf(), 1e-8) << row;
+    back.assign(unit);
+    direct.apply(product, back, Teuchos::NO_TRANS, 2, 3);  // 2 F^-1 F e_i + 3 e_i
+    back.update(-5, unit, 1);
+    EXPECT_LT(back.normInf(), 1e-7) << row;
+  }
+}
+
+class Directly : public testing::TestWithParam<std::pair<double, int>> {};
+INSTANTIATE_TEST_SUITE_P(PushesAndPieces, Directly,
+                         testing::Values(std::pair{0.0, 1}, std::pair{1.0, 1}, std::pair{2.0, 1}, std::pair{2.0, 3}));
+
+// Pressed with 10, a push of up to 4 is held.
+TEST_P(Directly, SolvesAsFaceNewtonDoes)
+{
+  const auto [push, pieces] = GetParam();
+  const Stack stack(Point(push, 0, -10), pieces);
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, {},
+                      stack.context);
+  auto& set = problem.set();
+  ASSERT_EQ(stack.comm.sum(static_cast<long long>(set.discs().size())), 16);
+  set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
+  set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
+  const ExplicitProblem direct(problem);
+  const auto found = direct.solve();
+  ASSERT_TRUE(found.settled);
+
+  // Coulomb's law: within cones; and with the radii that it gives it is the one solution of a problem with fixed radii.
+  std::vector<double> radii;
+  for (const auto& disc : set.discs()) radii.push_back(coefficient * view(found.x)[disc.normal]);
+  set.set_radii(radii);
+  qp::Hessian hessian(problem.hessian(), 2000);
+  const qp::Problem programme{hessian, problem.linear(), problem.equality(), set};
+  const auto expected = qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-10, {}}, nullptr, {});
+  ASSERT_TRUE(expected.converged);
+  Vector difference(found.x, Teuchos::Copy);
+  difference.update(-1, expected.x, 1);
+  EXPECT_LT(difference.norm2(), 1e-6 * expected.x.norm2());
+  EXPECT_LT((found.nu - expected.nu).norm(), 1e-6 * expected.nu.norm());
+  const auto u = problem.displacement(found.x, found.nu);
+  EXPECT_LT(problem.imbalance(u, found.x), 1e-8);
+
+  // As a start it is the end.
+  qp::Hessian again(problem.hessian(), 2000);
+  const qp::Problem repeated{again, problem.linear(), problem.equality(), set};
+  ExplicitProblem preconditioner(problem);
+  const auto shown =
+      qp::FaceNewton(repeated, &preconditioner).solve(qp::Solution(found.x, found.x, found.nu), {1e-8, {}}, nullptr, {});
+  EXPECT_TRUE(shown.converged);
+  EXPECT_LT(again.count(), 12);
+}
+
+TEST(ExplicitProblem, SaysWhereNothingBalancesTheLoads)
+{
+  const Stack stack(Point(4.5, 0, -10), 1);  // friction holds 4
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, {},
+                      stack.context);
+  auto& set = problem.set();
+  set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
+  EXPECT_FALSE(ExplicitProblem(problem).solve().settled);
+}
+
+}  // namespace
+}  // namespace mortise::feti

@@ -1,0 +1,57 @@
+#include "contact_settled.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mortise::friction {
+
+namespace {
+
+constexpr double known = 0.05;      // change of a pressure over the largest of the contact
+constexpr double idle = 1e-3;       // largest pressure of a contact over that of all, below which it only touches
+constexpr double narrow = 0.35;     // cover of points that have a force but no pressure of their own
+constexpr double row_in_space = 4;  // points around n that press: a little more than 2 sqrt(pi n) at a disc of them
+constexpr double row_in_planes = 2;
+
+}  // namespace
+
+bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Vector& change)
+{
+  const auto& comm = problem.communicator();
+  const auto& points = problem.constraints().contacts.points;
+  const auto& bonded = problem.constraints().contacts.bonded;
+  const auto value = view(x), differs = view(change);
+  int contacts = 0;
+  for (const auto& point : points) contacts = std::max(contacts, point.contact + 1);
+  contacts = static_cast<int>(comm.max(static_cast<long long>(contacts)));
+  const auto count = static_cast<std::size_t>(contacts);
+  std::vector<double> largest(count, 0.0), moved(count, 0.0), pressed(count, 0.0), undecided(count, 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (bonded[i]) continue;
+    const auto& rows = problem.points()[i];
+    const auto c = static_cast<std::size_t>(points[i].contact);
+    const double force = value[rows.normal], off = differs[rows.normal];
+    pressed[c] += force > 0;
+    undecided[c] += off != 0 && force < std::abs(off);
+    if (points[i].cover < narrow || !(points[i].area > 0)) continue;
+    const double part = problem.jump().scale()[rows.normal] / points[i].area;
+    double square = off * off;
+    for (int t = 1; t <= rows.tangents; ++t) square += differs[rows.normal + t] * differs[rows.normal + t];
+    largest[c] = std::max(largest[c], part * force);
+    moved[c] = std::max(moved[c], part * std::sqrt(square));
+  }
+  comm.sum_in_place(pressed);
+  comm.sum_in_place(undecided);
+  for (auto* values : {&largest, &moved})
+    for (auto& v : *values) v = comm.max(v);
+  const double all = count == 0 ? 0 : *std::max_element(largest.begin(), largest.end());
+  for (std::size_t c = 0; c < count; ++c) {
+    if (largest[c] < idle * all) continue;
+    const double row = problem.dimension() == 3 ? row_in_space * std::sqrt(pressed[c]) : row_in_planes;
+    if (moved[c] > known * largest[c] || undecided[c] > std::max(row, row_in_planes)) return false;
+  }
+  return true;
+}
+
+}  // namespace mortise::friction

@@ -1,0 +1,59 @@
+// Exact solution of a quadratic programme whose Hessian is at hand as a matrix: a direct method for contact, for programmes of
+// some thousand unknowns. Every unknown without a constraint is eliminated once,
+//
+//     W = A_cc - A_cf A_ff^-1 A_fc,   H = G_c - G_f A_ff^-1 A_fc,   C = G_f A_ff^-1 G_f',
+//
+// W the compliance of the contact. What is left, W x + H'nu - b = s, H x - C nu = e, s in the normal cone of Omega at x, is
+// solved by a semismooth Newton method [Hueeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30 (2008)]: guess the state of every
+// constraint, solve the linear problem that is left, guess again. Radii of discs with a coefficient follow their normal unknown:
+// Coulomb's law is solved as a whole.
+//
+// Guesses can take turns for ever, where friction passes forces on from point to point. So if they do not settle at once, contact
+// becomes soft first, W + a D with the compliance D of each unknown alone, and hardens again: a soft contact is settled in three
+// steps from anywhere, and each next one in as many from there.
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include "qp/feasible_set.hpp"
+
+namespace mortise::qp {
+
+class CondensedProgramme;
+struct ConstraintStates;
+
+/// What is left when unknowns without a constraint are eliminated.
+struct CondensedMatrices {
+  Eigen::MatrixXd w, h, c;
+  Eigen::VectorXd own;  ///< compliance of each unknown if all others are held: 1 / (W^-1)_ii
+};
+
+/// On one rank alone. Heavy: moves, does not copy.
+class CondensedNewton {
+ public:
+  /// A: symmetric, positive definite. `g`: G, dense, rows x unknowns. `set`: over all unknowns; later ones may differ from it in
+  /// radii and bounds. Throws Error(not_converged) if A is not definite.
+  CondensedNewton(Eigen::MatrixXd a, Eigen::MatrixXd g, const FeasibleSet& set);
+
+  struct Point {
+    Eigen::VectorXd x, nu;  ///< A x - b + G'nu in the normal cone of -Omega
+    bool settled = false;   ///< to rounding; else the last guess
+    int steps = 0;          ///< linear problems solved
+  };
+  /// For the linear term b and the right-hand side e.
+  Point solve(const Eigen::VectorXd& b, const Eigen::VectorXd& e, const FeasibleSet& set) const;
+  /// A^-1 r.
+  Eigen::VectorXd inverse_times(const Eigen::VectorXd& r) const;
+
+ private:
+  static bool settle(const CondensedProgramme& programme, ConstraintStates& states, Point& point);
+  static bool harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
+
+  std::vector<Local> constrained_, others_;  // unknowns
+  CondensedMatrices matrices_;
+  Eigen::LLT<Eigen::MatrixXd> free_, contact_;  // of A_ff and W
+  Eigen::MatrixXd coupling_;                    // A_ff^-1 A_fc
+  Eigen::MatrixXd motion_;                      // A_ff^-1 G_f'
+};
+
+}  // namespace mortise::qp

@@ -1,0 +1,137 @@
+#include "qp/condensed_newton.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "condensed_programme.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+constexpr int max_steps = 15;         // of guesses at one softness
+constexpr int max_turns = 3;          // of the slip at a point; then it sticks before it turns
+constexpr double settled = 1e-10;     // residual over x
+constexpr double flutter = 1e-12;     // the same below which guesses differ by rounding
+constexpr double stalled = 0.5;       // of the residual before: what rounding has left of it,
+constexpr double rounding = 1e-6;     // over x, which is no more than this
+constexpr double softest = 0.1;       // of what a point gives way together with all others
+constexpr double hardest = 1e-4;      // softness that is as good as none
+constexpr double stride = 0.1;        // from one softness to the next
+constexpr double least_stride = 0.8;  // as slow as it gets
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// How many constraints are taken for something else; slip that turns for the fourth time sticks first.
+int compare(const ConstraintStates& before, ConstraintStates& now, std::vector<int>& turns)
+{
+  using Kind = ConstraintStates::Kind;
+  int changes = 0;
+  for (std::size_t i = 0; i < now.closed.size(); ++i) changes += now.closed[i] != before.closed[i];
+  for (std::size_t d = 0; d < now.kind.size(); ++d) {
+    const bool turned =
+        now.kind[d] == Kind::slips && before.kind[d] == Kind::slips && now.slip[d].direction.dot(before.slip[d].direction) < 0;
+    if (turned && ++turns[d] > max_turns) now.kind[d] = Kind::sticks;
+    changes += turned || now.kind[d] != before.kind[d];
+  }
+  return changes;
+}
+
+}  // namespace
+
+CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, const FeasibleSet& set) : constrained_(set.constrained())
+{
+  std::vector<char> taken(static_cast<std::size_t>(a.rows()), 0);
+  for (const Local i : constrained_) taken[static_cast<std::size_t>(i)] = 1;
+  for (Local i = 0; i < static_cast<Local>(a.rows()); ++i)
+    if (!taken[static_cast<std::size_t>(i)]) others_.push_back(i);
+  const MatrixXd between = a(others_, constrained_), g_free = g(Eigen::all, others_);
+  free_ = factorize(a(others_, others_));
+  coupling_ = free_.solve(between);
+  motion_ = free_.solve(g_free.transpose());
+  matrices_.w = a(constrained_, constrained_);
+  matrices_.w.noalias() -= between.transpose() * coupling_;
+  matrices_.w = 0.5 * (matrices_.w + matrices_.w.transpose()).eval();
+  matrices_.h = g(Eigen::all, constrained_) - g_free * coupling_;
+  matrices_.c = g_free * motion_;
+  contact_ = factorize(matrices_.w);
+  matrices_.own = contact_.solve(MatrixXd::Identity(matrices_.w.rows(), matrices_.w.rows())).diagonal().cwiseInverse();
+}
+
+VectorXd CondensedNewton::inverse_times(const VectorXd& r) const
+{
+  VectorXd x(r.size());
+  const VectorXd contact = contact_.solve(VectorXd(r(constrained_) - coupling_.transpose() * r(others_)));
+  x(constrained_) = contact;
+  x(others_) = free_.solve(VectorXd(r(others_))) - coupling_ * contact;
+  return x;
+}
+
+// Guesses from `states` on; false if they do not settle.
+bool CondensedNewton::settle(const CondensedProgramme& programme, ConstraintStates& states, Point& point)
+{
+  std::vector<int> turns(states.kind.size(), 0);
+  double before = 0;
+  for (int step = 0; step < max_steps; ++step) {
+    programme.solve(states, point.x, point.nu);
+    ++point.steps;
+    const double residual = programme.residual(point.x, point.nu), size = programme.size(point.x);
+    auto next = programme.states(point.x, point.nu);
+    const int changes = compare(states, next, turns);
+    states = std::move(next);
+    const bool small = residual <= settled * size || (residual <= rounding * size && residual > stalled * before);
+    if (step > 0 && small && (changes == 0 || residual <= flutter * size)) return true;
+    before = residual;
+  }
+  return false;
+}
+
+// The same from a soft contact on, which becomes harder as fast as guesses settle.
+bool CondensedNewton::harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point)
+{
+  double part = stride;
+  programme.soften(softness);
+  settle(programme, states, point);
+  while (softness > 0) {
+    const double next = softness * part > hardest ? softness * part : 0;
+    auto trial = states;
+    const VectorXd nu = point.nu;
+    programme.soften(next);
+    if (settle(programme, trial, point)) {
+      part = std::max(stride, part * part);
+    } else if (part < least_stride) {
+      part = std::sqrt(part);
+      point.nu = nu;
+      continue;
+    } else if (next == 0) {
+      return false;
+    }
+    states = std::move(trial);
+    softness = next;
+  }
+  return true;
+}
+
+CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd& e, const FeasibleSet& set) const
+{
+  CondensedProgramme programme(matrices_, set.compact(), b(constrained_) - coupling_.transpose() * b(others_),
+                               e - motion_.transpose() * b(others_));
+  Point point;
+  point.x = VectorXd::Zero(programme.unknowns());
+  point.nu = VectorXd::Zero(programme.motions());
+  auto states = programme.all_closed();
+  point.settled = settle(programme, states, point);
+  if (!point.settled && programme.unknowns() > 0) {
+    states = programme.all_closed();
+    point.nu.setZero();
+    point.settled = harden(programme, softest * matrices_.w.diagonal().cwiseQuotient(matrices_.own).maxCoeff(), states, point);
+  }
+  VectorXd x(b.size());
+  x(constrained_) = point.x;
+  x(others_) = free_.solve(VectorXd(b(others_))) - coupling_ * point.x - motion_ * point.nu;
+  point.x = std::move(x);
+  return point;
+}
+
+}  // namespace mortise::qp

@@ -1,0 +1,250 @@
+#include "condensed_programme.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+constexpr double spring = 1e-8;        // on motions, of what constraints would hold them with
+constexpr double singular = 1e-11;     // reciprocal condition of what needs them
+constexpr double definite = 1e-13;     // part of the diagonal that is added first
+constexpr double indefinite = 1e-6;    // and that is too much
+constexpr double tiny_radius = 1e-12;  // of a disc, over the distance from its centre
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+}  // namespace
+
+Eigen::LLT<MatrixXd> factorize(const MatrixXd& a)
+{
+  for (double part = definite; part < indefinite; part *= 1e2) {
+    MatrixXd shifted = a;
+    shifted.diagonal() *= 1 + part;
+    Eigen::LLT<MatrixXd> factor(shifted);
+    if (factor.info() == Eigen::Success) return factor;
+  }
+  throw Error(ExitStatus::not_converged,
+              "the compliance of the contacts is not positive definite to rounding: their rows depend on each other");
+}
+
+// One unknown of a linear problem: x moves along `trial`, what is felt is asked along `test`.
+struct CondensedProgramme::Move {
+  std::array<Local, 3> index{-1, -1, -1};
+  std::array<double, 3> trial{}, test{};
+  double curvature = 0;
+};
+
+CondensedProgramme::CondensedProgramme(const CondensedMatrices& matrices, FeasibleSet set, VectorXd b, VectorXd e)
+    : matrices_(matrices), set_(std::move(set)), b_(std::move(b)), e_(std::move(e)), own_(matrices.own)
+{
+  std::vector<int> bound_at(static_cast<std::size_t>(unknowns()), -1);
+  const auto bounds = set_.bounds();
+  for (std::size_t i = 0; i < bounds.size(); ++i) bound_at[static_cast<std::size_t>(bounds[i].index)] = static_cast<int>(i);
+  for (const auto& disc : set_.discs()) {
+    const bool follows = disc.coefficient > 0 && disc.normal >= 0;
+    bound_of_.push_back(follows ? bound_at[static_cast<std::size_t>(disc.normal)] : -1);
+    if (disc.size() == 2) own_[disc.index[0]] = own_[disc.index[1]] = std::max(own_[disc.index[0]], own_[disc.index[1]]);
+  }
+  MatrixXd gram = matrices.c + matrices.h * own_.cwiseInverse().asDiagonal() * matrices.h.transpose();
+  springs_ = spring * gram.diagonal();
+  if (motions() > 0) gram_ = factorize(gram);
+  soften(0);
+}
+
+void CondensedProgramme::soften(double softness)
+{
+  softness_ = softness;
+  step_ = (own_ * (1 + softness)).cwiseInverse();
+}
+
+VectorXd CondensedProgramme::felt(const VectorXd& x, const VectorXd& nu) const
+{
+  return matrices_.w * x + softness_ * own_.cwiseProduct(x) + matrices_.h.transpose() * nu - b_;
+}
+
+ConstraintStates CondensedProgramme::all_closed() const
+{
+  ConstraintStates all;
+  all.closed.assign(set_.bounds().size(), 1);
+  all.kind.assign(set_.discs().size(), ConstraintStates::Kind::sticks);
+  all.slip.resize(set_.discs().size());
+  return all;
+}
+
+ConstraintStates CondensedProgramme::states(const VectorXd& x, const VectorXd& nu) const
+{
+  const VectorXd y = x - step_.cwiseProduct(felt(x, nu));
+  const auto discs = set_.discs();
+  ConstraintStates result = all_closed();
+  for (std::size_t i = 0; i < result.closed.size(); ++i) {
+    const auto& bound = set_.bounds()[i];
+    result.closed[i] = y[bound.index] > bound.lower;
+  }
+  for (std::size_t d = 0; d < discs.size(); ++d) {
+    const auto& disc = discs[d];
+    const int bound = bound_of_[d];
+    if (bound >= 0 && !result.closed[static_cast<std::size_t>(bound)]) {
+      result.kind[d] = ConstraintStates::Kind::gone;
+      continue;
+    }
+    auto& slip = result.slip[d];
+    const Vector2d w = from_centre(disc, y);
+    const double length = w.norm();
+    slip.radius = bound >= 0 ? disc.coefficient * y[disc.normal] : disc.radius;
+    if (length <= slip.radius) continue;
+    result.kind[d] = ConstraintStates::Kind::slips;
+    slip.direction = w / length;
+    slip.curvature = slip.radius > tiny_radius * length ? (length - slip.radius) / (step_[disc.index[0]] * slip.radius)
+                                                        : std::numeric_limits<double>::infinity();
+  }
+  return result;
+}
+
+double CondensedProgramme::residual(const VectorXd& x, const VectorXd& nu) const
+{
+  VectorXd y = x - step_.cwiseProduct(felt(x, nu));
+  for (const auto& bound : set_.bounds()) y[bound.index] = std::max(y[bound.index], bound.lower);
+  for (std::size_t d = 0; d < bound_of_.size(); ++d) {
+    const auto& disc = set_.discs()[d];
+    const double radius = bound_of_[d] >= 0 ? disc.coefficient * y[disc.normal] : disc.radius;
+    const Vector2d w = from_centre(disc, y);
+    if (const double length = w.norm(); length > radius)
+      for (int k = 0; k < disc.size(); ++k) y[disc.index[static_cast<std::size_t>(k)]] += (radius / length - 1) * w[k];
+  }
+  double square = (x - y).cwiseProduct(own_).dot(x - y);
+  if (motions() > 0) {
+    const VectorXd missing = e_ - matrices_.h * x + matrices_.c * nu;
+    square += missing.dot(gram_.solve(missing));
+  }
+  return std::sqrt(square);
+}
+
+double CondensedProgramme::size(const VectorXd& x) const
+{
+  const double square = x.cwiseProduct(own_).dot(x);
+  return std::sqrt(square > 0 || motions() == 0 ? square : e_.dot(gram_.solve(e_)));
+}
+
+// `base`: what does not move; `symmetric`: trial and test are alike.
+std::vector<CondensedProgramme::Move> CondensedProgramme::moves(const ConstraintStates& states, VectorXd& base,
+                                                                bool& symmetric) const
+{
+  const auto bounds = set_.bounds();
+  const auto discs = set_.discs();
+  std::vector<Move> result;
+  std::vector<std::size_t> move_of(bounds.size(), 0);
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    if (!states.closed[i]) {
+      base[bounds[i].index] = bounds[i].lower;
+      continue;
+    }
+    move_of[i] = result.size();
+    result.push_back({{bounds[i].index, -1, -1}, {1, 0, 0}, {1, 0, 0}, 0});
+  }
+  for (std::size_t d = 0; d < discs.size(); ++d) {
+    const auto& disc = discs[d];
+    const auto& slip = states.slip[d];
+    const auto at = [&](int k) { return disc.index[static_cast<std::size_t>(k)]; };
+    if (states.kind[d] == ConstraintStates::Kind::sticks) {
+      for (int k = 0; k < disc.size(); ++k) result.push_back({{at(k), -1, -1}, {1, 0, 0}, {1, 0, 0}, 0});
+      continue;
+    }
+    for (int k = 0; k < disc.size(); ++k) base[at(k)] = disc.centre[static_cast<std::size_t>(k)];
+    if (states.kind[d] == ConstraintStates::Kind::gone) continue;
+    if (const int bound = bound_of_[d]; bound >= 0) {
+      auto& move = result[move_of[static_cast<std::size_t>(bound)]];
+      for (int k = 0; k < disc.size(); ++k) {
+        move.index[static_cast<std::size_t>(k) + 1] = at(k);
+        move.trial[static_cast<std::size_t>(k) + 1] = disc.coefficient * slip.direction[k];
+      }
+      symmetric = false;
+    } else {
+      for (int k = 0; k < disc.size(); ++k) base[at(k)] += slip.radius * slip.direction[k];
+    }
+    if (disc.size() == 2 && std::isfinite(slip.curvature)) {
+      const double u = -slip.direction[1], v = slip.direction[0];
+      result.push_back({{at(0), at(1), -1}, {u, v, 0}, {u, v, 0}, slip.curvature});
+    }
+  }
+  return result;
+}
+
+// `matrix` nu = `right`; by springs that hold nu where it is, if the matrix is singular without. Else there are none: where
+// contact is much stiffer than its bodies, what is weak beside it is not so beside them.
+void CondensedProgramme::hold(MatrixXd matrix, const VectorXd& right, VectorXd& nu) const
+{
+  if (right.size() == 0) return;
+  const Eigen::PartialPivLU<MatrixXd> alone(matrix);
+  if (alone.rcond() > singular) {
+    nu = alone.solve(right);
+    return;
+  }
+  matrix.diagonal() += springs_;
+  nu = matrix.partialPivLu().solve(right + springs_.cwiseProduct(nu));
+}
+
+void CondensedProgramme::solve(const ConstraintStates& states, VectorXd& x, VectorXd& nu) const
+{
+  const auto& [w, h, c, own] = matrices_;
+  VectorXd base = VectorXd::Zero(unknowns());
+  bool symmetric = true;
+  const auto all = moves(states, base, symmetric);
+  const auto count = static_cast<Index>(all.size());
+  // T: trial, E: test; the matrix E'W T, H T and E'H'.
+  MatrixXd moved = MatrixXd::Zero(unknowns(), count), pull = MatrixXd::Zero(motions(), count),
+           push = MatrixXd::Zero(count, motions());
+  for (Index j = 0; j < count; ++j) {
+    const auto& [index, trial, test, curvature] = all[static_cast<std::size_t>(j)];
+    for (std::size_t k = 0; k < 3 && index[k] >= 0; ++k) {
+      moved.col(j) += trial[k] * w.col(index[k]);
+      moved(index[k], j) += softness_ * own_[index[k]] * trial[k];
+      pull.col(j) += trial[k] * h.col(index[k]);
+      push.row(j) += test[k] * h.col(index[k]).transpose();
+    }
+  }
+  const VectorXd known = b_ - w * base - softness_ * own_.cwiseProduct(base);
+  MatrixXd matrix = MatrixXd::Zero(count, count);
+  VectorXd right = VectorXd::Zero(count);
+  for (Index j = 0; j < count; ++j) {
+    const auto& [index, trial, test, curvature] = all[static_cast<std::size_t>(j)];
+    for (std::size_t k = 0; k < 3 && index[k] >= 0; ++k) {
+      if (test[k] == 0) continue;
+      matrix.row(j) += test[k] * moved.row(index[k]);
+      right[j] += test[k] * known[index[k]];
+    }
+    matrix(j, j) += curvature;
+  }
+  const VectorXd lacking = e_ - h * base;
+  VectorXd amount = VectorXd::Zero(count);
+  const auto eliminate = [&](const auto& factor) {
+    const VectorXd alone = factor.solve(right);
+    amount = alone;
+    if (motions() == 0) return;
+    const MatrixXd response = factor.solve(push);
+    hold(c + pull * response, pull * alone - lacking, nu);
+    amount -= response * nu;
+  };
+  if (count == 0)
+    hold(c, -lacking, nu);
+  else if (symmetric)
+    eliminate(factorize(matrix));
+  else
+    eliminate(Eigen::PartialPivLU<MatrixXd>(matrix));
+  x = base;
+  for (Index j = 0; j < count; ++j) {
+    const auto& [index, trial, test, curvature] = all[static_cast<std::size_t>(j)];
+    for (std::size_t k = 0; k < 3 && index[k] >= 0; ++k) x[index[k]] += trial[k] * amount[j];
+  }
+}
+
+}  // namespace mortise::qp

@@ -1,0 +1,68 @@
+// What is left of a quadratic programme over its constrained unknowns, and one Newton step on it. See condensed_newton.hpp.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "qp/condensed_newton.hpp"
+
+namespace mortise::qp {
+
+/// Cholesky factors, with as little added to the diagonal as rounding or dependent rows make necessary. Throws
+/// Error(not_converged) if that is not enough.
+Eigen::LLT<Eigen::MatrixXd> factorize(const Eigen::MatrixXd& a);
+
+/// What each constraint is taken for in one linear problem.
+struct ConstraintStates {
+  enum class Kind : char { sticks, slips, gone };  // gone: the bound that the radius follows is open
+  struct Slip {
+    Eigen::Vector2d direction = Eigen::Vector2d::Zero();
+    double radius = 0, curvature = 0;  // see face.hpp
+  };
+  std::vector<char> closed;  // of each bound: the unknown is free
+  std::vector<Kind> kind;    // of each disc
+  std::vector<Slip> slip;
+};
+
+/// W x + H'nu - b = s, H x - C nu = e, with x in a set and s in its normal cone. W may be softened by a compliance of every
+/// unknown of its own, `softness` times what the unknown has if all others are held.
+class CondensedProgramme {
+ public:
+  /// `set` over the unknowns of `matrices`, which outlive it.
+  CondensedProgramme(const CondensedMatrices& matrices, FeasibleSet set, Eigen::VectorXd b, Eigen::VectorXd e);
+
+  /// Steps of unknowns become the inverse of their compliance, so softened, too.
+  void soften(double softness);
+  /// Everything closed and sticking.
+  ConstraintStates all_closed() const;
+  /// Those of x - step s, s what is felt at x and nu.
+  ConstraintStates states(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
+  /// The norm, in that of `own`, of x - P(x - step s), and of what H x - C nu lacks.
+  double residual(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
+  /// That of x, which a residual is to be small beside; that of e where x is zero, for all may be open.
+  double size(const Eigen::VectorXd& x) const;
+  /// x and nu become the solution of the linear problem with these states. Weak springs hold motions near the nu that comes in,
+  /// for states may leave a body free.
+  void solve(const ConstraintStates& states, Eigen::VectorXd& x, Eigen::VectorXd& nu) const;
+
+  const FeasibleSet& set() const { return set_; }
+  Eigen::Index unknowns() const { return b_.size(); }
+  Eigen::Index motions() const { return e_.size(); }
+
+ private:
+  struct Move;
+  std::vector<Move> moves(const ConstraintStates& states, Eigen::VectorXd& base, bool& symmetric) const;
+  void hold(Eigen::MatrixXd matrix, const Eigen::VectorXd& right, Eigen::VectorXd& nu) const;
+  Eigen::VectorXd felt(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
+
+  const CondensedMatrices& matrices_;
+  FeasibleSet set_;
+  Eigen::VectorXd b_, e_;
+  std::vector<int> bound_of_;  // of each disc: the bound of the unknown that its radius follows, -1 if the radius is given
+  Eigen::VectorXd own_;        // one compliance for both unknowns of a disc
+  double softness_ = 0;
+  Eigen::VectorXd step_, springs_;
+  Eigen::LLT<Eigen::MatrixXd> gram_;  // by which a lack of H x - C nu is measured
+};
+
+}  // namespace mortise::qp
