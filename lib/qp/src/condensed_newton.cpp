@@ -14,7 +14,8 @@ constexpr int max_turns = 3;          // of the slip at a point; then it sticks 
 constexpr double settled = 1e-10;     // residual over x
 constexpr double flutter = 1e-12;     // the same below which guesses differ by rounding
 constexpr double stalled = 0.5;       // of the residual before: what rounding has left of it,
-constexpr double rounding = 1e-6;     // over x, which is no more than this
+constexpr double rounding = 1e-6;     // over x, which is no more than this, or than so many times
+constexpr double roundings = 1e4;     // what rounding makes of W x
 constexpr double softest = 0.1;       // of what a point gives way together with all others
 constexpr double hardest = 1e-4;      // softness that is as good as none
 constexpr double stride = 0.1;        // from one softness to the next
@@ -80,7 +81,9 @@ bool CondensedNewton::settle(const CondensedProgramme& programme, ConstraintStat
     auto next = programme.states(point.x, point.nu);
     const int changes = compare(states, next, turns);
     states = std::move(next);
-    const bool small = residual <= settled * size || (residual <= rounding * size && residual > stalled * before);
+    const bool small =
+        residual <= settled * size ||
+        (residual > stalled * before && (residual <= rounding * size || residual <= roundings * programme.rounding(point.x)));
     if (step > 0 && small && (changes == 0 || residual <= flutter * size)) return true;
     before = residual;
   }

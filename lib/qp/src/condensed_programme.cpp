@@ -135,6 +135,13 @@ double CondensedProgramme::size(const VectorXd& x) const
   return std::sqrt(square > 0 || motions() == 0 ? square : e_.dot(gram_.solve(e_)));
 }
 
+double CondensedProgramme::rounding(const VectorXd& x) const
+{
+  const VectorXd sum = matrices_.w.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs();
+  return std::numeric_limits<double>::epsilon() *
+         std::sqrt(sum.cwiseProduct(step_).cwiseProduct(step_).cwiseProduct(own_).dot(sum));
+}
+
 // `base`: what does not move; `symmetric`: trial and test are alike.
 std::vector<CondensedProgramme::Move> CondensedProgramme::moves(const ConstraintStates& states, VectorXd& base,
                                                                 bool& symmetric) const

@@ -41,6 +41,8 @@ class CondensedProgramme {
   double residual(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
   /// That of x, which a residual is to be small beside; that of e where x is zero, for all may be open.
   double size(const Eigen::VectorXd& x) const;
+  /// What rounding of W x makes of the residual.
+  double rounding(const Eigen::VectorXd& x) const;
   /// x and nu become the solution of the linear problem with these states. Weak springs hold motions near the nu that comes in,
   /// for states may leave a body free.
   void solve(const ConstraintStates& states, Eigen::VectorXd& x, Eigen::VectorXd& nu) const;
