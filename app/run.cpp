@@ -343,6 +343,7 @@ std::optional<ExitStatus> carry_out(Way& way, const partition::Decomposition& de
       }
     } catch (const Error& error) {
       log.end_progress();
+      way.spent = simulation.multiplications();
       if (i == 0 || (way.attempt == Attempt::direct && may_be_tried_again(error))) throw;
       results.summary.converged = false;
       results.summary.exit_status = static_cast<int>(error.status());

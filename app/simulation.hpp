@@ -26,8 +26,8 @@ class Simulation {
   void solve(const LoadState& state, const friction::Observer& observer);
   /// From now on solve() gives up after so many products, see friction::Result::gave_up.
   void lose_patience_after(std::optional<int> products) { patience_ = products; }
-  /// Products of all solves.
-  int multiplications() const { return multiplications_; }
+  /// Products of all solves, also of one that threw.
+  int multiplications() const { return solver_ ? multiplications_before_ + solver_->multiplications() : multiplications_; }
   /// Friction counts slip from the state that was solved last. `displacement` as of DualProblem. Collective.
   void settle(const std::vector<Eigen::VectorXd>& displacement);
 

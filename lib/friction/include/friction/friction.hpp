@@ -67,6 +67,8 @@ class Solver {
   /// `start`, the solution of the step before, if there is one. Throws Error(no_equilibrium) that names the body that moves and
   /// how. Collective.
   Result solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer);
+  /// Of all solves, also of one that threw.
+  int multiplications() const { return hessian_.count(); }
 
  private:
   struct Run;
