@@ -2,8 +2,9 @@
 """Measures whether errors are what runs claim: random models, each solved at `tolerance: auto` and again tightly.
 
     claimed_error.py MORTISE [--count 40] [--seed 1] [--family NAME ...] [--set key=value ...] [--keep DIRECTORY] [--limit SECONDS]
+    claimed_error.py MORTISE --decks DIRECTORY [...]
 
-A line a model: exit status, products (auto, tight), the error that the run claims and the true one, of the solver, in the energy norm; what displacements,
+With --decks the models are the decks in the folders of a directory, such as ../population/generate.py writes. A line a model: exit status, products (auto, tight), the error that the run claims and the true one, of the solver, in the energy norm; what displacements,
 contact forces and largest pressures are off by; and the ratio of true to claimed. The energy norm of the difference comes from the dual energies in history.csv
 where there is no Coulomb friction (2 (E - E_tight) is no less than its square), and from the stresses at the nodes where there is. A tight run that does not
 converge tells nothing, and the model does not count. Fails if more than 5 % of the runs with exit status 0 are off by more than 1.5 times what they claim.
@@ -88,18 +89,37 @@ def compare(auto, tight, found, exact, coulomb):
             "displacement": relative(found["max_displacement"], exact["max_displacement"]), "force": force, "pressure": pressure}
 
 
-def measure(arguments, family, number, directory):
-    deck = models.model(family, random.Random(f"{arguments.seed} {family} {number}"), INPUTS)
-    if geometry := deck.pop("geometry", None):
-        (directory / geometry[0]).write_text(geometry[1])
-    path = directory / "deck.yaml"
-    path.write_text(yaml.safe_dump(deck, sort_keys=False))
-    status, found = solve(arguments.mortise, path, directory / "auto", arguments.set, arguments.limit)
+def random_models(arguments, scratch):
+    """(family, name, deck's file) of each."""
+    for i in range(arguments.count):
+        family = arguments.family[i % len(arguments.family)]
+        directory = (arguments.keep or scratch) / f"{family}_{i}"
+        directory.mkdir(parents=True, exist_ok=True)
+        deck = models.model(family, random.Random(f"{arguments.seed} {family} {i}"), INPUTS)
+        if geometry := deck.pop("geometry", None):
+            (directory / geometry[0]).write_text(geometry[1])
+        path = directory / "deck.yaml"
+        path.write_text(yaml.safe_dump(deck, sort_keys=False))
+        yield family, f"{family:10} {i:4}", path
+
+
+def given_models(directory):
+    """The same of the decks in the folders of a directory that have an equilibrium."""
+    for path in sorted(directory.glob("*/deck.yaml")):
+        expected = path.parent / "expected.json"
+        if not expected.exists() or json.loads(expected.read_text())["exit_status"] == 0:
+            yield path.parent.name, f"{path.parent.name:34}", path
+
+
+def measure(arguments, family, name, path):
+    directory = path.parent
+    deck = yaml.safe_load(path.read_text())
+    status, found = solve(arguments.mortise, path, directory / "auto", ["solver.tolerance=auto"] + arguments.set, arguments.limit)
     exact_status, exact = solve(arguments.mortise, path, directory / "tight", TIGHT, arguments.limit)
     if exact_status != 0:
         _, exact = solve(arguments.mortise, path, directory / "tight", TIGHT + ["solver.tolerance=1e-8"], arguments.limit)
         exact_status = _
-    line = f"{family:10} {number:4}  exit {status} {exact_status}"
+    line = f"{name}  exit {status} {exact_status}"
     if found:
         line += f"  products {found['hessian_multiplications']:5}"
     if not found or not exact or status != 0 or exact_status != 0:
@@ -120,17 +140,16 @@ def main():
     parser.add_argument("--count", type=int, default=40, help="models, dealt out to the families in turn")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--family", nargs="*", default=models.FAMILIES, choices=models.FAMILIES)
+    parser.add_argument("--decks", type=pathlib.Path, help="folders with decks, in place of random models")
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--keep", type=pathlib.Path, help="where decks and results stay")
     parser.add_argument("--limit", type=float, default=120, help="seconds of each run")
     arguments = parser.parse_args()
     rows = []
     with tempfile.TemporaryDirectory() as scratch:
-        for i in range(arguments.count):
-            family = arguments.family[i % len(arguments.family)]
-            directory = (arguments.keep or pathlib.Path(scratch)) / f"{family}_{i}"
-            directory.mkdir(parents=True, exist_ok=True)
-            rows.append(measure(arguments, family, i, directory))
+        given = given_models(arguments.decks) if arguments.decks else random_models(arguments, pathlib.Path(scratch))
+        for family, name, path in given:
+            rows.append(measure(arguments, family, name, path))
     judged = [r for r in rows if r["judged"]]
     bad = [r for r in judged if r["ratio"] > FACTOR]
     print(f"{len(rows)} models, {len(judged)} judged; {len(bad)} are off by more than {FACTOR} times what they claim; median ratio "

@@ -233,15 +233,19 @@ def make_rows(problem, contact, side, normals, gap, terms):
     friction, held = contact.get("friction", {}), held_along(problem, side, normals)
     if held.any() and "tresca" in friction:
         raise Skip("a contact that supports hold along its normal")
-    see = lambda d: sum(vector_rows(problem, matrix, nodes, d) for matrix, nodes in terms)[~held]
-    # Where a support holds the secondary node along a tangent there is no friction along it, whatever lies opposite.
-    across = [see(d * ~held_along(problem, side, d)[:, None]) for d in tangents(normals)]
-    return Rows(see(normals), across, normals[~held], (side.control @ gap)[~held], side.area[~held], friction)
+    see = lambda d: sum(vector_rows(problem, matrix, nodes, d) for matrix, nodes in terms).tocsr()
+    normal = see(normals)
+    free = np.ones(problem.count)
+    free[list(problem.held)] = 0
+    kept = (abs(normal) @ free > 1e-12) & ~(held & (len(terms) == 1))
+    # Where a support holds the secondary node along a tangent alone there is no friction along it, whatever lies opposite.
+    across = [see(d * (held | ~held_along(problem, side, d))[:, None])[kept] for d in tangents(normals)]
+    return Rows(normal[kept], across, normals[kept], (side.control @ gap)[kept], side.area[kept], friction)
 
 
 def held_along(problem, side, normals):
-    """Which nodes of a side supports hold along its normal. Such nodes carry no multiplier; others take over their area, which matters to
-    given slip bounds only."""
+    """Which nodes of a side supports hold along the given directions. Held along their normals they have rows that the primary side alone
+    feels, and none over an obstacle."""
     held = np.array([[node * problem.axes + axis in problem.held for axis in range(problem.axes)] for node in side.nodes])
     return np.any(held & (np.abs(normals) > 1e-6), axis=1)
 

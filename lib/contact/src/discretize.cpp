@@ -129,7 +129,7 @@ class Builder {
         if (control(k, l) != 0 && !rays_.meets(static_cast<std::size_t>(places[static_cast<std::size_t>(l)]))) covered[k] = 0;
   }
 
-  // Which places carry a multiplier: covered enough, and not held along their normal.
+  // Which places carry a multiplier: covered enough, and not left out of a bond.
   void choose_places()
   {
     const auto count = places_.all.size();
@@ -160,26 +160,28 @@ class Builder {
                                        Pressed{secondary_.node_id[static_cast<std::size_t>(places_.all[p].node)]},
                                        [](const Pressed& a, const Pressed& b) { return a.node < b.node; });
     const auto left_out = [&](std::size_t p) { return !directions_[p].free_normal || crossing[p]; };
-    // They and places held along their normal leave their share to the others of the face. Where a face has no others, as on a
-    // surface that a support moves as a whole, they stay: their rows are felt by the primary side alone (and dropped in
-    // add_place() if that is held, too).
-    std::vector<char> stranded(count, 0);
+    // Places held along their normal keep their rows in a contact: the primary side alone feels them (add_point() drops them if it
+    // does not, as an obstacle). If their neighbours took over their share, these would see what moves along a curved surface there
+    // as an overlap. In a bond they would hold the primary side to the mean of what it meets, and leave their share to the others
+    // of the face, as those at a seam's end do; where a face has no others, as on a surface that a support moves as a whole, they
+    // stay.
+    stranded_.assign(count, 0);
     for (const std::size_t f : faces_.round()) {
       const auto places = faces_.node_places(f);
       if (std::all_of(places.begin(), places.end(), [&](Local p) { return left_out(static_cast<std::size_t>(p)); }))
-        for (const Local p : places) stranded[static_cast<std::size_t>(p)] = 1;
+        for (const Local p : places) stranded_[static_cast<std::size_t>(p)] = 1;
     }
     cover_.assign(count, 0);
     kept_.assign(count, 0);
     freed_.assign(count, 0);
     for (std::size_t p = 0; p < count; ++p) {
-      freed_[p] = stranded[p] && !directions_[p].free_normal;
+      freed_[p] = (stranded_[p] || !bonded()) && !directions_[p].free_normal;
       if (freed_[p])
         directions_[p] = directions(places_.all[p].normal, {false, false, false}, {}, dimension_);  // moves() picks the tangents
       cover_[p] = whole[p] > 0 ? std::min(covered[p] / whole[p], 1.0) : 0.0;
-      kept_[p] = (!left_out(p) || stranded[p]) && cover_[p] > least_cover;
+      kept_[p] = (!left_out(p) || stranded_[p] || freed_[p]) && cover_[p] > least_cover;
     }
-    keep_small_pieces([&](std::size_t p) { return !left_out(p) || stranded[p]; });
+    keep_small_pieces([&](std::size_t p) { return !left_out(p) || stranded_[p] || freed_[p]; });
   }
 
   // Where all functions of a piece would be dropped, as opposite a foot smaller than the faces it stands on, they stay: so does
@@ -324,7 +326,7 @@ class Builder {
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     if (held) {
-      if (!bonded()) crossing_ = std::max(crossing_, writer_.held_part(terms_, d, normal) - point.gap);
+      if (!bonded() && stranded_[p]) crossing_ = std::max(crossing_, writer_.held_part(terms_, d, normal) - point.gap);
       return;
     }
     writer_.add(terms_, d, normal, point.gap, contacts);
@@ -411,6 +413,7 @@ class Builder {
   double crossing_ = 0;
   double covered_area_ = 0;
   std::vector<Directions> directions_;  // of each place
+  std::vector<char> stranded_;          // of each place: its faces have no place that supports and seams leave free
   std::vector<char> freed_;             // of each place: its row keeps what supports hold of the secondary side
   std::vector<char> kept_;              // of each place
   std::vector<double> cover_;           // of each place

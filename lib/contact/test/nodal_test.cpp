@@ -85,5 +85,26 @@ TEST(Obstacles, RowsAreThoseOfNodesAlongTheNormalOfTheObstacle)
   EXPECT_NEAR(area[0], 1.00778, 5e-4);
 }
 
+// A belt round a drum whose end lies on it and is drawn along it: the place that is held has no row, as nothing is left to move
+// there, and its neighbours see no part of its motion, which seen along their normals goes into the drum.
+TEST(Obstacles, AnEndThatIsDrawnAlongADrumIsNoOverlapToItsNeighbours)
+{
+  const Communicator comm;
+  const auto drum = [](double x, double y) { return Point(std::cos(x), std::sin(x), y); };
+  auto pair = make_pair(surface({6, 2, 0, 1.5, 0, 1, false}, drum, comm), {}, Law::coulomb);
+  pair.primary = nullptr;
+  pair.options.obstacle = Obstacle{Obstacle::Shape::cylinder, Point::Zero(), Point::UnitZ(), 1, false};
+  std::vector<constraint::Held> held;
+  if (comm.root())
+    for (const Global node : {0, 7, 14})
+      for (const int component : {0, 1, 2}) held.push_back({node, component, component == 1 ? -0.1 : 0.0, static_cast<int>(node)});
+  const auto contacts = discretize(std::vector<Pair>{pair}, held, fem::Kinematics::solid, comm);
+  EXPECT_EQ(comm.sum(static_cast<long long>(contacts.points.size())), 18);
+  for (const auto& point : contacts.points) {
+    EXPECT_NE(point.node % 7, 0);
+    EXPECT_NEAR(contacts.rows.bound[point.row], 0, 1e-12) << "node " << point.node;
+  }
+}
+
 }  // namespace
 }  // namespace mortise::contact
