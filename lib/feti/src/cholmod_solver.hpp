@@ -1,7 +1,7 @@
-// CHOLMOD as a concrete solver of Amesos2, which Debian's Amesos2 lacks: a thin face over mortise::Cholesky.
+// CHOLMOD as a concrete solver of Amesos2, which Debian's Amesos2 lacks, over mortise::Cholesky.
 //
 // The matrix is symmetric positive definite, on one rank, and only entries on and above its diagonal are read: a row of the CRS
-// matrix is a column of CHOLMOD's lower triangle.
+// matrix is a column of CHOLMOD's lower triangle. It is let go once it is factorized: setA() comes before another factorization.
 #pragma once
 
 #include <Amesos2_SolverCore_decl.hpp>
@@ -18,20 +18,17 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
  public:
   static const char* name;
 
-  /// `block`: unknowns a node, see Cholesky.
-  explicit CholmodSolver(Teuchos::RCP<const Matrix> a, int block = 1)
-      : Amesos2::SolverCore<CholmodSolver, Matrix, Vector>(a, Teuchos::null, Teuchos::null), block_(block)
+  /// `block`: unknowns a node, see Cholesky. `tiled`: solutions by the sweep of Cholesky::prepare_for_many_solves(), else by
+  /// CHOLMOD's own.
+  CholmodSolver(Teuchos::RCP<const Matrix> a, int block, bool tiled)
+      : Amesos2::SolverCore<CholmodSolver, Matrix, Vector>(a, Teuchos::null, Teuchos::null), block_(block), tiled_(tiled)
   {
   }
-
-  /// The factor itself, for products that want neither a MultiVector in between nor the matrix; nothing is left to solve with.
-  std::unique_ptr<Cholesky> release() { return std::move(factor_); }
 
  private:
   int preOrdering_impl() { return 0; }
   int symbolicFactorization_impl();
   int numericFactorization_impl();
-  int solve_impl(Teuchos::Ptr<Amesos2::MultiVecAdapter<Vector>> x, Teuchos::Ptr<const Amesos2::MultiVecAdapter<Vector>> b) const;
   bool matrixShapeOK_impl() const
   {
     return this->matrixA_->getGlobalNumRows() == this->matrixA_->getGlobalNumCols() && this->matrixA_->getComm()->getSize() == 1;
@@ -43,10 +40,13 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
   }
   bool loadA_impl(Amesos2::EPhase) { return true; }
 
+  // x and b are on this rank alone: their columns are read and written where they are.
+  int solve_impl(Teuchos::Ptr<Amesos2::MultiVecAdapter<Vector>> x, Teuchos::Ptr<const Amesos2::MultiVecAdapter<Vector>> b) const;
   // The arrays of the CRS matrix, read as the compressed columns of its transpose.
   SparseMatrix lower() const;
 
   int block_;
+  bool tiled_;
   std::unique_ptr<Cholesky> factor_;
 };
 

@@ -6,6 +6,8 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/tpetra.hpp"
@@ -50,8 +52,9 @@ int CholmodSolver<Matrix, Vector>::numericFactorization_impl()
 {
   if (!factor_->factorize(lower()))
     throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain is not positive definite");
-  factor_->prepare_for_many_solves();
+  if (tiled_) factor_->prepare_for_many_solves();
   this->setNnzLU(factor_->factor_bytes() / sizeof(double));
+  this->matrixA_ = Teuchos::null;
   return 0;
 }
 
@@ -59,27 +62,29 @@ template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::solve_impl(Teuchos::Ptr<Amesos2::MultiVecAdapter<Vector>> x,
                                               Teuchos::Ptr<const Amesos2::MultiVecAdapter<Vector>> b) const
 {
-  using SolveView = Kokkos::View<Scalar**, Kokkos::LayoutLeft, Kokkos::DefaultHostExecutionSpace>;
-  using Copy = Amesos2::Util::get_1d_copy_helper_kokkos_view<Amesos2::MultiVecAdapter<Vector>, SolveView>;
-  const auto rows = static_cast<std::size_t>(this->globalNumCols_);
-  SolveView right, left;
-  Copy::do_get(true, b, right, rows, Amesos2::ROOTED, this->rowIndexBase_);
-  Copy::do_get(false, Teuchos::ptr_const_cast<const Amesos2::MultiVecAdapter<Vector>>(x), left, rows, Amesos2::ROOTED,
-               this->rowIndexBase_);
-  SolveView result("solution", rows, x->getGlobalNumVectors());
-  factor_->solve(right.data(), result.data(), static_cast<int>(x->getGlobalNumVectors()), static_cast<int>(rows));
-  Amesos2::Util::put_1d_data_helper_kokkos_view<Amesos2::MultiVecAdapter<Vector>, SolveView>::do_put(
-      x, result, rows, Amesos2::ROOTED, this->rowIndexBase_);
+  const std::size_t count = x->getGlobalNumVectors();
+  std::vector<double*> columns;
+  for (std::size_t c = 0; c < count; ++c) {
+    const auto from = b->getVector(c)->getData();
+    columns.push_back(x->getVectorNonConst(c)->getDataNonConst().getRawPtr());
+    if (columns.back() != from.getRawPtr()) std::copy(from.begin(), from.end(), columns.back());
+  }
+  factor_->solve(columns);
   return 0;
 }
 
 namespace {
 
+Teuchos::RCP<const Map> local_map(std::size_t size)
+{
+  return Teuchos::rcp(new Map(size, 0, Teuchos::rcp(new Teuchos::SerialComm<int>), Tpetra::LocallyReplicated));
+}
+
 // Rows of the CRS matrix are columns of `columns`; with a lower triangle that is its transpose, the upper one.
 Teuchos::RCP<const CrsMatrix> crs(const SparseMatrix& columns)
 {
   const auto n = static_cast<std::size_t>(columns.cols());
-  const auto map = Teuchos::rcp(new Map(n, 0, Teuchos::rcp(new Teuchos::SerialComm<int>), Tpetra::LocallyReplicated));
+  const auto map = local_map(n);
   Teuchos::ArrayRCP<std::size_t> offsets(static_cast<Teuchos::Ordinal>(n + 1));
   Teuchos::ArrayRCP<Local> indices(columns.nonZeros());
   Teuchos::ArrayRCP<Scalar> values(columns.nonZeros());
@@ -91,9 +96,10 @@ Teuchos::RCP<const CrsMatrix> crs(const SparseMatrix& columns)
   return matrix;
 }
 
+template <bool Tiled>
 Teuchos::RCP<Amesos2Solver> cholmod(const SparseMatrix& lower, int block)
 {
-  return Teuchos::rcp(new CholmodSolver<CrsMatrix, MultiVector>(crs(lower), block));
+  return Teuchos::rcp(new CholmodSolver<CrsMatrix, MultiVector>(crs(lower), block, Tiled));
 }
 
 Teuchos::RCP<Amesos2Solver> klu2(const SparseMatrix& lower, int)
@@ -105,7 +111,8 @@ Teuchos::RCP<Amesos2Solver> klu2(const SparseMatrix& lower, int)
 using Maker = Teuchos::RCP<Amesos2Solver> (*)(const SparseMatrix& lower, int block);
 const std::map<std::string, Maker>& makers()
 {
-  static const std::map<std::string, Maker> table{{"cholmod", cholmod}, {"klu2", klu2}};
+  static const std::map<std::string, Maker> table{
+      {"cholmod", cholmod<true>}, {"cholmod_plain", cholmod<false>}, {"klu2", klu2}};
   return table;
 }
 
@@ -113,15 +120,21 @@ const std::map<std::string, Maker>& makers()
 
 struct DirectSolver::Data {
   Teuchos::RCP<Amesos2Solver> solver;
-  std::unique_ptr<Cholesky> cholesky;  // in place of `solver`, where it is ours
-  int size = 0;
+  Teuchos::RCP<const Map> map;
+  std::optional<MultiVector> columns;  // at work, of the last count of right-hand sides
+
+  MultiVector& room_for(std::size_t count)
+  {
+    if (!columns || columns->getNumVectors() != count) columns.emplace(map, count, false);
+    return *columns;
+  }
 };
 
 DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower, int block) : data_(std::make_unique<Data>())
 {
   const auto maker = makers().find(name);
   if (maker == makers().end()) throw Error(ExitStatus::bad_input, "there is no factorization called \"" + name + "\"");
-  data_->size = static_cast<int>(lower.cols());
+  data_->map = local_map(static_cast<std::size_t>(lower.cols()));
   try {
     data_->solver = maker->second(lower, block);
     data_->solver->symbolicFactorization().numericFactorization();
@@ -134,10 +147,6 @@ DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower, i
     throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain cannot be factorized (" + std::string(error.what()) +
                                            "); look for cells without volume and for extreme material data");
   }
-  if (auto* ours = dynamic_cast<CholmodSolver<CrsMatrix, MultiVector>*>(data_->solver.get())) {
-    data_->cholesky = ours->release();
-    data_->solver = Teuchos::null;  // and with it the matrix
-  }
 }
 
 DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
@@ -146,18 +155,17 @@ DirectSolver::~DirectSolver() = default;
 
 void DirectSolver::solve(std::span<double* const> columns) const
 {
-  if (data_->cholesky) return data_->cholesky->solve(columns);
-  const auto map = Teuchos::rcp(
-      new Map(static_cast<std::size_t>(data_->size), 0, Teuchos::rcp(new Teuchos::SerialComm<int>), Tpetra::LocallyReplicated));
-  MultiVector right(map, columns.size()), left(map, columns.size());
-  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(columns[c], data_->size, right.getDataNonConst(c).begin());
-  data_->solver->solve(Teuchos::ptr(&left), Teuchos::ptr<const MultiVector>(&right));
-  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(left.getData(c).begin(), data_->size, columns[c]);
+  if (columns.empty()) return;
+  MultiVector& x = data_->room_for(columns.size());
+  const std::size_t size = x.getLocalLength();
+  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(columns[c], size, x.getDataNonConst(c).begin());
+  data_->solver->solve(Teuchos::ptr(&x), Teuchos::ptr<const MultiVector>(&x));
+  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(x.getData(c).begin(), size, columns[c]);
 }
 
 std::size_t DirectSolver::factor_bytes() const
 {
-  return data_->cholesky ? data_->cholesky->factor_bytes() : 0;
+  return data_->solver->getStatus().getNnzLU() * sizeof(double);
 }
 
 }  // namespace mortise::feti

@@ -40,7 +40,7 @@ TEST_P(Inverse, IsAGeneralisedInverse)
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Inverse,
-                         testing::Combine(testing::Values("cholmod", "klu2"),
+                         testing::Combine(testing::Values("cholmod", "cholmod_plain", "klu2"),
                                           testing::Values(std::array<double, 3>{1, 1, 1}, std::array<double, 3>{100, 1, 1},
                                                           std::array<double, 3>{50, 50, 1})));
 

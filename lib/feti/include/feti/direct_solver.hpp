@@ -12,15 +12,15 @@ namespace mortise::feti {
 /// A factorization of one symmetric positive definite matrix. Heavy: moves, does not copy. One thread at a time.
 class DirectSolver {
  public:
-  /// Factorizes the matrix with lower triangle `lower`, of nodes with `block` components each, by the solver called `name`, one
-  /// of direct_solvers(). Throws Error(bad_input) for another name, also if the matrix is not positive definite, and
+  /// Factorizes the matrix with lower triangle `lower`, of nodes with `block` components each, by the solver called `name`:
+  /// cholmod, cholmod_plain or klu2. Throws Error(bad_input) for another name, also if the matrix is not positive definite, and
   /// Error(machine) if memory runs out.
   DirectSolver(const std::string& name, const SparseMatrix& lower, int block = 1);
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
   ~DirectSolver();
 
-  /// columns[c] <- A^-1 columns[c], each of the size of the matrix.
+  /// columns[c] <- A^-1 columns[c], each of the size of the matrix, by Amesos2::Solver::solve().
   void solve(std::span<double* const> columns) const;
   /// Bytes of the factor; 0 if the solver does not tell.
   std::size_t factor_bytes() const;
