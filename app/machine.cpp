@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 
 extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
                        const double*, const int*, const double*, double*, const int*);
@@ -27,8 +28,7 @@ constexpr int blas_patience = 500000;  // microseconds of CPU, for what takes so
 // Bytes that MPI and a run of a few cells take. Libraries that find no room end in ways of their own, so it is asked for first.
 constexpr std::size_t first_steps = 64'000'000;
 
-volatile std::sig_atomic_t told = 0;  // the signal, or 0
-pid_t owner = 0;                      // children inherit handlers, but have their own ways to end
+pid_t owner = 0;  // children inherit handlers, but have their own ways to end
 
 // In a signal handler.
 [[noreturn]] void end_with(const char* text)
@@ -46,8 +46,8 @@ void end_by_default(int signal_number)
 void note(int signal_number)
 {
   if (getpid() != owner) return end_by_default(signal_number);
-  if (told != 0) end_with("mortise: ended by a signal; results of the run are not complete.\n");
-  told = signal_number;
+  if (told_to_end() != 0) end_with("mortise: ended by a signal; results of the run are not complete.\n");
+  tell_to_end(signal_number);
   alarm(grace);
 }
 
@@ -153,15 +153,6 @@ void expect_mpi()
 void note_mpi_started()
 {
   mpi_started = true;
-}
-
-void end_if_told(const Communicator& comm)
-{
-  int first = told;
-  PMPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MAX, comm.mpi());  // not counted among what the method sends
-  if (first == 0) return;
-  alarm(0);
-  throw Error(ExitStatus::machine, fmt::format("The run was told to end (SIG{}) before it was solved.", sigabbrev_np(first)));
 }
 
 void reserve_memory()

@@ -1,8 +1,6 @@
 // What a process asks of the machine before it begins, and what it does when the machine wants it to end.
 #pragma once
 
-#include "base/communicator.hpp"
-
 namespace mortise {
 
 /// Gives standard input, output and error a place if they are closed: a file of results that got one of their numbers would take
@@ -21,9 +19,6 @@ void catch_faults();
 /// If MPI ends the process between the first and the second of these, the exit status is "machine", whatever MPI's.
 void expect_mpi();
 void note_mpi_started();
-
-/// Throws Error(machine) on all ranks if any of them has been told to end. One number is summed: cheap, but not free. Collective.
-void end_if_told(const Communicator& comm);
 
 /// Has BLAS take its work space now, since OpenBLAS tries for ever if it finds no room for it, and sees whether there is room for
 /// MPI and the first steps. Ends with the exit status "machine" if there is none.

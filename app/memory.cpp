@@ -85,7 +85,8 @@ void require(const Memory& memory, const Deck& deck, const partition::Decomposit
                   "{:.1f} GB more than there is; what helps: smaller subdomains (decomposition.unknowns_per_subdomain, now about "
                   "{:.0f}, needs less the smaller it is down to 1000){}, more machines, a coarser mesh",
                   memory.total / 1e9, memory.factors / 1e9, memory.excess / 1e9, average,
-                  deck.solver.subdomains.preconditioner == "dirichlet" ? ", solver.preconditioner: lumped" : ""));
+                  deck.solver.subdomains.preconditioner == "dirichlet" ? ", solver.preconditioner: lumped" : ""),
+      Error::Cause::memory);
 }
 
 }  // namespace mortise

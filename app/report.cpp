@@ -131,6 +131,8 @@ void recover_stress(const Deck& deck, const partition::Decomposition& decomposit
     results.mesh_error = {estimate.discretization, post::largest_of_ranks(recovered.error.cells, comm), recovered.error.part};
     comm.sum_in_place(results.mesh_error.part);
     for (auto& part : results.mesh_error.part) part /= std::max(recovered.squared_error, 1e-300);
+  } else {
+    estimate.discretization = 0;  // a state at rest is exact
   }
   peak = over_ranks(peak, comm);
   results.summary.max_von_mises = peak.value;

@@ -4,17 +4,18 @@
 
 #include <cmath>
 #include <map>
+#include <new>
 #include <optional>
 #include <utility>
 
 #include "auto_contacts.hpp"
+#include "base/interruption.hpp"
 #include "base/traffic.hpp"
 #include "effort.hpp"
 #include "initial_gaps.hpp"
 #include "io/files.hpp"
 #include "io/output_directory.hpp"
 #include "listing.hpp"
-#include "machine.hpp"
 #include "memory.hpp"
 #include "partition/decompose.hpp"
 #include "partition/whole_bodies.hpp"
@@ -231,10 +232,11 @@ void copy_sizes(const io::Summary& from, io::Summary& to)
 enum class Attempt { first, direct, last };
 constexpr int products_to_show_it = 40;  // that a direct solution is one
 
-// What a direct solution may fall on where products with F do not: rounding.
+// What a direct solution may fall on where products with F do not: rounding, memory.
 bool may_be_tried_again(const Error& error)
 {
-  return error.status() == ExitStatus::bad_input || error.status() == ExitStatus::not_converged;
+  return error.status() == ExitStatus::bad_input || error.status() == ExitStatus::not_converged ||
+         error.cause() == Error::Cause::memory;
 }
 
 // A run on its way: what all attempts share.
@@ -341,6 +343,9 @@ std::optional<ExitStatus> carry_out(Way& way, const partition::Decomposition& de
         if (way.attempt == Attempt::first) way.sizes = sizes(decomposition, simulation.problem(), comm);
         return {};
       }
+    } catch (const std::bad_alloc&) {
+      way.spent = simulation.multiplications();
+      throw;
     } catch (const Error& error) {
       log.end_progress();
       way.spent = simulation.multiplications();
@@ -408,15 +413,20 @@ ExitStatus run(const Deck& given, deck::Document& document, const CommandLine& c
   way.before_all = before_all;
   if (const auto status = carry_out(way, decomposition)) return *status;
   log.line("  {} products with F, and no end near: a direct solution, with every body whole, costs as much", way.spent);
-  const auto whole = partition::whole_bodies(decomposition, comm);
   way.attempt = Attempt::direct;
   way.deck.solver.programme.algorithm = "direct";
+  const char* why = "does not settle, or rounding spoils it";
   try {
-    if (const auto status = carry_out(way, whole)) return *status;
+    if (const auto status = carry_out(way, partition::whole_bodies(decomposition, comm))) return *status;
   } catch (const Error& error) {
     if (!may_be_tried_again(error)) throw;
+    if (error.cause() == Error::Cause::memory) why = "finds no room in memory";
+  } catch (const std::bad_alloc&) {
+    if (comm.size() > 1) throw;  // the other ranks know nothing of it
+    why = "finds no room in memory";
   }
-  log.line("  the direct solution does not settle, or rounding spoils it: back to products with F");
+  log.end_progress();
+  log.line("  the direct solution {}: back to products with F", why);
   way.attempt = Attempt::last;
   way.deck.solver.programme.algorithm = "face_newton";
   return carry_out(way, decomposition).value();

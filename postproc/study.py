@@ -17,9 +17,10 @@ Mortise's runs, else to the finest of them; the table says which. --pressure giv
 the integral of the run's own pressure; its error is taken in the L2 norm over the secondary surface.
 
 Writes study.csv, study.md, error_over_cpu.png and error_over_unknowns.png. CPU seconds are user and system time of the whole run, start,
-reading and writing included; not the meshing by gmsh where the command gmsh is installed, since a geometry is then meshed once for all runs.
---calculix adds CalculiX on the same meshes. Exit status: 0 also where some runs failed (the table says how); 1 bad input; 2 no run
-succeeded; 4 a file is not writable.
+reading and writing included; not the meshing by the command gmsh, which meshes a geometry once for all runs where it is installed. A .geo is
+a script, which gmsh would let start programs and write files: unless you trust it and say --allow-scripts, each run of Mortise meshes it,
+where it cannot. --calculix adds CalculiX on the same meshes; of a .geo it needs --allow-scripts. Exit status: 0 also where some runs failed
+(the table says how); 1 bad input; 2 no run succeeded; 4 a file is not writable.
 """
 
 import json
@@ -74,8 +75,9 @@ class Study:
 
     @property
     def premesh(self):
-        """A geometry is meshed once where gmsh is there; cells of a .msh are split by it; CalculiX needs a file."""
-        if self.blocks:
+        """A geometry is meshed once where gmsh is there; cells of a .msh are split by it; CalculiX needs a file. The command lets a .geo
+        do what it likes."""
+        if self.blocks or not self.ladder.for_gmsh or self.ladder.is_script and not self.arguments.allow_scripts:
             return False
         splits = self.ladder.split and self.arguments.refine > 0
         return splits or self.arguments.calculix or self.ladder.file.suffix != ".msh" and have_gmsh()
@@ -153,6 +155,8 @@ class Study:
         with tempfile.TemporaryDirectory(dir=self.scratch) as name:
             directory = pathlib.Path(name)
             command = [self.arguments.mortise, str(self.arguments.deck), "--output", str(directory / "out")]
+            if self.arguments.allow_scripts:
+                command.append("--allow-scripts")
             for setting in [*self.arguments.set, *self.mesh_settings(step, element), f"solver.tolerance={tolerance}"]:
                 command += ["--set", setting]
             if self.arguments.ranks > 1:
@@ -258,6 +262,11 @@ def without_calculix(study):
         return "CalculiX is left out: the command ccx is missing (apt-get install calculix-ccx)"
     if study.blocks:
         return "CalculiX is left out: a deck of blocks has no mesh file to give it; mesh a .geo instead"
+    if not study.ladder.for_gmsh:
+        return f"CalculiX is left out: gmsh makes no mesh file for it of {study.ladder.file.name}; expected a .geo, .msh, .step or .brep"
+    if study.ladder.is_script and not study.arguments.allow_scripts:
+        name = study.ladder.file.name
+        return f"CalculiX is left out: gmsh would make its mesh file, and lets {name} start programs; if you trust it, --allow-scripts"
     try:
         import meshio  # noqa: F401
     except ImportError:

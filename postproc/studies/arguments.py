@@ -74,6 +74,9 @@ def parse(words, description):
     )
     parser.add_argument("--time-limit", type=at_least(1, float), default=900.0, metavar="SECONDS", help="of one run; default 900")
     parser.add_argument("--repeat", type=at_least(1), default=1, metavar="N", help="runs of each, of which the cheapest counts")
+    parser.add_argument(
+        "--allow-scripts", action="store_true", help="a .geo may start programs and write files, and the command gmsh may mesh it: only for those you trust"
+    )
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--output", type=pathlib.Path, metavar="DIR", help="default: <deck name>.study.out beside the deck")
     arguments = parser.parse_args(words)

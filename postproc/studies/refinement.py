@@ -147,7 +147,21 @@ class Ladder:
         else:
             self.split, self.factor = True, 2.0
             if arguments.refine:
+                if not self.for_gmsh:
+                    raise BadInput(f"{self.file.name} cannot be refined: expected a .geo, .msh, .step or .brep; --refine 0 takes the mesh as it is")
                 need_gmsh(f"to refine {self.file.name}")
+
+    @property
+    def is_script(self):
+        return "blocks" not in self.mesh and self.file.suffix.lower() == ".geo"
+
+    @property
+    def for_gmsh(self):
+        """Whether the command gmsh takes the file for what its ending says. What it knows by neither ending nor head it runs as a script."""
+        if self.file.suffix == ".msh":
+            with open(self.file, "rb") as stream:
+                return stream.read(11).startswith((b"$MeshFormat", b"$Comments", b"$NOD"))
+        return self.file.suffix in (".geo", ".step", ".stp", ".brep")
 
     def says(self):
         """One line: how the mesh is refined."""

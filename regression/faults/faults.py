@@ -20,7 +20,7 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-SHORT, SLOW = HERE / "short.yaml", HERE / "slow.yaml"
+SHORT, SLOW, PLATES = HERE / "short.yaml", HERE / "slow.yaml", HERE / "plates.yaml"
 LIMIT = 120
 MACHINE = 4
 
@@ -107,6 +107,11 @@ def summary(directory):
     return json.loads(path.read_text()) if path.exists() else None
 
 
+def identity(path):
+    """Of a file, as long as nobody writes it anew; None if there is none."""
+    return (found.st_ino, found.st_mtime_ns) if path.exists() and (found := path.stat()) else None
+
+
 def claims_success(directory):
     found = summary(directory)
     return found is not None and (found["converged"] is not False or found["exit_status"] == 0)
@@ -188,6 +193,48 @@ def interrupted(options, scratch):
     expect(run.wait() == MACHINE and time.monotonic() - start < 60 and summary(run.directory) is None, f"early: {run.said}")
 
 
+def interrupted_direct(options, scratch):
+    """Told to end within the dense algebra of a direct solution, which takes half a minute: heard between two pieces of it."""
+    cells = ["mesh.blocks.lower.cells=[46, 46, 1]", "mesh.blocks.upper.cells=[45, 45, 1]", "solver.algorithm=direct"]
+    for ranks in (1, 2):
+        words = scratch / f"words {ranks}"
+        with open(words, "wb") as sink:
+            run = Run(options, PLATES, scratch / "out", ranks, [word for cell in cells for word in ("--set", cell)], stdout=sink)
+            end = time.monotonic() + LIMIT
+            while b"dual problem:" not in words.read_bytes() and time.monotonic() < end and run.process.poll() is None:
+                time.sleep(0.01)
+            time.sleep(2)
+            expect(run.process.poll() is None, f"{ranks} ranks: too late for the test: {words.read_text()}")
+            os.kill(min(run.rank_pids()), signal.SIGTERM)  # rank 0, which has the matrices
+            start = time.monotonic()
+            status = run.wait()
+        taken = time.monotonic() - start
+        print(f"{ranks} ranks: heard after {taken:.1f} s", flush=True)
+        expect(status == MACHINE and "told to end (SIGTERM)" in run.said, f"{ranks} ranks, after {taken:.1f} s: exit status {status}\n{run.said}")
+        expect(not (scratch / "out/mortise.lock").exists() and summary(scratch / "out") is None, f"{ranks} ranks: leaves a lock or a summary")
+
+
+def no_room_for_direct(options, scratch):
+    """A direct solution that `auto` tries and has no room for, on whichever rank: back to products, on all ranks."""
+    expected = None
+    for ranks, victim in ((1, None), (1, 0), (2, 0), (2, 1)):
+        who = f"{ranks} ranks" if victim is None else f"short of memory on rank {victim} of {ranks}"
+        environment = {} if victim is None else {"LD_PRELOAD": options.short_memory, "SHORT_MEMORY": "4000000", "SHORT_MEMORY_RANK": str(victim)}
+        run = Run(options, PLATES, scratch / who, ranks, environment=environment)
+        status, found = run.wait(), summary(scratch / who)
+        expect(status == 0 and found is not None, f"{who}: exit status {status}\n{run.said}")
+        if status != 0:
+            continue
+        expect(found["algorithm"] == ("direct" if victim is None else "face_newton"), f"{who}: {found['algorithm']}\n{run.said}")
+        expect(("finds no room in memory: back to products" in run.said) == (victim is not None), f"{who}: does not say it\n{run.said}")
+        expected = expected or found["strain_energy"]
+        expect(abs(found["strain_energy"] - expected) < 1e-2 * expected, f"{who}: energy {found['strain_energy']}, expected {expected}")
+        judge_files(scratch / who, who)
+    environment["SHORT_MEMORY_RANK"] = "0"
+    run = Run(options, PLATES, scratch / "asked for", 2, ["--set", "solver.algorithm=direct"], environment=environment)
+    judge_failure(run, run.wait(), "asked for", "memory")
+
+
 def kills(options, scratch):
     """A rank is killed or signalled at a random time, on 2 and 3 ranks: the others end, and nothing half is under a final name."""
     choose = random.Random(options.seed)
@@ -198,6 +245,7 @@ def kills(options, scratch):
         for ranks in (2, 3):
             number = choose.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGSEGV, signal.SIGINT, signal.SIGABRT])
             delay, who = choose.uniform(0, 1.2 * length), f"seed {options.seed}, time {i}: {number.name} on {ranks} ranks"
+            before = identity(scratch / "out" / "summary.json")
             run = Run(options, SLOW, scratch / "out", ranks, prepare=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
             time.sleep(delay)
             victims = run.rank_pids()
@@ -207,7 +255,10 @@ def kills(options, scratch):
             status = run.wait()
             print(f"{who} after {delay:.2f} s: exit status {status}", flush=True)
             expect(status is not None, f"{who} after {delay:.2f} s: hangs")
-            expect((status == 0) == claims_success(run.directory), f"{who} after {delay:.2f} s: exit status {status}, summary.json says else")
+            if before and identity(run.directory / "summary.json") == before:  # of the run before: this one had not begun
+                expect(status != 0 and "Mortise" not in run.said, f"{who} after {delay:.2f} s: leaves an earlier summary.json\n{run.said}")
+            else:
+                expect((status == 0) == claims_success(run.directory), f"{who} after {delay:.2f} s: exit status {status}, summary.json says else")
             if run.directory.exists():
                 judge_files(run.directory, who)
 
@@ -339,7 +390,7 @@ def few_subdomains(options, scratch):
     expect(abs(energies[0] - energies[1]) < 1e-6 * energies[0], f"energies {energies}")
 
 
-CASES = {case.__name__: case for case in (disk_full, unwritable, interrupted, kills, stale, own_files, two_runs, memory, output_closed, few_subdomains)}
+CASES = {case.__name__: case for case in (disk_full, unwritable, interrupted, interrupted_direct, no_room_for_direct, kills, stale, own_files, two_runs, memory, output_closed, few_subdomains)}
 
 
 def main():
@@ -348,6 +399,7 @@ def main():
     parser.add_argument("case", choices=CASES)
     parser.add_argument("--mpiexec", default="mpirun")
     parser.add_argument("--full-disk", default="", help="the library of full_disk.c")
+    parser.add_argument("--short-memory", default="", help="the library of short_memory.c")
     parser.add_argument("--times", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()

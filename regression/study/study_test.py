@@ -3,6 +3,7 @@
 
 import csv
 import math
+import os
 import pathlib
 import re
 import subprocess
@@ -19,8 +20,10 @@ MORTISE = sys.argv.pop(1) if len(sys.argv) > 1 else None
 ENERGY = 2**3 / (6 * 2000)
 
 
-def study(*words, deck=HERE / "column.yaml"):
-    return subprocess.run([sys.executable, str(ROOT / "postproc" / "study.py"), MORTISE, str(deck), *words], capture_output=True, text=True)
+def study(*words, deck=HERE / "column.yaml", path=None):
+    environment = dict(os.environ, PATH=f"{path}:{os.environ['PATH']}") if path else None
+    command = [sys.executable, str(ROOT / "postproc" / "study.py"), MORTISE, str(deck), *words]
+    return subprocess.run(command, capture_output=True, text=True, env=environment)
 
 
 def table(directory):
@@ -64,6 +67,79 @@ class Column(unittest.TestCase):
         self.assertIn("formulation", rows[2]["message"])
         self.assertIn("exit status 1: ", done.stdout)
         self.assertEqual(re.split("Written to|No plots:", done.stdout)[0].strip(), (self.output / "study.md").read_text().strip())
+
+
+PRESSED = """
+dimension: plane_strain
+mesh: {file: FILE}
+materials: {m: {young_modulus: 1000, poisson_ratio: 0}}
+bodies: {plate: {material: m}}
+supports: [{boundary: side, displacement: {x: 0, y: 0}}]
+loads: [{boundary: base, pressure: 1}]
+"""
+SQUARE = """
+DefineConstant[ h = 0.5 ];
+Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {1, 1, 0, h}; Point(4) = {0, 1, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Physical Surface("plate") = {1}; Physical Curve("side") = {3}; Physical Curve("base") = {1};
+"""
+
+
+class Scripts(unittest.TestCase):
+    """A command `gmsh` that leaves a trace and makes nothing stands first in the path."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/gmsh").write_text(f"#!/bin/sh\ntouch {self.folder}/gmsh_was_called\nexit 1\n")
+        (self.folder / "bin/gmsh").chmod(0o755)
+
+    def run_study(self, mesh, text, *words, path="bin"):
+        (self.folder / mesh).write_text(text)
+        (self.folder / "deck.yaml").write_text(PRESSED.replace("FILE", mesh))
+        done = study("--output", str(self.folder / "results"), *words, deck=self.folder / "deck.yaml", path=path and self.folder / path)
+        self.assertNotIn("Traceback", done.stderr)
+        return done
+
+    def made(self, name):
+        return (self.folder / name).exists()
+
+    def test_a_script_does_nothing_unless_it_is_trusted(self):
+        script = SQUARE + f'SystemCall "touch {self.folder}/script_has_run";'
+        done = self.run_study("square.geo", script, "--refine", "1")
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertIn("wants to start a program", done.stdout)
+        self.assertIn("--allow-scripts", done.stdout)
+        self.assertFalse(self.made("script_has_run") or self.made("gmsh_was_called"))
+        done = self.run_study("square.geo", script, "--refine", "1", "--allow-scripts")
+        self.assertTrue(self.made("gmsh_was_called"), done.stdout + done.stderr)
+        (self.folder / "bin/gmsh").unlink()
+        if refinement.have_gmsh():
+            self.skipTest("the command gmsh is installed: no run meshes the file itself")
+        done = self.run_study("square.geo", script, "--refine", "1", "--allow-scripts")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual([row["status"] for row in table(self.folder / "results")], ["0", "0"])
+        self.assertTrue(self.made("script_has_run"))
+
+    def test_a_harmless_one_is_meshed_by_the_runs(self):
+        done = self.run_study("square.geo", SQUARE, "--refine", "1", "--exact", "strain_energy=0.0005")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertFalse(self.made("gmsh_was_called"))
+        rows = table(self.folder / "results")
+        self.assertGreater(int(rows[1]["unknowns"]), int(rows[0]["unknowns"]))
+        self.assertLess(float(rows[1]["error of strain_energy"]), 1e-6)
+
+    def test_scripts_in_disguise(self):
+        for mesh in ("square.msh", "square.inp", "square.STEP"):
+            done = self.run_study(mesh, SQUARE, "--refine", "1")
+            self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+            self.assertIn(f"{mesh} cannot be refined", done.stderr)
+            done = self.run_study(mesh, SQUARE, "--refine", "0")
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertFalse(self.made("gmsh_was_called"), mesh)
 
 
 class BadInput(unittest.TestCase):

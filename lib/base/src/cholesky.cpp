@@ -43,7 +43,8 @@ struct Cholesky::Data {
   void check_memory() const
   {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
-      throw Error(ExitStatus::machine, "out of memory in a sparse factorization; use smaller subdomains or more memory");
+      throw Error(ExitStatus::machine, "out of memory in a sparse factorization; use smaller subdomains or more memory",
+                  Error::Cause::memory);
   }
 };
 

@@ -420,6 +420,18 @@ class Builder {
   std::vector<Term> terms_;             // of the place at work
 };
 
+[[noreturn]] void refuse_crossing(const Options& options, double crossing)
+{
+  const auto what =
+      options.obstacle
+          ? fmt::format("supports hold \"{}\" {:.3g} inside the {}; change the supports or the obstacle", options.secondary,
+                        crossing, shape_name(*options.obstacle))
+          : fmt::format(
+                "supports hold both sides, \"{}\" and \"{}\", and push them {:.3g} into each other; change one of the supports",
+                options.secondary, options.primary, crossing);
+  throw Error(ExitStatus::bad_input, fmt::format("contact \"{}\": {}", options.name, what));
+}
+
 }  // namespace
 
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
@@ -445,10 +457,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
     if (options.cyclic && options.law == Law::bonded)
       require_one_surface(pairs[c], sizes[c], builder.widest_gap(), builder.covered_area(), comm);
     if (const double crossing = comm.max(builder.crossing()); crossing > 1e-9 * sizes[c].reach)
-      throw Error(
-          ExitStatus::bad_input,
-          fmt::format("contact {}: supports hold both sides and push them {:.3g} into each other; change one of the supports",
-                      options.name, crossing));
+      refuse_crossing(options, crossing);
   };
   const auto is_bonded = [](const Pair& pair) { return pair.options.law == Law::bonded; };
   for (std::size_t c = 0; c < pairs.size(); ++c)

@@ -23,7 +23,7 @@ void require_one_surface(const Pair& pair, const PairSize& size, double gap, dou
   const double angle = pair.options.cyclic->angle;
   throw Error(
       ExitStatus::bad_input,
-      fmt::format("contact {}: turned by {:.6g} degrees, the primary boundary does not lie on the secondary one: they have "
+      fmt::format("contact \"{}\": turned by {:.6g} degrees, the primary boundary does not lie on the secondary one: they have "
                   "{:.0f} % of the larger one in common and are up to {:.3g} apart; try angle: {:.6g}, which turns the "
                   "other way, or mend axis, center or the names of the cuts",
                   pair.options.name, angle, 100 * part, widest, -angle));

@@ -142,7 +142,8 @@ DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower, i
     throw;
   } catch (const std::bad_alloc&) {
     throw Error(ExitStatus::machine,
-                "not enough memory for the factor of a subdomain; smaller ones need less (decomposition.unknowns_per_subdomain)");
+                "not enough memory for the factor of a subdomain; smaller ones need less (decomposition.unknowns_per_subdomain)",
+                Error::Cause::memory);
   } catch (const std::exception& error) {
     throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain cannot be factorized (" + std::string(error.what()) +
                                            "); look for cells without volume and for extreme material data");

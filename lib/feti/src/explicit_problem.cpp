@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 
 namespace mortise::feti {
 
@@ -16,6 +17,7 @@ Eigen::MatrixXd compliance(const JumpOperator::Block& block, const SubdomainOper
   const auto count = static_cast<Eigen::Index>(block.row.size());
   Eigen::MatrixXd result(count, count);
   for (Eigen::Index begin = 0; begin < count; begin += columns_at_once) {
+    end_if_told();
     const auto columns = std::min(columns_at_once, count - begin);
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(block.size, columns);
     std::vector<double*> column;
@@ -34,9 +36,14 @@ Eigen::MatrixXd compliance(const JumpOperator::Block& block, const SubdomainOper
   return result;
 }
 
-// To rank 0, in the order of ranks.
+// To rank 0, in the order of ranks. Whether all ranks have room for it is seen before any of them sends: one alone cannot stop.
 std::vector<double> on_root(std::vector<double> values, const Communicator& comm)
 {
+  const auto arriving = static_cast<std::size_t>(comm.sum(static_cast<long long>(values.size())));
+  collectively(comm, [&] {
+    std::vector<double> room;
+    room.reserve(values.size() + (comm.root() ? 3 * arriving : 0));  // as bytes, as numbers, and all of them
+  });
   std::vector<std::vector<double>> send(static_cast<std::size_t>(comm.size()));
   send[0] = std::move(values);
   std::vector<double> all;

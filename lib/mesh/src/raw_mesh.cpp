@@ -90,7 +90,8 @@ void check(const RawMesh& raw, const std::string& file)
   if (!sound) fail(file, "gmsh made a mesh of it that does not hold together; the file is likely damaged: write it anew");
   Point low = Point::Constant(HUGE_VAL), high = -low;
   for (const auto& x : raw.points) {
-    if (!x.allFinite()) fail(file, fmt::format("a node has the coordinates ({}, {}, {}) after mesh.scale", x[0], x[1], x[2]));
+    if (!x.allFinite())
+      fail(file, fmt::format("a node has the coordinates \"{} {} {}\" after mesh.scale; expected numbers", x[0], x[1], x[2]));
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }

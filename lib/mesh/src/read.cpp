@@ -97,7 +97,8 @@ Nodes read_nodes(const Options& options, int dimension)
   for (const std::size_t i : order) {
     nodes.local.emplace(tags[i], static_cast<Local>(nodes.points.size()));
     const Point x(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
-    if (!x.allFinite()) fail(options.file, fmt::format("node {} has the coordinates ({}, {}, {})", tags[i], x[0], x[1], x[2]));
+    if (!x.allFinite())
+      fail(options.file, fmt::format("node {} has the coordinates \"{} {} {}\"; expected numbers", tags[i], x[0], x[1], x[2]));
     nodes.points.push_back(options.scale * x);
   }
   if (dimension == 2) flatten(options.file, nodes.points);

@@ -49,15 +49,17 @@ CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, const FeasibleSet& set)
     if (!taken[static_cast<std::size_t>(i)]) others_.push_back(i);
   const MatrixXd between = a(others_, constrained_), g_free = g(Eigen::all, others_);
   free_ = factorize(a(others_, others_));
-  coupling_ = free_.solve(between);
-  motion_ = free_.solve(g_free.transpose());
+  coupling_ = qp::solve(free_, between);
+  motion_ = qp::solve(free_, g_free.transpose());
   matrices_.w = a(constrained_, constrained_);
-  matrices_.w.noalias() -= between.transpose() * coupling_;
+  in_pieces(matrices_.w.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    matrices_.w.middleCols(first, count).noalias() -= between.transpose() * coupling_.middleCols(first, count);
+  });
   matrices_.w = 0.5 * (matrices_.w + matrices_.w.transpose()).eval();
   matrices_.h = g(Eigen::all, constrained_) - g_free * coupling_;
   matrices_.c = g_free * motion_;
   contact_ = factorize(matrices_.w);
-  matrices_.own = contact_.solve(MatrixXd::Identity(matrices_.w.rows(), matrices_.w.rows())).diagonal().cwiseInverse();
+  matrices_.own = qp::solve(contact_, MatrixXd::Identity(matrices_.w.rows(), matrices_.w.rows())).diagonal().cwiseInverse();
 }
 
 VectorXd CondensedNewton::inverse_times(const VectorXd& r) const
@@ -75,6 +77,7 @@ bool CondensedNewton::settle(const CondensedProgramme& programme, ConstraintStat
   std::vector<int> turns(states.kind.size(), 0);
   double before = 0;
   for (int step = 0; step < max_steps; ++step) {
+    end_if_told();
     programme.solve(states, point.x, point.nu);
     ++point.steps;
     const double residual = programme.residual(point.x, point.nu), size = programme.size(point.x);

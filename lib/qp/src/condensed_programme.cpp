@@ -23,6 +23,29 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
+// Eigen's factors, computed in pieces: the factor of a block on the diagonal, the rows below it, what these take from the rest.
+class InPieces : public Eigen::LLT<MatrixXd> {
+ public:
+  explicit InPieces(MatrixXd a)
+  {
+    m_matrix = std::move(a);
+    m_info = Eigen::Success;
+    m_l1_norm = 0;  // rcond() is not asked for
+    m_isInitialized = true;
+    in_pieces(m_matrix.cols(), [&](Index first, Index count) {
+      if (m_info != Eigen::Success) return;
+      auto block = m_matrix.block(first, first, count, count);
+      const Eigen::LLT<Eigen::Ref<MatrixXd>> inner(block);
+      m_info = inner.info();
+      const Index rest = m_matrix.rows() - first - count;
+      if (m_info != Eigen::Success || rest == 0) return;
+      auto below = m_matrix.block(first + count, first, rest, count);
+      block.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+      m_matrix.bottomRightCorner(rest, rest).selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
+    });
+  }
+};
+
 }  // namespace
 
 Eigen::LLT<MatrixXd> factorize(const MatrixXd& a)
@@ -30,11 +53,17 @@ Eigen::LLT<MatrixXd> factorize(const MatrixXd& a)
   for (double part = definite; part < indefinite; part *= 1e2) {
     MatrixXd shifted = a;
     shifted.diagonal() *= 1 + part;
-    Eigen::LLT<MatrixXd> factor(shifted);
+    InPieces factor(std::move(shifted));
     if (factor.info() == Eigen::Success) return factor;
   }
   throw Error(ExitStatus::not_converged,
               "the compliance of the contacts is not positive definite to rounding: their rows depend on each other");
+}
+
+MatrixXd solve(const Eigen::LLT<MatrixXd>& factor, MatrixXd b)
+{
+  in_pieces(b.cols(), [&](Index first, Index count) { factor.solveInPlace(b.middleCols(first, count)); });
+  return b;
 }
 
 // One unknown of a linear problem: x moves along `trial`, what is felt is asked along `test`.

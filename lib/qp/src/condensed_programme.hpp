@@ -2,15 +2,31 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <vector>
 
+#include "base/interruption.hpp"
 #include "qp/condensed_newton.hpp"
 
 namespace mortise::qp {
 
 /// Cholesky factors, with as little added to the diagonal as rounding or dependent rows make necessary. Throws
-/// Error(not_converged) if that is not enough.
+/// Error(not_converged) if that is not enough, and as end_if_told: some thousand rows take a while.
 Eigen::LLT<Eigen::MatrixXd> factorize(const Eigen::MatrixXd& a);
+
+/// Has `work` take columns first to first + count of so many; between two pieces throws as end_if_told.
+template <class Work>
+void in_pieces(Eigen::Index columns, const Work& work)
+{
+  constexpr Eigen::Index piece = 256;
+  for (Eigen::Index first = 0; first < columns; first += piece) {
+    end_if_told();
+    work(first, std::min(piece, columns - first));
+  }
+}
+
+/// x = A^-1 b, in pieces.
+Eigen::MatrixXd solve(const Eigen::LLT<Eigen::MatrixXd>& factor, Eigen::MatrixXd b);
 
 /// What each constraint is taken for in one linear problem.
 struct ConstraintStates {

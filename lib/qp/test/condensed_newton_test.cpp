@@ -6,10 +6,12 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <csignal>
 #include <numbers>
 #include <random>
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 
 namespace mortise::qp {
 namespace {
@@ -497,6 +499,48 @@ TEST(CondensedNewton, ABeltOnADrum)
         EXPECT_TRUE(partly.settled) << "angle " << angle << ", coefficient " << coefficient << ", compliance " << compliance;
         EXPECT_LT(violation(less, partly), 1e-9);
       }
+}
+
+// Some hundred rows: no piece is the whole of it.
+TEST(CondensedNewton, MatricesOfSeveralPieces)
+{
+  auto p = random_programme(5, 150, 2, 330, 4);
+  const CondensedNewton newton(p.a, p.g, p.set);
+  const auto point = newton.solve(p.b, p.e, p.set);
+  EXPECT_TRUE(point.settled);
+  EXPECT_LT(violation(p, point), 1e-9);
+  const VectorXd r = Random(6).matrix(p.a.rows(), 1);
+  EXPECT_LT((p.a * newton.inverse_times(r) - r).norm(), 1e-9 * r.norm());
+  for (const Index at : {p.a.rows() - 1, p.a.rows() / 2}) {  // of the second part without a constraint, and of contact
+    auto indefinite = p.a;
+    indefinite(at, at) = -1;
+    try {
+      const CondensedNewton factorized(indefinite, p.g, p.set);
+      ADD_FAILURE() << at;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::not_converged) << error.what();
+    }
+  }
+}
+
+TEST(CondensedNewton, EndsIfItIsToldTo)
+{
+  const auto p = random_programme(5, 20, 2, 20, 4);
+  const CondensedNewton newton(p.a, p.g, p.set);
+  const auto status = [](const auto& work) {
+    tell_to_end(SIGTERM);
+    auto found = ExitStatus::solved;
+    try {
+      work();
+    } catch (const Error& error) {
+      found = error.status();
+    }
+    tell_to_end(0);
+    return found;
+  };
+  EXPECT_EQ(status([&] { newton.solve(p.b, p.e, p.set); }), ExitStatus::machine);
+  EXPECT_EQ(status([&] { CondensedNewton(p.a, p.g, p.set); }), ExitStatus::machine);
+  EXPECT_TRUE(newton.solve(p.b, p.e, p.set).settled);
 }
 
 }  // namespace

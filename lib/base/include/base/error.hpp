@@ -21,11 +21,17 @@ enum class ExitStatus {
 /// An error with a message that tells the user what to mend.
 class Error : public std::runtime_error {
  public:
-  Error(ExitStatus status, const std::string& message) : std::runtime_error(message), status_(status) {}
+  enum class Cause { other, memory };  // memory: there was not enough, and what takes less may still do
+  Error(ExitStatus status, const std::string& message, Cause cause = Cause::other)
+      : std::runtime_error(message), status_(status), cause_(cause)
+  {
+  }
   ExitStatus status() const { return status_; }
+  Cause cause() const { return cause_; }
 
  private:
   ExitStatus status_;
+  Cause cause_;
 };
 
 /// Runs `work` on this rank and throws the same Error on every rank if it threw on any, that of the lowest such rank.

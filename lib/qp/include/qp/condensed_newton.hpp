@@ -32,7 +32,8 @@ struct CondensedMatrices {
 class CondensedNewton {
  public:
   /// A: symmetric, positive definite. `g`: G, dense, rows x unknowns. `set`: over all unknowns; later ones may differ from it in
-  /// radii and bounds. Throws Error(not_converged) if A is not definite.
+  /// radii and bounds. Throws Error(not_converged) if A is not definite, and, as solve() does, Error(machine) if the process is
+  /// told to end.
   CondensedNewton(Eigen::MatrixXd a, Eigen::MatrixXd g, const FeasibleSet& set);
 
   struct Point {

@@ -1,0 +1,48 @@
+#include "base/interruption.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstring>
+
+#include "base/error.hpp"
+
+namespace mortise {
+
+namespace {
+
+volatile std::sig_atomic_t told = 0;
+
+[[noreturn]] void end(int signal_number)
+{
+  alarm(0);
+  throw Error(ExitStatus::machine,
+              fmt::format("The run was told to end (SIG{}) before it was solved.", sigabbrev_np(signal_number)));
+}
+
+}  // namespace
+
+void tell_to_end(int signal_number)
+{
+  told = signal_number;
+}
+
+int told_to_end()
+{
+  return told;
+}
+
+void end_if_told()
+{
+  if (told != 0) end(told);
+}
+
+void end_if_told(const Communicator& comm)
+{
+  int first = told;
+  PMPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MAX, comm.mpi());  // not counted among what the method sends
+  if (first != 0) end(first);
+}
+
+}  // namespace mortise

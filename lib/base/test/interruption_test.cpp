@@ -1,0 +1,73 @@
+#include "base/interruption.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "base/error.hpp"
+
+namespace mortise {
+namespace {
+
+std::string said(const std::function<void()>& work)
+{
+  try {
+    work();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::machine);
+    EXPECT_EQ(error.cause(), Error::Cause::other);
+    return error.what();
+  }
+  return "";
+}
+
+// Told on the last rank alone: the others learn it where they meet, and it takes its alarm back.
+TEST(Interruption, EndsAllRanksWhereTheyMeet)
+{
+  const Communicator comm;
+  EXPECT_EQ(said([&] { end_if_told(comm); }), "");
+  const bool last = comm.rank() == comm.size() - 1;
+  const auto work = [&](const std::function<void()>& look) {
+    if (last) {
+      tell_to_end(SIGTERM);
+      alarm(60);
+    }
+    const auto text = said(look);
+    EXPECT_NE(text.find("told to end (SIGTERM)"), std::string::npos) << text;
+    if (last) {
+      EXPECT_EQ(told_to_end(), SIGTERM);
+      EXPECT_EQ(alarm(0), 0U);
+    }
+    tell_to_end(0);
+  };
+  work([&] { end_if_told(comm); });
+  work([&] { collectively(comm, [] { end_if_told(); }); });
+  EXPECT_EQ(said([] { end_if_told(); }), "");
+}
+
+// What a lack of memory on one rank is, it is on all.
+TEST(Error, KeepsItsCauseOnAllRanks)
+{
+  const Communicator comm;
+  const bool last = comm.rank() == comm.size() - 1;
+  const auto cause = [&](const std::function<void()>& work) {
+    try {
+      collectively(comm, [&] {
+        if (last) work();
+      });
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::machine);
+      return error.cause();
+    }
+    ADD_FAILURE();
+    return Error::Cause::other;
+  };
+  EXPECT_EQ(cause([] { throw std::bad_alloc(); }), Error::Cause::memory);
+  EXPECT_EQ(cause([] { throw Error(ExitStatus::machine, "no room for it", Error::Cause::memory); }), Error::Cause::memory);
+  EXPECT_EQ(cause([] { throw Error(ExitStatus::machine, "the disk is full"); }), Error::Cause::other);
+  EXPECT_EQ(cause([] { throw std::runtime_error("what else"); }), Error::Cause::other);
+}
+
+}  // namespace
+}  // namespace mortise
