@@ -16,12 +16,12 @@ constexpr double row_in_planes = 2;
 
 }  // namespace
 
-bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Vector& change)
+bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change)
 {
   const auto& comm = problem.communicator();
   const auto& points = problem.constraints().contacts.points;
   const auto& bonded = problem.constraints().contacts.bonded;
-  const auto value = view(x), differs = view(change);
+  const auto value = view(x), differs = view(change), firmly = view(argument);
   int contacts = 0;
   for (const auto& point : points) contacts = std::max(contacts, point.contact + 1);
   contacts = static_cast<int>(comm.max(static_cast<long long>(contacts)));
@@ -33,7 +33,7 @@ bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Ve
     const auto c = static_cast<std::size_t>(points[i].contact);
     const double force = value[rows.normal], off = differs[rows.normal];
     pressed[c] += force > 0;
-    undecided[c] += off != 0 && force < std::abs(off);
+    undecided[c] += off != 0 && std::abs(firmly[rows.normal]) <= std::abs(off);
     if (points[i].cover < narrow || !(points[i].area > 0)) continue;
     const double part = problem.jump().scale()[rows.normal] / points[i].area;
     double square = off * off;
