@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 namespace mortise {
 
 void add_open_ends(const friction::Result& solved, const Deck& deck, io::StateSummary& summary)
@@ -18,24 +20,36 @@ void add_open_ends(const friction::Result& solved, const Deck& deck, io::StateSu
                              s.of});
 }
 
+namespace {
+
+std::string count(long long n, const char* what)
+{
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+}  // namespace
+
 void print_open_ends(const io::StateSummary& summary, Log& log)
 {
   for (const auto& c : summary.contacts) {
     if (!c.undecided) continue;
     const auto& [rim, edge] = *c.undecided;
     if (rim.points > 0)
-      log.line("  contact {}: rim known to {} cells; {} points may be open or closed", c.name, rim.cells, rim.points);
+      log.line("  contact {}: rim known to {}; {} may be open or closed", c.name, count(rim.cells, "cell"),
+               count(rim.points, "point"));
     if (edge.points > 0)
-      log.line("  contact {}: edge of stick known to {} cells; {} points may stick or slip", c.name, edge.cells, edge.points);
+      log.line("  contact {}: edge of stick known to {}; {} may stick or slip", c.name, count(edge.cells, "cell"),
+               count(edge.points, "point"));
   }
   for (const auto& s : summary.stuck) {
     const auto place = fmt::format("({:.5g}, {:.5g}, {:.5g})", s.place[0], s.place[1], s.place[2]);
-    if (s.states == "at rest")
-      log.line("  stuck: contact {}: no point changes its state any more, forces of {} points are not at rest; most at {}",
-               s.contact, s.points, place);
-    else
-      log.line("  stuck: contact {}: {} points {} {}; most at {}, {} times in {} steps", s.contact, s.points,
-               s.turns > 1 ? "take turns between" : "still change between", s.states, place, s.turns, s.steps);
+    std::string what = "forces that are still to change";
+    if (s.states != "at rest")
+      what = fmt::format("{} between {} (there {} in {})", s.turns > 1 ? "turns" : "changes", s.states, count(s.turns, "time"),
+                         count(s.steps, "step"));
+    else if (s.steps > 0)
+      what += fmt::format(", though none changed its state in {}", count(s.steps, "step"));
+    log.line("  stuck: contact {}: {}, the worst at {}: {}", s.contact, count(s.points, "point"), place, what);
   }
 }
 

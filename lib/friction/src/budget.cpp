@@ -8,7 +8,7 @@ namespace mortise::friction {
 
 namespace {
 
-constexpr double less = 0.9;  // of the best so far counts as better
+constexpr double less = 0.7;  // times the best so far is better
 
 bool improve(double value, double& best)
 {

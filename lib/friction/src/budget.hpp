@@ -9,12 +9,13 @@
 
 namespace mortise::friction {
 
-/// A number that is given, for all solves together; else each solve goes on as long as something becomes better: the residual,
-/// the bound of the error in the energy norm, how many points change their state in a step, or by how much slip bounds change. It
-/// sets the limit of the Hessian that it watches.
+/// A number that is given, for all solves together; else each solve goes on as long as something becomes better by 30 %: the
+/// residual, the bound of the error in the energy norm, by how much slip bounds change; or fewer points change their state in a
+/// step than ever. It sets the limit of the Hessian that it watches. Of random decks that ended well by products alone the worst
+/// went 1,200 products without.
 class Budget {
  public:
-  static constexpr int stretch = 2000;  ///< products without anything better that end a solve
+  static constexpr int stretch = 2500;  ///< products without anything better that end a solve
   static constexpr int most = 10000;    ///< of one solve, whatever becomes better
 
   /// `given`: the number. `steady`: for an algorithm whose residual may rise for long, where nothing but `most` ends it.

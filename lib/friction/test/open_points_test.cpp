@@ -126,7 +126,7 @@ TEST(Budget, EndsWhereNothingBecomesBetter)
   products.take(1000);
   budget.note(at(1e-2), {}, 1);
   products.take(Budget::stretch - 1);
-  budget.note(at(0.95e-2), {}, 1);  // next to nothing
+  budget.note(at(0.6e-2), {}, 1);  // next to nothing
   EXPECT_FALSE(products.hessian.exhausted());
   products.take(1);
   EXPECT_TRUE(products.hessian.exhausted());
@@ -141,20 +141,20 @@ TEST(Budget, FewerChangesOrASmallerErrorAreBetter)
   Products products;
   Budget budget(products.hessian, {}, false);
   budget.note(at(1e-2), 20, 1);
-  products.take(1500);
+  products.take(Budget::stretch * 3 / 4);
   budget.note(at(1), 19, 1);
-  products.take(1500);
+  products.take(Budget::stretch * 3 / 4);
   EXPECT_FALSE(products.hessian.exhausted());
   auto progress = at(1);
   progress.error = 0.1;
   budget.note(progress, 19, 1);
-  products.take(1500);
+  products.take(Budget::stretch * 3 / 4);
   EXPECT_FALSE(products.hessian.exhausted());
-  budget.note(at(1), 19, 0.5);
-  products.take(1500);
+  budget.note(at(1), 19, 0.4);
+  products.take(Budget::stretch * 3 / 4);
   EXPECT_FALSE(products.hessian.exhausted());
-  budget.note(at(1), 19, 0.5);
-  products.take(500);
+  budget.note(at(1), 19, 0.4);
+  products.take(Budget::stretch / 4);
   EXPECT_TRUE(products.hessian.exhausted());
 }
 
@@ -166,7 +166,7 @@ TEST(Budget, NeverGoesBeyondItsEndWhateverBecomesBetter)
   for (int i = 0; i < Budget::most / 1000; ++i) {
     EXPECT_FALSE(products.hessian.exhausted());
     products.take(1000);
-    budget.note(at(residual *= 0.5), {}, 1);
+    budget.note(at(residual *= 0.4), {}, 1);
   }
   EXPECT_TRUE(products.hessian.exhausted());
   EXPECT_FALSE(budget.left());

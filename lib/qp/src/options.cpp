@@ -20,7 +20,7 @@ void describe(deck::Description<Options>& d)
       .below(1);
   d.key("max_multiplications", &Options::max_multiplications,
         "Products with the dual operator in the whole run. auto: each load step goes on until nothing has become better over "
-        "2,000 products (smalse: to its end), up to 10,000.")
+        "2,500 products, to 10,000 at most; smalse: to 10,000.")
       .at_least(1);
 }
 
