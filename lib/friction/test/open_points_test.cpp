@@ -126,7 +126,7 @@ TEST(Budget, EndsWhereNothingBecomesBetter)
   products.take(1000);
   budget.note(at(1e-2), {}, 1);
   products.take(Budget::stretch - 1);
-  budget.note(at(0.6e-2), {}, 1);  // next to nothing
+  budget.note(at(0.8e-2), {}, 1);  // next to nothing
   EXPECT_FALSE(products.hessian.exhausted());
   products.take(1);
   EXPECT_TRUE(products.hessian.exhausted());
