@@ -7,6 +7,7 @@
 
 #include "contact/cyclic.hpp"
 #include "fem/stress.hpp"
+#include "open_ends.hpp"
 #include "post/drift.hpp"
 
 namespace mortise {
@@ -313,6 +314,7 @@ void print_contacts(const io::StateSummary& s, Log& log)
   }
   for (const auto& c : s.contacts)
     if (c.preload) log.line("  preload {}: force {:.6g}, shortened by {:.6g}", c.name, c.preload->force, c.preload->shortening);
+  print_open_ends(s, log);
 }
 
 }  // namespace
@@ -369,6 +371,7 @@ Results evaluate(const Deck& deck, const partition::Decomposition& decomposition
     const auto contact = static_cast<std::size_t>(cut.preload.contact);
     results.summary.contacts[contact].preload = {cut.normal.dot(results.resultants[contact].force), shortenings[i]};
   }
+  add_open_ends(solved, deck, results.summary);
   double size = std::max({results.applied.norm(), results.reaction.norm(), results.rounding_of_force, 1e-300});
   for (const auto& r : results.resultants) size = std::max(size, r.force.norm());
   for (const auto& r : results.summary.reactions) size = std::max(size, std::hypot(r.force[0], r.force[1], r.force[2]));

@@ -233,7 +233,7 @@ void Simulation::build_problem()
                                                  contact::slides(pairs_, constraints_.contacts, deck_.kinematics, comm));
   log.line("  dual problem: {} multipliers, {} kernel dimensions", problem_->dual_unknowns(), problem_->kernel_dimension());
   auto options = deck_.solver.programme;
-  options.max_multiplications -= multiplications_;
+  if (auto& most = options.max_multiplications.value) *most -= multiplications_;
   multiplications_before_ = multiplications_;
   solver_ = std::make_unique<friction::Solver>(*problem_, model_.friction_laws(), deck_.friction_loop, options, patience_);
 }

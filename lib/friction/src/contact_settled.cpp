@@ -9,7 +9,6 @@ namespace mortise::friction {
 namespace {
 
 constexpr double known = 0.05;      // change of a pressure over the largest of the contact
-constexpr double faint = 1e-4;        // pressure over the largest of the contact, below which nothing is left to decide
 constexpr double idle = 1e-3;       // largest pressure of a contact over that of all, below which it only touches
 constexpr double narrow = 0.35;     // cover of points that have a force but no pressure of their own
 constexpr double row_in_space = 4;  // points around n that press: a little more than 2 sqrt(pi n) at a disc of them
@@ -17,12 +16,12 @@ constexpr double row_in_planes = 2;
 
 }  // namespace
 
-bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Vector& change)
+bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change)
 {
   const auto& comm = problem.communicator();
   const auto& points = problem.constraints().contacts.points;
   const auto& bonded = problem.constraints().contacts.bonded;
-  const auto value = view(x), differs = view(change);
+  const auto value = view(x), differs = view(change), firmly = view(argument);
   int contacts = 0;
   for (const auto& point : points) contacts = std::max(contacts, point.contact + 1);
   contacts = static_cast<int>(comm.max(static_cast<long long>(contacts)));
@@ -34,6 +33,7 @@ bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Ve
     const auto c = static_cast<std::size_t>(points[i].contact);
     const double force = value[rows.normal], off = differs[rows.normal];
     pressed[c] += force > 0;
+    undecided[c] += off != 0 && std::abs(firmly[rows.normal]) <= std::abs(off);
     if (points[i].cover < narrow || !(points[i].area > 0)) continue;
     const double part = problem.jump().scale()[rows.normal] / points[i].area;
     double square = off * off;
@@ -42,16 +42,9 @@ bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Ve
     moved[c] = std::max(moved[c], part * std::sqrt(square));
   }
   comm.sum_in_place(pressed);
+  comm.sum_in_place(undecided);
   for (auto* values : {&largest, &moved})
     for (auto& v : *values) v = comm.max(v);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (bonded[i] || !(points[i].area > 0)) continue;
-    const auto normal = problem.points()[i].normal;
-    const auto c = static_cast<std::size_t>(points[i].contact);
-    const double off = std::abs(differs[normal]), part = problem.jump().scale()[normal] / points[i].area;
-    undecided[c] += value[normal] < off && part * off > faint * largest[c];
-  }
-  comm.sum_in_place(undecided);
   const double all = count == 0 ? 0 : *std::max_element(largest.begin(), largest.end());
   for (std::size_t c = 0; c < count; ++c) {
     if (largest[c] < idle * all) continue;

@@ -6,9 +6,12 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "budget.hpp"
 #include "contact_settled.hpp"
+#include "open_points.hpp"
 #include "qp/error_estimate.hpp"
 #include "qp/smalse.hpp"
+#include "relaxation.hpp"
 
 namespace mortise::friction {
 
@@ -137,36 +140,6 @@ void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::
   solution.error += std::sqrt(std::max(beyond.dot(product), 0.0));
 }
 
-// How far to go towards the next bounds of the fixed point: Aitken's rule, which makes a swing about a point settle there [Irons
-// and Tuck, IJNME 1 (1969)].
-class Relaxation {
- public:
-  explicit Relaxation(const Communicator& comm) : comm_(comm) {}
-
-  double operator()(const std::vector<double>& now, const std::vector<double>& next)
-  {
-    std::vector<double> step;  // infinite bounds are left in one go
-    for (std::size_t i = 0; i < now.size(); ++i)
-      step.push_back(std::isinf(now[i]) || std::isinf(next[i]) ? 0.0 : next[i] - now[i]);
-    double product = 0, square = 0;
-    for (std::size_t i = 0; i < step_.size(); ++i) {
-      product += step_[i] * (step[i] - step_[i]);
-      square += (step[i] - step_[i]) * (step[i] - step_[i]);
-    }
-    product = comm_.sum(product);
-    square = comm_.sum(square);
-    if (square > 0) part_ = std::clamp(-part_ * product / square, shortest, 1.0);
-    step_ = std::move(step);
-    return part_;
-  }
-
- private:
-  static constexpr double shortest = 0.05;
-  const Communicator& comm_;
-  std::vector<double> step_;  // the one before
-  double part_ = 1;
-};
-
 // Whether the residual of a solution with an estimated error that is good enough fits it.
 bool fits(const qp::Solution& solution, const qp::Goal& goal)
 {
@@ -214,6 +187,7 @@ struct Solver::Run {
   double change = 1, least_change = 1;
   int step = 0, outer = 0, preconditionings = 0;
   bool settled = false;
+  bool steadier = false;  // SMALSE-M has taken over
 
   void count(const qp::Solution& found)
   {
@@ -229,7 +203,8 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
       options_(options),
       solver_(solver),
       patience_(patience),
-      hessian_(problem.hessian(), solver.max_multiplications),
+      hessian_(problem.hessian(), 0),
+      budget_(std::make_unique<Budget>(hessian_, solver.max_multiplications.value, solver.algorithm == "smalse")),
       driven_(problem.linear().getMap()),
       programme_{hessian_, problem.linear(), problem.equality(), problem.set(), problem.pull() ? &driven_ : nullptr}
 {
@@ -284,8 +259,9 @@ bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
     return false;
   }
   if (newton_ && !next.converged && !patience_ &&
-      !hessian_.exhausted()) {  // it crawls where bodies are soft and slender: the slower, steadier one
+      budget_->left()) {  // it crawls where bodies are soft and slender: the slower, steadier one
     run.count(next);
+    if (!std::exchange(run.steadier, true)) budget_->change_algorithm();
     next = solve_by_smalse(programme_, next, goal, problem_.preconditioner(), run.watch);
     if (!next.feasible) {
       run.escape = next.nu;
@@ -372,6 +348,7 @@ void Solver::fixed_point(Run& run)
   Relaxation relaxation(problem_.communicator());
   int infeasible = 0, failures = 0;
   double strictness = 1;
+  if (!run.settled) budget_->change_algorithm();
   while (!run.settled) {
     ++run.step;
     // Looser again would bring swings of its own; and bounds that rest but for a loose tolerance would stay where they are.
@@ -427,26 +404,30 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
 {
   const bool coulomb = any_coulomb(laws_);
   const int before = hessian_.count();
-  if (patience_) hessian_.set_limit(std::min(solver_.max_multiplications, before + *patience_));
+  budget_->start(patience_);
+  states_ = std::make_unique<StateRecord>();
   if (problem_.pull()) hessian_.apply(*problem_.pull(), driven_);
   Run run;
   if (solver_.tolerance.value) {
     run.goal.residual = *solver_.tolerance.value;
   } else {
     run.goal.allowed_error = accuracy.allowed_error;
-    run.goal.settled = [this](const Vector& x, const Vector& change) { return contact_settled(problem_, x, change); };
+    run.goal.settled = [this](const Vector& x, const Vector& argument, const Vector& off) {
+      return contact_settled(problem_, x, argument, off);
+    };
   }
   run.goal.energy_norm = accuracy.energy_norm;
   if (start) run.solution = *start;
   run.bounds = run.previous_bounds = slip_bounds(problem_, laws_, nullptr);
   run.watch = [&](const qp::Progress& progress) {
+    note(run, progress);
     if (observer) observer(run.step, run.change, progress);
   };
   if (explicit_) solve_directly(run);
   if (coulomb) {
     if (newton_) renew_at_faces(run);
     if (!patience_ || !run.solved) fixed_point(run);
-    if (run.solved && !hessian_.exhausted()) judge_by_law(problem_, laws_, hessian_, *run.solution);
+    if (run.solved && (run.settled || !hessian_.exhausted())) judge_by_law(problem_, laws_, hessian_, *run.solution);
   } else {
     run.step = 1;
     if (!solve_tresca(run.goal, run)) no_equilibrium(problem_, run.escape, run.proven);
@@ -457,15 +438,35 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   result.steps = run.step;
   result.change = run.change;
   result.converged = run.settled && result.solution.converged;
-  result.gave_up = patience_ && !result.converged && hessian_.count() < solver_.max_multiplications;
+  result.gave_up = patience_ && !result.converged && budget_->left();
   if (!result.converged && hessian_.exhausted())
-    result.limit = "solver.max_multiplications";
+    result.limit = budget_->reason();
   else if (!result.converged && coulomb && run.step >= options_.max_steps)
     result.limit = "friction_loop.max_steps";
   result.multiplications = hessian_.count() - before;
   result.preconditionings = run.preconditionings;
   result.outer_iterations = run.outer;
+  if (!result.gave_up) tell_what_is_open(result);
   return result;
+}
+
+void Solver::note(const Run& run, const qp::Progress& progress)
+{
+  std::optional<long long> changes;
+  if (progress.point) changes = problem_.communicator().sum(states_->note(states_at(problem_, *progress.point)));
+  budget_->note(progress, changes, run.change);
+}
+
+// What the last residual still changes, by the preconditioner. No product.
+void Solver::tell_what_is_open(Result& result)
+{
+  const auto& bonded = problem_.constraints().contacts.bonded;
+  const bool any = std::find(bonded.begin(), bonded.end(), false) != bonded.end();
+  if (!problem_.communicator().any(any)) return;
+  qp::FacePreconditioner* preconditioner = explicit_ ? explicit_.get() : problem_.preconditioner();
+  const auto foretold = preconditioner ? foretell(problem_, result.solution, *preconditioner) : std::nullopt;
+  if (foretold) result.undecided = undecided(problem_, result.solution.x, *foretold);
+  if (!result.converged) result.stuck = stuck(problem_, *states_, result.solution.x, foretold ? &*foretold : nullptr);
 }
 
 }  // namespace mortise::friction

@@ -45,6 +45,11 @@ Json warning(const Warning& w)
   return json;
 }
 
+Json band(const StateSummary::Contact::Band& b)
+{
+  return {{"points", b.points}, {"cells", b.cells}};
+}
+
 void add_work(const StateSummary& s, Json& json)
 {
   json["friction_steps"] = s.friction_steps;
@@ -83,7 +88,18 @@ void add_state(const StateSummary& s, Json& json)
                                                 {"touching_area", number(c.initial_gap->touching_area)}};
     if (c.preload)
       json["contacts"].back()["preload"] = {{"force", number(c.preload->force)}, {"shortening", number(c.preload->shortening)}};
+    if (c.undecided)
+      json["contacts"].back()["undecided"] = {{"open_closed", band(c.undecided->open_closed)},
+                                              {"stick_slip", band(c.undecided->stick_slip)}};
   }
+  json["stuck"] = Json::array();
+  for (const auto& stuck : s.stuck)
+    json["stuck"].push_back({{"contact", stuck.contact},
+                             {"points", stuck.points},
+                             {"states", stuck.states},
+                             {"place", vector(stuck.place)},
+                             {"turns", stuck.turns},
+                             {"steps", stuck.steps}});
 }
 
 }  // namespace

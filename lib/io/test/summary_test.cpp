@@ -59,6 +59,7 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "max_displacement",
                                "reactions",
                                "contacts",
+                               "stuck",
                                "warnings",
                                "time",
                                "peak_memory_bytes",
@@ -91,6 +92,23 @@ TEST(Summary, ValuesComeBack)
   EXPECT_EQ(json["communication"]["solve"]["largest"]["bytes"], 20);
   EXPECT_EQ(json["communication"]["solve"]["mean"]["collectives"], 7.5);
   EXPECT_EQ(json["communication"]["set_up"]["largest"]["messages"], 0);
+}
+
+TEST(Summary, WhatIsOpenStandsWhereThereIsSome)
+{
+  auto s = sample();
+  EXPECT_TRUE(Json::parse(to_json(s))["stuck"].empty());
+  s.contacts.push_back(s.contacts[0]);
+  s.contacts[1].undecided = {{12, 3}, {0, 0}};
+  s.stuck.push_back({"interface", 4, "stick/slip", {1, 2, 3}, 7, 12});
+  const auto json = Json::parse(to_json(s));
+  EXPECT_FALSE(json["contacts"][0].contains("undecided"));
+  EXPECT_EQ(json["contacts"][1]["undecided"]["open_closed"], (Json{{"points", 12}, {"cells", 3}}));
+  EXPECT_EQ(json["contacts"][1]["undecided"]["stick_slip"]["points"], 0);
+  ASSERT_EQ(json["stuck"].size(), 1U);
+  EXPECT_EQ(keys(json["stuck"][0]), (std::vector<std::string>{"contact", "points", "states", "place", "turns", "steps"}));
+  EXPECT_EQ(json["stuck"][0]["states"], "stick/slip");
+  EXPECT_EQ(json["stuck"][0]["place"], (Json{1, 2, 3}));
 }
 
 TEST(Summary, WarningsSayWhatWhereAndWhatToDo)

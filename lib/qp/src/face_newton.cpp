@@ -182,10 +182,10 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   double residual = 0, mismatch = 0, best = std::numeric_limits<double>::infinity(), best_error = best;
   int since_best = 0;
   FeasibleSet::Active active{};
-  const auto report = [&](const char* what) {
+  const auto report = [&](const char* what, bool outer = false) {
     if (observer)
       observer({what, result.outer_iterations, hessian.count(), residual / size, mismatch / size, 0, active, preconditionings_,
-                energy, result.error});
+                energy, result.error, outer ? &z : nullptr});
   };
   Eigen::VectorXd nu =
       start && start->nu.size() == equality.size() ? Eigen::VectorXd(start->nu * (step_length / norm_)) : Eigen::VectorXd();
@@ -263,7 +263,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     const double worst = std::max(residual, mismatch);
     result.error = error_bound(problem_, z, natural, norm_, preconditioner_) * (residual > 0 ? worst / residual : 1.0);
     preconditionings_ += preconditioner_ ? 1 : 0;
-    report("outer");
+    report("outer", true);
     const double to_come = contact.change_to_come(z, result.error);
     // Infinite while points stick whose bounds are still to come.
     if (first_error == 0 && std::isfinite(result.error)) first_error = result.error;
@@ -283,7 +283,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       preconditioner_->fix({});
       preconditioner_->apply(gap, change);
       ++preconditionings_;
-      result.converged = goal.settled(z, change);
+      result.converged = goal.settled(z, natural.argument, change);
     }
     if (!result.converged && goal.exact > 0 && std::isfinite(result.error))
       result.converged = result.error <= goal.exact * goal.energy_norm(z, result.nu);

@@ -18,7 +18,10 @@ void describe(deck::Description<Options>& d)
         "tenth of the estimated discretization error, both in the energy norm.")
       .positive()
       .below(1);
-  d.key("max_multiplications", &Options::max_multiplications, "Products with the dual operator in the whole run.").at_least(1);
+  d.key("max_multiplications", &Options::max_multiplications,
+        "Products with the dual operator in the whole run. auto: each load step goes on until nothing has become better over "
+        "2,500 products, to 10,000 at most; smalse: to 10,000.")
+      .at_least(1);
 }
 
 }  // namespace mortise::qp

@@ -96,10 +96,11 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
   double previous = -std::numeric_limits<double>::infinity();
   double residual = 0, measure = 0;
   Eigen::VectorXd defect;
-  const auto report = [&](const char* what) {
+  const auto report = [&](const char* what, const Vector* at = nullptr) {
     if (observer)
       observer({what, result.outer_iterations, hessian.count(), measure / size, residual / size, result.precision,
-                moved.active(view(std::as_const(point.x)))});
+                moved.active(view(std::as_const(point.x))), 0, std::numeric_limits<double>::quiet_NaN(),
+                std::numeric_limits<double>::quiet_NaN(), at});
   };
   while (true) {
     const auto done = [&](double reduced, const Point& at) {
@@ -115,7 +116,11 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
     };
     mpgp(product, moved, point, largest, {}, done);
     ++result.outer_iterations;
-    report("outer");
+    {
+      Vector at(origin, Teuchos::Copy);
+      at.update(1, point.x, 1);
+      report("outer", &at);
+    }
     result.converged = measure <= tolerance * size && residual <= tolerance * size;
     if (result.converged || hessian.exhausted() || result.outer_iterations >= max_outer_iterations) break;
 

@@ -14,6 +14,7 @@
 
 #include "feti/dual_problem.hpp"
 #include "feti/explicit_problem.hpp"
+#include "friction/open_points.hpp"
 #include "friction/options.hpp"
 #include "qp/face_newton.hpp"
 #include "qp/options.hpp"
@@ -35,11 +36,13 @@ struct Result {
   int steps = 1;      ///< Tresca problems solved
   double change = 0;  ///< relative, of the slip bounds in the last step
   bool converged = false;
-  std::string limit = {};   ///< the key of the deck that ended it before, if one did
+  std::string limit = {};   ///< the key of the deck that ended it before, if one did, and a remark
   bool gave_up = false;     ///< patience ended, and it might go on
   int multiplications = 0;  ///< of this load step
   int preconditionings = 0;
-  int outer_iterations = 0;  ///< of all Tresca problems
+  int outer_iterations = 0;               ///< of all Tresca problems
+  std::vector<Undecided> undecided = {};  ///< what the stop left open
+  std::vector<Stuck> stuck = {};          ///< where it is stuck, if it did not converge
 };
 
 /// One line of progress: the Tresca step, the change of the bounds before it, and where the solver stands.
@@ -51,6 +54,9 @@ struct Accuracy {
   Measure allowed_error;  ///< the algebraic error that is good enough
   Measure energy_norm;    ///< that of the displacements
 };
+
+class Budget;
+class StateRecord;
 
 /// A sequence of load steps on one dual problem, which may be renewed between them: what was learnt about F stays.
 class Solver {
@@ -80,6 +86,8 @@ class Solver {
   void admit(Run& run);
   void fixed_point(Run& run);
   void solve_directly(Run& run);
+  void note(const Run& run, const qp::Progress& progress);
+  void tell_what_is_open(Result& result);
 
   feti::DualProblem& problem_;
   std::vector<Law> laws_;
@@ -87,6 +95,8 @@ class Solver {
   qp::Options solver_;
   std::optional<int> patience_;
   qp::Hessian hessian_;
+  std::unique_ptr<Budget> budget_;
+  std::unique_ptr<StateRecord> states_;
   Vector driven_;
   qp::Problem programme_;
   std::unique_ptr<feti::ExplicitProblem> explicit_;  // of the direct solution

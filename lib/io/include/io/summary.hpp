@@ -46,8 +46,26 @@ struct StateSummary {
     };
     std::optional<InitialGap> initial_gap = {};
     std::optional<Preload> preload = {};  ///< of a preloaded bolt: its tension, and how far the cut is drawn together
+    /// Points whose state is not known, and between how many cells they lie.
+    struct Band {
+      long long points;
+      int cells;
+    };
+    struct Undecided {
+      Band open_closed, stick_slip;
+    };
+    std::optional<Undecided> undecided = {};  ///< only where there are such points
   };
   std::vector<Contact> contacts;
+  /// Where a run is stuck that did not converge: points of one contact that took turns, and the worst of them.
+  struct Stuck {
+    std::string contact;
+    long long points;
+    std::string states;  ///< "open/closed", "stick/slip" or "at rest", see friction::Stuck
+    std::array<double, 3> place;
+    int turns, steps;  ///< how often the worst one's state changed, over how many steps
+  };
+  std::vector<Stuck> stuck;
 };
 
 /// The last equilibrium, with the work of all.

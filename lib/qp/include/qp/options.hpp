@@ -9,8 +9,8 @@ namespace mortise::qp {
 
 struct Options {
   std::string algorithm = "auto";
-  deck::OrAuto<double> tolerance;   ///< relative: reduced projected gradient and equality residual over ||P d||
-  int max_multiplications = 10000;  ///< with F, in the whole run
+  deck::OrAuto<double> tolerance;         ///< relative: reduced projected gradient and equality residual over ||P d||
+  deck::OrAuto<int> max_multiplications;  ///< with F, in the whole run; auto: friction::Budget
 };
 
 /// The keywords.

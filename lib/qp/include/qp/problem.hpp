@@ -76,6 +76,7 @@ struct Progress {
   int preconditionings = 0;
   double energy = std::numeric_limits<double>::quiet_NaN();  ///< 1/2 x'A x - b'x of face Newton's point
   double error = std::numeric_limits<double>::quiet_NaN();   ///< the estimate of ||x - x*||_A there
+  const Vector* point = nullptr;                             ///< of outer steps: x in Omega
 };
 using Observer = std::function<void(const Progress&)>;
 

@@ -1,0 +1,338 @@
+#include "open_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "qp/projection.hpp"
+
+namespace mortise::friction {
+
+namespace {
+
+constexpr double faint = 1e-8;    // over the largest multiplier
+constexpr double edge = 1e-6;     // within so much of its radius a point slips
+constexpr double nothing = 1e-4;  // change of a pressure over the largest of the contact that decides nothing
+constexpr double idle = 1e-3;     // largest pressure of a contact over that of all, below which it only touches
+constexpr double narrow = 0.35;   // cover of points that have a force but no pressure of their own
+constexpr double at_rest = 0.05;  // change of a pressure over the largest of the contact that is still to come
+constexpr double across = 0.7;    // cosine of the cone that one looks through for a neighbour
+constexpr double beside = 0.3;    // cosine up to which a direction leads to another side
+constexpr long probes = 64;
+
+int contact_count(const feti::DualProblem& problem)
+{
+  int count = 0;
+  for (const auto& point : problem.constraints().contacts.points) count = std::max(count, point.contact + 1);
+  return static_cast<int>(problem.communicator().max(static_cast<long long>(count)));
+}
+
+// Pressures of contacts: what force of each point makes which, and the largest of each contact.
+class Pressures {
+ public:
+  Pressures(const feti::DualProblem& problem, const Vector& x) : problem_(problem)
+  {
+    const auto& comm = problem.communicator();
+    const auto value = view(x);
+    const auto& points = problem.constraints().contacts.points;
+    largest.assign(static_cast<std::size_t>(contact_count(problem)), 0.0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      auto& most = largest[static_cast<std::size_t>(points[i].contact)];
+      most = std::max(most, of(i, value[problem.points()[i].normal]));
+    }
+    for (auto& pressure : largest) all = std::max(all, pressure = comm.max(pressure));
+  }
+  // 0 where a point has no pressure of its own or is bonded.
+  double of(std::size_t i, double multiplier) const
+  {
+    const auto& contacts = problem_.constraints().contacts;
+    const auto& point = contacts.points[i];
+    if (contacts.bonded[i] || point.cover < narrow || !(point.area > 0)) return 0;
+    return multiplier * problem_.jump().scale()[problem_.points()[i].normal] / point.area;
+  }
+
+  std::vector<double> largest;  // of each contact
+  double all = 0;               // of them all
+
+ private:
+  const feti::DualProblem& problem_;
+};
+
+// Length of the tangential part of a point.
+double tangential(const feti::PointRows& rows, const Eigen::Ref<const Eigen::VectorXd>& values)
+{
+  return rows.tangents > 0 ? values.segment(rows.normal + 1, rows.tangents).norm() : 0.0;
+}
+
+// Flags of this rank's points, as one place for each of its contacts.
+int band(const feti::DualProblem& problem, int contact, const std::vector<bool>& open)
+{
+  const auto& comm = problem.communicator();
+  const auto& points = problem.constraints().contacts.points;
+  struct Sent {
+    double x, y, z, open;
+  };
+  std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].contact == contact) send[0].push_back({points[i].at[0], points[i].at[1], points[i].at[2], open[i] ? 1.0 : 0.0});
+  std::vector<Place> places;
+  for (const auto& part : comm.exchange(send))
+    for (const auto& p : part) places.push_back({Point(p.x, p.y, p.z), p.open > 0});
+  return static_cast<int>(comm.max(static_cast<long long>(comm.root() ? widest_band(places) : 0)));
+}
+
+std::vector<Undecided::Band> bands(const feti::DualProblem& problem, std::size_t contacts, const std::vector<bool>& open)
+{
+  const auto& comm = problem.communicator();
+  const auto& points = problem.constraints().contacts.points;
+  std::vector<double> counts(contacts, 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) counts[static_cast<std::size_t>(points[i].contact)] += open[i];
+  comm.sum_in_place(counts);
+  std::vector<Undecided::Band> result(contacts);
+  for (std::size_t c = 0; c < contacts; ++c)
+    if (counts[c] > 0) result[c] = {std::llround(counts[c]), band(problem, static_cast<int>(c), open)};
+  return result;
+}
+
+// The place of the point with the largest value on any rank; `value` < 0 where there is none.
+Point place_of_largest(const feti::DualProblem& problem, std::size_t point, double value)
+{
+  const auto& comm = problem.communicator();
+  const double largest = comm.max(value);
+  const auto winner = comm.min(static_cast<long long>(value == largest ? comm.rank() : comm.size()));
+  std::array<double, 3> at{0, 0, 0};
+  if (winner == comm.rank() && value >= 0) {
+    const Point& p = problem.constraints().contacts.points[point].at;
+    at = {p[0], p[1], p[2]};
+  }
+  comm.sum_in_place(at);
+  return {at[0], at[1], at[2]};
+}
+
+// Points of a contact with a value of at least `least`: their number, the largest value and where it is.
+std::optional<Stuck> worst_points(const feti::DualProblem& problem, int contact, const std::vector<double>& value, double least)
+{
+  const auto& comm = problem.communicator();
+  const auto& points = problem.constraints().contacts.points;
+  long long count = 0;
+  std::size_t worst = 0;
+  double largest = -1;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].contact != contact || value[i] < least) continue;
+    ++count;
+    if (value[i] > largest) {
+      largest = value[i];
+      worst = i;
+    }
+  }
+  count = comm.sum(count);
+  if (count == 0) return {};
+  Stuck result;
+  result.contact = contact;
+  result.points = count;
+  result.place = place_of_largest(problem, worst, largest);
+  result.turns = static_cast<int>(comm.max(largest));
+  return result;
+}
+
+}  // namespace
+
+std::vector<PointState> states_at(const feti::DualProblem& problem, const Vector& x)
+{
+  const double least = faint * x.normInf();
+  const auto value = view(x);
+  const auto& bonded = problem.constraints().contacts.bonded;
+  std::vector<PointState> states;
+  for (std::size_t i = 0; i < bonded.size(); ++i) {
+    const auto& rows = problem.points()[i];
+    if (bonded[i]) {
+      states.push_back(PointState::sticks);
+    } else if (!(value[rows.normal] > least)) {
+      states.push_back(PointState::open);
+    } else if (rows.disc < 0) {
+      states.push_back(PointState::closed);
+    } else {
+      const auto& disc = problem.set().discs()[static_cast<std::size_t>(rows.disc)];
+      const bool slips = qp::from_centre(disc, value).norm() >= (1 - edge) * disc.radius;
+      states.push_back(slips ? PointState::slips : PointState::sticks);
+    }
+  }
+  return states;
+}
+
+std::optional<Foretold> foretell(const feti::DualProblem& problem, const qp::Solution& solution,
+                                 qp::FacePreconditioner& preconditioner)
+{
+  const double norm = solution.hessian_norm;
+  if (!(norm > 0)) return {};
+  Vector gap(solution.x, Teuchos::Copy);
+  gap.update(-1 / norm, solution.gradient, 1);
+  const qp::Projection natural = qp::project(gap, problem.equality(), problem.set());
+  if (!natural.found) return {};
+  gap.update(norm, solution.x, -norm, natural.point, 0);
+  Foretold result{natural.argument, Vector(gap.getMap())};
+  preconditioner.fix({});
+  preconditioner.apply(gap, result.change);
+  return result;
+}
+
+std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector& x, const Foretold& foretold)
+{
+  const auto& points = problem.constraints().contacts.points;
+  const Pressures pressures(problem, x);
+  const auto change = view(foretold.change), argument = view(foretold.argument);
+  std::vector<bool> rim(points.size(), false), edge_of_stick(points.size(), false);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& rows = problem.points()[i];
+    const double largest = pressures.largest[static_cast<std::size_t>(points[i].contact)];
+    if (largest < idle * pressures.all) continue;
+    const double off = std::abs(change[rows.normal]), at = argument[rows.normal];
+    rim[i] = pressures.of(i, off) > nothing * largest && off >= std::abs(at);
+    if (rows.disc < 0 || rim[i] || at <= 0) continue;
+    const auto& disc = problem.set().discs()[static_cast<std::size_t>(rows.disc)];
+    const double moved = tangential(rows, change) + disc.coefficient * off;
+    edge_of_stick[i] =
+        pressures.of(i, moved) > nothing * largest && moved >= std::abs(qp::from_centre(disc, argument).norm() - disc.radius);
+  }
+  const auto rims = bands(problem, pressures.largest.size(), rim);
+  const auto edges = bands(problem, pressures.largest.size(), edge_of_stick);
+  std::vector<Undecided> result;
+  for (std::size_t c = 0; c < rims.size(); ++c)
+    if (rims[c].points + edges[c].points > 0) result.push_back({static_cast<int>(c), rims[c], edges[c]});
+  return result;
+}
+
+std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& record, const Vector& x, const Foretold* foretold)
+{
+  std::vector<Stuck> result;
+  const int contacts = contact_count(problem);
+  const auto turns = record.turns();
+  const auto count = problem.constraints().contacts.points.size();
+  std::vector<double> contact(count, 0.0), friction(count, 0.0);
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    contact[i] = turns[i].contact;
+    friction[i] = turns[i].friction;
+  }
+  for (const double least : {2.0, 1.0}) {
+    for (int c = 0; c < contacts; ++c)
+      for (const auto& [values, states] : {std::pair{&contact, "open/closed"}, std::pair{&friction, "stick/slip"}})
+        if (auto found = worst_points(problem, c, *values, least)) {
+          found->states = states;
+          found->of = record.steps();
+          result.push_back(std::move(*found));
+        }
+    if (!result.empty()) return result;
+  }
+  if (!foretold) return result;
+  const Pressures pressures(problem, x);
+  const auto change = view(foretold->change);
+  std::vector<double> parts(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& rows = problem.points()[i];
+    const double largest = pressures.largest[static_cast<std::size_t>(problem.constraints().contacts.points[i].contact)];
+    const double moved = std::hypot(change[rows.normal], tangential(rows, change));
+    if (largest >= idle * pressures.all && largest > 0) parts[i] = pressures.of(i, moved) / largest;
+  }
+  for (int c = 0; c < contacts; ++c)
+    if (auto found = worst_points(problem, c, parts, at_rest)) {
+      found->states = "at rest";
+      found->turns = 0;
+      found->of = record.steps();
+      result.push_back(std::move(*found));
+    }
+  return result;
+}
+
+namespace {
+
+// Walks from point to point of one contact.
+class Walk {
+ public:
+  explicit Walk(std::span<const Place> points) : points_(points)
+  {
+    for (const auto& p : points) same_ = std::max(same_, 1e-9 * (p.at - points.front().at).norm());
+  }
+
+  // Unit vectors to the neighbours of a point, each the nearest of those that are not in the direction of another.
+  std::vector<Point> directions(const Point& from) const
+  {
+    std::vector<Point> found;
+    while (found.size() < 6) {
+      const auto next = nearest(from, [&](const Point& way) {
+        return std::none_of(found.begin(), found.end(), [&](const Point& d) { return way.dot(d) >= across * way.norm(); });
+      });
+      if (!next || (!found.empty() && (next->at - from).norm() > far * first_)) break;
+      if (found.empty()) first_ = (next->at - from).norm();
+      found.push_back((next->at - from).normalized());
+    }
+    return found;
+  }
+
+  // Points on the way to the next decided one, that included; nothing if the surface ends before, or is closed.
+  std::optional<int> steps(Point from, Point direction) const
+  {
+    double before = std::numeric_limits<double>::infinity();
+    for (int count = 1; count < longest; ++count) {
+      const auto next = nearest(from, [&](const Point& way) { return way.dot(direction) >= across * way.norm(); });
+      if (!next || (next->at - from).norm() > far * before) return {};
+      if (!next->open) return count;
+      before = (next->at - from).norm();
+      direction = (direction + (next->at - from) / before).normalized();
+      from = next->at;
+    }
+    return {};
+  }
+
+ private:
+  static constexpr double far = 5;     // times the step before: there is no surface between
+  static constexpr int longest = 100;  // walk
+  template <class Fits>
+  std::optional<Place> nearest(const Point& from, const Fits& fits) const
+  {
+    std::optional<Place> found;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& p : points_) {
+      const Point way = p.at - from;
+      const double distance = way.norm();
+      if (!(distance > same_) || distance >= least || !fits(way)) continue;  // points at a kink have one place
+      least = distance;
+      found = p;
+    }
+    return found;
+  }
+
+  std::span<const Place> points_;
+  double same_ = 0;
+  mutable double first_ = 0;
+};
+
+}  // namespace
+
+int widest_band(std::span<const Place> points)
+{
+  const Walk walk(points);
+  const auto open = std::count_if(points.begin(), points.end(), [](const Place& p) { return p.open; });
+  const auto stride = std::max(1L, static_cast<long>(open) / probes);
+  int widest = 0;
+  long seen = 0;
+  for (const auto& p : points) {
+    if (!p.open || seen++ % stride != 0) continue;
+    const auto directions = walk.directions(p.at);
+    std::vector<std::optional<int>> steps;
+    for (const auto& direction : directions) steps.push_back(walk.steps(p.at, direction));
+    const auto sooner = [](const auto& a, const auto& b) { return a && (!b || *a < *b); };
+    const auto first = std::min_element(steps.begin(), steps.end(), sooner);
+    if (first == steps.end() || !*first) continue;
+    // The other side: straight on, or, at a corner of the band, beside. At the end of the surface there is none.
+    const Point& way = directions[static_cast<std::size_t>(first - steps.begin())];
+    auto other = walk.steps(p.at, -way);
+    for (std::size_t d = 0; other && d < directions.size(); ++d)
+      if (steps[d] && directions[d].dot(way) <= beside) other = std::min(*other, *steps[d]);
+    widest = std::max(widest, **first + other.value_or(0));
+  }
+  return widest > 0 ? widest : static_cast<int>(open);  // nothing is decided anywhere near
+}
+
+}  // namespace mortise::friction
