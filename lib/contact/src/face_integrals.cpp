@@ -65,7 +65,9 @@ void Integrator::start(std::size_t face, Local facet)
   piece_->facet = facet;
   piece_->mass.setZero(r, n);
   piece_->gram.setZero(r, r);
-  piece_->points.setIdentity(r, r);
+  if (facet >= 0) piece_->point_facet.assign(static_cast<std::size_t>(r), facet);
+  piece_->points.setIdentity(r, 4);
+  piece_->plane.resize(0, 2);
   piece_->covered.setZero(r);
   piece_->whole.setZero(r);
   piece_->rise.setZero(r);
@@ -127,7 +129,9 @@ void Integrator::add_points(std::size_t facet, std::size_t other, const Bulge& o
     } else {
       const FaceShape phi = secondary_.shape_in_face(facet, point.secondary, overlap_.frame, point.at);
       FaceShape theta = phi;
-      if (piece_->facet >= 0)
+      if (basis_)
+        theta = (*basis_)(in_face(facet, point.secondary));
+      else if (piece_->facet >= 0)
         theta = point.secondary.head(r);
       else if (secondary_.second_order(face))
         theta.noalias() = basis * phi;
@@ -154,13 +158,29 @@ void Integrator::add_points(std::size_t facet, std::size_t other, const Bulge& o
   }
 }
 
+// Calls use(primary facet) for all that a facet looks at, with what they have in common in overlap_.
+template <class Use>
+void Integrator::each_common(std::size_t facet, const Use& use)
+{
+  const bool second_order = secondary_.second_order(static_cast<std::size_t>(secondary_.face_of[facet]));
+  const FaceGeometry own = secondary_.geometry(facet);
+  Box box;
+  for (const auto& p : own.nodes) box.extend(p);
+  const Point margin = Point::Constant(1e-6 * own.size());
+  box.min() -= margin;
+  box.max() += margin;
+  tree_.swept(box, reach_ * own.normal(), met_);
+  for (const int met : met_) {
+    const auto other = static_cast<std::size_t>(met);
+    const bool high = second_order || primary_.second_order(static_cast<std::size_t>(primary_.face_of[other]));
+    if (overlap(own, primary_.geometry(other), reach_, high, overlap_)) use(other);
+  }
+}
+
 void Integrator::add_pair(std::size_t facet, std::size_t other, const Bulge& own_bulge)
 {
   const bool second_order = secondary_.second_order(static_cast<std::size_t>(secondary_.face_of[facet]));
   const auto other_face = static_cast<std::size_t>(primary_.face_of[other]);
-  if (!overlap(secondary_.geometry(facet), primary_.geometry(other), reach_, second_order || primary_.second_order(other_face),
-               overlap_))
-    return;
   if (piece_->facet >= 0) common_.push_back(overlap_.common);
   if (!second_order && !primary_.second_order(other_face)) {
     const Eigen::Matrix4d zero = Eigen::Matrix4d::Zero();
@@ -176,15 +196,8 @@ void Integrator::add_pair(std::size_t facet, std::size_t other, const Bulge& own
 void Integrator::integrate_facet(std::size_t facet)
 {
   add_whole(facet);
-  const FaceGeometry own = secondary_.geometry(facet);
   const Bulge own_bulge(secondary_, secondary_places_, facet);
-  Box box;
-  for (const auto& p : own.nodes) box.extend(p);
-  const Point margin = Point::Constant(1e-6 * own.size());
-  box.min() -= margin;
-  box.max() += margin;
-  tree_.swept(box, reach_ * own.normal(), met_);
-  for (const int other : met_) add_pair(facet, static_cast<std::size_t>(other), own_bulge);
+  each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
 }
 
 std::span<const PieceIntegrals> Integrator::integrate(std::size_t face)
@@ -194,8 +207,74 @@ std::span<const PieceIntegrals> Integrator::integrate(std::size_t face)
              end = static_cast<std::size_t>(secondary_.first_facet[face + 1]);
   for (std::size_t facet = first; facet < end; ++facet) integrate_facet(facet);
   const double covered = piece_->covered.sum(), whole = piece_->whole.sum();
-  if (covered > 0 && covered < (secondary_.second_order(face) ? nearly_covered : 1 - 1e-6) * whole) cut_into_facets(face);
+  if (covered > 0 && covered < (secondary_.second_order(face) ? nearly_covered : 1 - 1e-6) * whole)
+    secondary_.second_order(face) && secondary_.faces.type[face] != mesh::CellType::line3 ? move_points(face) : cut_into_facets(face);
   return pieces_;
+}
+
+// The place in the plane of the face at work where the shape functions of one of its facets are `shape`.
+Plane Integrator::in_face(std::size_t facet, const Eigen::Vector4d& shape) const
+{
+  Plane at = Plane::Zero();
+  for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c)
+    at += shape[static_cast<Eigen::Index>(c)] * plane_nodes_[static_cast<std::size_t>(secondary_.corners[facet][c])];
+  return at;
+}
+
+// A face of second order that stays one piece, with functions that belong to points of its covered part.
+void Integrator::move_points(std::size_t face)
+{
+  const auto type = secondary_.faces.type[face];
+  FaceGeometry corners{mesh::first_order(type), {}};
+  for (int k = 0; k < mesh::corner_count(type); ++k)
+    corners.nodes.push_back(secondary_.points[static_cast<std::size_t>(secondary_.faces[face][static_cast<std::size_t>(k)])]);
+  const Frame frame = frame_of(corners);
+  plane_nodes_.clear();
+  for (const Local node : secondary_.faces[face]) plane_nodes_.push_back(frame.project(secondary_.points[static_cast<std::size_t>(node)]));
+
+  parts_.clear();
+  samples_.clear();
+  const auto first = static_cast<std::size_t>(secondary_.first_facet[face]),
+             end = static_cast<std::size_t>(secondary_.first_facet[face + 1]);
+  for (std::size_t facet = first; facet < end; ++facet) {
+    Few<Plane, 4> nodes;
+    const FaceGeometry own = secondary_.geometry(facet);
+    each_common(facet, [&](std::size_t) {
+      nodes.clear();
+      for (const auto& p : own.nodes) nodes.push_back(overlap_.frame.project(p));
+      const Locator locator(own.type, nodes);
+      parts_.push_back({static_cast<Local>(facet), {}});
+      for (const auto& p : overlap_.common) parts_.back().polygon.push_back(in_face(facet, locator(p)));
+      for (const auto& point : overlap_.points) samples_.push_back({in_face(facet, point.secondary), point.weight});
+    });
+  }
+  basis_.emplace(type, plane_nodes_, parts_, samples_);
+
+  start(face, -1);
+  const auto n = plane_nodes_.size();
+  piece_->point_facet.resize(n);
+  piece_->points.setZero(static_cast<Eigen::Index>(n), 4);
+  piece_->plane.setZero(static_cast<Eigen::Index>(n), 2);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Local facet = piece_->point_facet[k] = basis_->facet(k);
+    if (facet < 0) continue;
+    Few<Plane, 4> nodes;
+    for (std::size_t c = 0; c < secondary_.facets[static_cast<std::size_t>(facet)].size(); ++c)
+      nodes.push_back(plane_nodes_[static_cast<std::size_t>(secondary_.corners[static_cast<std::size_t>(facet)][c])]);
+    piece_->points.row(static_cast<Eigen::Index>(k)) =
+        Locator(secondary_.facets.type[static_cast<std::size_t>(facet)], nodes)(basis_->point(k)).transpose();
+    piece_->plane.row(static_cast<Eigen::Index>(k)) = basis_->point(k).transpose();
+  }
+  for (std::size_t facet = first; facet < end; ++facet) {
+    const auto& nodes = secondary_.corners[facet];
+    const Eigen::Vector4d whole = whole_of(secondary_.geometry(facet));
+    for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c) piece_->whole[nodes[c]] += whole[static_cast<Eigen::Index>(c)];
+    const Bulge own_bulge(secondary_, secondary_places_, facet);
+    each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
+  }
+  basis_.reset();
+  pieces_.erase(pieces_.begin());
+  piece_ = &pieces_.back();
 }
 
 void Integrator::cut_into_facets(std::size_t face)

@@ -85,6 +85,27 @@ double area_of(const Polygon& polygon)
   return 0.5 * twice;
 }
 
+Plane nearest_on(const Plane& a, const Plane& b, const Plane& x)
+{
+  const Plane edge = b - a;
+  const double length = edge.squaredNorm();
+  return length > 0 ? Plane(a + std::clamp((x - a).dot(edge) / length, 0.0, 1.0) * edge) : a;
+}
+
+Plane nearest_in(const Polygon& polygon, const Plane& x)
+{
+  if (polygon.size() == 2) return nearest_on(polygon[0], polygon[1], x);
+  bool inside = true;
+  Plane best = polygon[0];
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Plane &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if (cross(b - a, x - a) < 0) inside = false;
+    const Plane on = nearest_on(a, b, x);
+    if ((on - x).squaredNorm() < (best - x).squaredNorm()) best = on;
+  }
+  return inside ? x : best;
+}
+
 void sample(const Polygon& polygon, Integrand integrand, std::vector<Sample>& points)
 {
   static const auto low = of_degree_4(), high = of_degree_8();
