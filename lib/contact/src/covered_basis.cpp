@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace mortise::contact {
 
@@ -96,29 +95,24 @@ void CoveredBasis::take_nodes()
       }
 }
 
-// The corners of the convex hull, counter-clockwise [Andrew's monotone chain].
+// The corners of the convex hull, counter-clockwise.
 std::vector<CoveredBasis::Corner> CoveredBasis::hull() const
 {
-  std::vector<Corner> all;
+  std::vector<Plane> at;
+  std::vector<Local> facet;
   for (const auto& part : parts_)
-    for (const auto& p : part.polygon) all.push_back({p, part.facet, false});
-  std::sort(all.begin(), all.end(),
-            [](const Corner& a, const Corner& b) { return std::tie(a.at[0], a.at[1], a.facet) < std::tie(b.at[0], b.at[1], b.facet); });
-  std::vector<Corner> chain;
-  const auto grow = [&](auto begin, auto end) {
-    const std::size_t first = chain.size();
-    for (auto c = begin; c != end; ++c) {
-      while (chain.size() >= first + 2 && triangle(chain[chain.size() - 2].at, chain.back().at, c->at) <= 0) chain.pop_back();
-      chain.push_back(*c);
+    for (const auto& p : part.polygon) {
+      at.push_back(p);
+      facet.push_back(part.facet);
     }
-    chain.pop_back();  // the first of the other half
-  };
-  grow(all.begin(), all.end());
-  grow(all.rbegin(), all.rend());
-  for (auto& corner : chain)
+  std::vector<Corner> corners;
+  for (const std::size_t i : convex_hull(at)) {
+    Corner corner{at[i], facet[i], false};
     for (std::size_t k = 0; k < nodes_.size(); ++k)
-      corner.node = corner.node || (has(k) && (corner.at - nodes_[k]).norm() < 1e-6 * length_);
-  return chain;
+      corner.node = corner.node || (has(k) && (at[i] - nodes_[k]).norm() < 1e-6 * length_);
+    corners.push_back(corner);
+  }
+  return corners;
 }
 
 // The other corners of the hull, the sharpest of them, stand for nodes that are not covered. Of these a node on an edge that the
@@ -130,7 +124,8 @@ void CoveredBasis::take_corners()
   const auto free_nodes =
       static_cast<std::ptrdiff_t>(std::count_if(facet_.begin(), facet_.end(), [](Local facet) { return facet < 0; }));
   double area = 0;
-  for (const auto& c : corners) area += triangle(low_, c.at, corners[static_cast<std::size_t>(&c - corners.data() + 1) % corners.size()].at);
+  for (const auto& c : corners)
+    area += triangle(low_, c.at, corners[static_cast<std::size_t>(&c - corners.data() + 1) % corners.size()].at);
   for (;;) {
     const auto open = std::count_if(corners.begin(), corners.end(), [](const Corner& c) { return !c.node; });
     std::size_t least = corners.size();
@@ -148,11 +143,9 @@ void CoveredBasis::take_corners()
   unsigned reached = 0;
   for (const auto& part : parts_)
     for (const auto& p : part.polygon) reached |= edges_at(type_, nodes_, p, 1e-6 * length_);
-  Plane low = nodes_[0], high = nodes_[0];
-  for (const auto& p : nodes_) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const auto cost = [&](const Corner& corner, std::size_t k) {
     const unsigned own = edges_of(type_, k), at = edges_at(type_, nodes_, corner.at, 1e-6 * length_);
-    const double distance = (scaled(corner.at) - (nodes_[k] - low).cwiseQuotient(Plane(high - low))).squaredNorm();
+    const double distance = (corner.at - nodes_[k]).squaredNorm() / (length_ * length_);
     return distance + (own & reached & ~at ? 100 : 0) + (at & ~own ? 10 : 0);
   };
   while (!corners.empty()) {
@@ -200,7 +193,8 @@ void CoveredBasis::triangulate()
         const double area = triangle(x[i], x[j], x[k]);
         if (std::abs(area) < flat_triangle) continue;
         const double sign = area > 0 ? 1 : -1;
-        if (std::any_of(x.begin(), x.end(), [&](const Plane& d) { return sign * in_circle(x[i], x[j], x[k], d) > round * std::abs(area); }))
+        if (std::any_of(x.begin(), x.end(),
+                        [&](const Plane& d) { return sign * in_circle(x[i], x[j], x[k], d) > round * std::abs(area); }))
           continue;
         Eigen::Matrix3d m;
         m << 1, 1, 1, x[i][0], x[j][0], x[k][0], x[i][1], x[j][1], x[k][1];
@@ -261,7 +255,8 @@ bool CoveredBasis::drop_empty(std::span<const Sample> samples)
   for (const auto& sample : samples) sums += sample.weight * (*this)(sample.at);
   std::size_t least = nodes_.size();
   for (std::size_t k = 0; k < nodes_.size(); ++k)
-    if (has(k) && (least == nodes_.size() || sums[static_cast<Eigen::Index>(k)] < sums[static_cast<Eigen::Index>(least)])) least = k;
+    if (has(k) && (least == nodes_.size() || sums[static_cast<Eigen::Index>(k)] < sums[static_cast<Eigen::Index>(least)]))
+      least = k;
   if (sums[static_cast<Eigen::Index>(least)] > least_part * sums.sum()) return false;
   facet_[least] = -1;
   points_[least] = nodes_[least];

@@ -14,12 +14,12 @@ struct CoveredPart {
   Polygon polygon;
 };
 
-/// Functions theta_k that belong to points x_k of the covered part: theta_k(x_l) = delta_kl, sum theta = 1, sum theta_k x_k = x in
-/// the plane of the face. So each dual function has its resultant at its point, and pressures that are nowhere negative can have
-/// theirs anywhere between the points. These are the nodes that are covered, the corners of the covered part's convex hull, which
-/// stand for nodes that are not, and for what nodes are left the next covered points, if they are far from the others. Between
-/// the points the functions are linear on the triangles of Delaunay; where points lie on one circle they are the mean over all
-/// such triangles, which keeps symmetry.
+/// Functions theta_k that belong to points x_k of the covered part: theta_k(x_l) = delta_kl, sum theta = 1, sum theta_k x_k = x
+/// in the plane of the face. So each dual function has its resultant at its point, and pressures that are nowhere negative can
+/// have theirs anywhere between the points. These are the nodes that are covered, the corners of the covered part's convex hull,
+/// which stand for nodes that are not, and for what nodes are left the next covered points, if they are far from the others.
+/// Between the points the functions are linear on the triangles of Delaunay; where points lie on one circle they are the mean
+/// over all such triangles, which keeps symmetry.
 class CoveredBasis {
  public:
   /// `nodes`: of the face, in its plane. `parts` must not be empty; `samples` are integration points on them.
@@ -57,7 +57,7 @@ class CoveredBasis {
   mesh::CellType type_;
   std::span<const Plane> nodes_;
   std::vector<CoveredPart> parts_;
-  double length_ = 0;  // of the face
+  double length_ = 0;   // of the face
   Plane low_, extent_;  // the box round the covered part
   Few<Plane, 9> points_;
   Few<Local, 9> facet_;  // -1: no function

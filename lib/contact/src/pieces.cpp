@@ -159,15 +159,15 @@ namespace {
 // Shares the dropped functions of a face with points in its plane out so that linear fields stay in the basis: to those kept with
 // weights b of least squares for which sum b = 1 and sum b_k x_k = x_d. Whether it could: the points that are kept must span the
 // plane, and functions must keep positive integrals.
-bool keep_linear(const PieceStore::View& piece, const Few<Eigen::Index, 9>& keep, const Few<Eigen::Index, 9>& drop, SmallMatrix& t)
+bool keep_linear(const PieceStore::View& piece, const Few<Eigen::Index, 9>& keep, const Few<Eigen::Index, 9>& drop,
+                 SmallMatrix& t)
 {
   if (piece.plane.rows() == 0 || keep.size() < 3) return false;
   const auto count = static_cast<Eigen::Index>(keep.size());
   Plane middle = Plane::Zero();
   for (const auto k : keep) middle += piece.plane.row(k).transpose() / static_cast<double>(count);
   SmallMatrix a(3, count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    a.col(k) << 1, piece.plane.row(keep[static_cast<std::size_t>(k)]).transpose() - middle;
+  for (Eigen::Index k = 0; k < count; ++k) a.col(k) << 1, piece.plane.row(keep[static_cast<std::size_t>(k)]).transpose() - middle;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double size = a.bottomRows(2).colwise().norm().maxCoeff();
   SmallMatrix shared = t;

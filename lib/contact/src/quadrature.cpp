@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace mortise::contact {
 
@@ -104,6 +106,29 @@ Plane nearest_in(const Polygon& polygon, const Plane& x)
     if ((on - x).squaredNorm() < (best - x).squaredNorm()) best = on;
   }
   return inside ? x : best;
+}
+
+// Andrew's monotone chain.
+std::vector<std::size_t> convex_hull(const std::vector<Plane>& points)
+{
+  std::vector<std::size_t> order(points.size()), chain;
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(points[a][0], points[a][1], a) < std::tie(points[b][0], points[b][1], b);
+  });
+  const auto grow = [&](auto begin, auto end) {
+    const std::size_t first = chain.size();
+    for (auto next = begin; next != end; ++next) {
+      const auto left = [&](std::size_t a, std::size_t b) { return cross(points[b] - points[a], points[*next] - points[a]) > 0; };
+      while (chain.size() >= first + 2 && !left(chain[chain.size() - 2], chain.back())) chain.pop_back();
+      chain.push_back(*next);
+    }
+    chain.pop_back();  // where the other half begins
+  };
+  if (points.size() < 3) return order;
+  grow(order.begin(), order.end());
+  grow(order.rbegin(), order.rend());
+  return chain;
 }
 
 void sample(const Polygon& polygon, Integrand integrand, std::vector<Sample>& points)
