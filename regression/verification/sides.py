@@ -382,7 +382,7 @@ def far_from_reference(run):
 # Blocks that stand or tip. The edge a block tips about crosses cells of the upper block that hangs over it (`edge`), or of the lower block
 # on which the upper one stands (`foot`); a `pad` stands inside one of the lower block's cells. The load's resultant is `offset` cells of the side
 # that is partly covered beyond the edge.
-TIPPING = [(kind, across, offset) for kind in ("edge", "foot") for across in (6, 5) for offset in (-0.02, 0.02)] + [("pad", 3, -0.2), ("pad", 3, 0.02)]
+TIPPING = [(kind, across, offset) for kind in ("edge", "foot") for across in (6, 5) for offset in (-0.02, 0.02)] + [("pad", 3, -0.02), ("pad", 3, 0.02)]
 
 
 def tipping_settings(cell, kind, across, offset, side):

@@ -193,11 +193,15 @@ class Builder {
     for (const std::size_t f : faces_.round())
       for (const std::size_t i : faces_.pieces(f)) {
         const auto piece = faces_.piece(i);
-        if (piece.facet < 0 || piece.covered.sum() < least_piece * piece.whole.sum()) continue;
-        bool any = false;
-        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) any = any || kept_[faces_.place_of(f, piece, k)];
-        for (Eigen::Index k = 0; k < piece.covered.size() && !any; ++k)
-          if (const auto p = faces_.place_of(f, piece, k); allowed(p)) more.push_back(p);
+        if (piece.point_facet.empty()) continue;
+        const double facets = piece.facet < 0 ? static_cast<double>(secondary_.facets_of(f)) : 1;
+        if (piece.covered.sum() < least_piece / facets * piece.whole.sum()) continue;
+        double kept = 0;  // of the cover
+        for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
+          if (kept_[faces_.place_of(f, piece, k)]) kept += piece.covered[k];
+        if (kept > 0.5 * piece.covered.sum()) continue;
+        for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
+          if (const auto p = faces_.place_of(f, piece, k); allowed(p) && piece.covered[k] > 0) more.push_back(p);
       }
     for (const std::size_t p : more) kept_[p] = 1;
   }
@@ -288,8 +292,8 @@ class Builder {
     for (const auto& [face, i, k] : faces_.at(p)) {
       const auto piece = faces_.piece(i);
       d += piece.covered[k];
-      if (piece.facet < 0) continue;
-      const auto facet = static_cast<std::size_t>(piece.facet);
+      if (piece.point_facet.empty() || piece.covered[k] == 0) continue;
+      const auto facet = static_cast<std::size_t>(piece.point_facet[static_cast<std::size_t>(k)]);
       for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c) {
         const double part = piece.covered[k] * piece.points(k, static_cast<Eigen::Index>(c));
         shift += part * (secondary_.points[static_cast<std::size_t>(secondary_.facets[facet][c])] - node);
@@ -366,10 +370,9 @@ class Builder {
       const double part = piece.covered[k];
       if (part == 0) continue;
       double gap = at_node;
-      if (piece.facet >= 0) {
-        Eigen::Vector4d shape = Eigen::Vector4d::Zero();
-        shape.head(piece.points.cols()) = piece.points.row(k).transpose();
-        gap = rays_.gap(p, {static_cast<std::size_t>(piece.facet), shape}, direction, gap_of);
+      if (!piece.point_facet.empty()) {
+        const auto facet = static_cast<std::size_t>(piece.point_facet[static_cast<std::size_t>(k)]);
+        gap = rays_.gap(p, {facet, piece.points.row(k).transpose()}, direction, gap_of);
       } else if (std::isnan(gap)) {
         gap = at_node = rays_.gap(p, direction, gap_of);
       }

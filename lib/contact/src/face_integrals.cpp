@@ -11,6 +11,8 @@ namespace {
 // A face of second order of which less is missing keeps its own basis: what its functions extrapolate then is nothing, and
 // projections of curved sides leave such slits at planes of symmetry.
 constexpr double nearly_covered = 0.98;
+// A face whose functions, facet by facet, reach less than this part of what is covered gets points for all of it.
+constexpr double least_reach = 0.75;
 
 // Integrals of the shape functions of a triangle or a quadrilateral, projected along its normal.
 Eigen::Vector4d whole_of(const FaceGeometry& face)
@@ -65,7 +67,9 @@ void Integrator::start(std::size_t face, Local facet)
   piece_->facet = facet;
   piece_->mass.setZero(r, n);
   piece_->gram.setZero(r, r);
-  piece_->points.setIdentity(r, r);
+  if (facet >= 0) piece_->point_facet.assign(static_cast<std::size_t>(r), facet);
+  piece_->points.setIdentity(r, 4);
+  piece_->plane.resize(0, 2);
   piece_->covered.setZero(r);
   piece_->whole.setZero(r);
   piece_->rise.setZero(r);
@@ -127,7 +131,9 @@ void Integrator::add_points(std::size_t facet, std::size_t other, const Bulge& o
     } else {
       const FaceShape phi = secondary_.shape_in_face(facet, point.secondary, overlap_.frame, point.at);
       FaceShape theta = phi;
-      if (piece_->facet >= 0)
+      if (basis_)
+        theta = (*basis_)(in_face(facet, point.secondary));
+      else if (piece_->facet >= 0)
         theta = point.secondary.head(r);
       else if (secondary_.second_order(face))
         theta.noalias() = basis * phi;
@@ -154,14 +160,33 @@ void Integrator::add_points(std::size_t facet, std::size_t other, const Bulge& o
   }
 }
 
+// Calls use(primary facet) for all that a facet looks at, with what they have in common in overlap_.
+template <class Use>
+void Integrator::each_common(std::size_t facet, const Use& use)
+{
+  const bool second_order = secondary_.second_order(static_cast<std::size_t>(secondary_.face_of[facet]));
+  const FaceGeometry own = secondary_.geometry(facet);
+  Box box;
+  for (const auto& p : own.nodes) box.extend(p);
+  const Point margin = Point::Constant(1e-6 * own.size());
+  box.min() -= margin;
+  box.max() += margin;
+  tree_.swept(box, reach_ * own.normal(), met_);
+  for (const int met : met_) {
+    const auto other = static_cast<std::size_t>(met);
+    const bool high = second_order || primary_.second_order(static_cast<std::size_t>(primary_.face_of[other]));
+    if (overlap(own, primary_.geometry(other), reach_, high, overlap_)) use(other);
+  }
+}
+
 void Integrator::add_pair(std::size_t facet, std::size_t other, const Bulge& own_bulge)
 {
   const bool second_order = secondary_.second_order(static_cast<std::size_t>(secondary_.face_of[facet]));
   const auto other_face = static_cast<std::size_t>(primary_.face_of[other]);
-  if (!overlap(secondary_.geometry(facet), primary_.geometry(other), reach_, second_order || primary_.second_order(other_face),
-               overlap_))
-    return;
-  if (piece_->facet >= 0) common_.push_back(overlap_.common);
+  if (piece_->facet >= 0) {
+    common_.push_back(overlap_.common);
+    if (!plane_nodes_.empty()) note_common(facet);
+  }
   if (!second_order && !primary_.second_order(other_face)) {
     const Eigen::Matrix4d zero = Eigen::Matrix4d::Zero();
     return add_points<Eigen::Vector4d, Eigen::Matrix4d>(facet, other, own_bulge, Eigen::Vector4d::Zero(), zero, zero, zero);
@@ -176,15 +201,8 @@ void Integrator::add_pair(std::size_t facet, std::size_t other, const Bulge& own
 void Integrator::integrate_facet(std::size_t facet)
 {
   add_whole(facet);
-  const FaceGeometry own = secondary_.geometry(facet);
   const Bulge own_bulge(secondary_, secondary_places_, facet);
-  Box box;
-  for (const auto& p : own.nodes) box.extend(p);
-  const Point margin = Point::Constant(1e-6 * own.size());
-  box.min() -= margin;
-  box.max() += margin;
-  tree_.swept(box, reach_ * own.normal(), met_);
-  for (const int other : met_) add_pair(facet, static_cast<std::size_t>(other), own_bulge);
+  each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
 }
 
 std::span<const PieceIntegrals> Integrator::integrate(std::size_t face)
@@ -194,8 +212,124 @@ std::span<const PieceIntegrals> Integrator::integrate(std::size_t face)
              end = static_cast<std::size_t>(secondary_.first_facet[face + 1]);
   for (std::size_t facet = first; facet < end; ++facet) integrate_facet(facet);
   const double covered = piece_->covered.sum(), whole = piece_->whole.sum();
-  if (covered > 0 && covered < (secondary_.second_order(face) ? nearly_covered : 1 - 1e-6) * whole) cut_into_facets(face);
+  if (covered > 0 && covered < (secondary_.second_order(face) ? nearly_covered : 1 - 1e-6) * whole) cut(face);
   return pieces_;
+}
+
+// Into its facets, unless what is covered lies inside the face, or too little of it between the points of the face's functions
+// then: a facet that is covered in its middle has too few of them, and where facets meet they mean different points.
+void Integrator::cut(std::size_t face)
+{
+  const bool in_space = secondary_.second_order(face) && secondary_.faces.type[face] != mesh::CellType::line3;
+  plane_nodes_.clear();
+  if (in_space) lay_flat(face);
+  cut_into_facets(face);
+  if (in_space && (inside(face) || reached() < least_reach)) move_points(face);
+}
+
+// The face at work in its plane.
+void Integrator::lay_flat(std::size_t face)
+{
+  const auto type = secondary_.faces.type[face];
+  const auto point = [&](std::size_t k) { return secondary_.points[static_cast<std::size_t>(secondary_.faces[face][k])]; };
+  FaceGeometry corners{mesh::first_order(type), {}};
+  for (int k = 0; k < mesh::corner_count(type); ++k) corners.nodes.push_back(point(static_cast<std::size_t>(k)));
+  const Frame frame = frame_of(corners);
+  for (std::size_t k = 0; k < secondary_.faces[face].size(); ++k) plane_nodes_.push_back(frame.project(point(k)));
+  parts_.clear();
+  samples_.clear();
+}
+
+// What a facet of this face has in common with a primary one.
+void Integrator::note_common(std::size_t facet)
+{
+  const FaceGeometry own = secondary_.geometry(facet);
+  Few<Plane, 4> nodes;
+  for (const auto& p : own.nodes) nodes.push_back(overlap_.frame.project(p));
+  const Locator locator(own.type, nodes);
+  parts_.push_back({static_cast<Local>(facet), {}});
+  for (const auto& p : overlap_.common) parts_.back().polygon.push_back(in_face(facet, locator(p)));
+  for (const auto& point : overlap_.points) samples_.push_back({in_face(facet, point.secondary), point.weight});
+}
+
+// Whether no corner of the face at work is covered.
+bool Integrator::inside(std::size_t face) const
+{
+  const auto corners = static_cast<std::size_t>(mesh::corner_count(secondary_.faces.type[face]));
+  const double near = 1e-6 * (plane_nodes_[1] - plane_nodes_[0]).norm();
+  for (std::size_t k = 0; k < corners; ++k)
+    for (const auto& part : parts_)
+      if ((nearest_in(part.polygon, plane_nodes_[k]) - plane_nodes_[k]).norm() < near) return false;
+  return true;
+}
+
+// The part of the convex hull of what is covered that lies between the points of the functions, those of a node in all facets
+// taken together.
+double Integrator::reached() const
+{
+  std::vector<Plane> covered, points(plane_nodes_.size(), Plane::Zero());
+  for (const auto& part : parts_) covered.insert(covered.end(), part.polygon.begin(), part.polygon.end());
+  std::vector<double> sums(plane_nodes_.size(), 0.0);
+  for (const auto& piece : pieces_)
+    for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
+      const auto facet = static_cast<std::size_t>(piece.facet);
+      const auto node = static_cast<std::size_t>(secondary_.corners[facet][static_cast<std::size_t>(k)]);
+      sums[node] += piece.covered[k];
+      points[node] += piece.covered[k] * in_face(facet, piece.points.row(k).transpose());
+    }
+  std::vector<Plane> used;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (sums[k] > 0) used.push_back(points[k] / sums[k]);
+  const auto area = [](const std::vector<Plane>& all) {
+    double twice = 0;
+    const auto corners = convex_hull(all);
+    for (std::size_t i = 0; i < corners.size(); ++i) twice += cross(all[corners[i]], all[corners[(i + 1) % corners.size()]]);
+    return 0.5 * twice;
+  };
+  return area(used) / area(covered);
+}
+
+// The place in the plane of the face at work where the shape functions of one of its facets are `shape`.
+Plane Integrator::in_face(std::size_t facet, const Eigen::Vector4d& shape) const
+{
+  Plane at = Plane::Zero();
+  for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c)
+    at += shape[static_cast<Eigen::Index>(c)] * plane_nodes_[static_cast<std::size_t>(secondary_.corners[facet][c])];
+  return at;
+}
+
+// A face of second order that stays one piece, with functions that belong to points of its covered part.
+void Integrator::move_points(std::size_t face)
+{
+  basis_.emplace(secondary_.faces.type[face], plane_nodes_, parts_, samples_);
+
+  forget_nodes();
+  pieces_.clear();
+  start(face, -1);
+  const auto n = plane_nodes_.size();
+  piece_->point_facet.resize(n);
+  piece_->points.setZero(static_cast<Eigen::Index>(n), 4);
+  piece_->plane.setZero(static_cast<Eigen::Index>(n), 2);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Local facet = piece_->point_facet[k] = basis_->facet(k);
+    if (facet < 0) continue;
+    Few<Plane, 4> nodes;
+    for (std::size_t c = 0; c < secondary_.facets[static_cast<std::size_t>(facet)].size(); ++c)
+      nodes.push_back(plane_nodes_[static_cast<std::size_t>(secondary_.corners[static_cast<std::size_t>(facet)][c])]);
+    piece_->points.row(static_cast<Eigen::Index>(k)) =
+        Locator(secondary_.facets.type[static_cast<std::size_t>(facet)], nodes)(basis_->point(k)).transpose();
+    piece_->plane.row(static_cast<Eigen::Index>(k)) = basis_->point(k).transpose();
+  }
+  for (auto facet = static_cast<std::size_t>(secondary_.first_facet[face]);
+       facet < static_cast<std::size_t>(secondary_.first_facet[face + 1]); ++facet) {
+    const auto& nodes = secondary_.corners[facet];
+    const Eigen::Vector4d whole = whole_of(secondary_.geometry(facet));
+    for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c)
+      piece_->whole[nodes[c]] += whole[static_cast<Eigen::Index>(c)];
+    const Bulge own_bulge(secondary_, secondary_places_, facet);
+    each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
+  }
+  basis_.reset();
 }
 
 void Integrator::cut_into_facets(std::size_t face)

@@ -1,9 +1,11 @@
 // The integrals of one secondary face over its covered part.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "covered_basis.hpp"
 #include "pieces.hpp"
 #include "places.hpp"
 #include "tree.hpp"
@@ -26,7 +28,16 @@ class Integrator {
   void begin(std::size_t face);
   void start(std::size_t face, Local facet);
   void forget_nodes();
+  template <class Use>
+  void each_common(std::size_t facet, const Use& use);
   void integrate_facet(std::size_t facet);
+  Plane in_face(std::size_t facet, const Eigen::Vector4d& shape) const;
+  void cut(std::size_t face);
+  void lay_flat(std::size_t face);
+  void note_common(std::size_t facet);
+  bool inside(std::size_t face) const;
+  double reached() const;
+  void move_points(std::size_t face);
   void cut_into_facets(std::size_t face);
   void add_whole(std::size_t facet);
   template <class Add>
@@ -46,7 +57,11 @@ class Integrator {
   PieceIntegrals* piece_ = nullptr;  // at work: the last of pieces_, if there is one
   std::vector<Local> slot_;          // of each primary node its place in piece_->nodes, or -1
   Overlap overlap_;
-  std::vector<Polygon> common_;  // what the facet at work has in common with the primary facets
+  std::vector<Polygon> common_;     // what the facet at work has in common with the primary facets
+  Few<Plane, 9> plane_nodes_;       // of the face at work, in its plane
+  std::vector<CoveredPart> parts_;  // of this face
+  std::vector<Sample> samples_;
+  std::optional<CoveredBasis> basis_;  // if it has points of its own
   std::vector<int> met_;
 };
 

@@ -13,14 +13,6 @@ namespace {
 
 constexpr double negligible = 1e-10;  // part of the face's area below which an overlap is rounding
 
-Frame frame_of(const FaceGeometry& face)
-{
-  Frame frame{face.centre(), (face.nodes[1] - face.nodes[0]).normalized(), Point::Zero(), face.normal()};
-  frame.first = (frame.first - frame.first.dot(frame.normal) * frame.normal).normalized();
-  if (face.type != CellType::line2) frame.second = frame.normal.cross(frame.first);
-  return frame;
-}
-
 // Part of `subject` inside the convex, counter-clockwise `clip` [Sutherland and Hodgman].
 Polygon clip_polygon(Polygon subject, const Few<Plane, 4>& clip)
 {
@@ -98,6 +90,14 @@ double FaceGeometry::area() const
   if (type == CellType::line2) return (nodes[1] - nodes[0]).norm();
   if (type == CellType::tri3) return 0.5 * (nodes[1] - nodes[0]).cross(nodes[2] - nodes[0]).norm();
   return 0.5 * (nodes[2] - nodes[0]).cross(nodes[3] - nodes[1]).norm();
+}
+
+Frame frame_of(const FaceGeometry& face)
+{
+  Frame frame{face.centre(), (face.nodes[1] - face.nodes[0]).normalized(), Point::Zero(), face.normal()};
+  frame.first = (frame.first - frame.first.dot(frame.normal) * frame.normal).normalized();
+  if (face.type != CellType::line2) frame.second = frame.normal.cross(frame.first);
+  return frame;
 }
 
 FaceGeometry corners_of(const mesh::Surface& surface, std::size_t face)

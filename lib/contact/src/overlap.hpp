@@ -34,6 +34,9 @@ struct Frame {
   double height(const Point& x) const { return (x - origin).dot(normal); }
 };
 
+/// The plane of a facet through its centre.
+Frame frame_of(const FaceGeometry& face);
+
 /// An integration point: its weight and place in the auxiliary plane (2D: line) and both facets' shape functions there.
 struct OverlapPoint {
   double weight;

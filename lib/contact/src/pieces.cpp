@@ -46,28 +46,6 @@ constexpr double slit = 1e-4;
 // is next to nothing.
 constexpr double least_rcond = 1e-6, least_part = 0.02;
 
-Plane nearest_on(const Plane& a, const Plane& b, const Plane& x)
-{
-  const Plane edge = b - a;
-  const double length = edge.squaredNorm();
-  return length > 0 ? Plane(a + std::clamp((x - a).dot(edge) / length, 0.0, 1.0) * edge) : a;
-}
-
-// The point of a convex, counter-clockwise polygon (two ends of a line) next to x.
-Plane nearest_in(const Polygon& polygon, const Plane& x)
-{
-  if (polygon.size() == 2) return nearest_on(polygon[0], polygon[1], x);
-  bool inside = true;
-  Plane best = polygon[0];
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Plane &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    if (cross(b - a, x - a) < 0) inside = false;
-    const Plane on = nearest_on(a, b, x);
-    if ((on - x).squaredNorm() < (best - x).squaredNorm()) best = on;
-  }
-  return inside ? x : best;
-}
-
 double size_of(const Polygon& polygon)
 {
   return polygon.size() == 2 ? (polygon[1] - polygon[0]).norm() : area_of(polygon);
@@ -91,7 +69,7 @@ void keep_shape_functions(PieceIntegrals& piece)
 {
   piece.dual = false;
   for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
-    if (piece.covered[k] > 0) piece.points.row(k) = piece.gram.row(k) / piece.covered[k];
+    if (piece.covered[k] > 0) piece.points.row(k).head(piece.gram.cols()) = piece.gram.row(k) / piece.covered[k];
 }
 
 }  // namespace
@@ -127,7 +105,7 @@ void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<P
   const SmallMatrix change = factor.inverse().transpose();
   const FaceShape covered = change * piece.covered;
   if (covered.minCoeff() < least_part * covered.sum()) return keep_shape_functions(piece);
-  piece.points = points;
+  piece.points.leftCols(r) = points;
   piece.covered = covered;
   piece.mass = SmallMatrix(change * piece.mass);
   piece.gram = SmallMatrix(change * piece.gram * change.transpose());
@@ -137,32 +115,38 @@ void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<P
 
 void PieceStore::add(const PieceIntegrals& piece)
 {
-  shapes_.push_back({piece.facet, piece.dual, static_cast<int>(piece.mass.rows()), static_cast<int>(piece.mass.cols()),
-                     values_.size(), nodes_.size()});
+  shapes_.push_back({piece.facet, piece.dual, !piece.point_facet.empty(), piece.plane.rows() > 0,
+                     static_cast<int>(piece.mass.rows()), static_cast<int>(piece.mass.cols()), values_.size(), nodes_.size()});
   const auto put = [&](const auto& matrix) { values_.insert(values_.end(), matrix.data(), matrix.data() + matrix.size()); };
   put(piece.mass);
   put(piece.gram);
-  if (piece.facet >= 0) put(piece.points);
+  if (!piece.point_facet.empty()) put(piece.points);
+  put(piece.plane);
   put(piece.covered);
   put(piece.whole);
   put(piece.rise);
   for (const auto& column : piece.opposite) put(column);
+  nodes_.insert(nodes_.end(), piece.point_facet.begin(), piece.point_facet.end());
   nodes_.insert(nodes_.end(), piece.nodes.begin(), piece.nodes.end());
 }
 
 PieceStore::View PieceStore::operator[](std::size_t i)
 {
   const auto& shape = shapes_[i];
-  const Eigen::Index r = shape.r, n = shape.n, points = shape.facet >= 0 ? r : 0;
+  const Eigen::Index r = shape.r, n = shape.n, points = shape.own_points ? r : 0, plane = shape.in_plane ? r : 0;
   const std::size_t end = i + 1 < shapes_.size() ? shapes_[i + 1].first_node : nodes_.size();
-  const auto nodes = std::span<const Local>(nodes_).subspan(shape.first_node, end - shape.first_node);
+  const auto all = std::span<const Local>(nodes_).subspan(shape.first_node, end - shape.first_node);
+  const auto nodes = all.subspan(static_cast<std::size_t>(points));
   double* mass = values_.data() + shape.first_value;
-  double *gram = mass + r * n, *at = gram + r * r, *covered = at + points * points, *whole = covered + r, *rise = whole + r;
+  double *gram = mass + r * n, *at = gram + r * r, *in_plane = at + 4 * points, *covered = in_plane + 2 * plane,
+         *whole = covered + r, *rise = whole + r;
   return {shape.facet,
           shape.dual,
+          all.first(static_cast<std::size_t>(points)),
           Matrix(mass, r, n),
           Matrix(gram, r, r),
-          Matrix(at, points, points),
+          Matrix(at, points, 4),
+          Matrix(in_plane, plane, 2),
           Vector(covered, r),
           Vector(whole, r),
           Vector(rise, r),
@@ -170,11 +154,45 @@ PieceStore::View PieceStore::operator[](std::size_t i)
           Matrix(rise + r, r, static_cast<Eigen::Index>(nodes.size()))};
 }
 
+namespace {
+
+// Shares the dropped functions of a face with points in its plane out so that linear fields stay in the basis: to those kept with
+// weights b of least squares for which sum b = 1 and sum b_k x_k = x_d. Whether it could: the points that are kept must span the
+// plane, and functions must keep positive integrals.
+bool keep_linear(const PieceStore::View& piece, const Few<Eigen::Index, 9>& keep, const Few<Eigen::Index, 9>& drop,
+                 SmallMatrix& t)
+{
+  if (piece.plane.rows() == 0 || keep.size() < 3) return false;
+  const auto count = static_cast<Eigen::Index>(keep.size());
+  Plane middle = Plane::Zero();
+  for (const auto k : keep) middle += piece.plane.row(k).transpose() / static_cast<double>(count);
+  SmallMatrix a(3, count);
+  for (Eigen::Index k = 0; k < count; ++k) a.col(k) << 1, piece.plane.row(keep[static_cast<std::size_t>(k)]).transpose() - middle;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const double size = a.bottomRows(2).colwise().norm().maxCoeff();
+  SmallMatrix shared = t;
+  for (const auto d : drop) {
+    Eigen::Vector3d x;
+    x << 1, piece.plane.row(d).transpose() - middle;
+    const Eigen::VectorXd b = svd.solve(x);
+    if (!((a * b - x).norm() < 1e-9 * (1 + size))) return false;
+    shared.col(d) = b;
+  }
+  if (!((shared * piece.covered).minCoeff() > 0)) return false;
+  t = shared;
+  return true;
+}
+
+}  // namespace
+
 void make_dual(PieceStore::View& piece, std::span<const char> kept)
 {
   const auto n = piece.covered.size();
   Few<Eigen::Index, 9> keep, drop;
-  for (Eigen::Index i = 0; i < n; ++i) (kept[static_cast<std::size_t>(i)] ? keep : drop).push_back(i);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!piece.point_facet.empty() && piece.point_facet[static_cast<std::size_t>(i)] < 0) continue;  // no function
+    (kept[static_cast<std::size_t>(i)] ? keep : drop).push_back(i);
+  }
   if (keep.empty() || piece.covered.sum() <= 0) {
     piece.mass.setZero();
     piece.covered.setZero();
@@ -190,6 +208,7 @@ void make_dual(PieceStore::View& piece, std::span<const char> kept)
     t(k, keep[static_cast<std::size_t>(k)]) = 1;
     for (const auto d : drop) t(k, d) = 1.0 / static_cast<double>(count);
   }
+  const bool linear = !drop.empty() && keep_linear(piece, keep, drop, t);
   const SmallMatrix products = t * piece.gram;  // integral theta~_k theta_j
   SmallMatrix gram(count, count);
   FaceShape d(count), scale(count);
@@ -200,11 +219,15 @@ void make_dual(PieceStore::View& piece, std::span<const char> kept)
     // A sliver makes the functions nearly dependent on it; scaled to one size what remains is their true dependence.
     scale[k] = 1 / std::sqrt(std::max(piece.gram(corner, corner), std::numeric_limits<double>::min()));
   }
+  if (linear) {
+    gram = products * t.transpose();
+    d = t * piece.covered;
+  }
   const Eigen::FullPivLU<SmallMatrix> factor(SmallMatrix(scale.asDiagonal() * gram * scale.asDiagonal()));
   SmallMatrix a = SmallMatrix::Identity(count, count);  // too thin for a dual basis of its own: theta~, which keeps the sums
-  // On a facet whose basis has lost a function linear fields are no longer in it, and resultants of dual functions need not lie
-  // in what is covered; those of theta~ do.
-  const bool dual = piece.dual && (piece.facet < 0 || drop.empty());
+  // Where a cut face's basis has lost linear fields with a function, resultants of dual functions need not lie in what is
+  // covered; those of theta~ do.
+  const bool dual = piece.dual && (piece.point_facet.empty() || drop.empty() || linear);
   if (dual && factor.rcond() > 1e-9)
     a = d.asDiagonal() * SmallMatrix(scale.asDiagonal() * factor.solve(SmallMatrix(scale.asDiagonal())));
 

@@ -30,14 +30,17 @@ const Eigen::MatrixXd& control_values(mesh::CellType type);
 
 /// Integrals over a piece with r functions theta of a face with n nodes.
 struct PieceIntegrals {
-  Local facet = -1;                 ///< of the side; -1: all of the face, r = n
+  Local facet = -1;                 ///< of the side, whose nodes' functions they are; -1: of all nodes of the face, r = n
   bool dual = true;                 ///< false: too thin for a dual basis; the multipliers are theta themselves
   SmallMatrix mass;                 ///< integral theta_i phi_j, r x n
   SmallMatrix gram;                 ///< integral theta_i theta_j, r x r
   FaceShape covered;                ///< integral theta_i
   FaceShape whole;                  ///< the same over the piece, covered or not, of functions that belong to its nodes
   FaceShape rise;                   ///< integral theta_i (bulge of both faces)
-  SmallMatrix points;               ///< of a facet: its shape functions at the point that each function belongs to, r x r
+  std::vector<Local> point_facet;   ///< the facet on which each function's point lies, -1 if there is no such function; r, or
+                                    ///< none if functions belong to the nodes
+  SmallMatrix points;               ///< its shape functions there, r x 4
+  SmallMatrix plane;                ///< where the points lie in the plane of a face that is in one piece, r x 2; else 0 x 2
   std::vector<Local> nodes;         ///< those of the primary side that it meets, in any order
   std::vector<FaceShape> opposite;  ///< for each of them, integral theta_i phi^m
 };
@@ -56,7 +59,8 @@ class PieceStore {
   struct View {
     Local facet;
     bool dual;
-    Matrix mass, gram, points;
+    std::span<const Local> point_facet;
+    Matrix mass, gram, points, plane;
     Vector covered, whole, rise;
     std::span<const Local> nodes;
     Matrix opposite;  ///< r x nodes
@@ -69,7 +73,7 @@ class PieceStore {
  private:
   struct Shape {
     Local facet;
-    bool dual;
+    bool dual, own_points, in_plane;
     int r, n;
     std::size_t first_value, first_node;
   };

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace mortise::contact {
 
@@ -83,6 +85,50 @@ double area_of(const Polygon& polygon)
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
   return 0.5 * twice;
+}
+
+Plane nearest_on(const Plane& a, const Plane& b, const Plane& x)
+{
+  const Plane edge = b - a;
+  const double length = edge.squaredNorm();
+  return length > 0 ? Plane(a + std::clamp((x - a).dot(edge) / length, 0.0, 1.0) * edge) : a;
+}
+
+Plane nearest_in(const Polygon& polygon, const Plane& x)
+{
+  if (polygon.size() == 2) return nearest_on(polygon[0], polygon[1], x);
+  bool inside = true;
+  Plane best = polygon[0];
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Plane &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if (cross(b - a, x - a) < 0) inside = false;
+    const Plane on = nearest_on(a, b, x);
+    if ((on - x).squaredNorm() < (best - x).squaredNorm()) best = on;
+  }
+  return inside ? x : best;
+}
+
+// Andrew's monotone chain.
+std::vector<std::size_t> convex_hull(const std::vector<Plane>& points)
+{
+  std::vector<std::size_t> order(points.size()), chain;
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(points[a][0], points[a][1], a) < std::tie(points[b][0], points[b][1], b);
+  });
+  const auto grow = [&](auto begin, auto end) {
+    const std::size_t first = chain.size();
+    for (auto next = begin; next != end; ++next) {
+      const auto left = [&](std::size_t a, std::size_t b) { return cross(points[b] - points[a], points[*next] - points[a]) > 0; };
+      while (chain.size() >= first + 2 && !left(chain[chain.size() - 2], chain.back())) chain.pop_back();
+      chain.push_back(*next);
+    }
+    chain.pop_back();  // where the other half begins
+  };
+  if (points.size() < 3) return order;
+  grow(order.begin(), order.end());
+  grow(order.rbegin(), order.rend());
+  return chain;
 }
 
 void sample(const Polygon& polygon, Integrand integrand, std::vector<Sample>& points)

@@ -29,6 +29,13 @@ inline double cross(const Plane& a, const Plane& b)
 /// Negative if it runs clockwise.
 double area_of(const Polygon& polygon);
 
+/// The point of the line from a to b next to x, and that of a convex, counter-clockwise polygon (two ends of a line).
+Plane nearest_on(const Plane& a, const Plane& b, const Plane& x);
+Plane nearest_in(const Polygon& polygon, const Plane& x);
+
+/// The corners of the convex hull of points, counter-clockwise: their places in `points`.
+std::vector<std::size_t> convex_hull(const std::vector<Plane>& points);
+
 /// Replaces `points` by those of a convex, counter-clockwise polygon. Polynomials are integrated exactly on the triangles from
 /// its first corner, by the symmetric rules of degree 4 (6 points) and 8 (16) [Strang and Fix 1973; Dunavant, IJNME 21 (1985)];
 /// rational functions by 9 x 9 Gauss points on each triangle from its centre, which keeps a patch test at rounding.

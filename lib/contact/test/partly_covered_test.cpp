@@ -72,6 +72,67 @@ TEST(PartlyCovered, ASmallPlateOnLargeFacesFeelsAllOfAConstantPressure)
   }
 }
 
+// One face of second order over [0, 3] x [0, 2], or the half of it below its diagonal, which looks up.
+mesh::Surface large_face(mesh::CellType type, const Communicator& comm)
+{
+  mesh::Surface result;
+  if (comm.rank() != 0) return result;
+  result.points = {{0, 0, 0}, {3, 0, 0}, {3, 2, 0}};
+  if (mesh::corner_count(type) == 4) result.points.push_back({0, 2, 0});
+  for (const auto& corners : mesh::middles(type)) {
+    Point middle = Point::Zero();
+    for (const int c : corners) middle += result.points[static_cast<std::size_t>(c)] / static_cast<double>(corners.size());
+    result.points.push_back(middle);
+  }
+  std::vector<Local> nodes;
+  for (std::size_t k = 0; k < result.points.size(); ++k) {
+    nodes.push_back(static_cast<Local>(k));
+    result.node_id.push_back(static_cast<Global>(k));
+  }
+  result.faces.add(type, nodes);
+  result.face_id = {0};
+  result.body = {0};
+  return result;
+}
+
+class Pad : public testing::TestWithParam<std::tuple<mesh::CellType, double>> {};
+
+// A small plate inside a face of second order: multipliers push at its corners, so that it stands until its load passes its edge,
+// and the force and moment of a constant pressure are its own.
+TEST_P(Pad, MultipliersReachItsCorners)
+{
+  const Communicator comm;
+  const auto [type, x] = GetParam();
+  const double size = 0.5, y = 0.2;
+  const auto pair =
+      make_pair(large_face(type, comm), surface({2, 2, x, x + size, y, y + size, false, false, primary_ids}, flat, comm),
+                Law::frictionless);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  const auto nodes = nodes_of(pair, comm);
+  double force = 0;
+  Point moment = Point::Zero();
+  std::array<double, 4> nearest{1, 1, 1, 1};
+  for (const auto& row : rows.rows) {
+    const Point own = resultant(row, nodes, false), other = resultant(row, nodes, true);
+    EXPECT_GT(row.area, 0);
+    EXPECT_LT((own - other).norm(), 1e-9);
+    EXPECT_LT(std::abs(other[0] - x - size / 2), size / 2 + 1e-9);
+    EXPECT_LT(std::abs(other[1] - y - size / 2), size / 2 + 1e-9);
+    for (std::size_t c = 0; c < 4; ++c)
+      nearest[c] = std::min(nearest[c], (other - Point(x + (c % 2 ? size : 0), y + (c / 2 ? size : 0), 0)).norm());
+    force += row.area * row.weight;
+    moment += row.area * row.weight * other;
+  }
+  for (const double distance : nearest) EXPECT_LT(distance, 0.02 * size);
+  EXPECT_NEAR(force, size * size, 1e-10);
+  EXPECT_LT((moment / force - Point(x + size / 2, y + size / 2, 0)).norm(), 1e-9);
+}
+
+// In one facet, across facets, over a middle node.
+INSTANTIATE_TEST_SUITE_P(Places, Pad,
+                         testing::Combine(testing::Values(mesh::CellType::tri6, mesh::CellType::quad8, mesh::CellType::quad9),
+                                          testing::Values(1.1, 1.4, 1.8, 2.3)));
+
 // A shaft in a bush that is shorter: the gap of the circles also where faces of the shaft cross the bush's rim.
 TEST(PartlyCovered, GapsAtTheRimAreThoseOfTheSmoothSurfaces)
 {
