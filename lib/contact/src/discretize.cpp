@@ -184,8 +184,8 @@ class Builder {
     keep_small_pieces([&](std::size_t p) { return !left_out(p) || stranded_[p] || freed_[p]; });
   }
 
-  // Where all functions of a piece would be dropped, as opposite a foot smaller than the faces it stands on, they stay: so does
-  // the border of the contact.
+  // Where functions with half of a piece's cover would be dropped, as opposite a foot smaller than the faces it stands on, they
+  // stay: so does the border of the contact.
   template <class Allowed>
   void keep_small_pieces(const Allowed& allowed)
   {

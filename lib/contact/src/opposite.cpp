@@ -9,7 +9,7 @@ namespace mortise::contact {
 namespace {
 
 // Curvature below this part of 1 / size of a facet is rounding.
-constexpr double flat = 1e-6;
+constexpr double flat = 1e-8;
 // How far a line may pass the border of a face that it meets continued, in shape functions.
 constexpr double beyond_border = 1;
 

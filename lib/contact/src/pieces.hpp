@@ -2,9 +2,11 @@
 //
 // A face that the primary side covers is one piece. One that crosses the primary side's border is cut into its facets, whose
 // bases are linear (bilinear) on them and belong to points inside what is covered: a node that looks past the border is moved to
-// the next place that does not. A dual basis on a covered part that belonged to the nodes themselves would extrapolate: a
-// pressure there would have its resultant, and see its gap, beyond the border [Cichosz and Bischoff, CMAME 200 (2011), restore
-// consistency of the basis on such parts; Popp, Seitz, Gee and Wall, CMAME 264 (2013), its conditioning].
+// the next place that does not. Where too few points are left in this way, as opposite a pad inside a face of second order, the
+// face stays one piece with points of its own, see CoveredBasis. A dual basis on a covered part that belonged to the nodes
+// themselves would extrapolate: a pressure there would have its resultant, and see its gap, beyond the border [Cichosz and
+// Bischoff, CMAME 200 (2011), restore consistency of the basis on such parts; Popp, Seitz, Gee and Wall, CMAME 264 (2013), its
+// conditioning].
 #pragma once
 
 #include <span>
@@ -86,7 +88,8 @@ class PieceStore {
 /// `mass` has the coefficients of the face's own nodes, `opposite` those of the primary nodes, before they are divided by D;
 /// `covered` is D_i and `rise` integral psi_i (bulge of both faces). The dual basis is psi = diag(D) N^-1 theta~. For a dropped
 /// node d the others take over: theta~_k = theta_k + sum_d theta_d / (number kept), N_kj = integral theta~_k theta_j, which keeps
-/// biorthogonality among those kept and sum psi = 1.
+/// biorthogonality among those kept and sum psi = 1. In a face with points in its plane they take over in parts for which linear
+/// fields stay in the basis, and psi is dual to theta~ itself: resultants stay at the points.
 void make_dual(PieceStore::View& piece, std::span<const char> kept);
 
 }  // namespace mortise::contact

@@ -165,10 +165,10 @@ TEST(PartlyCovered, DirectionsAreThoseOfTheFlatterSide)
   };
   EXPECT_LT(directions(surface({8, 2, -2, 2, 0, 1, false}, curved, comm),
                        surface({5, 3, -3, 3, 0, 1, true, false, primary_ids}, flat, comm)),
-            1e-4);
+            1e-7);
   EXPECT_LT(directions(surface({5, 3, -3, 3, 0, 1, true}, flat, comm),
                        surface({8, 2, -2, 2, 0, 1, false, false, primary_ids}, curved, comm)),
-            1e-4);
+            1e-7);
 }
 
 }  // namespace
