@@ -116,20 +116,12 @@ void check_decomposition(const Deck& deck, deck::Document& document)
                      "there is no such block" + deck::suggestion(name, names_of(deck.mesh.blocks)));
 }
 
-// Two entries are for plane models.
-void check_three_entries(deck::Document& document)
-{
-  const auto loads = document.root()["loads"];
-  if (!loads.IsDefined() || !loads.IsSequence()) return;
-  for (std::size_t i = 0; i < loads.size(); ++i)
-    for (const char* key : {"traction", "force", "acceleration"})
-      if (const YAML::Node load = loads[i]; load.IsMap() && load[key] && load[key].IsSequence() && load[key].size() == 2)
-        document.error(fmt::format("loads[{}].{}", i, key), "expected 3 entries, since `dimension` is 3, found 2");
-}
-
 void check_vectors(const Deck& deck, deck::Document& document)
 {
-  if (deck.dimension() == 3) return check_three_entries(document);
+  if (deck.dimension() == 3) {
+    for (const auto& path : document.pairs()) document.error(path, "expected 3 entries, since `dimension` is 3, found 2");
+    return;
+  }
   const auto flat = [&](const std::optional<std::array<double, 3>>& v, const std::string& path) {
     if (v && (*v)[2] != 0) document.error(path, "a plane model has no z component");
   };

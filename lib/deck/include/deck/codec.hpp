@@ -97,7 +97,10 @@ struct Codec<std::array<V, N>> {
                                (node.IsSequence() ? std::to_string(node.size()) + " entries" : found(node)));
       return;
     }
-    if (node.size() < N) value[N - 1] = V{};
+    if (node.size() < N) {
+      value[N - 1] = V{};
+      document.note_pair(path);
+    }
     for (std::size_t i = 0; i < node.size(); ++i)
       Codec<V>::read(value[i], node[i], path + "[" + std::to_string(i) + "]", document, limits);
   }

@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ class Document {
   /// Throws Error(bad_input) with all errors, in the order of lines, if there are any.
   void check() const;
   std::size_t error_count() const { return errors_.size(); }
+  /// Remembers a vector that was given by two entries, as plane models may, for whoever knows the dimension.
+  void note_pair(const std::string& path) { pairs_.insert(path); }
+  const std::set<std::string>& pairs() const { return pairs_; }
 
  private:
   struct Complaint {
@@ -40,6 +44,7 @@ class Document {
   std::map<std::string, int> lines_;        // path -> line, from 1; 0 for what --set created
   std::map<std::string, std::string> set_;  // path -> the setting that gave it its value
   std::vector<Complaint> errors_;
+  std::set<std::string> pairs_;
 };
 
 /// The candidate that is nearest to `name` by edit distance, or "" if none is near.
