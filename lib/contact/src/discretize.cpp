@@ -160,11 +160,11 @@ class Builder {
                                        Pressed{secondary_.node_id[static_cast<std::size_t>(places_.all[p].node)]},
                                        [](const Pressed& a, const Pressed& b) { return a.node < b.node; });
     const auto left_out = [&](std::size_t p) { return !directions_[p].free_normal || crossing[p]; };
-    // Places held along their normal keep their rows in a contact: the primary side alone feels them (add_point() drops them if it
-    // does not, as an obstacle). If their neighbours took over their share, these would see what moves along a curved surface there
-    // as an overlap. In a bond they would hold the primary side to the mean of what it meets, and leave their share to the others
-    // of the face, as those at a seam's end do; where a face has no others, as on a surface that a support moves as a whole, they
-    // stay.
+    // Places held along their normal keep their rows in a contact: the primary side alone feels them (add_point() drops them if
+    // it does not, as an obstacle). If their neighbours took over their share, these would see what moves along a curved surface
+    // there as an overlap. In a bond they would hold the primary side to the mean of what it meets, and leave their share to the
+    // others of the face, as those at a seam's end do; where a face has no others, as on a surface that a support moves as a
+    // whole, they stay.
     stranded_.assign(count, 0);
     for (const std::size_t f : faces_.round()) {
       const auto places = faces_.node_places(f);

@@ -109,8 +109,8 @@ TEST(Mortar, MatchingMeshesGiveNodePairsAlsoAtTheBorderOfTheOverlap)
   }
 }
 
-// A side of which one border is held along the normal: in a bond its nodes leave their share to the others, in a contact they keep
-// rows that the primary side alone feels.
+// A side of which one border is held along the normal: in a bond its nodes leave their share to the others, in a contact they
+// keep rows that the primary side alone feels.
 class HeldBorder : public testing::TestWithParam<Law> {};
 
 TEST_P(HeldBorder, ForcesAreConsistentWithWhatGoesIntoSupports)

@@ -97,7 +97,8 @@ TEST(Obstacles, AnEndThatIsDrawnAlongADrumIsNoOverlapToItsNeighbours)
   std::vector<constraint::Held> held;
   if (comm.root())
     for (const Global node : {0, 7, 14})
-      for (const int component : {0, 1, 2}) held.push_back({node, component, component == 1 ? -0.1 : 0.0, static_cast<int>(node)});
+      for (const int component : {0, 1, 2})
+        held.push_back({node, component, component == 1 ? -0.1 : 0.0, static_cast<int>(node)});
   const auto contacts = discretize(std::vector<Pair>{pair}, held, fem::Kinematics::solid, comm);
   EXPECT_EQ(comm.sum(static_cast<long long>(contacts.points.size())), 18);
   for (const auto& point : contacts.points) {

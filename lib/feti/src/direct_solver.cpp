@@ -111,8 +111,7 @@ Teuchos::RCP<Amesos2Solver> klu2(const SparseMatrix& lower, int)
 using Maker = Teuchos::RCP<Amesos2Solver> (*)(const SparseMatrix& lower, int block);
 const std::map<std::string, Maker>& makers()
 {
-  static const std::map<std::string, Maker> table{
-      {"cholmod", cholmod<true>}, {"cholmod_plain", cholmod<false>}, {"klu2", klu2}};
+  static const std::map<std::string, Maker> table{{"cholmod", cholmod<true>}, {"cholmod_plain", cholmod<false>}, {"klu2", klu2}};
   return table;
 }
 
