@@ -49,7 +49,7 @@ void expect_error(Contacts contacts, int contact, const std::string& text)
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::bad_input);
-    EXPECT_NE(std::string(error.what()).find("contact bolt: " + text), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("contact \"bolt\": " + text), std::string::npos) << error.what();
   }
 }
 
