@@ -281,6 +281,21 @@ class Builder {
     add_point(p, d, rise, contacts);
   }
 
+  // A place where supports prescribe both sides. At the border of a side they may move it along a curved surface, which normals
+  // of the meshes see as a little of a crossing, and what overlaps in the mesh has its own warning.
+  void note_crossing(std::size_t p, double d, const Point& normal, double gap)
+  {
+    constexpr double along = 0.1;  // of the motion: that of what slides along a coarse mesh
+    const double into = writer_.held_part(terms_, d, normal);
+    if (stranded_[p]) {
+      crossing_ = std::max(crossing_, into - gap);
+      return;
+    }
+    double square = into * into;
+    for (const auto& tangent : directions_[p].tangents) square += std::pow(writer_.held_part(terms_, d, tangent), 2);
+    if (into > along * std::sqrt(square)) crossing_ = std::max(crossing_, into - std::max(gap, 0.0));
+  }
+
   // The point of a place's multiplier and the secondary side's normal there: at the node, unless it was moved into what is
   // covered.
   std::pair<Point, Point> point_of(std::size_t p)
@@ -330,7 +345,7 @@ class Builder {
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     if (held) {
-      if (!bonded() && stranded_[p]) crossing_ = std::max(crossing_, writer_.held_part(terms_, d, normal) - point.gap);
+      if (!bonded()) note_crossing(p, d, normal, point.gap);
       return;
     }
     writer_.add(terms_, d, normal, point.gap, contacts);
