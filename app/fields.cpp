@@ -1,4 +1,5 @@
-// The fields of a run as files: solution.pvd, contact.pvd, results.h5.
+#include "fields.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,13 +7,12 @@
 #include "fem/stress.hpp"
 #include "io/results.hpp"
 #include "io/vtk.hpp"
-#include "report.hpp"
 
 namespace mortise {
 
 namespace {
 
-bool wanted(const Deck& deck, const std::string& field)
+bool wanted(const model::Deck& deck, const std::string& field)
 {
   const auto& fields = deck.output.fields;
   return std::find(fields.begin(), fields.end(), field) != fields.end();
@@ -20,22 +20,23 @@ bool wanted(const Deck& deck, const std::string& field)
 
 // The points of the volume's mesh: the nodes and, where stresses jump between materials, one for each material that meets there.
 // Point (n, k) of a subdomain stands at n * materials + k.
-std::vector<bool> points_of(const Results& results, const mesh::Mesh& mesh, std::size_t s, std::size_t materials)
+std::vector<bool> points_of(const post::Results& results, const mesh::Mesh& mesh, std::size_t s, std::size_t materials)
 {
   if (materials == 1) return std::vector<bool>(mesh.node_count(), true);
   std::vector<bool> used(mesh.node_count() * materials, false);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const Local n : mesh.cells[c])
-      used[static_cast<std::size_t>(n) * materials + static_cast<std::size_t>(results.cell_block[s][c])] = true;
+      used[static_cast<std::size_t>(n) * materials + static_cast<std::size_t>(results.stress.cell_block[s][c])] = true;
   return used;
 }
 
 // The subdomains of this rank as one mesh, in which the copies of a node are one.
-io::Piece volume_piece(const Deck& deck, const partition::Decomposition& decomposition, const Results& results)
+io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& decomposition,
+                       const std::vector<Eigen::VectorXd>& u, const post::Results& results)
 {
   io::Piece piece;
   const auto materials =
-      results.material_stress.empty() ? 1 : static_cast<std::size_t>(results.material_stress.front().cols()) / 6;
+      results.stress.by_material.empty() ? 1 : static_cast<std::size_t>(results.stress.by_material.front().cols()) / 6;
   std::vector<Global> ids;
   std::vector<std::vector<bool>> used;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
@@ -56,7 +57,7 @@ io::Piece volume_piece(const Deck& deck, const partition::Decomposition& decompo
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     const auto& mesh = subdomain.mesh;
-    const auto& nodal = materials == 1 ? results.nodal_stress[s] : results.material_stress[s];
+    const auto& nodal = materials == 1 ? results.stress.nodal[s] : results.stress.by_material[s];
     std::vector<Local> place(used[s].size(), -1);
     for (std::size_t i = 0; i < used[s].size(); ++i) {
       if (!used[s][i]) continue;
@@ -66,18 +67,18 @@ io::Piece volume_piece(const Deck& deck, const partition::Decomposition& decompo
       place[i] = static_cast<Local>(at);
       piece.points[at] = mesh.points[n];
       for (std::size_t c = 0; c < dimension; ++c)
-        displacement.values[3 * at + c] = results.displacement[s][static_cast<Eigen::Index>(n * dimension + c)];
+        displacement.values[3 * at + c] = u[s][static_cast<Eigen::Index>(n * dimension + c)];
       const fem::Stress own =
           nodal.row(static_cast<Eigen::Index>(n)).segment(6 * static_cast<Eigen::Index>(block), 6).transpose();
       von_mises.values[at] = fem::von_mises(own);
       for (std::size_t c = 0; c < 6; ++c) stress.values[6 * at + c] = own[static_cast<Eigen::Index>(c)];
     }
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-      const auto block = materials == 1 ? 0 : static_cast<std::size_t>(results.cell_block[s][c]);
+      const auto block = materials == 1 ? 0 : static_cast<std::size_t>(results.stress.cell_block[s][c]);
       std::vector<Local> nodes;
       for (const Local n : mesh.cells[c]) nodes.push_back(place[static_cast<std::size_t>(n) * materials + block]);
       piece.cells.add(mesh.cells.type[c], nodes);
-      cell_von_mises.values.push_back(results.cell_von_mises[s][static_cast<Eigen::Index>(c)]);
+      cell_von_mises.values.push_back(results.stress.cell_von_mises[s][static_cast<Eigen::Index>(c)]);
       body.values.push_back(subdomain.body);
       owner.values.push_back(static_cast<double>(subdomain.id));
     }
@@ -131,7 +132,7 @@ io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vect
 
 // Nodal tables: each node from its lowest copy.
 std::vector<io::Table> node_tables(const partition::Decomposition& decomposition, const partition::Interface& interface,
-                                   const Results& results)
+                                   const std::vector<Eigen::VectorXd>& displacement, const post::Results& results)
 {
   const Global total = decomposition.catalogue.node_count;
   const int dimension = decomposition.catalogue.dimension;
@@ -149,18 +150,18 @@ std::vector<io::Table> node_tables(const partition::Decomposition& decomposition
       for (auto& table : tables) table.row.push_back(subdomain.mesh.node_id[n]);
       append(tables[0].values, subdomain.mesh.points[n]);
       Point u = Point::Zero();
-      u.head(dimension) = results.displacement[s].segment(static_cast<Eigen::Index>(n) * dimension, dimension);
+      u.head(dimension) = displacement[s].segment(static_cast<Eigen::Index>(n) * dimension, dimension);
       append(tables[1].values, u);
-      tables[2].values.push_back(results.nodal_von_mises[s][static_cast<Eigen::Index>(n)]);
-      for (Eigen::Index c = 0; c < 6; ++c) tables[3].values.push_back(results.nodal_stress[s](static_cast<Eigen::Index>(n), c));
+      tables[2].values.push_back(results.stress.nodal_von_mises[s][static_cast<Eigen::Index>(n)]);
+      for (Eigen::Index c = 0; c < 6; ++c) tables[3].values.push_back(results.stress.nodal[s](static_cast<Eigen::Index>(n), c));
     }
   }
   return tables;
 }
 
-io::Table contact_table(const Results& results, const Communicator& comm)
+io::Table contact_table(const post::Results& results, const Communicator& comm)
 {
-  const auto mine = static_cast<long long>(results.points.size());
+  const auto mine = static_cast<long long>(results.contact.points.size());
   io::Table table{
       "contact/points",
       "contact, node, area, normal force, force on the secondary side (3), gap, slip (3), status 0 open 1 stick 2 slip",
@@ -169,7 +170,7 @@ io::Table contact_table(const Results& results, const Communicator& comm)
       {},
       {}};
   Global row = comm.offset(mine);
-  for (const auto& p : results.points) {
+  for (const auto& p : results.contact.points) {
     table.row.push_back(row++);
     table.values.insert(table.values.end(), {static_cast<double>(p.contact), static_cast<double>(p.node), p.area, p.force});
     append(table.values, p.force_on_secondary);
@@ -197,22 +198,24 @@ io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambd
 
 }  // namespace
 
-void FieldFiles::write(const Simulation& simulation, const Results& results, double time, bool last, const Communicator& comm)
+void FieldFiles::write(const partition::Decomposition& decomposition, const partition::Interface& interface,
+                       const feti::DualProblem& problem, const analysis::StepState& state, const post::Results& results,
+                       bool last, const Communicator& comm)
 {
   const auto& directory = deck_.output.directory;
-  const auto& pairs = simulation.pairs();
-  auto tables = node_tables(decomposition_, simulation.interface(), results);
-  tables.push_back(multiplier_table(simulation.problem(), simulation.solved().solution.x));
+  const auto& pairs = state.rows->pairs;
+  auto tables = node_tables(decomposition, interface, state.displacement, results);
+  tables.push_back(multiplier_table(problem, state.solved.solution.x));
   if (!pairs.empty()) tables.push_back(contact_table(results, comm));
   io::write_results(directory + (last ? "/results.h5" : fmt::format("/results.{}.h5", volume_.frames.size() + 1)), tables, comm);
   const auto put = [&](io::Series& series, const io::Piece& piece) {
     if (deck_.steps.empty())
       io::write_vtk(directory, series.name, piece, comm);
     else
-      io::write_vtk(directory, series, time, piece, comm);
+      io::write_vtk(directory, series, state.rows->acts.time, piece, comm);
   };
-  if (!pairs.empty()) put(contact_, contact_piece(pairs, results.surfaces));
-  put(volume_, volume_piece(deck_, decomposition_, results));
+  if (!pairs.empty()) put(contact_, contact_piece(pairs, results.contact.surfaces));
+  put(volume_, volume_piece(deck_, decomposition, state.displacement, results));
 }
 
 }  // namespace mortise

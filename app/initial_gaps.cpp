@@ -62,22 +62,23 @@ Warning overlap_warning(const contact::InitialGap& gap, const contact::Options& 
 
 }  // namespace
 
-std::vector<Warning> report_initial_gaps(const std::vector<contact::InitialGap>& gaps, const Deck& deck, bool all, Log& log)
+std::vector<Warning> report_initial_gaps(const std::vector<contact::InitialGap>& gaps, const model::Contacts& contacts, bool all,
+                                         Log& log)
 {
   std::vector<std::size_t> met;  // contacts that have points
   for (std::size_t c = 0; c < gaps.size(); ++c)
     if (gaps[c].area > 0) met.push_back(c);
   const std::size_t count = all ? met.size() : std::min(most_lines, met.size());
   for (const std::size_t c : std::span(met).first(count))
-    log.line("  contact {}: initial gap {:.3g} to {:.3g}, {:.4g} of {:.4g} touches{}", deck.contacts[c].name,
+    log.line("  contact {}: initial gap {:.3g} to {:.3g}, {:.4g} of {:.4g} touches{}", contacts[c].name,
              plain(gaps[c].smallest, gaps[c].touching), plain(gaps[c].largest, gaps[c].touching), gaps[c].touching_area,
-             gaps[c].area, instead(gaps[c], deck.contacts[c]));
+             gaps[c].area, instead(gaps[c], contacts[c]));
   if (count < met.size()) log.line("  and {} more contacts, which --check lists", met.size() - count);
 
-  std::erase_if(met, [&](std::size_t c) { return unasked_overlap(gaps[c], deck.contacts[c]) == 0; });
+  std::erase_if(met, [&](std::size_t c) { return unasked_overlap(gaps[c], contacts[c]) == 0; });
   std::stable_sort(met.begin(), met.end(), [&](std::size_t a, std::size_t b) { return gaps[a].smallest < gaps[b].smallest; });
   std::vector<Warning> warnings;
-  for (const std::size_t c : met) warnings.push_back(overlap_warning(gaps[c], deck.contacts[c]));
+  for (const std::size_t c : met) warnings.push_back(overlap_warning(gaps[c], contacts[c]));
   return warnings;
 }
 

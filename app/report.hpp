@@ -1,74 +1,81 @@
-// What is found once the multipliers are known: fields, checks, the summary, and the files.
+// What a run tells on the way, and what it leaves behind.
 #pragma once
 
-#include "base/context.hpp"
-#include "contact/state.hpp"
+#include <map>
+#include <optional>
+
+#include "analysis/approach.hpp"
+#include "analysis/load_step_solver.hpp"
+#include "analysis/memory.hpp"
+#include "analysis/warnings.hpp"
+#include "base/traffic.hpp"
+#include "command_line.hpp"
+#include "fields.hpp"
+#include "history.hpp"
+#include "io/output_directory.hpp"
 #include "io/summary.hpp"
-#include "io/vtk.hpp"
-#include "post/strength.hpp"
-#include "post/verdict.hpp"
-#include "simulation.hpp"
+#include "model/resolution.hpp"
 
 namespace mortise {
 
-/// Fields and numbers of a solved problem.
-struct Results {
-  std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
-  std::vector<Eigen::MatrixXd> nodal_stress;  ///< nodes x 6 of each subdomain, recovered inside the body
-  /// Where bodies have several materials, of each subdomain: nodes x 6 blocks, the stress in each material; at nodes between two
-  /// of them nodal_stress is that with the larger von Mises stress. And the block of each cell. Else empty.
-  std::vector<Eigen::MatrixXd> material_stress;
-  std::vector<std::vector<int>> cell_block;
-  std::vector<Eigen::VectorXd> nodal_von_mises, cell_von_mises;
-  std::vector<contact::PointState> points;      ///< of this rank's contact points
-  std::vector<contact::Resultant> resultants;   ///< of each contact
-  std::vector<contact::SurfaceState> surfaces;  ///< of each contact, its secondary side on this rank
-  Point max_von_mises_at = Point::Zero();
-  Point applied = Point::Zero(), reaction = Point::Zero();  ///< sums of loads and of support forces
-  double rounding_of_force = 0, rounding_of_energy = 0;     ///< what rounding may leave of both where nothing is strained
-  Point obstacles = Point::Zero();                          ///< sum of what rigid obstacles push the bodies with
-  Point neighbours = Point::Zero();                         ///< sum of what the sectors beside a cyclic one pull with
-  Point gauges = Point::Zero();  ///< what holds free motions against the push of facets, which is no force of the model
-  double push_of_facets = 0;     ///< its size, relative to the largest force
-  double largest_force = 0;      ///< of loads, supports, contacts
-  post::MeshError mesh_error;    ///< where the estimated error is
-  double imbalance = 0;          ///< of the sums of all these forces, relative to the largest one
-  post::Verdict verdict;         ///< of this equilibrium
-  io::Summary summary;
-};
-
-/// In the energy norm: the part of the error that is the mesh's, by recovered stresses [Zienkiewicz and Zhu, Int. J. Numer.
-/// Methods Eng. 24 (1987)], inside each body, and the size of the solution.
-struct EnergyNorms {
-  double error = 0, solution = 0;
-};
-/// Collective.
-EnergyNorms energy_norms(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                         const LoadState& state, const partition::Interface& interface,
-                         const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
-
-/// Whether it is solved, and what to say if not, stands in Results::verdict. Collective.
-Results evaluate(const Deck& deck, const partition::Decomposition& decomposition, const Model& model,
-                 const Simulation& simulation, const Context& context);
-
-/// The files of one state after the other: solution.pvd, contact.pvd and results.h5. With load steps each state has its own
-/// pieces and tables, solution.1_0.vtu or results.1.h5, but for the last tables, which are results.h5.
-class FieldFiles {
+/// Lines on the terminal and files, as the stages of the method end, in the order of the functions below. All are collective.
+/// Refers to its arguments. Neither copies nor moves.
+class Report {
  public:
-  FieldFiles(const Deck& deck, const partition::Decomposition& decomposition) : deck_(deck), decomposition_(decomposition) {}
-  /// Collective.
-  void write(const Simulation& simulation, const Results& results, double time, bool last, const Communicator& comm);
+  /// Locks the output directory, but for --check. Throws as io::OutputDirectory.
+  Report(const model::Deck& deck, const deck::Document& document, const CommandLine& command_line, const Context& context);
+  Report(const Report&) = delete;
+  Report& operator=(const Report&) = delete;
+
+  /// --check: nothing is solved or written.
+  bool only_checks() const { return command_line_.check; }
+  void mesh(const partition::Decomposition& decomposition);
+  /// Removes what an earlier run left in the output directory.
+  void resolution(const model::Resolution& resolved);
+
+  /// An approach begins: the functions from here on are called again for the next one. Throws Error(no_equilibrium), see
+  /// analysis::check_unconstrained_bodies.
+  void rows(const model::Model& model, const analysis::Rows& first, std::size_t states, const analysis::Approach& approach);
+  void memory(const model::Model& model, const analysis::Rows& first, const analysis::Memory& memory);
+  void assembly(const analysis::Assembly& assembly, const std::vector<partition::CopyOf>& copies);
+
+  void begin(const model::LoadState& acts);
+  friction::Observer observer(const model::LoadState& acts);
+  /// The solver has come to an end with this state. True if it gave up.
+  bool gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state, const analysis::Approach& approach);
+  /// The files of a state, which has been evaluated.
+  void write(const analysis::LoadStepSolver& solver, const analysis::StepState& state, post::Results results,
+             const analysis::Approach& approach);
+  /// A load step failed: leaves the results of those before, and throws the error, which names the load step then.
+  [[noreturn]] void fail(const Error& error, const analysis::Approach& approach);
+  /// Whether another load step is to be solved after the one that was written.
+  bool goes_on();
+
+  /// The last lines, and what the run comes to.
+  ExitStatus end();
 
  private:
-  const Deck& deck_;
-  const partition::Decomposition& decomposition_;
-  io::Series volume_{"solution", {}}, contact_{"contact", {}};
+  void end_stage(const char* what, const char* name);
+  void write_summary(bool finished);
+
+  const model::Deck& deck_;
+  const CommandLine& command_line_;
+  const Context& context_;
+  double start_ = MPI_Wtime();
+  Traffic before_all_ = traffic();
+  std::optional<io::OutputDirectory> directory_;
+  std::map<std::string, double> seconds_before_;  // of each stage, when it was last told
+  History history_;
+  std::optional<FieldFiles> files_;
+  analysis::Warnings warnings_;
+  io::Summary sizes_as_cut_;  // of the deck's own cut, where it is solved by another one
+
+  // of the approach, from rows() on
+  const analysis::Assembly* assembly_ = nullptr;
+  std::size_t states_ = 0, index_ = 0;  // how many there are; the place of the present one, from 1
+  model::LoadState acts_;
+  io::Summary summary_;    // of the states that are written; without a version if there is none
+  post::Results results_;  // of the last of them
 };
-
-/// The lines on the terminal after a load step that is not the last.
-void print_step(const Results& results, const Context& context);
-
-/// The lines on the terminal at the end, for an engineer to judge, but for warnings. Collective.
-void print(const Results& results, const Context& context);
 
 }  // namespace mortise

@@ -35,13 +35,17 @@ std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bo
 }  // namespace
 
 DualProblem::DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
-                         const partition::Interface& interface, const constraint::Constraints& constraints,
-                         const Floating& floating, const Options& options, const Context& context,
+                         const partition::Interface& interface, constraint::Constraints constraints, const Floating& floating,
+                         std::vector<Eigen::VectorXd> load, const Options& options, const Context& context,
                          std::span<const constraint::Slide> slides)
-    : decomposition_(decomposition), constraints_(constraints), floating_(floating), comm_(context.comm)
+    : decomposition_(decomposition),
+      constraints_(std::move(constraints)),
+      floating_(floating),
+      load_(std::move(load)),
+      comm_(context.comm)
 {
-  jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints.held, constraints.inclined,
-                                         constraints.contacts, std::span<const SubdomainRow>(), comm_);
+  jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints_.held, constraints_.inclined,
+                                         constraints_.contacts, std::span<const SubdomainRow>(), comm_);
   settle_free_motions(directory, interface, slides, context);
   hessian_ = std::make_unique<DualOperator>(*jump_, floating.clusters, context.timers);
   if (options.preconditioner != "none") {
@@ -53,7 +57,7 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
     preconditioner_->invert_gram(floating.nodal_stiffness, decomposition.catalogue.dimension);
   }
   make_set();
-  renew_right_sides();
+  make_rhs();
 }
 
 void DualProblem::make_equality(SparseMatrix g)
@@ -72,9 +76,9 @@ Eigen::Index DualProblem::tightened() const
                        [](const constraint::Cut& cut) { return cut.preload.force.has_value(); });
 }
 
-void DualProblem::renew_right_sides()
+void DualProblem::make_rhs()
 {
-  std::vector<Eigen::VectorXd> u = floating_.load;
+  std::vector<Eigen::VectorXd> u = load_;
   floating_.clusters.apply_inverse(u);
   Vector d = jump_->apply(u);
   {
@@ -92,7 +96,7 @@ void DualProblem::renew_right_sides()
   else
     linear_ = std::make_unique<Vector>(d, Teuchos::Copy);
 
-  Eigen::VectorXd e = kernel_coordinates(floating_.clusters, floating_.load, comm_);
+  Eigen::VectorXd e = kernel_coordinates(floating_.clusters, load_, comm_);
   const auto kernels = e.size();
   std::vector<double> forces;
   for (const auto& cut : constraints_.cuts)
@@ -116,18 +120,20 @@ bool DualProblem::driven(const FreeMotion& motion, double work)
   return work > std::max({no_work, motion.slideway ? work_of_facets : 0.0, 3 * motion.felt});
 }
 
-bool DualProblem::renew()
+bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load)
 {
   const auto frames = body_frames(decomposition_, comm_);
   std::string loaded;
   for (const auto& motion : gauged_) {
-    if (!driven(motion, work(motion, decomposition_, floating_.load, comm_))) continue;
+    if (!driven(motion, work(motion, decomposition_, load, comm_))) continue;
     if (!motion.slideway && motion.felt >= exactly_free) return false;
     loaded += fmt::format("\n  {}, driven by its loads", describe(motion, decomposition_.catalogue.bodies, frames));
   }
   if (!loaded.empty()) throw_driven(loaded);
+  constraints_ = std::move(constraints);
+  load_ = std::move(load);
   jump_->renew_bounds(constraints_.held, constraints_.inclined, constraints_.contacts);
-  renew_right_sides();
+  make_rhs();
   return true;
 }
 
@@ -136,7 +142,7 @@ void DualProblem::settle_free_motions(const partition::NodeDirectory& directory,
 {
   SparseMatrix g = coarse_rows(*jump_, floating_.clusters, comm_);
   const auto motions = find_free_motions(decomposition_, *jump_, floating_.clusters, floating_.kinematics, g,
-                                         constraints_.contacts, constraints_.cuts, slides, floating_.load, comm_);
+                                         constraints_.contacts, constraints_.cuts, slides, load_, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;
@@ -192,11 +198,35 @@ void DualProblem::make_set()
   set_ = qp::FeasibleSet(std::move(bounds), std::move(discs));
 }
 
+Eigen::VectorXd DualProblem::forces(const Vector& lambda) const
+{
+  return view(lambda).cwiseProduct(jump_->scale());
+}
+
+Vector DualProblem::multipliers(const Eigen::VectorXd& forces) const
+{
+  Vector lambda(jump_->rows());
+  view(lambda) = forces.cwiseQuotient(jump_->scale());
+  return lambda;
+}
+
+Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
+{
+  const Vector scaled = jump_->apply(u);
+  return view(scaled).cwiseQuotient(jump_->scale());
+}
+
+double DualProblem::slip_bound(std::size_t point) const
+{
+  const auto& rows = points_[point];
+  return rows.disc < 0 ? 0.0 : set_.discs()[static_cast<std::size_t>(rows.disc)].radius * jump_->scale()[rows.normal];
+}
+
 std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const
 {
   const auto& clusters = floating_.clusters;
   auto u = jump_->apply_transpose(lambda);
-  for (std::size_t s = 0; s < u.size(); ++s) u[s] = floating_.load[s] - u[s];
+  for (std::size_t s = 0; s < u.size(); ++s) u[s] = load_[s] - u[s];
   clusters.apply_inverse(u);
   for (std::size_t s = 0; s < u.size(); ++s) u[s] -= clusters.motion(s, nu.segment(clusters.first(s), clusters.modes()));
   return u;
@@ -245,12 +275,12 @@ double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vecto
 {
   const auto forces = jump_->apply_transpose(lambda);
   std::vector<Eigen::VectorXd> given;
-  for (std::size_t s = 0; s < forces.size(); ++s) given.push_back(floating_.load[s] - forces[s]);
+  for (std::size_t s = 0; s < forces.size(); ++s) given.push_back(load_[s] - forces[s]);
   const auto inner = floating_.clusters.inner_forces(given);
   double residual = 0, size = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
-    residual += (floating_.clusters.subdomains()[s]->apply(u[s]) + forces[s] - floating_.load[s] + inner[s]).squaredNorm();
-    size += floating_.load[s].squaredNorm() + forces[s].squaredNorm();
+    residual += (floating_.clusters.subdomains()[s]->apply(u[s]) + forces[s] - load_[s] + inner[s]).squaredNorm();
+    size += load_[s].squaredNorm() + forces[s].squaredNorm();
     for (Eigen::Index i = 0; i < u[s].size(); ++i) {  // what rounding makes of a rigid motion is no force
       const double k = floating_.nodal_stiffness[s][static_cast<std::size_t>(i / decomposition_.catalogue.dimension)];
       size += std::pow(1e-6 * k * u[s][i], 2);

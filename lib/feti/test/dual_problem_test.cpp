@@ -28,6 +28,7 @@ struct Cube {
   std::unique_ptr<partition::NodeDirectory> directory;
   partition::Interface interface;
   Floating floating;
+  std::vector<Eigen::VectorXd> load;
   constraint::Constraints constraints;
 
   // Young's modulus jumps from subdomain to subdomain by `jump`. Held at z = 0, unless it floats; pulled at z = 1.
@@ -49,8 +50,8 @@ struct Cube {
       const double e = (s.id + s.id / 2 + s.id / 4) % 2 == 0 ? 1.0 : jump;
       stiffness.push_back(fem::stiffness(s.mesh, fem::Material{e, 0.3, 0, 0}, fem::Kinematics::solid));
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness.back(), 3));
-      floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.back().cols()));
-      fem::add_traction(s.mesh, 5, fem::Kinematics::solid, Point(0.1, 0, 1), floating.load.back());
+      load.emplace_back(Eigen::VectorXd::Zero(stiffness.back().cols()));
+      fem::add_traction(s.mesh, 5, fem::Kinematics::solid, Point(0.1, 0, 1), load.back());
       subdomains.push_back(std::make_shared<ElasticSubdomain>(
           stiffness.back(), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
     }
@@ -85,7 +86,7 @@ TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
 TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
 {
   const Cube cube(100, true);
-  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {},
+  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
                             cube.context);
   const auto map = problem.hessian().getDomainMap();
   Vector x(map), y(map), fx(map), fy(map);
@@ -106,17 +107,19 @@ TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
   EXPECT_NEAR(cube.comm.sum(product), problem.jump().apply(u).dot(x), 1e-9 * std::abs(product) + 1e-10);
 }
 
-// Other loads and another prescribed displacement: what renew() makes is what a new problem would have, to rounding.
+// Other loads and another prescribed displacement: what update_rhs() makes is what a new problem would have, to rounding.
 TEST(DualProblem, ARenewedOneIsThatOfTheNewLoadsAndBounds)
 {
   Cube cube(10, true);
-  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {}, cube.context);
+  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+                      cube.context);
   const auto* linear = &problem.linear();
   const auto before = problem.equality().right_side();
-  for (auto& f : cube.floating.load) f *= -2.5;
+  for (auto& f : cube.load) f *= -2.5;
   for (auto& held : cube.constraints.held) held.value += 0.125 * held.component;
-  ASSERT_TRUE(problem.renew());
-  const DualProblem fresh(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {}, cube.context);
+  ASSERT_TRUE(problem.update_rhs(cube.constraints, cube.load));
+  const DualProblem fresh(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+                          cube.context);
   EXPECT_EQ(&problem.linear(), linear);  // solvers keep on referring to it
   Vector difference(problem.linear(), Teuchos::Copy);
   difference.update(-1, fresh.linear(), 1);
@@ -128,13 +131,14 @@ TEST(DualProblem, ARenewedOneIsThatOfTheNewLoadsAndBounds)
 TEST(DualProblem, LoadsThatDriveAFreeMotionLaterAreNoEquilibrium)
 {
   Cube cube(1, false);
-  auto pulled = cube.floating.load;
-  for (auto& f : cube.floating.load) f.setZero();
-  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {}, cube.context);
-  EXPECT_TRUE(problem.renew());
-  cube.floating.load = pulled;
+  auto pulled = cube.load;
+  for (auto& f : cube.load) f.setZero();
+  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+                      cube.context);
+  EXPECT_TRUE(problem.update_rhs(cube.constraints, cube.load));
+  cube.load = pulled;
   try {
-    problem.renew();
+    problem.update_rhs(cube.constraints, cube.load);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);
@@ -150,8 +154,8 @@ TEST(DualProblem, PreconditionersAreSymmetricAndApproximateTheInverse)
   for (const auto* kind : {"none", "lumped", "dirichlet"}) {
     Options options;
     options.preconditioner = kind;
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, options,
-                              cube.context);
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load,
+                              options, cube.context);
     qp::Hessian hessian(problem.hessian(), 1000);
     const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
     const auto solution = qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-9, {}}, nullptr, {});
@@ -183,7 +187,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
   const auto [algorithm, subdomains_per_cluster] = GetParam();
   for (const double jump : {1.0, 1e6}) {
     Cube cube(jump, true, MPI_COMM_WORLD, subdomains_per_cluster);
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {},
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
                               cube.context);
     EXPECT_EQ(problem.kernel_dimension(), 6 * 8 / subdomains_per_cluster);
     qp::Hessian hessian(problem.hessian(), 1000);
@@ -207,7 +211,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
       for (Eigen::Index j = 0; j < size; ++j) {
         const Eigen::VectorXd column = subdomain.apply(Eigen::VectorXd::Unit(size, j));
         for (Eigen::Index i = 0; i < size; ++i) k(unknown(i), unknown(j)) += column[i];
-        f[unknown(j)] += whole.floating.load[s][j];
+        f[unknown(j)] += whole.load[s][j];
       }
     }
     for (const auto& h : whole.constraints.held) {
@@ -239,8 +243,8 @@ TEST(DualProblem, TheEnergyOfAResidualBoundsTheErrorBehindIt)
       const Cube cube(jump, true);
       Options options;
       options.preconditioner = kind;
-      const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, options,
-                                cube.context);
+      const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load,
+                                options, cube.context);
       const auto map = problem.hessian().getDomainMap();
       for (int wave = 1; wave < 30; wave += 4) {
         Vector x(map), r(map), z(map);
@@ -263,7 +267,7 @@ TEST(DualProblem, AFloatingBodyThatIsPulledIsNamed)
 {
   const Cube cube(1, false);
   try {
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {},
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
                               cube.context);
     FAIL() << "no error";
   } catch (const Error& error) {
@@ -275,8 +279,8 @@ TEST(DualProblem, AFloatingBodyThatIsPulledIsNamed)
 TEST(DualProblem, AFloatingBodyThatNothingPullsIsGauged)
 {
   Cube cube(1, false);
-  for (auto& f : cube.floating.load) f.setZero();
-  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, {},
+  for (auto& f : cube.load) f.setZero();
+  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
                             cube.context);
   EXPECT_EQ(cube.comm.sum(static_cast<long long>(problem.jump().ranges().end - problem.jump().ranges().extra)), 6);
 }

@@ -27,6 +27,7 @@ struct Stack {
   std::unique_ptr<partition::NodeDirectory> directory;
   partition::Interface interface;
   Floating floating;
+  std::vector<Eigen::VectorXd> load;
   constraint::Constraints constraints;
 
   Stack(const Point& traction, int pieces) : comm(MPI_COMM_WORLD)
@@ -44,8 +45,8 @@ struct Stack {
     for (const auto& s : decomposition.subdomains) {
       auto stiffness = fem::stiffness(s.mesh, fem::Material{1000, 0.3, 0, 0}, fem::Kinematics::solid);
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
-      floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
-      fem::add_traction(s.mesh, load_on, fem::Kinematics::solid, traction, floating.load.back());
+      load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
+      fem::add_traction(s.mesh, load_on, fem::Kinematics::solid, traction, load.back());
       subdomains.push_back(std::make_shared<ElasticSubdomain>(
           std::move(stiffness), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
     }
@@ -108,7 +109,7 @@ struct Stack {
 TEST(ExplicitProblem, IsTheInverseOfTheDualOperator)
 {
   const Stack stack(Point(1, 0.5, -10), 2);
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, {},
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
                       stack.context);
   ExplicitProblem direct(problem);
   const auto map = problem.hessian().getDomainMap();
@@ -135,7 +136,7 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
 {
   const auto [push, pieces] = GetParam();
   const Stack stack(Point(push, 0, -10), pieces);
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, {},
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
                       stack.context);
   auto& set = problem.set();
   ASSERT_EQ(stack.comm.sum(static_cast<long long>(set.discs().size())), 16);
@@ -173,7 +174,7 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
 TEST(ExplicitProblem, SaysWhereNothingBalancesTheLoads)
 {
   const Stack stack(Point(4.5, 0, -10), 1);  // friction holds 4
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, {},
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
                       stack.context);
   auto& set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));

@@ -23,10 +23,9 @@
 
 namespace mortise::feti {
 
-/// What is floating: the clusters of this rank's subdomains, in the order of Decomposition::subdomains, and what acts on them.
+/// Stiffness and kernel of what floats: the clusters of this rank's subdomains, in the order of Decomposition::subdomains.
 struct Floating {
   Clusters clusters;
-  std::vector<Eigen::VectorXd> load;                 ///< f
   std::vector<std::vector<double>> nodal_stiffness;  ///< as given to the NodeDirectory
   fem::Kinematics kinematics = fem::Kinematics::solid;
 };
@@ -41,18 +40,19 @@ struct PointRows {
 /// Heavy: neither copies nor moves, for its parts refer to each other.
 class DualProblem {
  public:
-  /// Looks for free rigid motions and gauges those that nothing loads. `slides`: what surfaces in contact feel, apart from
-  /// facets. Throws Error(no_equilibrium), naming the body and its motion, if a load works on a motion that nothing resists.
-  /// `decomposition`, `constraints` and `floating` outlive it. Collective.
+  /// `load`: f of each subdomain. Looks for free rigid motions and gauges those that nothing loads. `slides`: what surfaces in
+  /// contact feel, apart from facets. Throws Error(no_equilibrium), naming the body and its motion, if a load works on a motion
+  /// that nothing resists. `decomposition` and `floating` outlive it. Collective.
   DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
-              const partition::Interface& interface, const constraint::Constraints& constraints, const Floating& floating,
-              const Options& options, const Context& context, std::span<const constraint::Slide> slides = {});
+              const partition::Interface& interface, constraint::Constraints constraints, const Floating& floating,
+              std::vector<Eigen::VectorXd> load, const Options& options, const Context& context,
+              std::span<const constraint::Slide> slides = {});
   DualProblem(const DualProblem&) = delete;
-  /// The same rows with the loads and bounds that `floating` and `constraints` hold by now: d, e and c anew, everything else
-  /// stays. Returns false if a motion that was gauged is driven by loads now and facets resist it: then a problem has to be built
-  /// anew. Throws Error(no_equilibrium) as the constructor does. Collective.
-  bool renew();
   DualProblem& operator=(const DualProblem&) = delete;
+  /// d, e and c anew, for the same rows with other bounds and for other loads; everything else stays. Returns false, and changes
+  /// nothing, if a motion that was gauged is driven by loads now and facets resist it: then a problem has to be built anew.
+  /// Throws Error(no_equilibrium) as the constructor does. Collective.
+  bool update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load);
 
   const JumpOperator& jump() const { return *jump_; }
   const Operator& hessian() const { return *hessian_; }
@@ -63,6 +63,7 @@ class DualProblem {
   const qp::FeasibleSet& set() const { return set_; }
   const std::vector<PointRows>& points() const { return points_; }  ///< one for each contact point of this rank
   const constraint::Constraints& constraints() const { return constraints_; }
+  const std::vector<Eigen::VectorXd>& load() const { return load_; }
   int dimension() const { return decomposition_.catalogue.dimension; }
   const Clusters& clusters() const { return floating_.clusters; }
   const Communicator& communicator() const { return comm_; }
@@ -73,6 +74,15 @@ class DualProblem {
   const Vector* pull() const { return pull_.get(); }
   /// The shortening of each of constraints().cuts, given or found.
   std::vector<double> shortenings(const Eigen::VectorXd& nu) const;
+
+  /// The force of each owned row: what it does to the bodies, for multipliers `lambda` of the scaled rows.
+  Eigen::VectorXd forces(const Vector& lambda) const;
+  /// The other way.
+  Vector multipliers(const Eigen::VectorXd& forces) const;
+  /// row . u of each owned row as it was given, a length. Collective.
+  Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
+  /// The force that bounds the tangential one of a contact point, where it is closed: 0 without friction, infinite if it sticks.
+  double slip_bound(std::size_t point) const;
 
   /// u of every subdomain. Collective.
   std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;
@@ -90,12 +100,13 @@ class DualProblem {
   void make_equality(SparseMatrix g);
   Eigen::Index tightened() const;  // cuts with a force
   void make_set();
-  void renew_right_sides();
+  void make_rhs();
   static bool driven(const FreeMotion& motion, double work);
 
   const partition::Decomposition& decomposition_;
-  const constraint::Constraints& constraints_;
+  constraint::Constraints constraints_;
   const Floating& floating_;
+  std::vector<Eigen::VectorXd> load_;
   const Communicator& comm_;
   std::unique_ptr<JumpOperator> jump_;
   std::unique_ptr<DualOperator> hessian_;

@@ -14,14 +14,20 @@ struct Drift {
   std::string text;  ///< `body "plate" moves along (0, 0, 1)`
 };
 
-/// What one equilibrium claims. Residuals as in summary.json; a number that is not finite is a failure, but for error estimates,
-/// where NaN says that none was made.
-struct Evidence {
+/// How well an equilibrium is solved, each relative, as in summary.json.
+struct Residuals {
+  double projected_gradient = 0, equality = 0, equilibrium = 0;
+  double penetration = 0;      ///< over the largest displacement
+  double complementarity = 0;  ///< sum of |gap * force| over twice the strain energy
+};
+
+/// What one equilibrium claims. A number that is not finite is a failure, but for error estimates, where NaN says that none was
+/// made.
+struct Evidence : Residuals {
   bool converged = false;  ///< by the solver's own criterion
   std::string limit;       ///< the key of the deck that ended the solver early, or ""
   double tolerance = 0;    ///< the relative residual that the deck asks for; 0: auto
-  double projected_gradient = 0, equality = 0, equilibrium = 0, penetration = 0, complementarity = 0;
-  double imbalance = 0;  ///< of loads, supports and obstacles, over the largest force
+  double imbalance = 0;    ///< of loads, supports and obstacles, over the largest force
   /// Of the solver, relative, in the energy norm: estimated, and what the stopping criterion allows.
   double algebraic_error = std::numeric_limits<double>::quiet_NaN();
   double allowed_error = std::numeric_limits<double>::infinity();

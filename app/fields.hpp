@@ -1,0 +1,24 @@
+// The fields of a run as files.
+#pragma once
+
+#include "analysis/load_step_solver.hpp"
+#include "io/vtk.hpp"
+
+namespace mortise {
+
+/// The files of one state after the other: solution.pvd, contact.pvd and results.h5. With load steps each state has its own
+/// pieces and tables, solution.1_0.vtu or results.1.h5, but for the last tables, which are results.h5.
+class FieldFiles {
+ public:
+  explicit FieldFiles(const model::Deck& deck) : deck_(deck) {}
+  /// Collective.
+  void write(const partition::Decomposition& decomposition, const partition::Interface& interface,
+             const feti::DualProblem& problem, const analysis::StepState& state, const post::Results& results, bool last,
+             const Communicator& comm);
+
+ private:
+  const model::Deck& deck_;
+  io::Series volume_{"solution", {}}, contact_{"contact", {}};
+};
+
+}  // namespace mortise

@@ -1,0 +1,33 @@
+// The lines on the terminal, for an engineer to judge a run by.
+#pragma once
+
+#include "analysis/memory.hpp"
+#include "analysis/rows.hpp"
+#include "analysis/warnings.hpp"
+#include "io/summary.hpp"
+#include "post/results.hpp"
+
+namespace mortise {
+
+/// What is going to be solved.
+void print_header(const model::Deck& deck, const model::Contacts& contacts, const partition::Decomposition& decomposition,
+                  const Context& context);
+/// --check: how large the problem is. Collective.
+void print_check(const model::Model& model, const constraint::Constraints& constraints, const analysis::Memory& memory,
+                 const Context& context);
+/// How many subdomains share factors. Collective.
+void print_copies(const std::vector<partition::CopyOf>& copies, const partition::Decomposition& decomposition,
+                  const Context& context);
+/// Which state is being solved, where there are several.
+void print_state(const model::LoadState& state, std::size_t index, std::size_t count, Log& log);
+/// After a load step that is not the last.
+void print_step(const io::Summary& summary, Log& log);
+/// At the end.
+void print_results(const post::Results& results, const io::Summary& summary, Log& log);
+/// Of the rank that sends most; nothing where there is one rank.
+void print_communication(const io::Summary& summary, Log& log);
+void print_times(const std::vector<Timers::Spread>& spreads, Log& log);
+/// The last lines.
+void print_warnings(const analysis::Warnings& warnings, Log& log);
+
+}  // namespace mortise

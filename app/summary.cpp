@@ -1,0 +1,141 @@
+#include "summary.hpp"
+
+#include <algorithm>
+
+namespace mortise {
+
+namespace {
+
+// What it leaves open; the summary's contacts stand there already.
+void add_open_ends(const friction::Result& solved, const model::Contacts& contacts, io::StateSummary& summary)
+{
+  const auto band = [](const friction::Undecided::Band& b) { return io::StateSummary::Contact::Band{b.points, b.cells}; };
+  for (const auto& u : solved.undecided)
+    summary.contacts[static_cast<std::size_t>(u.contact)].undecided = {band(u.rim), band(u.edge_of_stick)};
+  for (const auto& s : solved.stuck)
+    summary.stuck.push_back({contacts[static_cast<std::size_t>(s.contact)].name,
+                             s.points,
+                             s.states,
+                             {s.place[0], s.place[1], s.place[2]},
+                             s.turns,
+                             s.of});
+}
+
+void add_contacts(const model::Contacts& contacts, const analysis::StepState& state, const post::Results& results,
+                  const Communicator& comm, io::StateSummary& summary)
+{
+  const auto largest = [&](const std::vector<double>& pressure) {
+    return comm.max(pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end()));
+  };
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto& r = results.contact.resultants[c];
+    const auto& surface = results.contact.surfaces[c];
+    summary.contacts.push_back({contacts[c].name,
+                                {r.force[0], r.force[1], r.force[2]},
+                                std::max(largest(surface.pressure), 0.0),
+                                r.area,
+                                r.open,
+                                r.stick,
+                                r.slip,
+                                largest(surface.recovered_pressure),
+                                results.contact.tensions[c]});
+    const auto& gap = state.rows->initial_gaps[c];
+    summary.contacts.back().initial_gap = {gap.smallest, gap.largest_overlap(), gap.touching_area};
+  }
+  const auto& cuts = state.rows->constraints.cuts;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const auto contact = static_cast<std::size_t>(cuts[i].preload.contact);
+    summary.contacts[contact].preload = {cuts[i].normal.dot(results.contact.resultants[contact].force), results.shortenings[i]};
+  }
+}
+
+io::Summary::Spread over_ranks(const Traffic& mine, const Communicator& comm)
+{
+  io::Summary::Spread result;
+  const auto spread = [&](long long x, double& largest, double& mean) {
+    largest = static_cast<double>(comm.max(x));
+    mean = static_cast<double>(comm.sum(x)) / comm.size();
+  };
+  spread(mine.messages, result.largest.messages, result.mean.messages);
+  spread(mine.bytes, result.largest.bytes, result.mean.bytes);
+  spread(mine.collectives, result.largest.collectives, result.mean.collectives);
+  spread(mine.collective_bytes, result.largest.collective_bytes, result.mean.collective_bytes);
+  return result;
+}
+
+}  // namespace
+
+io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const Communicator& comm)
+{
+  io::Summary result;
+  for (const auto& subdomain : decomposition.subdomains)
+    result.primal_unknowns += static_cast<Global>(subdomain.mesh.node_count()) * problem.dimension();
+  result.primal_unknowns = comm.sum(result.primal_unknowns);
+  result.dual_unknowns = problem.dual_unknowns();
+  result.subdomains = decomposition.subdomain_count();
+  result.clusters = decomposition.clustered() ? decomposition.cluster_count() : 0;
+  result.kernel_dimension = problem.kernel_dimension();
+  return result;
+}
+
+void copy_sizes(const io::Summary& from, io::Summary& to)
+{
+  to.primal_unknowns = from.primal_unknowns;
+  to.dual_unknowns = from.dual_unknowns;
+  to.subdomains = from.subdomains;
+  to.clusters = from.clusters;
+  to.kernel_dimension = from.kernel_dimension;
+}
+
+io::Summary summarise(const model::Model& model, const feti::DualProblem& problem, const analysis::StepState& state,
+                      const post::Results& results, const Communicator& comm)
+{
+  const auto& solved = state.solved;
+  io::Summary summary = sizes_of(model.decomposition(), problem, comm);
+  summary.version = MORTISE_VERSION;
+  summary.title = model.deck().title;
+  summary.bodies = static_cast<Global>(model.decomposition().catalogue.bodies.size());
+  summary.ranks = comm.size();
+  summary.converged = results.verdict.status == ExitStatus::solved;
+  summary.exit_status = static_cast<int>(results.verdict.status);
+  summary.friction_steps = solved.steps;
+  summary.outer_iterations = solved.outer_iterations;
+  summary.hessian_multiplications = solved.multiplications;
+  const auto& r = results.residuals;
+  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration, r.complementarity};
+  summary.error_estimate.discretization = results.mesh_error.relative;
+  summary.error_estimate.algebraic = results.algebraic_error;
+  summary.strain_energy = results.stress.strain_energy;
+  summary.max_von_mises = results.stress.largest_von_mises.value;
+  summary.max_displacement = results.max_displacement;
+  for (std::size_t s = 0; s < results.reactions.size(); ++s)
+    summary.reactions.push_back({model.deck().supports[s].boundary, results.reactions[s]});
+  add_contacts(model.contacts(), state, results, comm, summary);
+  add_open_ends(solved, model.contacts(), summary);
+  return summary;
+}
+
+void add_up(const model::LoadState& acts, const io::Summary& before, io::Summary& summary)
+{
+  summary.steps = before.steps;
+  if (acts.step.empty()) return;
+  io::Summary::Step step;
+  static_cast<io::StateSummary&>(step) = summary;
+  step.name = acts.step;
+  step.time = acts.time;
+  summary.steps.push_back(std::move(step));
+  summary.friction_steps += before.friction_steps;
+  summary.outer_iterations += before.outer_iterations;
+  summary.hessian_multiplications += before.hessian_multiplications;
+}
+
+void note_communication(const Timers& timers, const Traffic& total, const Communicator& comm, io::Summary& summary)
+{
+  const Traffic solve = timers.traffic("solve");
+  summary.communication["total"] = over_ranks(total, comm);
+  summary.communication["set_up"] = over_ranks(total - solve - timers.traffic("output"), comm);
+  summary.communication["solve"] = over_ranks(solve, comm);
+  summary.communication["multiplication"] = over_ranks(timers.traffic("multiplication"), comm);
+}
+
+}  // namespace mortise

@@ -1,0 +1,24 @@
+// summary.json from what was found and spent.
+#pragma once
+
+#include "analysis/load_step_solver.hpp"
+#include "base/traffic.hpp"
+#include "io/summary.hpp"
+
+namespace mortise {
+
+/// Of the problem that is solved. Collective.
+io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const Communicator& comm);
+void copy_sizes(const io::Summary& from, io::Summary& to);
+
+/// One equilibrium; nothing of time, memory and communication. Collective.
+io::Summary summarise(const model::Model& model, const feti::DualProblem& problem, const analysis::StepState& state,
+                      const post::Results& results, const Communicator& comm);
+
+/// Adds the steps and the work of the states `before` to `summary`, which is that of the state `acts` alone.
+void add_up(const model::LoadState& acts, const io::Summary& before, io::Summary& summary);
+
+/// What ranks sent, `total` in all: what is neither solution nor output sets up. Collective.
+void note_communication(const Timers& timers, const Traffic& total, const Communicator& comm, io::Summary& summary);
+
+}  // namespace mortise

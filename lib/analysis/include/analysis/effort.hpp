@@ -1,0 +1,29 @@
+// What a direct solution would cost, bodies taken whole, beside products with F.
+#pragma once
+
+#include <optional>
+
+#include "feti/dual_problem.hpp"
+#include "partition/decomposition.hpp"
+
+namespace mortise::analysis {
+
+struct DirectEffort {
+  Global multipliers = 0;  ///< with bodies taken whole
+  double products = 0;     ///< with F on the present decomposition, that take as long
+  double seconds = 0;      ///< about, on one core of today
+  double bytes = 0;        ///< of memory, on the rank that has most
+};
+
+/// From the factors that there are and the laws of nested dissection; nothing is factorized for it. The same on every rank and,
+/// but for rounding, for every number of ranks. Collective.
+DirectEffort effort_of_direct(const partition::Decomposition& decomposition, const feti::Floating& floating,
+                              const constraint::Constraints& constraints, const Communicator& comm);
+
+/// Products with F after which a direct solution is worth more than going on; none where it is out of reach.
+std::optional<int> patience_with_products(const DirectEffort& effort, const Communicator& comm);
+
+/// Throws Error(machine) if a machine has no room for a direct solution. Collective.
+void require_room_for_direct(const DirectEffort& effort, const Communicator& comm);
+
+}  // namespace mortise::analysis

@@ -1,0 +1,59 @@
+// One equilibrium after the other on one assembly. Multipliers, slip, and what was learnt about F go from each to the next.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "analysis/approach.hpp"
+#include "analysis/assembly.hpp"
+#include "analysis/rows.hpp"
+#include "friction/friction.hpp"
+#include "post/results.hpp"
+
+namespace mortise::analysis {
+
+/// An equilibrium. A value: the next load step starts from it.
+struct StepState {
+  std::shared_ptr<const Rows> rows;
+  friction::Result solved;
+  std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
+  std::vector<double> shortenings;            ///< of the preloaded contacts
+};
+
+/// Heavy: neither copies nor moves.
+class LoadStepSolver {
+ public:
+  /// The dual problem of `first`. The assembly outlives it. Throws Error(no_equilibrium), naming the body and its motion, if
+  /// loads drive a body that nothing holds. Collective.
+  LoadStepSolver(const Assembly& assembly, Rows first, Approach approach, const Context& context);
+  LoadStepSolver(const LoadStepSolver&) = delete;
+  LoadStepSolver& operator=(const LoadStepSolver&) = delete;
+
+  /// Finds an equilibrium: that of the constructor's rows first, then of others, each from what the call before returned;
+  /// friction counts slip from there. Throws Error(no_equilibrium). Collective.
+  StepState solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer);
+
+  const feti::DualProblem& problem() const { return *problem_; }
+  /// Products of the approaches before.
+  int spent_before() const { return approach_.spent; }
+  /// Products of all load steps and of the approaches before, also of a load step that threw.
+  int multiplications() const { return before_ + (solver_ ? solver_->multiplications() : 0); }
+
+ private:
+  std::unique_ptr<feti::DualProblem> make_problem(std::vector<Eigen::VectorXd> load) const;
+  void make_solver();
+  void update(const model::LoadState& acts, StepState& from);
+
+  const Assembly& assembly_;
+  const Context& context_;
+  const Approach approach_;
+  std::shared_ptr<const Rows> rows_;  // of the problem
+  std::unique_ptr<feti::DualProblem> problem_;
+  std::optional<friction::Solver> solver_;  // refers to the problem
+  int before_ = 0;                          // products of the solvers before this one
+};
+
+/// What there is to know of a state that solver.solve() returned last. Throws Error(no_equilibrium) if it is none. Collective.
+post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const Communicator& comm);
+
+}  // namespace mortise::analysis

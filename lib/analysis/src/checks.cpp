@@ -1,0 +1,174 @@
+#include "analysis/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "post/deformation.hpp"
+#include "post/model_checks.hpp"
+#include "post/strength.hpp"
+
+namespace mortise::analysis {
+
+namespace {
+
+std::vector<std::string> body_names(const mesh::Catalogue& catalogue)
+{
+  std::vector<std::string> names;
+  for (const auto& body : catalogue.bodies) names.push_back(body.name);
+  return names;
+}
+
+std::vector<post::BodyMaterial> body_materials(const model::Model& model, const std::vector<double>& sizes,
+                                               const Communicator& comm)
+{
+  const auto& deck = model.deck();
+  const auto& decomposition = model.decomposition();
+  const auto& bodies = decomposition.catalogue.bodies;
+  std::vector<double> straight(bodies.size(), 0.0);
+  for (const auto& subdomain : decomposition.subdomains)
+    for (const auto type : subdomain.mesh.cells.type)
+      if (mesh::first_order(type) == type) straight[static_cast<std::size_t>(subdomain.body)] = 1;
+  comm.sum_in_place(straight);
+  std::vector<post::BodyMaterial> result;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto& options = deck.bodies.at(bodies[b].group);
+    for (const auto& name : model::material_names(options))
+      result.push_back({bodies[b].name, sizes[b], deck.materials.at(name), options.formulation, straight[b] > 0});
+  }
+  return result;
+}
+
+std::vector<post::AppliedStress> applied_stresses(const model::Model& model, const model::LoadState& state,
+                                                  const Communicator& comm)
+{
+  const auto& deck = model.deck();
+  std::vector<post::AppliedStress> result;
+  const auto length = [](const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); };
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    const auto& load = deck.loads[i];
+    if (load.boundary.empty() || state.load[i] == 0) continue;
+    const auto facts = model.facts(load.boundary, comm);
+    double stress = 0;
+    if (load.pressure) stress = std::abs(*load.pressure);
+    if (load.traction) stress = length(*load.traction);
+    if (load.force) stress = facts.area > 0 ? length(*load.force) / facts.area : 0;
+    result.push_back({load.boundary, std::abs(state.load[i]) * stress, facts.young_modulus});
+  }
+  return result;
+}
+
+std::vector<post::SupportLoad> support_loads(const model::Model& model, const post::Results& results, const Communicator& comm)
+{
+  const auto& deck = model.deck();
+  std::vector<post::SupportLoad> result;
+  for (std::size_t i = 0; i < deck.supports.size(); ++i) {
+    const auto facts = model.facts(deck.supports[i].boundary, comm);
+    auto force = results.reactions[i];
+    if (deck.axisymmetric()) force[0] = 0;  // what holds a ring together is no resultant
+    result.push_back({deck.supports[i].boundary, force, facts.area, facts.centre, facts.young_modulus});
+  }
+  return result;
+}
+
+// A surface that closes where the search for contact ended may have closed farther on as well.
+std::vector<Warning> short_searches(const Rows& rows, const post::Results& results, const Communicator& comm)
+{
+  constexpr double close = 0.7;  // of the search distance
+  const auto& pairs = rows.pairs;
+  const auto& contacts = rows.constraints.contacts;
+  const auto& points = results.contact.points;
+  const auto reaches = contact::search_distances(pairs, comm);
+  std::vector<post::Found> widest(pairs.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].status != contact::Status::open)
+      widest[static_cast<std::size_t>(points[i].contact)].take(contacts.points[i].gap, contacts.points[i].at);
+  widest = post::largest_of_ranks(widest, comm);
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (pairs[c].options.law == contact::Law::bonded) continue;
+    const double gap = widest[c].value + pairs[c].options.interference;
+    if (!(gap > close * reaches[c])) continue;
+    Warning w{"short_search",
+              fmt::format("contact {} closes over gaps of up to {:.3g}, close to the search distance {:.3g}",
+                          pairs[c].options.name, gap, reaches[c]),
+              "set a larger search_distance and solve again"};
+    w.at = widest[c].at;
+    w.contact = pairs[c].options.name;
+    w.boundary = pairs[c].options.secondary;
+    w.value = gap;
+    w.limit = close * reaches[c];
+    result.push_back(std::move(w));
+  }
+  return result;
+}
+
+void append(std::vector<Warning>& all, std::vector<Warning> more)
+{
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+// A contact without a point does nothing: the bodies would pass through each other unnoticed. Collective.
+std::vector<Warning> idle_contacts(const Rows& rows, const Communicator& comm)
+{
+  std::vector<double> points(rows.pairs.size(), 0.0);
+  for (const auto& point : rows.constraints.contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
+  comm.sum_in_place(points);
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    if (points[c] > 0) continue;
+    Warning w{
+        "idle_contact",
+        fmt::format("contact {} has no point: its surfaces do not face each other within the search distance, or share less than "
+                    "a hundredth of a cell, and nothing keeps them apart",
+                    rows.pairs[c].options.name),
+        "look at the names, set a larger search_distance, or refine the secondary side"};
+    w.contact = rows.pairs[c].options.name;
+    w.boundary = rows.pairs[c].options.secondary;
+    w.limit = 1;
+    result.push_back(std::move(w));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Warning> check_model(const model::Model& model, const Rows& rows, const Communicator& comm)
+{
+  const auto kinematics = model.deck().kinematics;
+  const auto materials = body_materials(model, post::body_sizes(model.decomposition(), kinematics, comm), comm);
+  auto result = idle_contacts(rows, comm);
+  append(result, post::locking(materials, kinematics));
+  append(result, post::mixed_units(materials, applied_stresses(model, rows.acts, comm)));
+  append(result, post::doubled_contacts(rows.pairs, comm));
+  return result;
+}
+
+std::vector<Warning> check_results(const model::Model& model, const StepState& state, const post::Results& results,
+                                   const Communicator& comm)
+{
+  const auto& deck = model.deck();
+  const auto& decomposition = model.decomposition();
+  const auto sizes = post::body_sizes(decomposition, deck.kinematics, comm);
+  const auto names = body_names(decomposition.catalogue);
+  std::vector<double> softest(names.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t b = 0; b < names.size(); ++b)
+    for (const auto& material : model::material_names(deck.bodies.at(decomposition.catalogue.bodies[b].group)))
+      softest[b] = std::min(softest[b], deck.materials.at(material).young_modulus);
+  const auto& pairs = state.rows->pairs;
+  const auto& contact = results.contact;
+  auto result = post::large_displacements(decomposition, sizes, state.displacement, comm);
+  append(result, post::inverted_cells(decomposition, state.displacement, comm));
+  append(result,
+         post::long_slides(pairs, state.rows->constraints.contacts, contact.points, decomposition, state.displacement, comm));
+  append(result, post::large_pressures(contact.surfaces, pairs, softest, names, comm));
+  append(result, post::strained_supports(support_loads(model, results, comm), results.balance.largest));
+  append(result, post::coarse_mesh(results.mesh_error, names));
+  append(result, post::facet_push(results.balance.push_of_facets, results.balance.gauges));
+  append(result, short_searches(*state.rows, results, comm));
+  for (auto& warning : result) warning.step = state.rows->acts.step;
+  return result;
+}
+
+}  // namespace mortise::analysis

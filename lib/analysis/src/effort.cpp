@@ -1,0 +1,95 @@
+#include "analysis/effort.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/memory.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+
+namespace mortise::analysis {
+
+namespace {
+
+// Measured on one core of 2025: dense algebra on matrices is bound by arithmetic, a product with F by memory.
+constexpr double dense_rate = 15e9, sparse_rate = 1.5e9;  // operations a second
+constexpr double set_up = 10;                             // products that assembling and cutting anew take
+constexpr double newton_steps = 15;
+constexpr double shortest = 20;         // products that are tried in any case
+constexpr double a_second = 8;          // products more for each second that a direct solution takes,
+constexpr double a_moment = 60;         // where these are less,
+constexpr double longest = 100;         // up to so many
+constexpr double part_of_memory = 0.5;  // of what is available
+constexpr Global most_multipliers = 12000;
+
+}  // namespace
+
+DirectEffort effort_of_direct(const partition::Decomposition& decomposition, const feti::Floating& floating,
+                              const constraint::Constraints& constraints, const Communicator& comm)
+{
+  const int dimension = decomposition.catalogue.dimension;
+  const auto& subdomains = floating.clusters.subdomains();
+  const auto bodies = decomposition.catalogue.bodies.size();
+  std::vector<double> sums(2 + bodies, 0.0);  // entries of the factors, what the law says of them, unknowns of each body
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    const double unknowns = subdomains[s]->size();
+    sums[0] += static_cast<double>(subdomains[s]->original().factor_bytes()) / sizeof(double);
+    sums[1] += of_nested_dissection(unknowns, dimension);
+    sums[2 + static_cast<std::size_t>(decomposition.subdomains[s].body)] += unknowns;
+  }
+  comm.sum_in_place(sums);
+  const double entries = std::max(sums[0], sums[1]), law = entries / sums[1];
+  const auto& contacts = constraints.contacts;
+  const double held =
+      static_cast<double>(comm.sum(static_cast<long long>(constraints.held.size() + constraints.inclined.size())));
+  double closing = 0;
+  for (std::size_t i = 0; i < contacts.points.size(); ++i)
+    if (!contacts.bonded[i]) closing += 1 + static_cast<double>(contacts.points[i].tangents.size());
+  closing = comm.sum(closing);
+  const double all = held + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size())));
+  const double free = all - closing;
+
+  double factors = 0, factorizing = 0, weighted = 0, unknowns = 0;
+  for (std::size_t b = 0; b < bodies; ++b) {
+    const double n = std::max(sums[2 + b], 1.0), body = law * of_nested_dissection(n, dimension);
+    factors += body;
+    factorizing += 2 * body * body / n;
+    weighted += body * n;
+    unknowns += n;
+  }
+  const double columns = held + 2 * (all - held);
+  const double dense = free * free * free / 3 + free * free * closing + free * closing * closing +
+                       (1 + newton_steps / 2) * closing * closing * closing;
+  const double work = factorizing + 4 * columns * weighted / unknowns + dense;
+  DirectEffort effort;
+  effort.seconds = work / dense_rate;
+  effort.products = set_up + effort.seconds * sparse_rate / (4 * entries);
+  effort.bytes = sizeof(double) * (1.5 * factors + 4 * all * all);
+  effort.multipliers = static_cast<Global>(all);
+  return effort;
+}
+
+std::optional<int> patience_with_products(const DirectEffort& effort, const Communicator& comm)
+{
+  const double room = -comm.max(-part_of_memory * available_memory());
+  if (!(effort.bytes < room) || effort.multipliers > most_multipliers) return {};
+  const double most =
+      effort.seconds < a_moment ? std::min(shortest + a_second * effort.seconds, longest) : std::numeric_limits<int>::max();
+  return static_cast<int>(std::clamp(effort.products, shortest, most));
+}
+
+void require_room_for_direct(const DirectEffort& effort, const Communicator& comm)
+{
+  const double room = -comm.max(-available_memory());
+  if (effort.bytes < room && effort.multipliers <= most_multipliers) return;
+  throw Error(
+      ExitStatus::machine,
+      fmt::format("not enough memory: `solver.algorithm: direct` makes matrices of {} rows, about {:.1f} GB; there is room for "
+                  "{:.1f} GB and {} rows. `auto` and `face_newton` need no such matrices",
+                  effort.multipliers, effort.bytes / 1e9, room / 1e9, most_multipliers));
+}
+
+}  // namespace mortise::analysis

@@ -1,0 +1,175 @@
+#include "analysis/load_step_solver.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "constraint/renewal.hpp"
+#include "contact/slides.hpp"
+#include "same_points.hpp"
+
+namespace mortise::analysis {
+
+namespace {
+
+// Of the estimated discretization error, at which the solver stops where the tolerance is auto.
+constexpr double algebraic_part = 0.1;
+// Of the size of the solution, whatever the discretization error is estimated to be.
+constexpr double smallest_part = 1e-6, largest_part = 0.05;
+
+// Multipliers of one problem as a start for another one of the same assembly, where other components are held.
+qp::Solution carry_multipliers(const feti::DualProblem& from, const qp::Solution& solution, const feti::DualProblem& to)
+{
+  const Eigen::VectorXd before = from.forces(solution.x);
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(to.jump().rows()->getNodeNumElements()));
+  const auto &old_ranges = from.jump().ranges(), &ranges = to.jump().ranges();
+  const auto &old = from.constraints(), &now = to.constraints();
+  forces.head(ranges.held) = before.head(old_ranges.held);
+  std::map<std::pair<Global, int>, Local> held;
+  for (std::size_t i = 0; i < old.held.size(); ++i)
+    held[{old.held[i].node, old.held[i].component}] = old_ranges.held + static_cast<Local>(i);
+  for (std::size_t i = 0; i < now.held.size(); ++i)
+    if (const auto found = held.find({now.held[i].node, now.held[i].component}); found != held.end())
+      forces[ranges.held + static_cast<Local>(i)] = before[found->second];
+  const auto points = index(old.contacts);
+  for (const auto& [key, i] : index(now.contacts)) {
+    const auto found = points.find(key);
+    if (found == points.end()) continue;
+    const Local first = from.points()[found->second].normal, row = to.points()[i].normal;
+    forces[row] = before[first];
+    turn(
+        old.contacts.points[found->second], now.contacts.points[i],
+        [&](std::size_t t) { return before[first + 1 + static_cast<Local>(t)]; },
+        [&](std::size_t t, double f) { forces[row + 1 + static_cast<Local>(t)] = f; });
+  }
+  const Vector x = to.multipliers(forces);
+  qp::Solution start(x, x, solution.nu);
+  start.hessian_norm = solution.hessian_norm;
+  start.precision = solution.precision;
+  start.augmented = solution.augmented;
+  return start;
+}
+
+post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem::Constitution> constitution)
+{
+  return {assembly.decomposition(), assembly.interface(), assembly.deck().kinematics, constitution,
+          assembly.model().most_materials()};
+}
+
+}  // namespace
+
+LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach approach, const Context& context)
+    : assembly_(assembly), context_(context), approach_(std::move(approach)), before_(approach_.spent)
+{
+  const auto& model = assembly.model();
+  std::vector<Eigen::VectorXd> load;
+  {
+    const auto scope = context.timers.scope("assembly");
+    rows_ = std::make_shared<const Rows>(place(std::move(first), model, assembly.directory(), {}, context.comm));
+    load = model.loads(rows_->acts, context.comm);
+  }
+  const auto scope = context.timers.scope("solve");
+  problem_ = make_problem(std::move(load));
+  make_solver();
+}
+
+std::unique_ptr<feti::DualProblem> LoadStepSolver::make_problem(std::vector<Eigen::VectorXd> load) const
+{
+  const auto& deck = assembly_.deck();
+  auto problem = std::make_unique<feti::DualProblem>(
+      assembly_.decomposition(), assembly_.directory(), assembly_.interface(), rows_->constraints, assembly_.floating(),
+      std::move(load), deck.solver.subdomains, context_,
+      contact::slides(rows_->pairs, rows_->constraints.contacts, deck.kinematics, context_.comm));
+  context_.log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(),
+                    problem->kernel_dimension());
+  return problem;
+}
+
+void LoadStepSolver::make_solver()
+{
+  auto options = assembly_.deck().solver.programme;
+  options.algorithm = approach_.algorithm;
+  if (auto& most = options.max_multiplications.value) *most -= before_;
+  solver_.emplace(*problem_, assembly_.model().friction_laws(), assembly_.deck().friction_loop, options, approach_.patience);
+}
+
+// The problem for what acts now, in place if its rows stay, and `from`, the state before, as a start for it.
+void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
+{
+  const auto& comm = context_.comm;
+  const auto& model = assembly_.model();
+  std::vector<Eigen::VectorXd> load;
+  {
+    const auto scope = context_.timers.scope("assembly");
+    load = model.loads(acts, comm);
+  }
+  const auto scope = context_.timers.scope("solve");
+  Rows rows = *from.rows;
+  const Eigen::VectorXd jumps = problem_->jumps(from.displacement);
+  const auto& ranges = problem_->jump().ranges();
+  constraint::remember_slip(rows.constraints.contacts,
+                            {jumps.data() + ranges.contacts, static_cast<std::size_t>(ranges.extra - ranges.contacts)});
+
+  auto same = with_new_bounds(rows, model, assembly_.directory(), acts, from.shortenings, comm);
+  const bool same_cuts = rows.constraints.cuts.empty() || acts.locked == rows.acts.locked;
+  if (same && same_cuts && problem_->update_rhs(same->constraints, load)) {
+    rows_ = std::make_shared<const Rows>(std::move(*same));
+    return;
+  }
+  if (!same) {
+    same = place(make_rows(model, acts, from.shortenings, context_), model, assembly_.directory(), from.shortenings, comm);
+    carry_slip(rows.constraints.contacts, same->constraints.contacts);
+  }
+  rows_ = std::make_shared<const Rows>(std::move(*same));
+  before_ = multiplications();
+  solver_.reset();
+  auto next = make_problem(std::move(load));
+  from.solved.solution = carry_multipliers(*problem_, from.solved.solution, *next);
+  problem_ = std::move(next);
+  make_solver();
+}
+
+StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer)
+{
+  const auto& comm = context_.comm;
+  if (before) update(acts, *before);
+  const auto scope = context_.timers.scope("solve");
+  const auto constitution = assembly_.model().constitution(acts);
+  const auto bodies = elastic_bodies(assembly_, constitution);
+  const auto norms = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+    const auto estimating = context_.timers.scope("error estimate");
+    return post::energy_norms(bodies, problem_->displacement(lambda, nu), comm);
+  };
+  const friction::Accuracy accuracy{[&](const Vector& lambda, const Eigen::VectorXd& nu) {
+                                      const auto [error, solution] = norms(lambda, nu);
+                                      return std::clamp(algebraic_part * error, smallest_part * solution,
+                                                        largest_part * solution);
+                                    },
+                                    [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms(lambda, nu).solution; }};
+  const auto count_on = [&](int step, double change, qp::Progress progress) {
+    progress.multiplications += before_;
+    observer(step, change, progress);
+  };
+  auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
+  if (found.gave_up) return {rows_, std::move(found), {}, {}};
+  auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
+  auto shortenings = problem_->shortenings(found.solution.nu);
+  return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};
+}
+
+post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const Communicator& comm)
+{
+  const auto& deck = assembly.deck();
+  const auto constitution = assembly.model().constitution(state.rows->acts);
+  const post::Equilibrium equilibrium{solver.problem(),
+                                      assembly.floating(),
+                                      state.rows->pairs,
+                                      state.solved,
+                                      state.displacement,
+                                      deck.supports.size(),
+                                      deck.solver.programme.tolerance.value.value_or(0)};
+  auto results = post::evaluate(equilibrium, elastic_bodies(assembly, constitution), comm);
+  if (results.verdict.status == ExitStatus::no_equilibrium) throw Error(results.verdict.status, results.verdict.reason);
+  return results;
+}
+
+}  // namespace mortise::analysis

@@ -1,0 +1,101 @@
+#include "analysis/rows.hpp"
+
+#include <algorithm>
+
+#include "constraint/normals.hpp"
+#include "constraint/preload.hpp"
+#include "constraint/renewal.hpp"
+#include "constraint/supports.hpp"
+#include "feti/placement.hpp"
+#include "model/curved_faces.hpp"
+#include "same_points.hpp"
+
+namespace mortise::analysis {
+
+namespace {
+
+void find_cuts(const model::Model& model, const std::vector<double>& shortenings, const Communicator& comm, Rows& rows)
+{
+  rows.constraints.cuts =
+      constraint::find_cuts(rows.constraints.contacts, model.preloads(rows.acts, shortenings), model.deck().axisymmetric(), comm);
+}
+
+}  // namespace
+
+Rows make_rows(const model::Model& model, const model::LoadState& acts, const std::vector<double>& shortenings,
+               const Context& context)
+{
+  const auto scope = context.timers.scope("contact");
+  const auto& comm = context.comm;
+  const auto& deck = model.deck();
+  Rows rows{acts, model.supports(acts), model.contact_pairs(acts), {}, {}};
+  auto normals = constraint::node_normals(rows.supports, model.support_surfaces(), comm);
+  const auto aligned = constraint::take_aligned(rows.supports, normals);
+  auto& constraints = rows.constraints;
+  constraints.held = constraint::hold(rows.supports, model.support_nodes(comm), deck.dimension(), comm, aligned);
+  constraints.inclined = constraint::incline(rows.supports, normals, constraints.held, comm);
+  constraints.contacts = contact::discretize(rows.pairs, constraints.held, deck.kinematics, comm, constraints.inclined,
+                                             model::curved_faces(deck, model.decomposition(), rows.pairs), &rows.initial_gaps);
+  find_cuts(model, shortenings, comm, rows);
+  return rows;
+}
+
+Rows place(Rows rows, const model::Model& model, const partition::NodeDirectory& directory,
+           const std::vector<double>& shortenings, const Communicator& comm)
+{
+  const auto& decomposition = model.decomposition();
+  auto& constraints = rows.constraints;
+  constraints.held = feti::place(constraints.held, decomposition, directory, comm);
+  constraints.inclined = feti::place(constraints.inclined, decomposition, directory, comm);
+  constraints.contacts = feti::place(constraints.contacts, decomposition, directory, comm);
+  find_cuts(model, shortenings, comm, rows);
+  return rows;
+}
+
+std::optional<Rows> with_new_bounds(Rows rows, const model::Model& model, const partition::NodeDirectory& directory,
+                                    const model::LoadState& acts, const std::vector<double>& shortenings,
+                                    const Communicator& comm)
+{
+  const auto& deck = model.deck();
+  auto supports = model.supports(acts);
+  const bool moved = !std::equal(supports.begin(), supports.end(), rows.supports.begin(), [](const auto& a, const auto& b) {
+    return a.displacement == b.displacement && a.normal == b.normal;
+  });
+  if (moved) {
+    // What is held along normals may stand in many rows.
+    if (std::any_of(deck.supports.begin(), deck.supports.end(), [](const auto& s) { return s.normal.has_value(); })) return {};
+    auto held = feti::place(constraint::hold(supports, model.support_nodes(comm), deck.dimension(), comm), model.decomposition(),
+                            directory, comm);
+    if (!constraint::move_supports(rows.constraints, std::move(held), supports, rows.supports, comm)) return {};
+  }
+  const auto& contacts = model.contacts();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const double overlap = (acts.contact[c] - rows.acts.contact[c]) * contacts[c].interference;
+    if (overlap != 0) constraint::add_interference(rows.constraints.contacts, static_cast<int>(c), overlap);
+    rows.pairs[c].options.interference += overlap;
+  }
+  rows.supports = std::move(supports);
+  rows.acts = acts;
+  find_cuts(model, shortenings, comm, rows);
+  return rows;
+}
+
+void carry_slip(const constraint::Contacts& from, constraint::Contacts& to)
+{
+  if (from.slipped.empty()) return;
+  to.slipped.assign(to.rows.size(), 0.0);
+  const auto old = index(from);
+  for (const auto& [key, i] : index(to)) {
+    const auto found = old.find(key);
+    if (found == old.end()) continue;
+    const auto &a = from.points[found->second], &b = to.points[i];
+    turn(
+        a, b, [&](std::size_t t) { return from.slipped[a.row + 1 + t]; },
+        [&](std::size_t t, double slip) {
+          to.slipped[b.row + 1 + t] = slip;
+          to.rows.bound[b.row + 1 + t] += slip;
+        });
+  }
+}
+
+}  // namespace mortise::analysis

@@ -1,0 +1,85 @@
+// From the deck to the pieces of the dual problem: boundaries by name, stiffness, loads, supports, contact pairs.
+#pragma once
+
+#include "base/context.hpp"
+#include "contact/mortar.hpp"
+#include "fem/constitution.hpp"
+#include "feti/dual_problem.hpp"
+#include "friction/friction.hpp"
+#include "model/deck.hpp"
+#include "partition/congruence.hpp"
+
+namespace mortise::model {
+
+/// The names of a body's materials, each once.
+std::vector<std::string> material_names(const fem::BodyOptions& body);
+
+/// The deck on this rank's subdomains. Refers to its arguments, and does not change.
+class Model {
+ public:
+  Model(const Deck& deck, const Contacts& contacts, const partition::Decomposition& decomposition)
+      : deck_(deck), contacts_(contacts), decomposition_(decomposition)
+  {
+  }
+
+  const Deck& deck() const { return deck_; }
+  const Contacts& contacts() const { return contacts_; }
+  const partition::Decomposition& decomposition() const { return decomposition_; }
+
+  fem::Materials materials(const partition::Subdomain& subdomain) const;
+  /// The largest number of materials in one body.
+  std::size_t most_materials() const;
+  fem::Formulation formulation(const partition::Subdomain& subdomain) const;
+  /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for, or reaches beyond
+  /// the axis of revolution, or if a support or a contact names a boundary that has no part on its body. Collective.
+  void require_fit(deck::Document& document, const Communicator& comm) const;
+  /// Degrees, the sum of all loads on its body.
+  double temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const;
+  /// Materials, formulation and temperature change of every subdomain of this rank.
+  std::vector<fem::Constitution> constitution(const LoadState& state) const;
+  /// For each subdomain the first one of this rank with the same shape and material.
+  std::vector<partition::CopyOf> congruent() const;
+  /// Stiffness of a subdomain: its lower triangle. Errors name the body.
+  SparseMatrix stiffness(const partition::Subdomain& subdomain) const;
+  /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.
+  std::vector<SparseMatrix> stiffness(const std::vector<partition::CopyOf>& copies) const;
+  /// Consistent loads of every subdomain. Collective.
+  std::vector<Eigen::VectorXd> loads(const LoadState& state, const Communicator& comm) const;
+  /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways. Those that do not act hold nothing.
+  std::vector<constraint::SupportOptions> supports(const LoadState& state) const;
+  /// Nodes of this rank on the boundary of each of supports(). Collective.
+  std::vector<std::vector<Global>> support_nodes(const Communicator& comm) const;
+  /// The boundaries of those of supports() that hold along normals, this rank's faces; the others are empty.
+  std::vector<mesh::Surface> support_surfaces() const;
+  /// For each body whether one of the deck's supports lies on it. Collective.
+  std::vector<bool> supported(const Communicator& comm) const;
+  /// A boundary by its name in the deck: its area, its centre, and the smallest Young's modulus of its bodies.
+  struct Facts {
+    double area = 0;
+    Point centre = Point::Zero();
+    double young_modulus = 0;
+  };
+  /// Collective.
+  Facts facts(const std::string& boundary, const Communicator& comm) const;
+  std::vector<contact::Pair> contact_pairs(const LoadState& state) const;
+  std::vector<friction::Law> friction_laws() const;
+  /// Of the preloaded contacts. Those that are locked are held at `shortenings`, one for each, of the state before.
+  std::vector<constraint::Preload> preloads(const LoadState& state, const std::vector<double>& shortenings) const;
+
+ private:
+  struct Selection {
+    int boundary;
+    std::vector<bool> on_body;
+  };
+  Selection select(const std::string& name) const;
+  std::vector<bool> bodies_called(const std::string& name) const;
+  double radius(const Communicator& comm) const;
+  void require_formulations(deck::Document& document) const;
+  void require_axis(deck::Document& document, double rounding) const;
+
+  const Deck& deck_;
+  const Contacts& contacts_;
+  const partition::Decomposition& decomposition_;
+};
+
+}  // namespace mortise::model

@@ -1,0 +1,42 @@
+// The deck's section `steps`: how loads, supports and overlaps change from one equilibrium to the next.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "deck/description.hpp"
+
+namespace mortise::model {
+
+struct Deck;
+struct Contacts;
+
+/// One load step. What it does not name stays as the step before left it; before the first step every factor is 1.
+struct StepOptions {
+  std::string name;  ///< default: its number
+  std::map<std::string, double>
+      scale;                         ///< factor of a load, a support's displacement, a contact's interference or preload, by name
+  std::vector<std::string> off, on;  ///< loads and supports that cease to act, or act again
+  int increments = 1;                ///< equilibria on the way; factors change linearly
+};
+
+/// The keywords.
+void describe(deck::Description<StepOptions>& d);
+
+/// Checks that the steps name loads, supports and contacts that exist. Errors go to the document.
+void check_steps(const Deck& deck, deck::Document& document);
+
+/// One equilibrium to be found: what acts, by the deck's lists.
+struct LoadState {
+  std::string step;                            ///< name of its step; empty if the deck has none
+  double time = 1;                             ///< steps done so far; 0.5 half way through the first
+  std::vector<double> load, support, contact;  ///< factors; 0 for a load that is off
+  std::vector<bool> held;                      ///< of each support: whether it acts
+  std::vector<bool> locked;                    ///< of each contact: a preloaded bolt keeps the length it has
+};
+
+/// All states of a deck, in order; one if it has no steps. `contacts`: those of its mesh.
+std::vector<LoadState> load_states(const Deck& deck, const Contacts& contacts);
+
+}  // namespace mortise::model

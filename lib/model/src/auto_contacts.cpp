@@ -1,0 +1,184 @@
+#include "model/auto_contacts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "contact/proximity.hpp"
+#include "mesh/topology.hpp"
+#include "model/patterns.hpp"
+#include "partition/skin.hpp"
+
+namespace mortise::model {
+
+namespace {
+
+std::size_t auto_entry(const std::vector<contact::Options>& contacts)
+{
+  const auto found = std::find_if(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.automatic; });
+  return static_cast<std::size_t>(found - contacts.begin());
+}
+
+// The bodies that the two sides of contacts lie on; the cuts of a sector say nothing of those that meet within it. Collective.
+std::set<contact::Bodies> pairs_that_are_named(const std::vector<contact::Options>& contacts,
+                                               const partition::Decomposition& decomposition, const Communicator& comm)
+{
+  const auto& catalogue = decomposition.catalogue;
+  std::map<std::pair<std::string, std::string>, std::vector<int>> sides;  // boundary, body: contact and side
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts[c].automatic || contacts[c].obstacle || contacts[c].cyclic) continue;
+    int side = 2 * static_cast<int>(c);
+    for (const auto& name : {contacts[c].secondary, contacts[c].primary}) {
+      const auto [boundary, body] = parse_boundary(name);
+      sides[{boundary, body}].push_back(side++);
+    }
+  }
+  std::set<std::array<int, 2>> mine;  // contact and side, body
+  std::set<std::pair<int, int>> own;  // boundary, body
+  for (const auto& subdomain : decomposition.subdomains)
+    for (const int boundary : subdomain.mesh.facets.boundary) own.emplace(boundary, subdomain.body);
+  for (const auto& [name, which] : sides)
+    for (const auto& [boundary, body] : own)
+      if (catalogue.boundaries[static_cast<std::size_t>(boundary)] == name.first &&
+          (name.second.empty() || is_called(catalogue.bodies[static_cast<std::size_t>(body)], name.second)))
+        for (const int side : which) mine.insert({side, body});
+  std::map<int, std::set<int>> bodies;  // of each contact and side
+  for (const auto& [side, body] : comm.all_gather(std::vector(mine.begin(), mine.end()))) bodies[side].insert(body);
+  std::set<contact::Bodies> pairs;
+  for (const auto& [side, on] : bodies)
+    if (side % 2 == 0)
+      for (const int a : on)
+        for (const int b : bodies[side + 1]) pairs.insert(std::minmax(a, b));
+  return pairs;
+}
+
+// The bodies that no contact names, but the one with most faces: its neighbours are asked. Collective.
+std::vector<bool> worth_asking(const mesh::Surface& skin, const std::set<contact::Bodies>& named, std::size_t bodies,
+                               const Communicator& comm)
+{
+  std::vector<double> faces(bodies, 0.0);
+  for (const int body : skin.body) faces[static_cast<std::size_t>(body)] += 1;
+  comm.sum_in_place(faces);
+  std::vector<bool> result(bodies, true);
+  result[static_cast<std::size_t>(std::max_element(faces.begin(), faces.end()) - faces.begin())] = false;
+  for (const auto& [a, b] : named) result[static_cast<std::size_t>(a)] = result[static_cast<std::size_t>(b)] = false;
+  return result;
+}
+
+// 0 for what rounding leaves of it.
+double without_rounding(double gap, double reach)
+{
+  return std::abs(gap) < 1e-9 * reach ? 0 : gap;
+}
+
+// Adds a boundary of the outer faces with these numbers (of outer_surface()) for each of the lists.
+void define(const std::vector<std::pair<std::string, const std::vector<Global>*>>& boundaries,
+            partition::Decomposition& decomposition)
+{
+  auto& names = decomposition.catalogue.boundaries;
+  std::vector<std::pair<Global, int>> members;  // face, boundary
+  for (const auto& [name, faces] : boundaries) {
+    for (const Global face : *faces) members.emplace_back(face, static_cast<int>(names.size()));
+    names.push_back(name);
+  }
+  std::sort(members.begin(), members.end());
+  for (auto& subdomain : decomposition.subdomains) {
+    auto& mesh = subdomain.mesh;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      auto member = std::lower_bound(members.begin(), members.end(), std::pair(6 * mesh.cell_id[c], -1));
+      for (; member != members.end() && member->first < 6 * mesh.cell_id[c] + 6; ++member) {
+        const auto& face = mesh::faces(mesh.cells.type[c])[static_cast<std::size_t>(member->first - 6 * mesh.cell_id[c])];
+        std::vector<Local> nodes;
+        for (const int k : face.nodes) nodes.push_back(mesh.cells[c][static_cast<std::size_t>(k)]);
+        mesh.facets.cells.add(face.type, nodes);
+        mesh.facets.parent.push_back(static_cast<Local>(c));
+        mesh.facets.boundary.push_back(member->second);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<contact::Meeting> resolve_auto(const Deck& deck, Contacts& contacts, deck::Document& document,
+                                           partition::Decomposition& decomposition, const Context& context)
+{
+  const std::size_t place = auto_entry(contacts.options);
+  if (place == contacts.size()) return {};
+  const auto scope = context.timers.scope("contact");
+  const auto entry = contacts[place];
+  const auto& bodies = decomposition.catalogue.bodies;
+  auto meetings = contact::find_meetings(partition::outer_surface(decomposition, context.comm), static_cast<int>(bodies.size()),
+                                         pairs_that_are_named(contacts.options, decomposition, context.comm), entry,
+                                         deck.kinematics, context.comm);
+  std::vector<contact::Options> found;
+  std::vector<std::pair<std::string, const std::vector<Global>*>> boundaries;
+  for (const auto& meeting : meetings) {
+    auto& contact = found.emplace_back(entry);
+    contact.name = fmt::format(
+        "{}{}/{}{}", entry.name == "auto" ? "" : entry.name + ".", bodies[static_cast<std::size_t>(meeting.secondary)].name,
+        bodies[static_cast<std::size_t>(meeting.primary)].name, meeting.patch > 0 ? fmt::format(".{}", meeting.patch) : "");
+    contact.secondary = contact.name + ".secondary";
+    contact.primary = contact.name + ".primary";
+    contact.search_distance = meeting.reach;
+    contact.automatic = false;
+    boundaries.emplace_back(contact.secondary, &meeting.secondary_faces);
+    boundaries.emplace_back(contact.primary, &meeting.primary_faces);
+  }
+  define(boundaries, decomposition);
+
+  const auto at = static_cast<std::ptrdiff_t>(place);
+  const std::size_t own = contacts.entry[place];
+  contacts.entry.erase(contacts.entry.begin() + at);
+  contacts.entry.insert(contacts.entry.begin() + at, found.size(), own);
+  contacts.options.erase(contacts.options.begin() + at);
+  contacts.options.insert(contacts.options.begin() + at, found.begin(), found.end());
+  check_contacts(contacts, deck.kinematics, document);
+  return meetings;
+}
+
+void print_meetings(const std::vector<contact::Meeting>& meetings, const Deck& deck, const Contacts& contacts,
+                    const partition::Decomposition& decomposition, bool all, const Context& context)
+{
+  const std::size_t entry = auto_entry(deck.contacts);
+  if (entry == deck.contacts.size()) return;
+  auto& log = context.log;
+  const auto& bodies = decomposition.catalogue.bodies;
+  if (!meetings.empty()) {
+    const auto first = std::find(contacts.entry.begin(), contacts.entry.end(), entry) - contacts.entry.begin();
+    constexpr std::size_t most = 40;
+    const std::size_t count = all ? meetings.size() : std::min(most, meetings.size());
+    for (std::size_t m = 0; m < count; ++m) {
+      const auto& meeting = meetings[m];
+      log.line("  found {}: {} + {} faces face each other, area {:.5g}, gaps {:.3g} to {:.3g}; search distance {:.3g}",
+               contacts[static_cast<std::size_t>(first) + m].name, meeting.secondary_facing, meeting.primary_facing, meeting.area,
+               without_rounding(meeting.least_gap, meeting.reach), without_rounding(meeting.largest_gap, meeting.reach),
+               meeting.reach);
+    }
+    if (count < meetings.size()) log.line("  found {} more pairs, which --check lists", meetings.size() - count);
+    return;
+  }
+  const auto skin = partition::outer_surface(decomposition, context.comm);
+  const double given_distance = deck.contacts[entry].search_distance;
+  const auto distance = given_distance > 0 ? fmt::format("search_distance {:.4g}", given_distance)
+                                           : fmt::format("half the size of their faces, which is at most {:.4g}",
+                                                         contact::widest_distance(skin, context.comm));
+  const auto alone =
+      worth_asking(skin, pairs_that_are_named(contacts.options, decomposition, context.comm), bodies.size(), context.comm);
+  const auto nearest = contact::nearest_bodies(skin, alone, context.comm);
+  const auto best =
+      std::min_element(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  const auto which = best == nearest.end() || best->body < 0
+                         ? std::string("there are no others")
+                         : fmt::format("the nearest are \"{}\" and \"{}\", {:.4g} apart",
+                                       bodies[static_cast<std::size_t>(best - nearest.begin())].name,
+                                       bodies[static_cast<std::size_t>(best->body)].name, best->distance);
+  log.warning("{}: no pair of bodies{} faces each other within {}; {}. Set a larger search_distance, or name the boundaries",
+              as_written(deck).path(entry), deck.contacts.size() > 1 ? " that no other contact names" : "", distance, which);
+}
+
+}  // namespace mortise::model

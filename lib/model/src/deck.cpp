@@ -1,0 +1,366 @@
+#include "model/deck.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "contact/cyclic.hpp"
+#include "deck/description.hpp"
+#include "mesh/curved_surface.hpp"
+#include "model/patterns.hpp"
+#include "parts.hpp"
+
+namespace mortise::model {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, fem::Kinematics>& dimensions()
+{
+  static const std::map<std::string, fem::Kinematics> table{{"3", fem::Kinematics::solid},
+                                                            {"plane_strain", fem::Kinematics::plane_strain},
+                                                            {"plane_stress", fem::Kinematics::plane_stress},
+                                                            {"axisymmetric", fem::Kinematics::axisymmetric}};
+  return table;
+}
+
+void read_dimension(Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document,
+                    const deck::Limits& limits)
+{
+  std::string name;
+  const auto before = document.error_count();
+  deck::Codec<std::string>::read(name, node, path, document, limits);
+  if (document.error_count() == before) deck.kinematics = dimensions().at(name);
+}
+
+YAML::Node write_dimension(const Deck& deck)
+{
+  for (const auto& [name, kinematics] : dimensions())
+    if (kinematics == deck.kinematics) return YAML::Node(name);
+  return {};
+}
+
+nlohmann::ordered_json dimension_schema(const deck::Limits& limits)
+{
+  nlohmann::ordered_json names = limits.names;
+  names.push_back(3);
+  return {{"enum", names}};
+}
+
+std::vector<std::string> names_of(const auto& map)
+{
+  std::vector<std::string> names;
+  for (const auto& [name, value] : map) names.push_back(name);
+  return names;
+}
+
+// Mesh, bodies and materials.
+void check_bodies(const Deck& deck, deck::Document& document)
+{
+  const auto check_material = [&](const std::string& material, const std::string& path) {
+    if (!material.empty() && !deck.materials.contains(material))
+      document.error(
+          path, fmt::format("there is no material \"{}\"{}", material, deck::suggestion(material, names_of(deck.materials))));
+  };
+  for (const auto& [name, body] : deck.bodies) {
+    check_material(body.material, "bodies." + name + ".material");
+    for (const auto& [volume, material] : body.volumes) check_material(material, "bodies." + name + ".volumes." + volume);
+  }
+  for (const auto& [name, body] : deck.bodies)
+    if (body.formulation == fem::Formulation::bbar && deck.kinematics == fem::Kinematics::plane_stress)
+      document.error("bodies." + name + ".formulation",
+                     "nothing locks in plane stress, where the thickness is free; expected standard");
+  for (const auto& [name, body] : deck.bodies)
+    if (body.formulation == fem::Formulation::incompatible && deck.axisymmetric())
+      document.error("bodies." + name + ".formulation",
+                     "the incompatible modes are for boxes, not for rings; expected standard or bbar, or cells of second order");
+  for (const auto& [name, block] : deck.mesh.blocks) {
+    const auto type = mesh::cell_type(block.element);
+    if (type && mesh::dimension(*type) != deck.dimension())
+      document.error("mesh.blocks." + name + ".element",
+                     fmt::format("\"{}\" does not fit a model of dimension {}; expected {}", block.element,
+                                 deck.dimension() == 2 ? "2" : "3",
+                                 deck.dimension() == 2 ? "quad4, tri3, quad8, quad9 or tri6"
+                                                       : "hex8, tet4, prism6, hex20, hex27, tet10, prism15 or prism18"));
+  }
+}
+
+void check_decomposition(const Deck& deck, deck::Document& document)
+{
+  if (deck.decomposition.method != "grid") {
+    if (!deck.decomposition.counts.empty()) document.error("decomposition.counts", "counts are for `method: grid`");
+    return;
+  }
+  if (!deck.mesh.file.empty()) {
+    document.error("decomposition.method", "\"grid\" is for blocks only; use metis for a mesh from a file");
+    return;
+  }
+  for (const auto& [name, block] : deck.mesh.blocks) {
+    const auto counts = deck.decomposition.counts.find(name);
+    if (counts == deck.decomposition.counts.end()) {
+      document.error("decomposition.counts", fmt::format("the block \"{}\" needs an entry", name));
+      continue;
+    }
+    for (int axis = 0; axis < deck.dimension(); ++axis) {
+      const auto c = static_cast<std::size_t>(axis);
+      if (counts->second[c] < 1 || counts->second[c] > block.cells[c])
+        document.error("decomposition.counts." + name, fmt::format("expected 1 to {} subdomains along {}, found {}",
+                                                                   block.cells[c], "xyz"[axis], counts -> second[c]));
+    }
+  }
+  for (const auto& [name, counts] : deck.decomposition.counts)
+    if (!deck.mesh.blocks.contains(name))
+      document.error("decomposition.counts." + name,
+                     "there is no such block" + deck::suggestion(name, names_of(deck.mesh.blocks)));
+}
+
+void check_vectors(const Deck& deck, deck::Document& document)
+{
+  if (deck.dimension() == 3) {
+    for (const auto& path : document.pairs()) document.error(path, "expected 3 entries, since `dimension` is 3, found 2");
+    return;
+  }
+  const auto flat = [&](const std::optional<std::array<double, 3>>& v, const std::string& path) {
+    if (v && (*v)[2] != 0) document.error(path, "a plane model has no z component");
+  };
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    const auto path = fmt::format("loads[{}].", i);
+    flat(deck.loads[i].traction, path + "traction");
+    flat(deck.loads[i].force, path + "force");
+    flat(deck.loads[i].acceleration, path + "acceleration");
+    if (deck.axisymmetric() && deck.loads[i].acceleration && (*deck.loads[i].acceleration)[0] != 0)
+      document.error(path + "acceleration", "an axisymmetric body is accelerated along its axis, y, alone; expected 0 for x");
+  }
+  for (std::size_t i = 0; i < deck.supports.size(); ++i)
+    if (deck.supports[i].displacement[2])
+      document.error(fmt::format("supports[{}].displacement.z", i), "a plane model has no z component");
+}
+
+}  // namespace
+
+Contacts as_written(const Deck& deck)
+{
+  Contacts contacts{deck.contacts, std::vector<std::size_t>(deck.contacts.size())};
+  std::iota(contacts.entry.begin(), contacts.entry.end(), 0U);
+  return contacts;
+}
+
+void check_contacts(const Contacts& contacts, fem::Kinematics kinematics, deck::Document& document)
+{
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto& contact = contacts[i];
+    if (contact.obstacle) {
+      if (const auto why = contact::misfit(*contact.obstacle, kinematics); !why.empty())
+        document.error(contacts.path(i) + ".primary", why);
+      continue;
+    }
+    if (contact.cyclic)
+      if (const auto why = contact::misfit(*contact.cyclic, kinematics); !why.empty())
+        document.error(contacts.path(i) + ".cyclic", why);
+    const auto secondary = parse_boundary(contact.secondary), primary = parse_boundary(contact.primary);
+    if (contact.secondary != contact.primary && secondary.boundary == primary.boundary &&
+        (secondary.body == primary.body || secondary.body.empty() || primary.body.empty()))
+      document.error(contacts.path(i),
+                     fmt::format("\"{}\" and \"{}\" have faces in common; narrow both to different bodies (body:boundary)",
+                                 contact.secondary, contact.primary));
+  }
+  std::map<std::string, std::size_t> first;  // contact of a name
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto& contact = contacts[i];
+    const auto [at, fresh] = first.emplace(contact.name, i);
+    if (!fresh && !(contact.automatic && contacts[at->second].automatic))
+      document.error(contacts.path(i),
+                     fmt::format("two contacts are called \"{}\"; give one of them another `name`", contact.name));
+  }
+}
+
+namespace {
+
+// Why a boundary cannot be found, or "".
+std::string missing(const std::string& name, const mesh::Catalogue& catalogue)
+{
+  const auto [boundary, body] = parse_boundary(name);
+  const auto& known = catalogue.boundaries;
+  if (std::find(known.begin(), known.end(), boundary) == known.end()) {
+    std::vector<std::string> names;  // without those that patterns made, or the geometry
+    std::copy_if(known.begin(), known.end(), std::back_inserter(names),
+                 [](const auto& n) { return !is_pattern(n) && !mesh::curved_surface(n); });
+    return fmt::format("the mesh has no boundary \"{}\"{}", boundary, deck::suggestion(boundary, names));
+  }
+  if (body.empty()) return "";
+  std::vector<std::string> bodies;
+  for (const auto& b : catalogue.bodies)
+    for (const auto& n : {b.name, b.instance, b.group})
+      if (!n.empty() && std::find(bodies.begin(), bodies.end(), n) == bodies.end()) bodies.push_back(n);
+  if (std::find(bodies.begin(), bodies.end(), body) == bodies.end())
+    return fmt::format("the mesh has no body \"{}\"{}", body, deck::suggestion(body, bodies));
+  return "";
+}
+
+}  // namespace
+
+void describe(deck::Description<SolverOptions>& d)
+{
+  d.help("How the problem is solved.");
+  // The keys of both modules, as keys of the whole.
+  const auto adopt = [&d](const auto& part, auto member) {
+    for (const auto& key : part.keys()) {
+      const auto* source = key.get();
+      auto& own = d.custom(
+          source->name, source->help,
+          [source, member](SolverOptions& value, const YAML::Node& node, const std::string& path, deck::Document& document,
+                           const deck::Limits& limits) { source->read(value.*member, node, path, document, limits); },
+          [source, member](const SolverOptions& value) { return source->write(value.*member); }, source->schema);
+      own.limits = source->limits;
+    }
+    for (const auto& name : part.unavailable()) d.unavailable(name);
+  };
+  adopt(deck::description<qp::Options>(), &SolverOptions::programme);
+  adopt(deck::description<feti::Options>(), &SolverOptions::subdomains);
+}
+
+void describe(deck::Description<Deck>& d)
+{
+  d.help("A Mortise deck: one contact problem of linear elasticity. Any consistent set of units.");
+  d.key("title", &Deck::title, "One line that says what is solved.");
+  d.custom("dimension",
+           "3, plane_strain, plane_stress or axisymmetric: meshes in x, y; x is the radius, y the axis of revolution.",
+           read_dimension, write_dimension, dimension_schema)
+      .one_of({"3", "plane_strain", "plane_stress", "axisymmetric"});
+  d.key("mesh", &Deck::mesh, "The mesh.").required();
+  d.key("materials", &Deck::materials, "Materials by name.").required();
+  d.key("bodies", &Deck::bodies, "One entry for each physical volume (plane models: surface) of the mesh, by its name.")
+      .required();
+  d.key("supports", &Deck::supports, "Prescribed displacements.");
+  d.key("loads", &Deck::loads, "Loads.");
+  d.custom(
+      "contacts",
+      "Pairs of boundaries that may touch; a pair that is not named passes through each other. `auto`, or an entry {auto: true} "
+      "among others, finds them.",
+      [](Deck& deck, const YAML::Node& node, const std::string& path, deck::Document& document, const deck::Limits&) {
+        contact::read_section(deck.contacts, node, path, document);
+      },
+      [](const Deck& deck) { return contact::write_section(deck.contacts); },
+      [](const deck::Limits&) { return contact::section_schema(); });
+  d.key("steps", &Deck::steps, "Load steps, one after the other; without any all loads act at once.");
+  d.key("decomposition", &Deck::decomposition, "How bodies are cut into subdomains.");
+  d.key("solver", &Deck::solver, "How the problem is solved.");
+  d.key("friction_loop", &Deck::friction_loop, "The fixed point of Coulomb friction.");
+  d.key("output", &Deck::output, "What is written where.");
+}
+
+Deck read_deck(deck::Document& document, const std::string& output)
+{
+  Deck deck;
+  deck::read(deck, document);
+  for (auto& contact : deck.contacts)
+    if (contact.name.empty())
+      contact.name = contact.automatic ? "auto"
+                                       : contact.secondary + "/" +
+                                             (contact.obstacle ? contact::shape_name(*contact.obstacle) : contact.primary);
+  for (auto& support : deck.supports)
+    if (support.name.empty()) support.name = support.boundary;
+  for (auto& load : deck.loads)
+    if (load.name.empty()) load.name = load.boundary.empty() ? load.body : load.boundary;
+  check_bodies(deck, document);
+  describe_assembly(deck, document);
+  check_decomposition(deck, document);
+  check_vectors(deck, document);
+  check_contacts(as_written(deck), deck.kinematics, document);
+  check_steps(deck, document);
+  auto& decomposition = deck.decomposition;
+  if (decomposition.method == "metis" && !decomposition.subdomains && !decomposition.unknowns_per_subdomain)
+    decomposition.unknowns_per_subdomain = deck.axisymmetric() ? partition::usual_size_of_rings : partition::usual_size;
+
+  const auto file = fs::absolute(document.file()).lexically_normal();
+  if (!deck.mesh.file.empty()) deck.mesh.file = (file.parent_path() / deck.mesh.file).lexically_normal().string();
+  if (!output.empty())
+    deck.output.directory = fs::absolute(output).lexically_normal().string();
+  else if (deck.output.directory.empty())
+    deck.output.directory = (file.parent_path() / (file.stem().string() + ".out")).string();
+  else
+    deck.output.directory = (file.parent_path() / deck.output.directory).lexically_normal().string();
+  if ((fs::path(deck.output.directory) / "deck.yaml").lexically_normal() == file)
+    document.error("output.directory", "the results hold a deck.yaml, which would replace this deck; choose another directory");
+  return deck;
+}
+
+BoundaryName parse_boundary(const std::string& name)
+{
+  const auto colon = is_pattern(name) ? std::string::npos : name.find(':');
+  if (colon == std::string::npos) return {name, {}};
+  return {name.substr(colon + 1), name.substr(0, colon)};
+}
+
+void check_names(const Deck& deck, const Contacts& contacts, deck::Document& document, const mesh::Catalogue& catalogue)
+{
+  std::vector<std::string> groups;
+  for (const auto& body : catalogue.bodies)
+    if (std::find(groups.begin(), groups.end(), body.group) == groups.end()) groups.push_back(body.group);
+  for (const auto& [name, body] : deck.bodies)
+    if (std::find(groups.begin(), groups.end(), name) == groups.end())
+      document.error("bodies." + name, fmt::format("the mesh has no body \"{}\"{}", name, deck::suggestion(name, groups)));
+  for (const auto& group : groups)
+    if (!deck.bodies.contains(group))
+      document.error("bodies", fmt::format("the body \"{}\" of the mesh has no entry; give it a material", group));
+
+  check_volumes(deck, document, catalogue);
+
+  const auto check = [&](const std::string& name, const std::string& path) {
+    if (const auto why = missing(name, catalogue); !why.empty()) document.error(path, why);
+  };
+  for (std::size_t i = 0; i < deck.supports.size(); ++i)
+    check(deck.supports[i].boundary, fmt::format("supports[{}].boundary", i));
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    const auto& load = deck.loads[i];
+    if (!load.boundary.empty()) check(load.boundary, fmt::format("loads[{}].boundary", i));
+    if (load.body.empty()) continue;
+    const auto at = fmt::format("loads[{}].body", i);
+    const bool known = std::any_of(catalogue.bodies.begin(), catalogue.bodies.end(),
+                                   [&](const mesh::Body& b) { return is_called(b, load.body); });
+    if (!known) document.error(at, fmt::format("the mesh has no body \"{}\"{}", load.body, deck::suggestion(load.body, groups)));
+    for (const auto& body : catalogue.bodies) {
+      if (!is_called(body, load.body)) continue;
+      const auto entry = deck.bodies.find(body.group);
+      if (entry == deck.bodies.end()) continue;
+      const auto of_body = [&](const auto& material) { return is_made_of(entry->second, material.first); };
+      const auto light = std::find_if(deck.materials.begin(), deck.materials.end(),
+                                      [&](const auto& material) { return of_body(material) && !(material.second.density > 0); });
+      if (load.acceleration && light != deck.materials.end()) {
+        document.error(at, fmt::format("an acceleration needs a density > 0 of the material \"{}\"", light->first));
+        break;
+      }
+      const auto any = std::find_if(deck.materials.begin(), deck.materials.end(), of_body);
+      const bool expands = std::any_of(deck.materials.begin(), deck.materials.end(), [&](const auto& material) {
+        return of_body(material) && material.second.thermal_expansion != 0;
+      });
+      if (load.temperature_change && any != deck.materials.end() && !expands) {
+        document.error(at, fmt::format("a temperature_change needs a thermal_expansion (strain a degree) of the material \"{}\"",
+                                       any->first));
+        break;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].automatic) continue;
+    check(contacts[i].secondary, contacts.path(i) + ".secondary");
+    if (!contacts[i].obstacle) check(contacts[i].primary, contacts.path(i) + ".primary");
+  }
+}
+
+std::string write_deck(const Deck& deck)
+{
+  YAML::Emitter out;
+  out << deck::Codec<Deck>::write(deck);
+  return std::string(out.c_str()) + "\n";
+}
+
+std::string deck_schema()
+{
+  return deck::schema<Deck>().dump(2) + "\n";
+}
+
+}  // namespace mortise::model

@@ -1,0 +1,401 @@
+#include "model/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "base/error.hpp"
+#include "contact/cyclic.hpp"
+#include "fem/loads.hpp"
+#include "fem/stiffness.hpp"
+#include "model/patterns.hpp"
+
+namespace mortise::model {
+
+namespace {
+
+// A node nearer to the axis than this part of the radius of the model lies on it.
+constexpr double on_the_axis = 1e-9;
+
+Point point(const std::array<double, 3>& x)
+{
+  return {x[0], x[1], x[2]};
+}
+
+}  // namespace
+
+std::vector<bool> Model::bodies_called(const std::string& name) const
+{
+  std::vector<bool> result;
+  for (const auto& body : decomposition_.catalogue.bodies) result.push_back(name.empty() || is_called(body, name));
+  return result;
+}
+
+Model::Selection Model::select(const std::string& name) const
+{
+  const auto [boundary, body] = parse_boundary(name);
+  const auto& known = decomposition_.catalogue.boundaries;
+  return {static_cast<int>(std::find(known.begin(), known.end(), boundary) - known.begin()), bodies_called(body)};
+}
+
+std::vector<std::string> material_names(const fem::BodyOptions& body)
+{
+  if (body.volumes.empty()) return {body.material};
+  std::vector<std::string> names;
+  for (const auto& [volume, material] : body.volumes)
+    if (std::find(names.begin(), names.end(), material) == names.end()) names.push_back(material);
+  return names;
+}
+
+fem::Materials Model::materials(const partition::Subdomain& subdomain) const
+{
+  const auto& catalogue = decomposition_.catalogue;
+  const auto& body = deck_.bodies.at(catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group);
+  if (body.volumes.empty()) return deck_.materials.at(body.material);
+  // In every subdomain of a body the materials stand in the same order.
+  const auto names = material_names(body);
+  std::vector<fem::Material> materials;
+  for (const auto& name : names) materials.push_back(deck_.materials.at(name));
+  std::vector<int> of_volume, of_cell;
+  for (const auto& volume : catalogue.volumes) {
+    const auto own = body.volumes.find(volume);
+    const auto found = own == body.volumes.end() ? names.begin() : std::find(names.begin(), names.end(), own->second);
+    of_volume.push_back(static_cast<int>(found - names.begin()));
+  }
+  for (const int volume : subdomain.mesh.cell_volume) of_cell.push_back(of_volume[static_cast<std::size_t>(volume)]);
+  return {std::move(materials), std::move(of_cell)};
+}
+
+std::size_t Model::most_materials() const
+{
+  std::size_t most = 1;
+  for (const auto& [name, body] : deck_.bodies) most = std::max(most, material_names(body).size());
+  return most;
+}
+
+fem::Formulation Model::formulation(const partition::Subdomain& subdomain) const
+{
+  return deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group).formulation;
+}
+
+double Model::temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const
+{
+  double warmer = 0;
+  for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
+    const auto& load = deck_.loads[i];
+    if (load.temperature_change && bodies_called(load.body)[static_cast<std::size_t>(subdomain.body)])
+      warmer += state.load[i] * *load.temperature_change;
+  }
+  return warmer;
+}
+
+std::vector<fem::Constitution> Model::constitution(const LoadState& state) const
+{
+  std::vector<fem::Constitution> result;
+  for (const auto& subdomain : decomposition_.subdomains)
+    result.push_back({materials(subdomain), formulation(subdomain), temperature_change(subdomain, state)});
+  return result;
+}
+
+// The largest |x| of all bodies.
+double Model::radius(const Communicator& comm) const
+{
+  double largest = 0;
+  for (const auto& subdomain : decomposition_.subdomains)
+    for (const auto& p : subdomain.mesh.points) largest = std::max(largest, std::abs(p[0]));
+  return comm.max(largest);
+}
+
+void Model::require_formulations(deck::Document& document) const
+{
+  std::map<std::string, mesh::CellType> wrong;  // body of the deck, a cell of it
+  for (const auto& subdomain : decomposition_.subdomains)
+    for (const auto type : subdomain.mesh.cells.type)
+      if (!fem::applies(formulation(subdomain), type))
+        wrong.emplace(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group, type);
+  for (const auto& [body, type] : wrong)
+    document.error("bodies." + body + ".formulation",
+                   "this is not for the body's cells of type " + std::string(mesh::name(type)) +
+                       "; bbar is for hex8, quad4 and prism6, incompatible for hex8 and quad4, standard for all");
+}
+
+void Model::require_axis(deck::Document& document, double rounding) const
+{
+  for (const auto& subdomain : decomposition_.subdomains) {
+    const auto& points = subdomain.mesh.points;
+    const auto leftmost =
+        std::min_element(points.begin(), points.end(), [](const Point& a, const Point& b) { return a[0] < b[0]; });
+    if (leftmost == points.end() || (*leftmost)[0] >= -rounding) continue;
+    document.error(
+        "dimension",
+        fmt::format("body \"{}\" reaches to x = {:.4g}, beyond the axis of revolution x = 0; draw the half with x >= 0",
+                    decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].name, (*leftmost)[0]));
+    return;
+  }
+}
+
+void Model::require_fit(deck::Document& document, const Communicator& comm) const
+{
+  const double rounding = on_the_axis * radius(comm);
+  std::vector<std::pair<std::string, std::string>> named;  // boundary, key
+  for (std::size_t i = 0; i < deck_.supports.size(); ++i)
+    named.emplace_back(deck_.supports[i].boundary, fmt::format("supports[{}].boundary", i));
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    named.emplace_back(contacts_[i].secondary, contacts_.path(i) + ".secondary");
+    named.emplace_back(contacts_[i].obstacle ? "" : contacts_[i].primary, contacts_.path(i) + ".primary");
+  }
+  std::vector<double> faces, common;  // of each; of each contact's two sides
+  std::vector<Global> before;
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (named[i].first.empty()) {  // an obstacle
+      faces.push_back(1);
+      common.push_back(0);
+      continue;
+    }
+    const auto [index, on_body] = select(named[i].first);
+    auto ids = partition::boundary_surface(decomposition_, index, on_body).face_id;
+    faces.push_back(static_cast<double>(ids.size()));
+    if (i < deck_.supports.size()) continue;
+    std::sort(ids.begin(), ids.end());
+    std::vector<Global> both;
+    if ((i - deck_.supports.size()) % 2 == 1) {
+      std::set_intersection(before.begin(), before.end(), ids.begin(), ids.end(), std::back_inserter(both));
+      common.push_back(static_cast<double>(both.size()));
+    }
+    before = std::move(ids);
+  }
+  comm.sum_in_place(faces);
+  comm.sum_in_place(common);
+  collectively(comm, [&] {
+    for (std::size_t i = 0; i < named.size(); ++i)
+      if (faces[i] == 0)
+        document.error(named[i].second,
+                       fmt::format("\"{}\" has no face: its boundary does not lie on that body", named[i].first));
+    for (std::size_t c = 0; c < common.size(); ++c)
+      if (common[c] > 0)
+        document.error(contacts_.path(c),
+                       fmt::format("\"{}\" and \"{}\" have faces in common; contact of a surface with itself is not available",
+                                   contacts_[c].secondary, contacts_[c].primary));
+    require_formulations(document);
+    if (deck_.axisymmetric()) require_axis(document, rounding);
+    document.check();
+  });
+}
+
+std::vector<partition::CopyOf> Model::congruent() const
+{
+  std::vector<int> kind;  // which of the different sets of materials of all cells and formulation
+  std::map<std::pair<std::vector<std::string>, std::vector<std::size_t>>, int> kinds;
+  for (const auto& subdomain : decomposition_.subdomains) {
+    const auto& body = deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group);
+    const auto own = materials(subdomain);
+    std::vector<std::size_t> detail{static_cast<std::size_t>(formulation(subdomain))};
+    for (std::size_t c = 0; own.count() > 1 && c < subdomain.mesh.cells.size(); ++c) detail.push_back(own.place(c));
+    kind.push_back(
+        kinds.emplace(std::pair(material_names(body), std::move(detail)), static_cast<int>(kinds.size())).first->second);
+  }
+  return partition::congruent(decomposition_.subdomains, kind,
+                              deck_.axisymmetric() ? partition::Motions::along_y : partition::Motions::rigid);
+}
+
+SparseMatrix Model::stiffness(const partition::Subdomain& subdomain) const
+{
+  try {
+    return fem::stiffness(subdomain.mesh, materials(subdomain), deck_.kinematics, formulation(subdomain));
+  } catch (const Error& error) {
+    const auto& body = decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];
+    throw Error(error.status(), fmt::format("body \"{}\": {}", body.name, error.what()));
+  }
+}
+
+std::vector<SparseMatrix> Model::stiffness(const std::vector<partition::CopyOf>& copies) const
+{
+  std::vector<SparseMatrix> result(copies.size());
+  for (std::size_t s = 0; s < copies.size(); ++s) {
+    if (copies[s].original != s) continue;
+    result[s] = stiffness(decomposition_.subdomains[s]);
+  }
+  return result;
+}
+
+std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communicator& comm) const
+{
+  const int dimension = deck_.dimension();
+  std::vector<Eigen::VectorXd> f;
+  for (const auto& subdomain : decomposition_.subdomains)
+    f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
+  for (std::size_t s = 0; s < f.size(); ++s) {
+    const auto& subdomain = decomposition_.subdomains[s];
+    if (const double warmer = temperature_change(subdomain, state); warmer != 0)
+      fem::add_expansion(subdomain.mesh, materials(subdomain), deck_.kinematics, warmer, f[s]);
+  }
+  for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
+    const auto& load = deck_.loads[i];
+    const double factor = state.load[i];
+    if (factor == 0 || load.temperature_change) continue;
+    if (load.acceleration) {
+      const auto on_body = bodies_called(load.body);
+      for (std::size_t s = 0; s < f.size(); ++s)
+        if (const auto& subdomain = decomposition_.subdomains[s]; on_body[static_cast<std::size_t>(subdomain.body)])
+          fem::add_acceleration(subdomain.mesh, deck_.kinematics, materials(subdomain), factor * point(*load.acceleration), f[s]);
+      continue;
+    }
+    const auto [boundary, on_body] = select(load.boundary);
+    double area = 0;
+    for (const auto& subdomain : decomposition_.subdomains)
+      if (on_body[static_cast<std::size_t>(subdomain.body)]) area += fem::area(subdomain.mesh, boundary, deck_.kinematics);
+    area = comm.sum(area);
+    if (area == 0) throw Error(ExitStatus::bad_input, "the loaded boundary \"" + load.boundary + "\" has no area");
+    for (std::size_t s = 0; s < f.size(); ++s) {
+      const auto& subdomain = decomposition_.subdomains[s];
+      if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+      if (load.pressure) fem::add_pressure(subdomain.mesh, boundary, deck_.kinematics, factor * *load.pressure, f[s]);
+      if (load.traction) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, factor * point(*load.traction), f[s]);
+      if (load.force) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, factor * point(*load.force) / area, f[s]);
+    }
+  }
+  return f;
+}
+
+std::vector<constraint::SupportOptions> Model::supports(const LoadState& state) const
+{
+  auto supports = deck_.supports;
+  const auto act = [&](std::size_t i, std::optional<double>& value) {
+    if (!state.held[i])
+      value.reset();
+    else if (value)
+      *value *= state.support[i];
+  };
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    for (auto& value : supports[i].displacement) act(i, value);
+    act(i, supports[i].normal);
+  }
+  if (deck_.axisymmetric()) {
+    supports.emplace_back().boundary = "the axis of revolution";
+    supports.back().displacement[0] = 0.0;
+  }
+  return supports;
+}
+
+std::vector<std::vector<Global>> Model::support_nodes(const Communicator& comm) const
+{
+  std::vector<std::vector<Global>> nodes;
+  for (const auto& support : deck_.supports) {
+    const auto [boundary, on_body] = select(support.boundary);
+    nodes.push_back(partition::boundary_surface(decomposition_, boundary, on_body).node_id);
+  }
+  if (!deck_.axisymmetric()) return nodes;
+  nodes.emplace_back();
+  const double rounding = on_the_axis * radius(comm);
+  for (const auto& subdomain : decomposition_.subdomains)
+    for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
+      if (std::abs(subdomain.mesh.points[n][0]) <= rounding) nodes.back().push_back(subdomain.mesh.node_id[n]);
+  return nodes;
+}
+
+std::vector<mesh::Surface> Model::support_surfaces() const
+{
+  std::vector<mesh::Surface> surfaces;
+  for (const auto& support : deck_.supports) {
+    surfaces.emplace_back();
+    if (!support.normal) continue;
+    const auto [boundary, on_body] = select(support.boundary);
+    surfaces.back() = partition::boundary_surface(decomposition_, boundary, on_body);
+  }
+  if (deck_.axisymmetric()) surfaces.emplace_back();
+  return surfaces;
+}
+
+Model::Facts Model::facts(const std::string& boundary, const Communicator& comm) const
+{
+  const auto [index, on_body] = select(boundary);
+  std::vector<double> sums(4, 0.0);
+  double softest = std::numeric_limits<double>::infinity();
+  for (const auto& subdomain : decomposition_.subdomains) {
+    if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+    const auto moments = fem::moments(subdomain.mesh, index, deck_.kinematics);
+    if (!(moments.area > 0)) continue;
+    sums[3] += moments.area;
+    for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)] += moments.first[c];
+    const auto own = materials(subdomain);
+    for (std::size_t m = 0; m < own.count(); ++m) softest = std::min(softest, own[m].young_modulus);
+  }
+  comm.sum_in_place(sums);
+  softest = comm.min(softest);
+  if (!(sums[3] > 0)) return {};
+  return {sums[3], Point(sums[0], sums[1], sums[2]) / sums[3], softest};
+}
+
+std::vector<bool> Model::supported(const Communicator& comm) const
+{
+  std::vector<double> faces(decomposition_.catalogue.bodies.size(), 0.0);
+  for (const auto& support : deck_.supports) {
+    const auto [boundary, on_body] = select(support.boundary);
+    for (const int body : partition::boundary_surface(decomposition_, boundary, on_body).body)
+      faces[static_cast<std::size_t>(body)] += 1;
+  }
+  comm.sum_in_place(faces);
+  std::vector<bool> result;
+  for (const double count : faces) result.push_back(count > 0);
+  return result;
+}
+
+std::vector<contact::Pair> Model::contact_pairs(const LoadState& state) const
+{
+  std::vector<contact::Pair> pairs;
+  const auto surface = [&](const std::string& name) {
+    const auto [boundary, on_body] = select(name);
+    return partition::boundary_surface(decomposition_, boundary, on_body);
+  };
+  std::map<std::string, std::shared_ptr<const mesh::Surface>> primaries;  // the ring of many rollers stands here once
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const auto& contact = contacts_[c];
+    pairs.push_back({contact, surface(contact.secondary), nullptr});
+    pairs.back().options.interference *= state.contact[c];
+    if (contact.obstacle) continue;
+    if (contact.cyclic) {
+      pairs.back().primary = std::make_shared<const mesh::Surface>(contact::turned(surface(contact.primary), contact));
+      continue;
+    }
+    auto& primary = primaries[contact.primary];
+    if (!primary) primary = std::make_shared<const mesh::Surface>(surface(contact.primary));
+    pairs.back().primary = primary;
+  }
+  return pairs;
+}
+
+std::vector<friction::Law> Model::friction_laws() const
+{
+  using Kind = friction::Law::Kind;
+  std::vector<friction::Law> laws;
+  for (const auto& contact : contacts_.options) {
+    const Kind kind = contact.law == contact::Law::tresca    ? Kind::tresca
+                      : contact.law == contact::Law::coulomb ? Kind::coulomb
+                                                             : Kind::frictionless;
+    laws.push_back({kind, contact.friction});
+  }
+  return laws;
+}
+
+std::vector<constraint::Preload> Model::preloads(const LoadState& state, const std::vector<double>& shortenings) const
+{
+  std::vector<constraint::Preload> preloads;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const auto& options = contacts_[c].preload;
+    if (!options) continue;
+    constraint::Preload preload{static_cast<int>(c), contacts_[c].name, {}, 0};
+    if (state.locked[c])
+      preload.shortening = shortenings[preloads.size()];
+    else if (options->force)
+      preload.force = state.contact[c] * *options->force;
+    else
+      preload.shortening = state.contact[c] * options->shortening.value_or(0);
+    preloads.push_back(std::move(preload));
+  }
+  return preloads;
+}
+
+}  // namespace mortise::model

@@ -1,0 +1,93 @@
+#include "parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mortise::model {
+
+namespace {
+
+// Motions that a plane or axisymmetric model does not have.
+void check_motions(const std::vector<mesh::InstanceOptions>& instances, const std::string& path, bool axisymmetric,
+                   deck::Document& document)
+{
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const auto& entry = instances[i];
+    const auto at = fmt::format("{}[{}]", path, i);
+    if (entry.translate[2] != 0) document.error(at + ".translate", "a plane model has no z component");
+    if (axisymmetric && entry.translate[0] != 0)
+      document.error(at + ".translate", "an axisymmetric body is moved along its axis, y, alone; expected 0 for x");
+    if (entry.rotate && axisymmetric)
+      document.error(at + ".rotate", "an axisymmetric body cannot be turned: it goes round the axis of revolution");
+    else if (entry.rotate && (entry.rotate->axis[0] != 0 || entry.rotate->axis[1] != 0))
+      document.error(at + ".rotate.axis", "a plane model turns about z; expected [0, 0, 1]");
+    check_motions(entry.of, at + ".of", axisymmetric, document);
+  }
+}
+
+void describe_instances(Deck& deck, deck::Document& document)
+{
+  for (const auto& [name, body] : deck.bodies) {
+    if (body.instances.empty()) continue;
+    const auto path = "bodies." + name + ".instances";
+    if (deck.dimension() == 2) check_motions(body.instances, path, deck.axisymmetric(), document);
+    if (const double count = mesh::count_of(body.instances); count > mesh::most_instances) {
+      document.error(path, fmt::format("makes {:.10g} copies; at most {} are possible", count, mesh::most_instances));
+      continue;
+    }
+    auto motions = mesh::motions(body.instances);
+    if (const auto same = mesh::coinciding(motions))
+      document.error(path,
+                     fmt::format("copies {} and {} lie in the same place; one of them is too many (a full circle of n copies "
+                                 "takes `count: n` and `angle: 360/n`)",
+                                 same->first + 1, same->second + 1));
+    deck.mesh.instances.emplace(name, std::move(motions));
+  }
+}
+
+}  // namespace
+
+void describe_assembly(Deck& deck, deck::Document& document)
+{
+  describe_instances(deck, document);
+  std::map<std::string, std::string> owner;
+  for (const auto& [name, body] : deck.bodies)
+    for (const auto& [volume, material] : body.volumes) {
+      const auto path = "bodies." + name + ".volumes." + volume;
+      if (const auto [at, fresh] = owner.emplace(volume, name); !fresh)
+        document.error(path, fmt::format("is already a volume of the body \"{}\"; a volume belongs to one body", at->second));
+      if (volume != name && deck.bodies.contains(volume))
+        document.error(path, fmt::format("is a body of its own in `bodies.{}`; a volume belongs to one body", volume));
+      deck.mesh.volumes[name].push_back(volume);
+    }
+  if (deck.mesh.file.empty() && !owner.empty())
+    document.error(
+        "bodies." + owner.begin()->second + ".volumes",
+        "blocks share no nodes, so that they cannot form one body; take a mesh from a `file`, or tie blocks by a contact "
+        "with `friction: {bonded: true}`");
+}
+
+void check_volumes(const Deck& deck, deck::Document& document, const mesh::Catalogue& catalogue)
+{
+  const auto& known = catalogue.volumes;
+  for (const auto& [name, body] : deck.bodies) {
+    if (body.volumes.empty()) continue;
+    for (const auto& [volume, material] : body.volumes)
+      if (std::find(known.begin(), known.end(), volume) == known.end())
+        document.error("bodies." + name + ".volumes." + volume,
+                       fmt::format("the mesh has no physical volume \"{}\"{}", volume, deck::suggestion(volume, known)));
+    if (!body.volumes.contains(name) && std::find(known.begin(), known.end(), name) != known.end())
+      document.error(
+          "bodies." + name + ".volumes",
+          fmt::format("the mesh has a physical volume \"{}\" as well; list it here, or give the body another name", name));
+  }
+}
+
+bool is_made_of(const fem::BodyOptions& body, const std::string& material)
+{
+  if (body.volumes.empty()) return body.material == material;
+  return std::any_of(body.volumes.begin(), body.volumes.end(), [&](const auto& volume) { return volume.second == material; });
+}
+
+}  // namespace mortise::model

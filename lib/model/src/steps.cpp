@@ -1,0 +1,162 @@
+#include "model/steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "model/deck.hpp"
+
+namespace mortise::model {
+
+namespace {
+
+// Of all steps.
+constexpr int most_states = 10000;
+
+template <class T>
+void add_names(const std::vector<T>& list, std::vector<std::string>& names)
+{
+  for (const auto& item : list) names.push_back(item.name);
+}
+
+bool named(const std::vector<std::string>& list, const std::string& name)
+{
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& list)
+{
+  std::vector<std::string> names;
+  add_names(list, names);
+  return names;
+}
+
+// Of each contact the name that the deck gives its entry.
+std::vector<std::string> names_of_contacts(const Deck& deck, const Contacts& contacts)
+{
+  std::vector<std::string> names;
+  for (const std::size_t entry : contacts.entry) names.push_back(deck.contacts[entry].name);
+  return names;
+}
+
+// Factors at the end of a step.
+void scale(const std::vector<std::string>& names, const StepOptions& step, std::vector<double>& factors)
+{
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const auto found = step.scale.find(names[i]); found != step.scale.end()) factors[i] = found->second;
+}
+
+template <class T>
+void toggle(const std::vector<T>& list, const StepOptions& step, std::vector<bool>& acts)
+{
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (named(step.off, list[i].name)) acts[i] = false;
+    if (named(step.on, list[i].name)) acts[i] = true;
+  }
+}
+
+// What acts at the end of a step.
+struct Factors {
+  std::vector<double> load, support, contact;
+  std::vector<bool> loaded, held;
+
+  std::vector<double> acting_load() const
+  {
+    auto result = load;
+    for (std::size_t i = 0; i < result.size(); ++i)
+      if (!loaded[i]) result[i] = 0;
+    return result;
+  }
+};
+
+// Part of the way from one list of factors to the next.
+std::vector<double> between(const std::vector<double>& from, const std::vector<double>& to, double part)
+{
+  std::vector<double> result(to.size());
+  for (std::size_t i = 0; i < to.size(); ++i) result[i] = part < 1 ? from[i] + part * (to[i] - from[i]) : to[i];
+  return result;
+}
+
+}  // namespace
+
+void describe(deck::Description<StepOptions>& d)
+{
+  d.help("One load step. What it does not name stays as the step before left it; before the first step every factor is 1.");
+  d.key("name", &StepOptions::name, "For results; its number if not given.");
+  d.key("scale", &StepOptions::scale,
+        "Factors, reached at the end of the step, of loads, of the displacements of supports and of the interference or preload "
+        "of contacts, by their names. After the first step a preloaded bolt keeps its length but where a step names it here.");
+  d.key("off", &StepOptions::off, "Names of loads and supports that cease to act.");
+  d.key("on", &StepOptions::on, "Names of loads and supports that act again.");
+  d.key("increments", &StepOptions::increments, "Equilibria on the way, between which the factors change linearly.")
+      .at_least(1)
+      .below(most_states + 1);
+}
+
+void check_steps(const Deck& deck, deck::Document& document)
+{
+  const double states = std::accumulate(deck.steps.begin(), deck.steps.end(), 0.0,
+                                        [](double sum, const StepOptions& step) { return sum + step.increments; });
+  if (states > most_states)
+    document.error("steps",
+                   fmt::format("ask for {:.10g} equilibria, each of which is solved and written; at most {} are possible: "
+                               "take fewer `increments`",
+                               states, most_states));
+  std::vector<std::string> switched;
+  add_names(deck.loads, switched);
+  add_names(deck.supports, switched);
+  auto scaled = switched;
+  add_names(deck.contacts, scaled);
+  for (std::size_t s = 0; s < deck.steps.size(); ++s) {
+    const auto& step = deck.steps[s];
+    const auto path = fmt::format("steps[{}].", s);
+    for (const auto& [name, factor] : step.scale)
+      if (!named(scaled, name))
+        document.error(path + "scale." + name,
+                       "there is no load, support or contact of that name" + deck::suggestion(name, scaled));
+    for (const auto& [key, names] : {std::pair("off", &step.off), std::pair("on", &step.on)})
+      for (const auto& name : *names)
+        if (!named(switched, name))
+          document.error(path + key, fmt::format("there is no load or support \"{}\"{}", name, deck::suggestion(name, switched)));
+    for (const auto& name : step.on)
+      if (named(step.off, name)) document.error(path + "on", fmt::format("\"{}\" is switched on and off in one step", name));
+  }
+}
+
+std::vector<LoadState> load_states(const Deck& deck, const Contacts& on_mesh)
+{
+  Factors now{std::vector<double>(deck.loads.size(), 1.0), std::vector<double>(deck.supports.size(), 1.0),
+              std::vector<double>(on_mesh.size(), 1.0), std::vector<bool>(deck.loads.size(), true),
+              std::vector<bool>(deck.supports.size(), true)};
+  const std::vector<bool> none(on_mesh.size(), false);
+  if (deck.steps.empty()) return {{"", 1, now.load, now.support, now.contact, now.held, none}};
+  const auto loads = names_of(deck.loads), supports = names_of(deck.supports), contacts = names_of_contacts(deck, on_mesh);
+  std::vector<LoadState> states;
+  // The first step comes from nothing: no load, no displacement, no overlap.
+  std::vector<double> load(deck.loads.size(), 0.0), support(deck.supports.size(), 0.0), contact(on_mesh.size(), 0.0);
+  for (std::size_t s = 0; s < deck.steps.size(); ++s) {
+    const auto& step = deck.steps[s];
+    scale(loads, step, now.load);
+    scale(supports, step, now.support);
+    scale(contacts, step, now.contact);
+    toggle(deck.loads, step, now.loaded);
+    toggle(deck.supports, step, now.held);
+    const auto acting = now.acting_load();
+    std::vector<bool> locked;
+    for (const auto& name : contacts) locked.push_back(s > 0 && !step.scale.contains(name));
+    for (int i = 1; i <= step.increments; ++i) {
+      const double part = static_cast<double>(i) / step.increments;
+      states.push_back({step.name.empty() ? std::to_string(s + 1) : step.name, static_cast<double>(s) + part,
+                        between(load, acting, part), between(support, now.support, part), between(contact, now.contact, part),
+                        now.held, locked});
+    }
+    load = acting;
+    support = now.support;
+    contact = now.contact;
+  }
+  return states;
+}
+
+}  // namespace mortise::model

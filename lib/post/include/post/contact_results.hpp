@@ -1,0 +1,24 @@
+// Contact surfaces in a solved equilibrium: the state of each point, resultants, fields.
+#pragma once
+
+#include <vector>
+
+#include "contact/state.hpp"
+#include "feti/dual_problem.hpp"
+
+namespace mortise::post {
+
+struct ContactResults {
+  std::vector<contact::PointState> points;      ///< of this rank's contact points
+  std::vector<contact::Resultant> resultants;   ///< of each contact
+  std::vector<contact::SurfaceState> surfaces;  ///< of each contact, its secondary side on this rank
+  std::vector<double> tensions;                 ///< of each contact: the largest tension, force over area at one point
+  double penetration = 0;                       ///< the largest, a length; bonded contacts aside
+  double work_of_gaps = 0;                      ///< sum of |gap * normal force|, which is zero in contact
+};
+
+/// At the multipliers lambda of rows and nu of kernels, `displacement` of each subdomain. Collective.
+ContactResults contact_results(const feti::DualProblem& problem, const Vector& lambda, const Eigen::VectorXd& nu,
+                               const std::vector<Eigen::VectorXd>& displacement, std::span<const contact::Pair> pairs);
+
+}  // namespace mortise::post

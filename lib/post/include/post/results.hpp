@@ -1,0 +1,40 @@
+// All that is known of an equilibrium once its multipliers are found.
+#pragma once
+
+#include "friction/friction.hpp"
+#include "post/balance.hpp"
+#include "post/contact_results.hpp"
+#include "post/strength.hpp"
+#include "post/stress_recovery.hpp"
+#include "post/verdict.hpp"
+
+namespace mortise::post {
+
+struct Results {
+  double max_displacement = 0;
+  StressField stress;
+  ContactResults contact;
+  std::vector<std::array<double, 3>> reactions;  ///< of each support
+  Balance balance;
+  std::vector<double> shortenings;  ///< of each cut, given or found
+  Residuals residuals;
+  double algebraic_error = 0;  ///< of the solver, relative, in the energy norm; NaN: not estimated
+  MeshError mesh_error;
+  Verdict verdict;
+};
+
+/// A solved equilibrium. `displacement`: of each subdomain; `tolerance`: the deck's, 0 where it is auto.
+struct Equilibrium {
+  const feti::DualProblem& problem;
+  const feti::Floating& floating;
+  std::span<const contact::Pair> pairs;
+  const friction::Result& solved;
+  const std::vector<Eigen::VectorXd>& displacement;
+  std::size_t supports = 0;
+  double tolerance = 0;
+};
+
+/// Evaluates, and changes nothing. Whether it is solved, and what to say if not, stands in the verdict. Collective.
+Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, const Communicator& comm);
+
+}  // namespace mortise::post

@@ -1,0 +1,53 @@
+// Stresses from displacements, and what they say of the mesh's error.
+//
+// Recovered stresses sigma* are averaged at the nodes of each body, material by material; the error of the finite element
+// stresses sigma_h in the energy norm is estimated by || sigma* - sigma_h || [Zienkiewicz and Zhu, Int. J. Numer. Methods Eng. 24
+// (1987)].
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "fem/constitution.hpp"
+#include "partition/node_directory.hpp"
+#include "post/bodies.hpp"
+
+namespace mortise::post {
+
+/// What the recovery works on. `constitution`: of each subdomain of this rank; `blocks`: the most materials of any body.
+struct ElasticBodies {
+  const partition::Decomposition& decomposition;
+  const partition::Interface& interface;
+  fem::Kinematics kinematics;
+  std::span<const fem::Constitution> constitution;
+  std::size_t blocks = 1;
+};
+
+/// Fields of each subdomain of this rank, in the deck's unit of stress, and sums over all ranks.
+struct StressField {
+  std::vector<Eigen::MatrixXd> nodal;  ///< nodes x 6, recovered inside the body
+  /// Where bodies have several materials: nodes x 6 blocks, the stress in each material; at nodes between two of them `nodal` is
+  /// that with the larger von Mises stress. And the block of each cell. Else empty.
+  std::vector<Eigen::MatrixXd> by_material;
+  std::vector<std::vector<int>> cell_block;
+  std::vector<Eigen::VectorXd> nodal_von_mises, cell_von_mises;
+  Found largest_von_mises;         ///< of all nodes
+  double strain_energy = 0;        ///< of the elastic strain
+  double squared_error = 0;        ///< estimated, in the energy norm
+  std::vector<Found> worst_cell;   ///< of each body: the largest squared error of a cell of this rank, at the cell's centre
+  std::vector<double> body_error;  ///< of each body: its part of the squared error on this rank
+};
+
+/// `displacement`: of each subdomain. Collective.
+StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
+                           const Communicator& comm);
+
+/// In the energy norm: the estimated error of the mesh, and the size of the solution.
+struct EnergyNorms {
+  double error = 0, solution = 0;
+};
+/// Collective.
+EnergyNorms energy_norms(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
+
+}  // namespace mortise::post

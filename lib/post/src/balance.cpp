@@ -1,0 +1,84 @@
+#include "post/balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/cyclic.hpp"
+
+namespace mortise::post {
+
+namespace {
+
+// Of what nodal stiffness makes of displacements.
+constexpr double part_of_stiffness = 1e-12;
+
+}  // namespace
+
+std::vector<std::array<double, 3>> reactions(const feti::DualProblem& problem, const Vector& lambda, std::size_t supports)
+{
+  std::vector<double> sums((supports + 1) * 3, 0.0);  // the last for an axis of revolution
+  const Eigen::VectorXd forces = problem.forces(lambda);
+  const auto& ranges = problem.jump().ranges();
+  const auto& held = problem.constraints().held;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    sums[static_cast<std::size_t>(held[i].support) * 3 + static_cast<std::size_t>(held[i].component)] -=
+        forces[ranges.held + static_cast<Local>(i)];
+  const auto& inclined = problem.constraints().inclined;
+  for (std::size_t i = 0; i < inclined.size(); ++i) {
+    const auto row = ranges.held + static_cast<Local>(held.size() + i);
+    for (const auto& share : std::span(inclined[i].shares).first(static_cast<std::size_t>(inclined[i].share_count)))
+      for (std::size_t c = 0; c < 3; ++c) sums[static_cast<std::size_t>(share.support) * 3 + c] -= forces[row] * share.part[c];
+  }
+  for (const auto& entry : problem.constraints().contacts.held)  // contact forces that go straight into supports
+    sums[static_cast<std::size_t>(entry.support) * 3 + static_cast<std::size_t>(entry.component)] +=
+        entry.coefficient * forces[ranges.contacts + static_cast<Local>(entry.row)];
+  problem.communicator().sum_in_place(sums);
+  std::vector<std::array<double, 3>> result;
+  for (std::size_t s = 0; s < supports; ++s) result.push_back({sums[3 * s], sums[3 * s + 1], sums[3 * s + 2]});
+  return result;
+}
+
+Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<std::vector<double>>& nodal_stiffness,
+                  int dimension, const Communicator& comm)
+{
+  std::array<double, 2> sums{0, 0};  // k |u| and k |u|^2 / 2: forces and energy if nothing moved with its neighbours
+  for (std::size_t s = 0; s < displacement.size(); ++s)
+    for (Eigen::Index i = 0; i < displacement[s].size(); i += dimension) {
+      const double length = displacement[s].segment(i, dimension).norm();
+      const double k = nodal_stiffness[s][static_cast<std::size_t>(i / dimension)];
+      sums[0] += k * length;
+      sums[1] += 0.5 * k * length * length;
+    }
+  comm.sum_in_place(sums);
+  return {part_of_stiffness * sums[0], part_of_stiffness * sums[1]};
+}
+
+Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const std::array<double, 3>> reactions,
+                std::span<const contact::Resultant> contacts, std::span<const contact::Pair> pairs, bool axisymmetric,
+                const Rounding& rounding)
+{
+  const auto& comm = problem.communicator();
+  const auto counted = [&](const auto& f) { return Point(axisymmetric ? 0 : f[0], f[1], f[2]); };
+  std::vector<double> applied(3, 0.0);
+  for (const auto& f : problem.load())
+    for (Eigen::Index i = 0; i < f.size(); ++i) applied[static_cast<std::size_t>(i % problem.dimension())] += f[i];
+  comm.sum_in_place(applied);
+  Balance b;
+  b.applied = counted(applied);
+  for (const auto& force : reactions) b.supports += counted(force);
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto& options = pairs[c].options;
+    if (const auto turn = contact::turn_of(options))
+      b.neighbours += contacts[c].force - turn->rotation.transpose() * contacts[c].force;
+    if (options.obstacle) b.obstacles += counted(contacts[c].force);
+  }
+  b.largest = std::max({b.applied.norm(), b.supports.norm(), rounding.force, 1e-300});
+  for (const auto& r : contacts) b.largest = std::max(b.largest, r.force.norm());
+  for (const auto& force : reactions) b.largest = std::max(b.largest, std::hypot(force[0], force[1], force[2]));
+  b.gauges = problem.gauge_force(lambda);
+  b.difference = (b.applied + b.supports + b.obstacles + b.neighbours + b.gauges).norm() / b.largest;
+  b.push_of_facets = b.gauges.norm() / b.largest;
+  return b;
+}
+
+}  // namespace mortise::post

@@ -1,0 +1,68 @@
+#include "post/contact_results.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "post/strength.hpp"
+
+namespace mortise::post {
+
+namespace {
+
+// A point is open while its pressure is at most this part of the largest of its contact.
+constexpr double nothing = 1e-4;
+
+// g of this rank's contact rows, with what cuts are drawn together.
+std::vector<double> bounds(const feti::DualProblem& problem, const Eigen::VectorXd& nu)
+{
+  auto result = problem.constraints().contacts.rows.bound;
+  const auto shortenings = problem.shortenings(nu);
+  for (std::size_t c = 0; c < shortenings.size(); ++c)
+    for (const auto& [row, part] : problem.constraints().cuts[c].rows) result[row] += part * shortenings[c];
+  return result;
+}
+
+}  // namespace
+
+ContactResults contact_results(const feti::DualProblem& problem, const Vector& lambda, const Eigen::VectorXd& nu,
+                               const std::vector<Eigen::VectorXd>& displacement, std::span<const contact::Pair> pairs)
+{
+  const auto& comm = problem.communicator();
+  const Eigen::VectorXd forces = problem.forces(lambda), jumps = problem.jumps(displacement);
+  const auto& contacts = problem.constraints().contacts;
+  const auto bound = bounds(problem, nu);
+  std::vector<double> largest(pairs.size(), 0.0);  // pressure of each contact
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    auto& pressure = largest[static_cast<std::size_t>(contacts.points[i].contact)];
+    pressure = std::max(pressure, forces[problem.points()[i].normal] / contacts.points[i].area);
+  }
+  for (auto& pressure : largest) pressure = comm.max(pressure);
+  ContactResults results;
+  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    const auto& point = contacts.points[i];
+    const auto& rows = problem.points()[i];
+    std::vector<double> multipliers, row_jumps;
+    for (Local r = rows.normal; r <= rows.normal + rows.tangents; ++r) {
+      multipliers.push_back(forces[r]);
+      row_jumps.push_back(jumps[r]);
+      // Of the tangential rows, what moving supports and cuts contribute stands in the bound, beside the slip of the steps
+      // before.
+      const auto row = point.row + static_cast<std::size_t>(r - rows.normal);
+      if (r > rows.normal) row_jumps.back() -= bound[row] - contacts.slipped_before(row);
+    }
+    const auto& state = results.points.emplace_back(
+        contact::state_of(point, contacts.bonded[i], multipliers, row_jumps, bound[point.row], problem.slip_bound(i),
+                          nothing * largest[static_cast<std::size_t>(point.contact)]));
+    if (contacts.bonded[i]) continue;
+    results.penetration = std::max(results.penetration, -state.gap);
+    results.work_of_gaps += std::abs(state.gap * multipliers[0]);
+  }
+  results.penetration = comm.max(results.penetration);
+  results.work_of_gaps = comm.sum(results.work_of_gaps);
+  results.resultants = contact::resultants(results.points, pairs.size(), comm);
+  results.surfaces = contact::surface_states(results.points, pairs, comm);
+  results.tensions = largest_tensions(results.points, pairs.size(), comm);
+  return results;
+}
+
+}  // namespace mortise::post

@@ -1,0 +1,86 @@
+#include "post/results.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "post/drift.hpp"
+
+namespace mortise::post {
+
+namespace {
+
+double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, int dimension, const Communicator& comm)
+{
+  double largest = 0;
+  for (const auto& u : displacement)
+    for (Eigen::Index i = 0; i < u.size(); i += dimension) largest = std::max(largest, u.segment(i, dimension).norm());
+  return comm.max(largest);
+}
+
+// How far supports, gaps and overlaps may move a body.
+double prescribed(const constraint::Constraints& constraints, const Communicator& comm)
+{
+  double held = 0, gap = 0;
+  for (const auto& h : constraints.held) held = std::max(held, std::abs(h.value));
+  for (const auto& i : constraints.inclined) held = std::max(held, std::abs(i.value));
+  for (const auto& point : constraints.contacts.points) gap = std::max(gap, std::abs(point.gap));
+  return comm.max(held) + comm.max(gap);
+}
+
+// Relative errors of the mesh and of the solver.
+void estimate_errors(const friction::Result& solved, const Rounding& rounding, const Communicator& comm, Results& results)
+{
+  const auto& stress = results.stress;
+  results.algebraic_error = solved.solution.error;
+  // Where nothing is strained, rounding is not the error of anything.
+  const double squared_norm = std::max(2 * stress.strain_energy + stress.squared_error, rounding.energy);
+  if (!(squared_norm > 0)) return;  // a state at rest is exact
+  results.algebraic_error /= std::sqrt(squared_norm);
+  results.mesh_error = {std::sqrt(stress.squared_error / squared_norm), largest_of_ranks(stress.worst_cell, comm),
+                        stress.body_error};
+  comm.sum_in_place(results.mesh_error.part);
+  for (auto& part : results.mesh_error.part) part /= std::max(stress.squared_error, 1e-300);
+}
+
+}  // namespace
+
+Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, const Communicator& comm)
+{
+  const auto& [problem, floating, pairs, solved, displacement, supports, tolerance] = equilibrium;
+  const auto& lambda = solved.solution.x;
+  const auto& nu = solved.solution.nu;
+  const int dimension = problem.dimension();
+  const auto rounding = post::rounding(displacement, floating.nodal_stiffness, dimension, comm);
+  Results results;
+  results.max_displacement = largest_displacement(displacement, dimension, comm);
+  results.stress = recover_stress(bodies, displacement, comm);
+  estimate_errors(solved, rounding, comm, results);
+  results.contact = contact_results(problem, lambda, nu, displacement, pairs);
+  results.reactions = reactions(problem, lambda, supports);
+  results.balance = balance(problem, lambda, results.reactions, results.contact.resultants, pairs,
+                            bodies.kinematics == fem::Kinematics::axisymmetric, rounding);
+  results.shortenings = problem.shortenings(nu);
+
+  auto& residuals = results.residuals;
+  residuals.projected_gradient = solved.solution.projected_gradient;
+  residuals.equality = solved.solution.equality;
+  residuals.equilibrium = problem.imbalance(displacement, lambda);
+  const double length = results.max_displacement;
+  residuals.penetration = length > 0 ? results.contact.penetration / length : results.contact.penetration;
+  const double energy = std::max(results.stress.strain_energy, rounding.energy);
+  residuals.complementarity = energy > 0 ? results.contact.work_of_gaps / (2 * energy) : results.contact.work_of_gaps;
+
+  Evidence evidence;
+  evidence.converged = solved.converged;
+  evidence.limit = solved.limit;
+  evidence.tolerance = tolerance;
+  static_cast<Residuals&>(evidence) = residuals;
+  evidence.imbalance = results.balance.difference;
+  evidence.algebraic_error = results.algebraic_error;
+  evidence.drift = drift(bodies.decomposition, bodies.kinematics, body_sizes(bodies.decomposition, bodies.kinematics, comm),
+                         displacement, prescribed(problem.constraints(), comm), comm);
+  results.verdict = verdict(evidence);
+  return results;
+}
+
+}  // namespace mortise::post
