@@ -5,8 +5,6 @@
 //
 // Sample runs:  mortise inputs/hertz_sphere/hertz_sphere.yaml
 //               mpirun -n 2 mortise inputs/cantilever_3d/cantilever_3d.yaml --set solver.tolerance=1e-6
-#include <new>
-
 #include "analysis/approach.hpp"
 #include "analysis/checks.hpp"
 #include "analysis/load_step_solver.hpp"
@@ -38,22 +36,16 @@ std::optional<ExitStatus> solve_load_steps(const model::Model& model, analysis::
   const analysis::Assembly assembly(model, copies, context);
   report.assembly(assembly, copies);
   approach = analysis::with_patience(approach, assembly, rows.constraints, context.comm);
-  std::optional<analysis::LoadStepSolver> solver;
+  analysis::LoadStepSolver solver(assembly, std::move(rows), approach, context);
   std::optional<analysis::StepState> state;
   for (const auto& acts : states) {
     report.begin(acts);
     try {
-      if (!solver) solver.emplace(assembly, std::move(rows), approach, context);
-      state = solver->solve(acts, std::move(state), report.observer(acts));
-      approach.spent = solver->multiplications();
-      if (report.gave_up(*solver, *state, approach)) return {};
-      auto results = analysis::evaluate(assembly, *solver, *state, context.comm);
-      report.write(*solver, *state, std::move(results), approach);
-    } catch (const std::bad_alloc&) {
-      if (solver) approach.spent = solver->multiplications();
-      throw;
+      state = solver.solve(acts, std::move(state), report.observer(acts));
+      if (report.gave_up(solver, *state, approach)) return {};
+      auto results = analysis::evaluate(assembly, solver, *state, context.comm);
+      report.write(solver, *state, std::move(results), approach);
     } catch (const Error& error) {
-      if (solver) approach.spent = solver->multiplications();
       report.fail(error, approach);
     }
     if (!report.goes_on()) break;

@@ -57,8 +57,8 @@ post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem
 
 }  // namespace
 
-LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach approach, const Context& context)
-    : assembly_(assembly), context_(context), approach_(std::move(approach)), before_(approach_.spent)
+LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach& approach, const Context& context)
+    : assembly_(assembly), context_(context), approach_(approach), spent_before_(approach.spent), before_(approach.spent)
 {
   const auto& model = assembly.model();
   std::vector<Eigen::VectorXd> load;

@@ -140,7 +140,7 @@ TEST(Decks, NamesAreCheckedAgainstTheMesh)
   mesh::Catalogue catalogue;
   catalogue.bodies = {{"a", "a"}, {"bb", "bb"}};
   catalogue.boundaries = {"a.zmin"};
-  check_names(deck, document, catalogue);
+  check_names(deck, as_written(deck), document, catalogue);
   try {
     document.check();
     FAIL() << "no error";

@@ -49,9 +49,8 @@ TEST(Verdict, a_small_error_excuses_the_gradient_of_incompressible_bodies)
 TEST(Verdict, every_number_can_spoil_it)
 {
   using Member = double Evidence::*;
-  for (const Member m : std::initializer_list<Member>{&Evidence::projected_gradient, &Evidence::equality,
-                                                      &Evidence::equilibrium, &Evidence::penetration,
-                                                      &Evidence::complementarity, &Evidence::imbalance}) {
+  for (const Member m : std::initializer_list<Member>{&Evidence::projected_gradient, &Evidence::equality, &Evidence::equilibrium,
+                                                      &Evidence::penetration, &Evidence::complementarity, &Evidence::imbalance}) {
     for (const double bad : {1.0, std::numeric_limits<double>::infinity(), nan}) {
       auto e = good();
       e.*m = bad;

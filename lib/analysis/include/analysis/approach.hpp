@@ -36,7 +36,7 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
 /// products with F do not, rounding and memory.
 bool is_tried_again(const Approach& approach, const Error& error);
 
-/// All load steps by one approach on one decomposition; nothing if it gave up. Notes in approach.spent what it spent, also where
+/// All load steps by one approach on one decomposition; nothing if it gave up. Adds to approach.spent what it spent, also where
 /// it throws.
 using Attempt = std::function<std::optional<ExitStatus>(const partition::Decomposition&, Approach&)>;
 

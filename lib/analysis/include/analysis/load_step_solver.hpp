@@ -23,9 +23,10 @@ struct StepState {
 /// Heavy: neither copies nor moves.
 class LoadStepSolver {
  public:
-  /// The dual problem of `first`. The assembly outlives it. Throws Error(no_equilibrium), naming the body and its motion, if
-  /// loads drive a body that nothing holds. Collective.
-  LoadStepSolver(const Assembly& assembly, Rows first, Approach approach, const Context& context);
+  /// The dual problem of `first`. The assembly and the approach outlive it: approach.spent has its products once it is gone.
+  /// Throws Error(no_equilibrium), naming the body and its motion, if loads drive a body that nothing holds. Collective.
+  LoadStepSolver(const Assembly& assembly, Rows first, Approach& approach, const Context& context);
+  ~LoadStepSolver() { approach_.spent = multiplications(); }
   LoadStepSolver(const LoadStepSolver&) = delete;
   LoadStepSolver& operator=(const LoadStepSolver&) = delete;
 
@@ -35,7 +36,7 @@ class LoadStepSolver {
 
   const feti::DualProblem& problem() const { return *problem_; }
   /// Products of the approaches before.
-  int spent_before() const { return approach_.spent; }
+  int spent_before() const { return spent_before_; }
   /// Products of all load steps and of the approaches before, also of a load step that threw.
   int multiplications() const { return before_ + (solver_ ? solver_->multiplications() : 0); }
 
@@ -46,11 +47,12 @@ class LoadStepSolver {
 
   const Assembly& assembly_;
   const Context& context_;
-  const Approach approach_;
+  Approach& approach_;
+  const int spent_before_;
   std::shared_ptr<const Rows> rows_;  // of the problem
   std::unique_ptr<feti::DualProblem> problem_;
   std::optional<friction::Solver> solver_;  // refers to the problem
-  int before_ = 0;                          // products of the solvers before this one
+  int before_ = 0;                          // products of the solvers and approaches before this one
 };
 
 /// What there is to know of a state that solver.solve() returned last. Throws Error(no_equilibrium) if it is none. Collective.

@@ -1,0 +1,172 @@
+// Load steps on two blocks, one on the other, where stresses, forces and slip are known. The same on any ranks.
+#include <gtest/gtest.h>
+
+#include "analysis/checks.hpp"
+#include "analysis/load_step_solver.hpp"
+#include "base/error.hpp"
+#include "model/resolution.hpp"
+#include "partition/decompose.hpp"
+
+namespace mortise::analysis {
+namespace {
+
+constexpr double young = 1000, pressure = 2, width = 1, height = 2;
+
+// Two cubes, the upper one pressed and pushed; nothing contracts.
+const std::string blocks = R"(
+mesh:
+  blocks:
+    lower: {size: [1, 1, 1], cells: [2, 2, 2]}
+    upper: {origin: [0, 0, 1], size: [1, 1, 1], cells: [2, 2, 2]}
+materials: {steel: {young_modulus: 1000, poisson_ratio: 0}}
+bodies: {lower: {material: steel}, upper: {material: steel}}
+decomposition: {method: grid, counts: {lower: [2, 1, 1], upper: [1, 2, 1]}}
+solver: {algorithm: face_newton, tolerance: 1e-10}
+friction_loop: {tolerance: 1e-10}
+loads:
+  - {name: press, boundary: upper.zmax, pressure: 2}
+  - {name: push, boundary: upper.zmin, traction: [0.5, 0, 0]}
+)";
+const std::string held = R"(
+supports:
+  - {boundary: lower.zmin, displacement: {x: 0, y: 0, z: 0}}
+  - {name: guide, boundary: upper.ymin, displacement: {y: 0}}
+)";
+
+// A deck on its way to its load steps.
+class Analysis {
+ public:
+  explicit Analysis(const std::string& text) : document_(text, "deck.yaml", {}), deck_(model::read_deck(document_, ""))
+  {
+    document_.check();
+    resolved_ = model::resolve(deck_, document_, partition::decompose(deck_.mesh, deck_.decomposition, 3, context_), context_);
+    model_.emplace(deck_, resolved_.contacts, resolved_.decomposition);
+    states_ = model::load_states(deck_, resolved_.contacts);
+    const auto copies = model_->congruent();
+    assembly_.emplace(*model_, copies, context_);
+    approach_.algorithm = deck_.solver.programme.algorithm;
+    solver_.emplace(*assembly_, make_rows(*model_, states_.front(), {}, context_), approach_, context_);
+  }
+
+  // The states of all steps and what they come to.
+  void solve_all()
+  {
+    std::optional<StepState> state;
+    for (const auto& acts : states_) {
+      state = solver_->solve(acts, std::move(state), [](int, double, const qp::Progress&) {});
+      results.push_back(evaluate(*assembly_, *solver_, *state, comm));
+      again.push_back(evaluate(*assembly_, *solver_, *state, comm));
+      states.push_back(*state);
+    }
+  }
+  const model::Deck& deck() const { return deck_; }
+
+  Communicator comm;
+  std::vector<StepState> states;
+  std::vector<post::Results> results, again;
+
+ private:
+  Timers timers_;
+  Log log_{comm, nullptr};
+  Context context_{comm, log_, timers_};
+  deck::Document document_;
+  model::Deck deck_;
+  model::Resolution resolved_;
+  std::optional<model::Model> model_;
+  std::vector<model::LoadState> states_;
+  std::optional<Assembly> assembly_;
+  Approach approach_;
+  std::optional<LoadStepSolver> solver_;
+};
+
+void expect_near(const std::array<double, 3>& found, const Point& exact)
+{
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[static_cast<std::size_t>(c)], exact[c], 1e-7) << c;
+}
+
+// Pressed alone, without friction: uniform stress, what presses comes out below.
+TEST(LoadSteps, APressedColumn)
+{
+  Analysis run(blocks + held + "contacts: [{secondary: upper.zmin, primary: lower.zmax}]\n" +
+               "steps: [{name: rest, scale: {push: 0}}]\n");
+  // Nothing keeps the upper block from sliding along x, but nothing moves it either.
+  run.solve_all();
+  const auto& r = run.results.at(0);
+  EXPECT_EQ(r.verdict.status, ExitStatus::solved) << r.verdict.reason;
+  EXPECT_NEAR(r.max_displacement, pressure / young * height, 1e-9);
+  EXPECT_NEAR(r.stress.largest_von_mises.value, pressure, 1e-7);
+  EXPECT_NEAR(r.stress.strain_energy, 0.5 * pressure * pressure / young * height * width * width, 1e-9);
+  expect_near(r.reactions.at(0), {0, 0, pressure});
+  expect_near(r.reactions.at(1), {0, 0, 0});
+  const Point contact = r.contact.resultants.at(0).force;
+  EXPECT_NEAR(contact[2], pressure, 1e-7);
+  EXPECT_NEAR(r.contact.resultants[0].area, width * width, 1e-9);
+  EXPECT_LT(r.contact.penetration, 1e-9);
+  EXPECT_LT(r.balance.difference, 1e-9);
+  EXPECT_NEAR(r.balance.applied[2], -pressure, 1e-12);
+  EXPECT_NEAR(r.balance.largest, pressure, 1e-7);
+}
+
+// Coulomb 0.5 carries the push; with half the pressure it could not carry more. What a state was stays what it was.
+TEST(LoadSteps, StatesAreValuesThatTheNextStartsFrom)
+{
+  Analysis run(blocks + held +
+               "contacts: [{name: joint, secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.5}}]\n" +
+               "steps: [{name: press, scale: {push: 0}}, {name: push, scale: {push: 1}}, {name: back, scale: {push: 0}}, {name: "
+               "loose, off: [guide]}]\n");
+  const auto before = model::write_deck(run.deck());
+  run.solve_all();
+  ASSERT_EQ(run.results.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto &once = run.results[i], &twice = run.again[i];  // evaluating changes nothing
+    EXPECT_EQ(once.verdict.status, ExitStatus::solved) << i << once.verdict.reason;
+    EXPECT_EQ(once.max_displacement, twice.max_displacement);
+    EXPECT_EQ(once.stress.strain_energy, twice.stress.strain_energy);
+    EXPECT_EQ(once.reactions, twice.reactions);
+    EXPECT_LT(once.balance.difference, 1e-8) << i;
+    EXPECT_NEAR(once.contact.resultants[0].force[2], pressure, 1e-6) << i;
+  }
+  expect_near(run.results[1].reactions[0], {-0.5, 0, pressure});
+  EXPECT_NEAR(run.results[2].contact.resultants[0].force[0], 0, 1e-6);
+
+  const auto rows = [&](std::size_t i) {
+    return run.comm.sum(static_cast<long long>(run.states[i].rows->constraints.held.size()));
+  };
+  EXPECT_EQ(rows(0), rows(2));
+  EXPECT_LT(rows(3), rows(2));  // the guide lets go: other rows, while those of the states before are as they were
+  EXPECT_TRUE(run.states[0].rows->constraints.contacts.slipped.empty());
+  EXPECT_EQ(model::write_deck(run.deck()), before);
+}
+
+// More than friction can carry.
+TEST(LoadSteps, NoEquilibriumBeyondFriction)
+{
+  Analysis run(blocks + held + "contacts: [{secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.2}}]\n");
+  try {
+    run.solve_all();
+    FAIL() << "0.5 of push on 0.2 * 2 of friction";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::no_equilibrium) << error.what();
+    EXPECT_NE(std::string(error.what()).find("body \"upper\""), std::string::npos) << error.what();
+  }
+}
+
+TEST(Checks, ABodyThatNothingTouchesIsNamed)
+{
+  const Communicator comm;
+  Timers timers;
+  Log log(comm, nullptr);
+  const Context context{comm, log, timers};
+  deck::Document document(blocks + held, "deck.yaml", {});
+  const auto deck = model::read_deck(document, "");
+  const auto resolved = model::resolve(deck, document, partition::decompose(deck.mesh, deck.decomposition, 3, context), context);
+  const model::Model model(deck, resolved.contacts, resolved.decomposition);
+  auto rows = make_rows(model, model::load_states(deck, resolved.contacts).front(), {}, context);
+  Warnings warnings;
+  EXPECT_NO_THROW(check_unconstrained_bodies(model, rows, context, warnings));  // the guide holds it
+  EXPECT_TRUE(warnings.all().empty());
+  EXPECT_TRUE(check_model(model, rows, comm).empty());
+}
+
+}  // namespace
+}  // namespace mortise::analysis
