@@ -26,7 +26,8 @@ struct Programme {
   VectorXd b, e;
   FeasibleSet set;
 
-  CondensedNewton::Point solve() const { return CondensedNewton(a, g, set).solve(b, e, set); }
+  CondensedNewton condensed() const { return {a, g, MatrixXd::Zero(g.rows(), g.rows()), set}; }
+  CondensedNewton::Point solve() const { return condensed().solve(b, e, set); }
 };
 
 // How far x and nu are from the conditions of a solution, over the size of forces and of gaps. Nothing of it comes from the code
@@ -317,7 +318,7 @@ TEST(CondensedNewton, TimesTheInverse)
 {
   for (const auto& [points, free] : {std::pair{10, 15}, {10, 0}, {0, 15}}) {
     const auto p = random_programme(3, points, 2, free, 1);
-    const CondensedNewton newton(p.a, p.g, p.set);
+    const CondensedNewton newton = p.condensed();
     const VectorXd r = Random(9).matrix(p.b.size(), 1);
     EXPECT_LT((p.a * newton.inverse_times(r) - r).norm(), 1e-10 * r.norm());
   }
@@ -358,7 +359,7 @@ TEST(CondensedNewton, RefusesWhatIsNotDefinite)
     auto a = p.a;
     a(i, i) = -1;
     try {
-      CondensedNewton(a, p.g, p.set);
+      CondensedNewton(a, p.g, MatrixXd::Zero(p.g.rows(), p.g.rows()), p.set);
       FAIL() << "no error";
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::not_converged);
@@ -505,7 +506,7 @@ TEST(CondensedNewton, ABeltOnADrum)
 TEST(CondensedNewton, MatricesOfSeveralPieces)
 {
   auto p = random_programme(5, 150, 2, 330, 4);
-  const CondensedNewton newton(p.a, p.g, p.set);
+  const CondensedNewton newton = p.condensed();
   const auto point = newton.solve(p.b, p.e, p.set);
   EXPECT_TRUE(point.settled);
   EXPECT_LT(violation(p, point), 1e-9);
@@ -526,7 +527,7 @@ TEST(CondensedNewton, MatricesOfSeveralPieces)
 TEST(CondensedNewton, EndsIfItIsToldTo)
 {
   const auto p = random_programme(5, 20, 2, 20, 4);
-  const CondensedNewton newton(p.a, p.g, p.set);
+  const CondensedNewton newton = p.condensed();
   const auto status = [](const auto& work) {
     tell_to_end(SIGTERM);
     auto found = ExitStatus::solved;
@@ -539,7 +540,7 @@ TEST(CondensedNewton, EndsIfItIsToldTo)
     return found;
   };
   EXPECT_EQ(status([&] { newton.solve(p.b, p.e, p.set); }), ExitStatus::machine);
-  EXPECT_EQ(status([&] { CondensedNewton(p.a, p.g, p.set); }), ExitStatus::machine);
+  EXPECT_EQ(status([&] { p.condensed(); }), ExitStatus::machine);
   EXPECT_TRUE(newton.solve(p.b, p.e, p.set).settled);
 }
 
