@@ -352,6 +352,34 @@ TEST(CondensedNewton, EverythingMayBeOpen)
   }
 }
 
+TEST(CondensedNewton, GoesOnFromAnotherElimination)
+{
+  for (int seed = 1; seed <= 10; ++seed) {
+    constexpr Index gone = 4;  // the first of the unknowns without a constraint
+    const auto p = random_programme(seed, 10, 2, 2 * gone, 2);
+    const auto whole = p.solve();
+    const Index left = p.b.size() - gone;
+    const MatrixXd response = p.a.topLeftCorner(gone, gone).llt().solve(p.a.topRightCorner(gone, left)),
+                   motion = p.a.topLeftCorner(gone, gone).llt().solve(p.g.leftCols(gone).transpose());
+    std::vector<Bound> bounds;
+    std::vector<Disc> discs;
+    for (const auto& bound : p.set.bounds()) bounds.push_back({bound.index - static_cast<Local>(gone), bound.lower});
+    for (auto disc : p.set.discs()) {
+      for (auto* index : {&disc.index[0], &disc.index[1], &disc.normal}) *index -= static_cast<Local>(gone);
+      discs.push_back(disc);
+    }
+    const FeasibleSet set(std::move(bounds), std::move(discs));
+    const CondensedNewton newton(p.a.bottomRightCorner(left, left) - p.a.bottomLeftCorner(left, gone) * response,
+                                 p.g.rightCols(left) - p.g.leftCols(gone) * response, p.g.leftCols(gone) * motion, set);
+    const auto part =
+        newton.solve(p.b.tail(left) - response.transpose() * p.b.head(gone), p.e - motion.transpose() * p.b.head(gone), set);
+    ASSERT_EQ(part.settled, whole.settled) << seed;
+    if (!whole.settled) continue;
+    EXPECT_LT((part.x - whole.x.tail(left)).norm(), 1e-9 * whole.x.norm()) << seed;
+    EXPECT_LT((part.nu - whole.nu).norm(), 1e-9 * (1 + whole.nu.norm())) << seed;
+  }
+}
+
 TEST(CondensedNewton, RefusesWhatIsNotDefinite)
 {
   auto p = random_programme(3, 4, 1, 5, 0);
@@ -516,7 +544,7 @@ TEST(CondensedNewton, MatricesOfSeveralPieces)
     auto indefinite = p.a;
     indefinite(at, at) = -1;
     try {
-      const CondensedNewton factorized(indefinite, p.g, p.set);
+      const CondensedNewton factorized(indefinite, p.g, MatrixXd::Zero(p.g.rows(), p.g.rows()), p.set);
       ADD_FAILURE() << at;
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::not_converged) << error.what();
