@@ -173,6 +173,12 @@ ExplicitProblem::Result ExplicitProblem::solve() const
   Result result{from_root(std::move(x)), Eigen::Map<const Eigen::VectorXd>(nu.data(), static_cast<Eigen::Index>(nu.size())),
                 outcome[0] == 1, static_cast<int>(outcome[1])};
   held_->complete(problem_.linear(), result.nu, result.x);
+  const auto& equality = problem_.equality();
+  if (!comm.any(!problem_.set().constrained().empty()) && equality.size() > 0) {
+    // A body may be free to change its shape and have no other forces than those of G x = e: rounding of d is large beside them.
+    const Eigen::VectorXd lacking = equality.right_side() - equality.apply(result.x);
+    equality.add_transpose(1, equality.solve(lacking), result.x);
+  }
   return result;
 }
 
