@@ -3,38 +3,11 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "base/interruption.hpp"
+#include "held_elimination.hpp"
 
 namespace mortise::feti {
 
 namespace {
-
-constexpr Eigen::Index columns_at_once = 64;
-
-// B_s K_s^+ B_s' over the rows that the subdomain takes part in.
-Eigen::MatrixXd compliance(const JumpOperator::Block& block, const SubdomainOperator& subdomain)
-{
-  const auto count = static_cast<Eigen::Index>(block.row.size());
-  Eigen::MatrixXd result(count, count);
-  for (Eigen::Index begin = 0; begin < count; begin += columns_at_once) {
-    end_if_told();
-    const auto columns = std::min(columns_at_once, count - begin);
-    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(block.size, columns);
-    std::vector<double*> column;
-    for (Eigen::Index c = 0; c < columns; ++c) {
-      const auto r = static_cast<std::size_t>(begin + c);
-      for (auto i = block.offset[r]; i < block.offset[r + 1]; ++i) u(block.unknown[i], c) += block.coefficient[i];
-      column.push_back(u.col(c).data());
-    }
-    subdomain.apply_inverse(column);
-    for (Eigen::Index r = 0; r < count; ++r) {
-      result.block(r, begin, 1, columns).setZero();
-      for (auto i = block.offset[static_cast<std::size_t>(r)]; i < block.offset[static_cast<std::size_t>(r) + 1]; ++i)
-        result.block(r, begin, 1, columns) += block.coefficient[i] * u.row(block.unknown[i]);
-    }
-  }
-  return result;
-}
 
 // To rank 0, in the order of ranks. Whether all ranks have room for it is seen before any of them sends: one alone cannot stop.
 std::vector<double> on_root(std::vector<double> values, const Communicator& comm)
@@ -53,27 +26,30 @@ std::vector<double> on_root(std::vector<double> values, const Communicator& comm
 
 }  // namespace
 
-ExplicitProblem::ExplicitProblem(const DualProblem& problem) : problem_(problem)
+ExplicitProblem::ExplicitProblem(const DualProblem& problem)
+    : problem_(problem), held_(std::make_unique<HeldElimination>(problem))
 {
   const auto& comm = problem.communicator();
-  const auto& jump = problem.jump();
-  const auto& blocks = jump.blocks();
-  const auto size = static_cast<Eigen::Index>(problem.dual_unknowns());
-  const auto touched = jump.touched_rows()->getNodeElementList();
-  std::vector<double> entries;  // of each subdomain: how many rows, which ones, the matrix over them
+  const auto size = static_cast<Eigen::Index>(held_->count());
+  // Of each subdomain: how many rows and motions, where these start; which rows; W, H and C.
+  std::vector<double> parts;
   collectively(comm, [&] {
-    for (std::size_t s = 0; s < blocks.size(); ++s) {
-      const Eigen::MatrixXd part = compliance(blocks[s], *problem.clusters().subdomains()[s]);
-      entries.push_back(static_cast<double>(part.rows()));
-      for (const Local row : blocks[s].row) entries.push_back(static_cast<double>(touched[row]));
-      entries.insert(entries.end(), part.data(), part.data() + part.size());
+    for (std::size_t s = 0; s < problem.jump().blocks().size(); ++s) {
+      const auto part = held_->part(s);
+      parts.insert(parts.end(),
+                   {static_cast<double>(part.w.cols()), static_cast<double>(part.c.cols()), static_cast<double>(part.first)});
+      for (const Global number : part.number) parts.push_back(static_cast<double>(number));
+      for (const auto* matrix : {&part.w, &part.h, &part.c})
+        parts.insert(parts.end(), matrix->data(), matrix->data() + matrix->size());
     }
   });
-  entries = on_root(std::move(entries), comm);
+  parts = on_root(std::move(parts), comm);
   const auto& g = problem.equality().local();
   std::vector<double> columns;  // of each row: its number and its column of G
   for (int c = 0; c < g.cols(); ++c) {
-    columns.push_back(static_cast<double>(jump.rows()->getGlobalElement(c)));
+    const Global number = held_->number()[static_cast<std::size_t>(c)];
+    if (number < 0) continue;
+    columns.push_back(static_cast<double>(number));
     const Eigen::VectorXd column = g.col(c);
     columns.insert(columns.end(), column.begin(), column.end());
   }
@@ -81,27 +57,37 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem) : problem_(problem)
   const qp::FeasibleSet set = whole_set();
   collectively(comm, [&] {
     if (!comm.root()) return;
-    Eigen::MatrixXd f = Eigen::MatrixXd::Zero(size, size), all(g.rows(), size);
-    for (std::size_t at = 0; at < entries.size();) {
-      const auto count = static_cast<Eigen::Index>(entries[at]);
-      const auto row = [&](Eigen::Index i) { return static_cast<Eigen::Index>(entries[at + 1 + static_cast<std::size_t>(i)]); };
-      const Eigen::Map<const Eigen::MatrixXd> part(&entries[at] + 1 + count, count, count);
-      for (Eigen::Index c = 0; c < count; ++c)
-        for (Eigen::Index r = 0; r < count; ++r) f(row(r), row(c)) += 0.5 * (part(r, c) + part(c, r));
-      at += static_cast<std::size_t>(1 + count + count * count);
+    const auto height = g.rows();
+    Eigen::MatrixXd w = Eigen::MatrixXd::Zero(size, size), h(height, size), c = Eigen::MatrixXd::Zero(height, height);
+    for (std::size_t at = 0; at < columns.size(); at += 1 + static_cast<std::size_t>(height))
+      h.col(static_cast<Eigen::Index>(columns[at])) = Eigen::Map<const Eigen::VectorXd>(&columns[at] + 1, height);
+    for (const double *at = parts.data(), *end = at + parts.size(); at < end;) {
+      const auto count = static_cast<Eigen::Index>(at[0]), modes = static_cast<Eigen::Index>(at[1]),
+                 first = static_cast<Eigen::Index>(at[2]);
+      const double* const number = at + 3;
+      const Eigen::Map<const Eigen::MatrixXd> part(number + count, count, count);
+      const Eigen::Map<const Eigen::MatrixXd> pull(part.data() + part.size(), modes, count);
+      const Eigen::Map<const Eigen::MatrixXd> stiffness(pull.data() + pull.size(), modes, modes);
+      for (Eigen::Index j = 0; j < count; ++j) {
+        const auto column = static_cast<Eigen::Index>(number[j]);
+        for (Eigen::Index i = 0; i < count; ++i) w(static_cast<Eigen::Index>(number[i]), column) += part(i, j);
+        h.col(column).segment(first, modes) += pull.col(j);
+      }
+      c.block(first, first, modes, modes) += stiffness;
+      at = stiffness.data() + stiffness.size();
     }
-    for (std::size_t at = 0; at < columns.size(); at += 1 + static_cast<std::size_t>(g.rows()))
-      all.col(static_cast<Eigen::Index>(columns[at])) = Eigen::Map<const Eigen::VectorXd>(&columns[at] + 1, g.rows());
-    newton_ = std::make_unique<qp::CondensedNewton>(std::move(f), std::move(all), set);
+    newton_ = std::make_unique<qp::CondensedNewton>(std::move(w), std::move(h), std::move(c), set);
   });
 }
+
+ExplicitProblem::~ExplicitProblem() = default;
 
 // The sets of all ranks as one; of use on rank 0.
 qp::FeasibleSet ExplicitProblem::whole_set() const
 {
   const auto& comm = problem_.communicator();
   const auto& set = problem_.set();
-  const auto number = [&](Local i) { return i < 0 ? -1.0 : static_cast<double>(problem_.jump().rows()->getGlobalElement(i)); };
+  const auto number = [&](Local i) { return i < 0 ? -1.0 : static_cast<double>(held_->number()[static_cast<std::size_t>(i)]); };
   std::vector<double> bounds, discs;
   for (const auto& bound : set.bounds()) bounds.insert(bounds.end(), {number(bound.index), bound.lower});
   for (const auto& disc : set.discs())
@@ -121,25 +107,30 @@ qp::FeasibleSet ExplicitProblem::whole_set() const
   return {std::move(all_bounds), std::move(all_discs)};
 }
 
-// A vector over the dual space, whole on rank 0 by the numbers of its rows.
-std::vector<double> ExplicitProblem::to_root(const Eigen::Ref<const Eigen::VectorXd>& own) const
+// What a vector over the dual space has at the rows that are left, whole on rank 0 by their numbers.
+std::vector<double> ExplicitProblem::to_root(const Vector& x) const
 {
-  const auto& rows = *problem_.jump().rows();
+  const auto own = view(x);
   std::vector<double> entries;  // number and value of each row
   for (Eigen::Index i = 0; i < own.size(); ++i)
-    entries.insert(entries.end(), {static_cast<double>(rows.getGlobalElement(static_cast<Local>(i))), own[i]});
+    if (const Global number = held_->number()[static_cast<std::size_t>(i)]; number >= 0)
+      entries.insert(entries.end(), {static_cast<double>(number), own[i]});
   entries = on_root(std::move(entries), problem_.communicator());
   std::vector<double> all(entries.size() / 2);
   for (std::size_t i = 0; i < entries.size(); i += 2) all[static_cast<std::size_t>(entries[i])] = entries[i + 1];
   return all;
 }
 
-void ExplicitProblem::from_root(std::vector<double> all, Vector& x) const
+// And back; zero at the others.
+Vector ExplicitProblem::from_root(std::vector<double> all) const
 {
   problem_.communicator().broadcast(all);
+  Vector x(problem_.jump().rows());
   auto values = view(x);
   for (Eigen::Index i = 0; i < values.size(); ++i)
-    values[i] = all[static_cast<std::size_t>(problem_.jump().rows()->getGlobalElement(static_cast<Local>(i)))];
+    if (const Global number = held_->number()[static_cast<std::size_t>(i)]; number >= 0)
+      values[i] = all[static_cast<std::size_t>(number)];
+  return x;
 }
 
 void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
@@ -147,15 +138,16 @@ void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
   const auto& comm = problem_.communicator();
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
-    auto all = to_root(view(*in));
+    Eigen::VectorXd motions = Eigen::VectorXd::Zero(problem_.equality().size());
+    auto all = to_root(held_->reduce(*in, motions));
     collectively(comm, [&] {
       if (!comm.root()) return;
       const auto solved =
           newton_->inverse_times(Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
       all.assign(solved.begin(), solved.end());
     });
-    Vector result(in->getMap());
-    from_root(std::move(all), result);
+    Vector result = from_root(std::move(all));
+    held_->complete(*in, {}, result);
     y.getVectorNonConst(column)->update(alpha, result, beta);
   }
 }
@@ -163,24 +155,30 @@ void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
 ExplicitProblem::Result ExplicitProblem::solve() const
 {
   const auto& comm = problem_.communicator();
-  const auto linear = to_root(view(problem_.linear()));
+  Eigen::VectorXd e = problem_.equality().right_side();
+  const auto linear = to_root(held_->reduce(problem_.linear(), e));
   const qp::FeasibleSet set = whole_set();
   std::vector<double> x, nu;
   std::vector<long long> outcome;
   collectively(comm, [&] {
     if (!comm.root()) return;
-    const auto found = newton_->solve(Eigen::Map<const Eigen::VectorXd>(linear.data(), static_cast<Eigen::Index>(linear.size())),
-                                      problem_.equality().right_side(), set);
+    const auto found =
+        newton_->solve(Eigen::Map<const Eigen::VectorXd>(linear.data(), static_cast<Eigen::Index>(linear.size())), e, set);
     x.assign(found.x.begin(), found.x.end());
     nu.assign(found.nu.begin(), found.nu.end());
     outcome = {found.settled ? 1 : 0, found.steps};
   });
   comm.broadcast(nu);
   comm.broadcast(outcome);
-  Result result{Vector(problem_.jump().rows()),
-                Eigen::Map<const Eigen::VectorXd>(nu.data(), static_cast<Eigen::Index>(nu.size())), outcome[0] == 1,
-                static_cast<int>(outcome[1])};
-  from_root(std::move(x), result.x);
+  Result result{from_root(std::move(x)), Eigen::Map<const Eigen::VectorXd>(nu.data(), static_cast<Eigen::Index>(nu.size())),
+                outcome[0] == 1, static_cast<int>(outcome[1])};
+  held_->complete(problem_.linear(), result.nu, result.x);
+  const auto& equality = problem_.equality();
+  if (!comm.any(!problem_.set().constrained().empty()) && equality.size() > 0) {
+    // A body may be free to change its shape and have no other forces than those of G x = e: rounding of d is large beside them.
+    const Eigen::VectorXd lacking = equality.right_side() - equality.apply(result.x);
+    equality.add_transpose(1, equality.solve(lacking), result.x);
+  }
   return result;
 }
 

@@ -115,22 +115,22 @@ std::vector<double> nodal_stiffness(const SparseMatrix& lower, int dimension)
 
 namespace {
 
-// K + r N.
-SparseMatrix regularise(const SparseMatrix& lower, const Eigen::MatrixXd& kernel, std::span<const Point> points, int dimension)
+// r N, lower triangle.
+SparseMatrix fixing(const SparseMatrix& lower, const Eigen::MatrixXd& kernel, std::span<const Point> points, int dimension)
 {
   const auto nodes = fixing_nodes(points, kernel, dimension);
   const Eigen::MatrixXd rows = rows_of(kernel, nodes, dimension);
   const double r = lower.diagonal().mean();
-  const Eigen::MatrixXd fixing = r * rows * (rows.transpose() * rows).ldlt().solve(rows.transpose());
+  const Eigen::MatrixXd dense = r * rows * (rows.transpose() * rows).ldlt().solve(rows.transpose());
   std::vector<Eigen::Triplet<double>> triplets;
   const auto unknown = [&](Eigen::Index i) {
     return nodes[static_cast<std::size_t>(i / dimension)] * dimension + static_cast<int>(i % dimension);
   };
-  for (Eigen::Index i = 0; i < fixing.rows(); ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) triplets.emplace_back(unknown(i), unknown(j), fixing(i, j));
-  SparseMatrix regularised(lower.rows(), lower.cols());
-  regularised.setFromTriplets(triplets.begin(), triplets.end());
-  return regularised + lower;
+  for (Eigen::Index i = 0; i < dense.rows(); ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) triplets.emplace_back(unknown(i), unknown(j), dense(i, j));
+  SparseMatrix result(lower.rows(), lower.cols());
+  result.setFromTriplets(triplets.begin(), triplets.end());
+  return result;
 }
 
 }  // namespace
@@ -138,15 +138,16 @@ SparseMatrix regularise(const SparseMatrix& lower, const Eigen::MatrixXd& kernel
 ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
                                    const std::string& factorization)
     : stiffness_(std::move(lower)),
+      fixing_(fixing(stiffness_, kernel, points, dimension)),
       kernel_(std::move(kernel)),
-      solver_(std::make_unique<DirectSolver>(factorization, regularise(stiffness_, kernel_, points, dimension), dimension))
+      solver_(std::make_unique<DirectSolver>(factorization, stiffness_ + fixing_, dimension))
 {
 }
 
 std::size_t ElasticSubdomain::foreseen_factor_bytes(const SparseMatrix& lower, const Eigen::MatrixXd& kernel,
                                                     std::span<const Point> points, int dimension)
 {
-  return Cholesky(regularise(lower, kernel, points, dimension), dimension).factor_bytes();
+  return Cholesky(lower + fixing(lower, kernel, points, dimension), dimension).factor_bytes();
 }
 
 TurnedSubdomain::TurnedSubdomain(std::shared_ptr<const SubdomainOperator> original, const Eigen::Matrix3d& rotation,
@@ -189,6 +190,19 @@ Eigen::VectorXd TurnedSubdomain::apply(const Eigen::VectorXd& u) const
   v = original_->apply(v);
   turn(v);
   return v;
+}
+
+// T K T' of the original's.
+SparseMatrix TurnedSubdomain::regularised() const
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int node = 0; node < size(); node += static_cast<int>(rotation_.rows()))
+    for (int i = 0; i < rotation_.rows(); ++i)
+      for (int j = 0; j < rotation_.cols(); ++j) entries.emplace_back(node + i, node + j, rotation_(i, j));
+  SparseMatrix rotation(size(), size());
+  rotation.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix whole = original_->regularised().selfadjointView<Eigen::Lower>();
+  return SparseMatrix(rotation * whole * SparseMatrix(rotation.transpose())).triangularView<Eigen::Lower>();
 }
 
 }  // namespace mortise::feti

@@ -4,11 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
+#include <optional>
 
+#include "constraint/preload.hpp"
 #include "constraint/supports.hpp"
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
+#include "feti/placement.hpp"
 #include "partition/decompose.hpp"
 #include "qp/face_newton.hpp"
 
@@ -16,6 +21,15 @@ namespace mortise::feti {
 namespace {
 
 constexpr double coefficient = 0.4;
+
+// What a stack has beside the supports below.
+struct Variant {
+  bool upper_held = false;      // along x on top, where there is a preload along all axes
+  bool inclined = false;        // at nodes of the lower block that are held along another axis, too
+  bool turned = false;          // the operator of the upper block is that of a turned copy
+  double moved = 0;             // along x, by all supports
+  std::optional<double> force;  // of a preload: the blocks are bonded and drawn together
+};
 
 // Held at z = 0; pressed down and pushed sideways on top, where the upper block stands on the nodes of the lower one.
 struct Stack {
@@ -30,7 +44,7 @@ struct Stack {
   std::vector<Eigen::VectorXd> load;
   constraint::Constraints constraints;
 
-  Stack(const Point& traction, int pieces) : comm(MPI_COMM_WORLD)
+  Stack(const Point& traction, int pieces, const Variant& variant = {}) : comm(MPI_COMM_WORLD)
   {
     mesh::Options mesh;
     mesh.blocks["lower"] = {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"};
@@ -43,19 +57,53 @@ struct Stack {
     Subdomains subdomains;
     const auto load_on = boundary("upper.zmax");
     for (const auto& s : decomposition.subdomains) {
-      auto stiffness = fem::stiffness(s.mesh, fem::Material{1000, 0.3, 0, 0}, fem::Kinematics::solid);
+      const bool turned = variant.turned && s.body == 1;
+      const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix();
+      auto original = s.mesh;
+      if (turned)
+        for (auto& point : original.points) point = rotation.transpose() * point;
+      auto stiffness = fem::stiffness(original, fem::Material{1000, 0.3, 0, 0}, fem::Kinematics::solid);
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
       load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
       fem::add_traction(s.mesh, load_on, fem::Kinematics::solid, traction, load.back());
       subdomains.push_back(std::make_shared<ElasticSubdomain>(
-          std::move(stiffness), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
+          std::move(stiffness), fem::rigid_motions(original.points, fem::Kinematics::solid), original.points, 3, "cholmod"));
+      if (turned) subdomains.back() = std::make_shared<TurnedSubdomain>(subdomains.back(), rotation, 3);
     }
     directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
     interface = partition::find_interface(decomposition, *directory, comm);
     floating.clusters = Clusters(decomposition, interface, subdomains, floating.nodal_stiffness, fem::Kinematics::solid);
-    const std::vector<constraint::SupportOptions> supports{{"lower.zmin", {0, 0, 0}}};
-    constraints.held = constraint::hold(supports, std::vector<std::vector<Global>>{side("lower.zmin").node_id}, 3, comm);
-    touch();
+    std::vector<constraint::SupportOptions> supports{{"lower.zmin", {variant.moved, 0, 0}}};
+    std::vector<std::vector<Global>> nodes{side("lower.zmin").node_id};
+    if (variant.upper_held) {
+      const std::optional<double> others = variant.force ? std::optional(0.0) : std::nullopt;
+      supports.push_back({"upper.zmax", {variant.moved, others, others}});
+      nodes.push_back(side("upper.zmax").node_id);
+    }
+    constraints.held = constraint::hold(supports, nodes, 3, comm);
+    if (variant.inclined) incline();
+    touch(variant.force.has_value());
+    if (variant.force)
+      constraints.cuts =
+          constraint::find_cuts(constraints.contacts, std::vector{constraint::Preload{0, "cut", variant.force}}, false, comm);
+    constraints.held = place(constraints.held, decomposition, *directory, comm);
+    constraints.inclined = place(constraints.inclined, decomposition, *directory, comm);
+  }
+
+  // The lower block's nodes at x = z = 0 are held along y, and along a direction between x and z instead of these.
+  void incline()
+  {
+    std::vector<Global> edge;
+    for (const auto& node : nodes_of("lower.zmin"))
+      if (node.x < 0.1) edge.push_back(node.id);
+    std::vector<constraint::Held> left;
+    for (const auto& held : constraints.held) {
+      if (held.component == 1 || std::find(edge.begin(), edge.end(), held.node) == edge.end())
+        left.push_back(held);
+      else if (held.component == 0)
+        constraints.inclined.push_back({held.node, {0.6, 0, 0.8}, 0.01, {}, 0});
+    }
+    constraints.held = std::move(left);
   }
 
   int boundary(const std::string& name) const
@@ -85,7 +133,7 @@ struct Stack {
   }
 
   // Node by node; rows stand on the ranks in turn.
-  void touch()
+  void touch(bool bonded)
   {
     const auto above = nodes_of("upper.zmin"), below = nodes_of("lower.zmax");
     auto& contacts = constraints.contacts;
@@ -93,7 +141,7 @@ struct Stack {
       if (static_cast<int>(i) % comm.size() != comm.rank()) continue;
       const std::vector<Point> frame{Point(0, 0, -1), Point(0.6, 0.8, 0), Point(0.8, -0.6, 0)};
       contacts.points.push_back({0, above[i].id, 1, frame[0], {frame[1], frame[2]}, contacts.rows.size()});
-      contacts.bonded.push_back(false);
+      contacts.bonded.push_back(bonded);
       for (const auto& axis : frame) {
         for (int c = 0; c < 3; ++c)
           if (axis[c] != 0) {
@@ -106,9 +154,71 @@ struct Stack {
   }
 };
 
-TEST(ExplicitProblem, IsTheInverseOfTheDualOperator)
+// The whole of it on every rank, by products with the unit vectors, nothing eliminated.
+struct Dense {
+  Eigen::MatrixXd f, g;
+  Eigen::VectorXd d;
+  qp::FeasibleSet set;
+  const Communicator& comm;
+  const Map& rows;
+
+  explicit Dense(const DualProblem& problem) : comm(problem.communicator()), rows(*problem.jump().rows())
+  {
+    const auto size = static_cast<Eigen::Index>(problem.dual_unknowns());
+    f.resize(size, size);
+    const auto& part = problem.equality().local();
+    g = Eigen::MatrixXd::Zero(part.rows(), size);
+    for (Local i = 0; i < part.cols(); ++i) g.col(number(i)) = part.col(i);
+    comm.sum_in_place({g.data(), static_cast<std::size_t>(g.size())});
+    d = whole(problem.linear());
+    for (Eigen::Index j = 0; j < size; ++j) {
+      Vector unit(problem.jump().rows()), product(problem.jump().rows());
+      if (const Local i = rows.getLocalElement(j); i != Teuchos::OrdinalTraits<Local>::invalid()) view(unit)[i] = 1;
+      problem.hessian().apply(unit, product);
+      f.col(j) = whole(product);
+    }
+    struct Point {
+      Local normal, first, second;
+    };
+    std::vector<Point> points;
+    for (const auto& bound : problem.set().bounds()) points.push_back({number(bound.index), -1, -1});
+    for (std::size_t i = 0; i < problem.set().discs().size(); ++i) {
+      const auto& disc = problem.set().discs()[i];
+      points[i] = {number(disc.normal), number(disc.index[0]), number(disc.index[1])};
+    }
+    std::vector<qp::Bound> bounds;
+    std::vector<qp::Disc> discs;
+    for (const auto& point : comm.all_gather(points)) {
+      bounds.push_back({point.normal, 0});
+      discs.push_back({{point.first, point.second}, std::numeric_limits<double>::infinity()});
+      discs.back().normal = point.normal;
+      discs.back().coefficient = coefficient;
+    }
+    set = qp::FeasibleSet(std::move(bounds), std::move(discs));
+  }
+
+  Local number(Local i) const { return static_cast<Local>(rows.getGlobalElement(i)); }
+  Eigen::VectorXd whole(const Vector& x) const
+  {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.getGlobalNumElements()));
+    const auto own = view(x);
+    for (Local i = 0; i < own.size(); ++i) all[number(i)] = own[i];
+    comm.sum_in_place({all.data(), static_cast<std::size_t>(all.size())});
+    return all;
+  }
+};
+
+class Varied : public testing::TestWithParam<std::tuple<int, Variant>> {};
+INSTANTIATE_TEST_SUITE_P(Piecewise, Varied,
+                         testing::Combine(testing::Values(1, 2),
+                                          testing::Values(Variant{}, Variant{true}, Variant{false, true, false, 0.02},
+                                                          Variant{true, true, false, 0.02}, Variant{true, false, true, 0.02},
+                                                          Variant{false, true, true}, Variant{true, false, false, 0.01, 3.0})));
+
+TEST_P(Varied, HasTheInverseOfTheDualOperator)
 {
-  const Stack stack(Point(1, 0.5, -10), 2);
+  const auto& [pieces, variant] = GetParam();
+  const Stack stack(Point(1, 0.5, -10), pieces, variant);
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
                       stack.context);
   ExplicitProblem direct(problem);
@@ -125,6 +235,28 @@ TEST(ExplicitProblem, IsTheInverseOfTheDualOperator)
     back.update(-5, unit, 1);
     EXPECT_LT(back.normInf(), 1e-7) << row;
   }
+}
+
+TEST_P(Varied, SolvesAsWithoutElimination)
+{
+  const auto& [pieces, variant] = GetParam();
+  const Stack stack(Point(1, 0.5, -10), pieces, variant);
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
+                      stack.context);
+  auto& set = problem.set();
+  set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
+  set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
+  const auto found = ExplicitProblem(problem).solve();
+  ASSERT_TRUE(found.settled);
+
+  const Dense dense(problem);
+  const auto motions = dense.g.rows();
+  const auto expected = qp::CondensedNewton(dense.f, dense.g, Eigen::MatrixXd::Zero(motions, motions), dense.set)
+                            .solve(dense.d, problem.equality().right_side(), dense.set);
+  ASSERT_TRUE(expected.settled);
+  EXPECT_GT(expected.x.norm(), 0.1);
+  EXPECT_LT((dense.whole(found.x) - expected.x).norm(), 1e-9 * expected.x.norm());
+  EXPECT_LT((found.nu - expected.nu).norm(), 1e-9 * expected.nu.norm());
 }
 
 class Directly : public testing::TestWithParam<std::pair<double, int>> {};

@@ -41,7 +41,7 @@ int compare(const ConstraintStates& before, ConstraintStates& now, std::vector<i
 
 }  // namespace
 
-CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, const FeasibleSet& set) : constrained_(set.constrained())
+CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const FeasibleSet& set) : constrained_(set.constrained())
 {
   std::vector<char> taken(static_cast<std::size_t>(a.rows()), 0);
   for (const Local i : constrained_) taken[static_cast<std::size_t>(i)] = 1;
@@ -57,7 +57,8 @@ CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, const FeasibleSet& set)
   });
   matrices_.w = 0.5 * (matrices_.w + matrices_.w.transpose()).eval();
   matrices_.h = g(Eigen::all, constrained_) - g_free * coupling_;
-  matrices_.c = g_free * motion_;
+  matrices_.c = std::move(c);
+  matrices_.c.noalias() += g_free * motion_;
   contact_ = factorize(matrices_.w);
   matrices_.own = qp::solve(contact_, MatrixXd::Identity(matrices_.w.rows(), matrices_.w.rows())).diagonal().cwiseInverse();
 }

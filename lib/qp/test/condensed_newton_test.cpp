@@ -26,7 +26,8 @@ struct Programme {
   VectorXd b, e;
   FeasibleSet set;
 
-  CondensedNewton::Point solve() const { return CondensedNewton(a, g, set).solve(b, e, set); }
+  CondensedNewton condensed() const { return {a, g, MatrixXd::Zero(g.rows(), g.rows()), set}; }
+  CondensedNewton::Point solve() const { return condensed().solve(b, e, set); }
 };
 
 // How far x and nu are from the conditions of a solution, over the size of forces and of gaps. Nothing of it comes from the code
@@ -317,7 +318,7 @@ TEST(CondensedNewton, TimesTheInverse)
 {
   for (const auto& [points, free] : {std::pair{10, 15}, {10, 0}, {0, 15}}) {
     const auto p = random_programme(3, points, 2, free, 1);
-    const CondensedNewton newton(p.a, p.g, p.set);
+    const CondensedNewton newton = p.condensed();
     const VectorXd r = Random(9).matrix(p.b.size(), 1);
     EXPECT_LT((p.a * newton.inverse_times(r) - r).norm(), 1e-10 * r.norm());
   }
@@ -351,6 +352,34 @@ TEST(CondensedNewton, EverythingMayBeOpen)
   }
 }
 
+TEST(CondensedNewton, GoesOnFromAnotherElimination)
+{
+  for (int seed = 1; seed <= 10; ++seed) {
+    constexpr Index gone = 4;  // the first of the unknowns without a constraint
+    const auto p = random_programme(seed, 10, 2, 2 * gone, 2);
+    const auto whole = p.solve();
+    const Index left = p.b.size() - gone;
+    const MatrixXd response = p.a.topLeftCorner(gone, gone).llt().solve(p.a.topRightCorner(gone, left)),
+                   motion = p.a.topLeftCorner(gone, gone).llt().solve(p.g.leftCols(gone).transpose());
+    std::vector<Bound> bounds;
+    std::vector<Disc> discs;
+    for (const auto& bound : p.set.bounds()) bounds.push_back({bound.index - static_cast<Local>(gone), bound.lower});
+    for (auto disc : p.set.discs()) {
+      for (auto* index : {&disc.index[0], &disc.index[1], &disc.normal}) *index -= static_cast<Local>(gone);
+      discs.push_back(disc);
+    }
+    const FeasibleSet set(std::move(bounds), std::move(discs));
+    const CondensedNewton newton(p.a.bottomRightCorner(left, left) - p.a.bottomLeftCorner(left, gone) * response,
+                                 p.g.rightCols(left) - p.g.leftCols(gone) * response, p.g.leftCols(gone) * motion, set);
+    const auto part =
+        newton.solve(p.b.tail(left) - response.transpose() * p.b.head(gone), p.e - motion.transpose() * p.b.head(gone), set);
+    ASSERT_EQ(part.settled, whole.settled) << seed;
+    if (!whole.settled) continue;
+    EXPECT_LT((part.x - whole.x.tail(left)).norm(), 1e-9 * whole.x.norm()) << seed;
+    EXPECT_LT((part.nu - whole.nu).norm(), 1e-9 * (1 + whole.nu.norm())) << seed;
+  }
+}
+
 TEST(CondensedNewton, RefusesWhatIsNotDefinite)
 {
   auto p = random_programme(3, 4, 1, 5, 0);
@@ -358,7 +387,7 @@ TEST(CondensedNewton, RefusesWhatIsNotDefinite)
     auto a = p.a;
     a(i, i) = -1;
     try {
-      CondensedNewton(a, p.g, p.set);
+      CondensedNewton(a, p.g, MatrixXd::Zero(p.g.rows(), p.g.rows()), p.set);
       FAIL() << "no error";
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::not_converged);
@@ -505,7 +534,7 @@ TEST(CondensedNewton, ABeltOnADrum)
 TEST(CondensedNewton, MatricesOfSeveralPieces)
 {
   auto p = random_programme(5, 150, 2, 330, 4);
-  const CondensedNewton newton(p.a, p.g, p.set);
+  const CondensedNewton newton = p.condensed();
   const auto point = newton.solve(p.b, p.e, p.set);
   EXPECT_TRUE(point.settled);
   EXPECT_LT(violation(p, point), 1e-9);
@@ -515,7 +544,7 @@ TEST(CondensedNewton, MatricesOfSeveralPieces)
     auto indefinite = p.a;
     indefinite(at, at) = -1;
     try {
-      const CondensedNewton factorized(indefinite, p.g, p.set);
+      const CondensedNewton factorized(indefinite, p.g, MatrixXd::Zero(p.g.rows(), p.g.rows()), p.set);
       ADD_FAILURE() << at;
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::not_converged) << error.what();
@@ -526,7 +555,7 @@ TEST(CondensedNewton, MatricesOfSeveralPieces)
 TEST(CondensedNewton, EndsIfItIsToldTo)
 {
   const auto p = random_programme(5, 20, 2, 20, 4);
-  const CondensedNewton newton(p.a, p.g, p.set);
+  const CondensedNewton newton = p.condensed();
   const auto status = [](const auto& work) {
     tell_to_end(SIGTERM);
     auto found = ExitStatus::solved;
@@ -539,7 +568,7 @@ TEST(CondensedNewton, EndsIfItIsToldTo)
     return found;
   };
   EXPECT_EQ(status([&] { newton.solve(p.b, p.e, p.set); }), ExitStatus::machine);
-  EXPECT_EQ(status([&] { CondensedNewton(p.a, p.g, p.set); }), ExitStatus::machine);
+  EXPECT_EQ(status([&] { p.condensed(); }), ExitStatus::machine);
   EXPECT_TRUE(newton.solve(p.b, p.e, p.set).settled);
 }
 

@@ -6,13 +6,17 @@
 
 namespace mortise::feti {
 
-/// F and G on rank 0; of use where multipliers are some thousand. As an operator it is F^-1, the best of all preconditioners.
-/// Heavy: neither copies nor moves.
+class HeldElimination;
+
+/// F and G on rank 0 over the rows that are left when supports along axes are eliminated; of use where these are some thousand.
+/// As an operator it is F^-1, the best of all preconditioners. Heavy: neither copies nor moves.
 class ExplicitProblem : public qp::FacePreconditioner {
  public:
-  /// Solves for the columns of K^+ B', subdomain by subdomain, as many as its rows of B. Not for clusters of several subdomains.
-  /// The problem outlives it. Throws as qp::CondensedNewton. Collective.
+  /// Factorizes each subdomain with its supports, and solves for the columns of its inverse times B', as many as its other rows
+  /// of B. Not for clusters of several subdomains. The problem outlives it. Throws as qp::CondensedNewton, Error(bad_input) if a
+  /// supported subdomain is not positive definite, and Error(machine) if memory runs out. Collective.
   explicit ExplicitProblem(const DualProblem& problem);
+  ~ExplicitProblem() override;
 
   struct Result {
     Vector x;
@@ -32,10 +36,11 @@ class ExplicitProblem : public qp::FacePreconditioner {
 
  private:
   qp::FeasibleSet whole_set() const;
-  std::vector<double> to_root(const Eigen::Ref<const Eigen::VectorXd>& own) const;
-  void from_root(std::vector<double> all, Vector& x) const;
+  std::vector<double> to_root(const Vector& x) const;
+  Vector from_root(std::vector<double> all) const;
 
   const DualProblem& problem_;
+  std::unique_ptr<const HeldElimination> held_;
   std::unique_ptr<qp::CondensedNewton> newton_;  // rank 0
 };
 

@@ -25,6 +25,8 @@ class SubdomainOperator {
   virtual void apply_inverse(std::span<double* const> columns) const = 0;
   /// K u.
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
+  /// The lower triangle of a positive definite matrix whose inverse K^+ is.
+  virtual SparseMatrix regularised() const = 0;
   /// The lower triangle of K, for preconditioners; of a turned copy, that of its original.
   virtual const SparseMatrix& stiffness() const = 0;
   virtual std::size_t factor_bytes() const = 0;
@@ -61,11 +63,13 @@ class ElasticSubdomain : public SubdomainOperator {
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
   void apply_inverse(std::span<double* const> columns) const override { solver_->solve(columns); }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override { return stiffness_.selfadjointView<Eigen::Lower>() * u; }
+  SparseMatrix regularised() const override { return stiffness_ + fixing_; }
   const SparseMatrix& stiffness() const override { return stiffness_; }
   std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
 
  private:
   SparseMatrix stiffness_;
+  SparseMatrix fixing_;  // r N, lower triangle
   Eigen::MatrixXd kernel_;
   std::unique_ptr<DirectSolver> solver_;
 };
@@ -80,6 +84,7 @@ class TurnedSubdomain : public SubdomainOperator {
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
   void apply_inverse(std::span<double* const> columns) const override;
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
+  SparseMatrix regularised() const override;
   const SparseMatrix& stiffness() const override { return original_->stiffness(); }
   std::size_t factor_bytes() const override { return 0; }
   const SubdomainOperator& original() const override { return *original_; }

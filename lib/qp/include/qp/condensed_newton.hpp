@@ -1,12 +1,12 @@
 // Exact solution of a quadratic programme whose Hessian is at hand as a matrix: a direct method for contact, for programmes of
 // some thousand unknowns. Every unknown without a constraint is eliminated once,
 //
-//     W = A_cc - A_cf A_ff^-1 A_fc,   H = G_c - G_f A_ff^-1 A_fc,   C = G_f A_ff^-1 G_f',
+//     W = A_cc - A_cf A_ff^-1 A_fc,   H = G_c - G_f A_ff^-1 A_fc,   C = C_0 + G_f A_ff^-1 G_f',
 //
-// W the compliance of the contact. What is left, W x + H'nu - b = s, H x - C nu = e, s in the normal cone of Omega at x, is
-// solved by a semismooth Newton method [Hueeber, Stadler and Wohlmuth, SIAM J. Sci. Comput. 30 (2008)]: guess the state of every
-// constraint, solve the linear problem that is left, guess again. Radii of discs with a coefficient follow their normal unknown:
-// Coulomb's law is solved as a whole.
+// W the compliance of the contact, C_0 what an elimination before this one has left: G x - C_0 nu = e. What is left,
+// W x + H'nu - b = s, H x - C nu = e, s in the normal cone of Omega at x, is solved by a semismooth Newton method [Hueeber,
+// Stadler and Wohlmuth, SIAM J. Sci. Comput. 30 (2008)]: guess the state of every constraint, solve the linear problem that is
+// left, guess again. Radii of discs with a coefficient follow their normal unknown: Coulomb's law is solved as a whole.
 //
 // Guesses can take turns for ever, where friction passes forces on from point to point. So if they do not settle at once, contact
 // becomes soft first, W + a D with the compliance D of each unknown alone, and hardens again: a soft contact is settled in three
@@ -31,13 +31,13 @@ struct CondensedMatrices {
 /// On one rank alone. Heavy: moves, does not copy.
 class CondensedNewton {
  public:
-  /// A: symmetric, positive definite. `g`: G, dense, rows x unknowns. `set`: over all unknowns; later ones may differ from it in
-  /// radii and bounds. Throws Error(not_converged) if A is not definite, and, as solve() does, Error(machine) if the process is
-  /// told to end.
-  CondensedNewton(Eigen::MatrixXd a, Eigen::MatrixXd g, const FeasibleSet& set);
+  /// A: symmetric, positive definite. `g`: G, dense, rows x unknowns. `c`: C_0, symmetric, positive semidefinite. `set`: over all
+  /// unknowns; later ones may differ from it in radii and bounds. Throws Error(not_converged) if A is not definite, and, as
+  /// solve() does, Error(machine) if the process is told to end.
+  CondensedNewton(Eigen::MatrixXd a, Eigen::MatrixXd g, Eigen::MatrixXd c, const FeasibleSet& set);
 
   struct Point {
-    Eigen::VectorXd x, nu;  ///< A x - b + G'nu in the normal cone of -Omega
+    Eigen::VectorXd x, nu;  ///< A x - b + G'nu in the normal cone of -Omega, G x - C_0 nu = e
     bool settled = false;   ///< to rounding; else the last guess
     int steps = 0;          ///< linear problems solved
   };

@@ -1,0 +1,251 @@
+#include "held_elimination.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/interruption.hpp"
+
+namespace mortise::feti {
+
+namespace {
+
+constexpr Eigen::Index columns_at_once = 64;
+
+// K with the rows and columns of `held` replaced by those of an identity.
+SparseMatrix with_identity(const SparseMatrix& k, const std::vector<Local>& held)
+{
+  std::vector<char> taken(static_cast<std::size_t>(k.cols()), 0);
+  for (const Local u : held) taken[static_cast<std::size_t>(u)] = 1;
+  SparseMatrix result = k;
+  result.prune([&](Eigen::Index i, Eigen::Index j, double) {
+    return i == j || (taken[static_cast<std::size_t>(i)] == 0 && taken[static_cast<std::size_t>(j)] == 0);
+  });
+  for (const Local u : held) result.coeffRef(u, u) = 1;
+  return result;
+}
+
+// B_cf X B_cf' over the rows `kept` of a block.
+Eigen::MatrixXd compliance(const JumpOperator::Block& block, const std::vector<std::size_t>& kept, const HeldSubdomain& subdomain)
+{
+  const auto count = static_cast<Eigen::Index>(kept.size());
+  Eigen::MatrixXd result(count, count);
+  for (Eigen::Index begin = 0; begin < count; begin += columns_at_once) {
+    end_if_told();
+    const auto columns = std::min(columns_at_once, count - begin);
+    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(block.size, columns);
+    std::vector<double*> column;
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      const auto r = kept[static_cast<std::size_t>(begin + c)];
+      for (auto i = block.offset[r]; i < block.offset[r + 1]; ++i) u(block.unknown[i], c) += block.coefficient[i];
+      column.push_back(u.col(c).data());
+    }
+    subdomain.apply_inverse(column);
+    for (Eigen::Index r = 0; r < count; ++r) {
+      result.block(r, begin, 1, columns).setZero();
+      const auto row = kept[static_cast<std::size_t>(r)];
+      for (auto i = block.offset[row]; i < block.offset[row + 1]; ++i)
+        result.block(r, begin, 1, columns) += block.coefficient[i] * u.row(block.unknown[i]);
+    }
+  }
+  return 0.5 * (result + result.transpose());
+}
+
+}  // namespace
+
+HeldSubdomain::HeldSubdomain(const SubdomainOperator& subdomain, std::vector<Local> held, int block)
+    : subdomain_(subdomain), held_(std::move(held))
+{
+  if (held_.empty()) return;
+  k_ = subdomain.regularised();
+  const SparseMatrix alone = with_identity(k_, held_);
+  factor_ = std::make_unique<Cholesky>(alone, block);
+  if (!factor_->factorize(alone))
+    throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain is not positive definite");
+  factor_->prepare_for_many_solves();
+}
+
+void HeldSubdomain::apply_inverse(std::span<double* const> columns) const
+{
+  if (!factor_) return subdomain_.apply_inverse(columns);
+  for (double* column : columns)
+    for (const Local u : held_) column[u] = 0;
+  factor_->solve(columns);
+}
+
+Eigen::VectorXd HeldSubdomain::displacement(const Eigen::VectorXd& values, Eigen::VectorXd forces) const
+{
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(forces.size());
+  u(held_) = values;
+  forces -= k_.selfadjointView<Eigen::Lower>() * u;
+  double* const column = forces.data();
+  apply_inverse({&column, 1});
+  forces(held_) = values;
+  return forces;
+}
+
+Eigen::VectorXd HeldSubdomain::reactions(const Eigen::VectorXd& u) const
+{
+  const Eigen::VectorXd all = k_.selfadjointView<Eigen::Lower>() * u;
+  return all(held_);
+}
+
+HeldElimination::HeldElimination(const DualProblem& problem) : problem_(problem)
+{
+  choose();
+  collectively(problem.communicator(), [&] {
+    for (std::size_t s = 0; s < rows_.size(); ++s) {
+      end_if_told();
+      std::vector<Local> held;
+      for (const auto& row : rows_[s]) held.push_back(row.unknown);
+      subdomains_.emplace_back(*problem.clusters().subdomains()[s], std::move(held), problem.dimension());
+    }
+  });
+}
+
+void HeldElimination::choose()
+{
+  const auto& jump = problem_.jump();
+  const auto& import = jump.import();
+  const auto& ranges = jump.ranges();
+  enum Kind { other, inclined, single };  // a row that holds several unknowns, copies of one included; one alone
+  Vector entries(jump.rows()), touched(jump.touched_rows());
+  {
+    auto count = view(touched);
+    for (const auto& block : jump.blocks())
+      for (std::size_t r = 0; r < block.row.size(); ++r)
+        count[block.row[r]] += static_cast<double>(block.offset[r + 1] - block.offset[r]);
+  }
+  entries.doExport(touched, import, Tpetra::ADD);
+  {
+    auto kind = view(entries);
+    for (Local i = 0; i < ranges.end; ++i)
+      kind[i] = i < ranges.held || i >= ranges.contacts ? other : kind[i] == 1 ? single : inclined;
+  }
+  touched.doImport(entries, import, Tpetra::INSERT);
+
+  Vector eliminated(jump.touched_rows());
+  const auto dimension = static_cast<Local>(problem_.dimension());
+  for (const auto& block : jump.blocks()) {
+    const auto kind = view(std::as_const(touched));
+    std::vector<char> taken(static_cast<std::size_t>(block.size), 0);
+    for (std::size_t r = 0; r < block.row.size(); ++r)
+      if (kind[block.row[r]] == inclined)
+        for (auto i = block.offset[r]; i < block.offset[r + 1]; ++i)
+          std::fill_n(taken.begin() + block.unknown[i] / dimension * dimension, dimension, 1);
+    auto& rows = rows_.emplace_back();
+    for (std::size_t r = 0; r < block.row.size(); ++r) {
+      if (kind[block.row[r]] != single) continue;
+      const auto unknown = block.unknown[block.offset[r]];
+      if (auto& once = taken[static_cast<std::size_t>(unknown)]; once++ == 0) {
+        rows.push_back({block.row[r], unknown, block.coefficient[block.offset[r]]});
+        view(eliminated)[block.row[r]] = 1;
+      }
+    }
+  }
+
+  entries.putScalar(0);
+  entries.doExport(eliminated, import, Tpetra::ADD);
+  auto number = view(entries);
+  const auto left = static_cast<long long>(std::count(number.begin(), number.end(), 0.0));
+  count_ = problem_.communicator().sum(left);
+  Global next = problem_.communicator().offset(left);
+  for (double& n : number) {
+    number_.push_back(n == 0 ? next++ : -1);
+    n = static_cast<double>(number_.back());
+  }
+  touched.doImport(entries, import, Tpetra::INSERT);
+  for (const double n : view(std::as_const(touched))) touched_number_.push_back(static_cast<Global>(n));
+}
+
+HeldElimination::Part HeldElimination::part(std::size_t subdomain) const
+{
+  const auto& block = problem_.jump().blocks()[subdomain];
+  const auto& body = subdomains_[subdomain];
+  Part result;
+  std::vector<std::size_t> kept;
+  for (std::size_t r = 0; r < block.row.size(); ++r)
+    if (const Global number = touched_number_[static_cast<std::size_t>(block.row[r])]; number >= 0) {
+      kept.push_back(r);
+      result.number.push_back(number);
+    }
+  result.w = compliance(block, kept, body);
+  result.first = problem_.clusters().first(subdomain);
+  if (body.held().empty()) return result;
+  const auto& kernel = problem_.clusters().subdomains()[subdomain]->kernel();
+  result.h = Eigen::MatrixXd::Zero(kernel.cols(), static_cast<Eigen::Index>(kept.size()));
+  result.c.resize(kernel.cols(), kernel.cols());
+  for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
+    const Eigen::VectorXd held = kernel(body.held(), k);
+    const auto y = body.displacement(held, Eigen::VectorXd::Zero(block.size));
+    result.c.row(k) = body.reactions(y).transpose() * kernel(body.held(), Eigen::all);
+    for (std::size_t r = 0; r < kept.size(); ++r)
+      for (auto i = block.offset[kept[r]]; i < block.offset[kept[r] + 1]; ++i)
+        result.h(k, static_cast<Eigen::Index>(r)) -= block.coefficient[i] * y[block.unknown[i]];
+  }
+  result.c = 0.5 * (result.c + result.c.transpose()).eval();
+  return result;
+}
+
+// d_h / beta of a subdomain's eliminated rows.
+Eigen::VectorXd HeldElimination::at_held(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const
+{
+  Eigen::VectorXd values(static_cast<Eigen::Index>(rows_[subdomain].size()));
+  auto value = values.begin();
+  for (const auto& row : rows_[subdomain]) *value++ = touched[row.row] / row.coefficient;
+  return values;
+}
+
+Vector HeldElimination::reduce(const Vector& d, Eigen::VectorXd& e) const
+{
+  const auto& jump = problem_.jump();
+  Vector touched(jump.touched_rows());
+  touched.doImport(d, jump.import(), Tpetra::INSERT);
+  std::vector<Eigen::VectorXd> u;
+  Eigen::VectorXd taken = Eigen::VectorXd::Zero(e.size());
+  collectively(problem_.communicator(), [&] {
+    for (std::size_t s = 0; s < rows_.size(); ++s) {
+      const auto& body = subdomains_[s];
+      const auto& kernel = problem_.clusters().subdomains()[s]->kernel();
+      u.emplace_back(Eigen::VectorXd::Zero(jump.blocks()[s].size));
+      if (rows_[s].empty()) continue;
+      u[s] = body.displacement(at_held(s, view(std::as_const(touched))), std::move(u[s]));
+      taken.segment(problem_.clusters().first(s), kernel.cols()) +=
+          kernel(body.held(), Eigen::all).transpose() * body.reactions(u[s]);
+    }
+  });
+  problem_.communicator().sum_in_place({taken.data(), static_cast<std::size_t>(taken.size())});
+  e -= taken;
+  Vector result = jump.apply(u);
+  result.update(1, d, -1);
+  auto values = view(result);
+  for (std::size_t i = 0; i < number_.size(); ++i)
+    if (number_[i] < 0) values[static_cast<Eigen::Index>(i)] = 0;
+  return result;
+}
+
+void HeldElimination::complete(const Vector& d, const Eigen::VectorXd& nu, Vector& x) const
+{
+  const auto& jump = problem_.jump();
+  for (std::size_t i = 0; i < number_.size(); ++i)
+    if (number_[i] < 0) view(x)[static_cast<Eigen::Index>(i)] = 0;
+  const auto forces = jump.apply_transpose(x);
+  Vector touched(jump.touched_rows()), found(jump.touched_rows());
+  touched.doImport(d, jump.import(), Tpetra::INSERT);
+  collectively(problem_.communicator(), [&] {
+    for (std::size_t s = 0; s < rows_.size(); ++s) {
+      if (rows_[s].empty()) continue;
+      const auto& body = subdomains_[s];
+      const auto& kernel = problem_.clusters().subdomains()[s]->kernel();
+      Eigen::VectorXd values = at_held(s, view(std::as_const(touched)));
+      if (nu.size() > 0) values -= kernel(body.held(), Eigen::all) * nu.segment(problem_.clusters().first(s), kernel.cols());
+      const Eigen::VectorXd left = body.reactions(body.displacement(values, forces[s])) - forces[s](body.held());
+      for (std::size_t r = 0; r < rows_[s].size(); ++r)
+        view(found)[rows_[s][r].row] = left[static_cast<Eigen::Index>(r)] / rows_[s][r].coefficient;
+    }
+  });
+  Vector added(jump.rows());
+  added.doExport(found, jump.import(), Tpetra::ADD);
+  x.update(1, added, 1);
+}
+
+}  // namespace mortise::feti

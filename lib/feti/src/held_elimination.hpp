@@ -1,0 +1,84 @@
+// Supports in the dual problem as a matrix. A row that holds one unknown of one subdomain, with the coefficient beta, is
+// eliminated before F is formed: with K the matrix whose inverse K^+ is, h the unknowns so held, f the others and X = K_ff^-1,
+//
+//     W = F_cc - F_ch F_hh^-1 F_hc = B_cf X B_cf',   H = G_c - G_h F_hh^-1 F_hc = G_c - (B_c Y)',
+//     C = G_h F_hh^-1 G_h' = R_h'(K Y)_h,            Y_h = R_h,  Y_f = -X K_fh R_h,
+//
+// over the rows c that are left: nothing grows with the number of rows h.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/cholesky.hpp"
+#include "feti/dual_problem.hpp"
+
+namespace mortise::feti {
+
+/// A subdomain with some of its unknowns held. Heavy: moves, does not copy.
+class HeldSubdomain {
+ public:
+  /// Factorizes K_ff, with an identity in place of K_hh, unless `held` is empty: then the subdomain's own factor serves, and it
+  /// outlives this. Throws Error(bad_input) if K_ff is not positive definite, and Error(machine) if memory runs out.
+  HeldSubdomain(const SubdomainOperator& subdomain, std::vector<Local> held, int block);
+
+  const std::vector<Local>& held() const { return held_; }
+  /// columns[c], of all unknowns, <- X columns[c]_f, zero at held ones.
+  void apply_inverse(std::span<double* const> columns) const;
+  /// u with u_h = `values` and (K u)_f = `forces`_f.
+  Eigen::VectorXd displacement(const Eigen::VectorXd& values, Eigen::VectorXd forces) const;
+  /// (K u)_h.
+  Eigen::VectorXd reactions(const Eigen::VectorXd& u) const;
+
+ private:
+  const SubdomainOperator& subdomain_;
+  std::vector<Local> held_;
+  SparseMatrix k_;
+  std::unique_ptr<Cholesky> factor_;
+};
+
+/// All rows that can be eliminated: supports along an axis, at unknowns that no other subdomain has, of nodes with no inclined
+/// support. What is left is over the others.
+class HeldElimination {
+ public:
+  /// The problem outlives it. Throws as HeldSubdomain does. Collective.
+  explicit HeldElimination(const DualProblem& problem);
+
+  /// Rows that are left, over all ranks, and their numbers: of each owned row, and of each row of jump().touched_rows(); -1 for
+  /// an eliminated one.
+  Global count() const { return count_; }
+  const std::vector<Global>& number() const { return number_; }
+  const std::vector<Global>& touched_number() const { return touched_number_; }
+
+  /// What a subdomain of this rank adds to W, H and C.
+  struct Part {
+    std::vector<Global> number;  ///< of its rows that are left
+    Eigen::MatrixXd w;           ///< these x these
+    int first = 0;               ///< of its kernel among all; nothing is eliminated if the following are empty
+    Eigen::MatrixXd h;           ///< -(B_c Y)', dimension of the kernel x these
+    Eigen::MatrixXd c;           ///< dimension of the kernel squared
+  };
+  Part part(std::size_t subdomain) const;
+
+  /// d_c - F_ch F_hh^-1 d_h, in a vector over all rows; zero elsewhere. e -= G_h F_hh^-1 d_h, on every rank. Collective.
+  Vector reduce(const Vector& d, Eigen::VectorXd& e) const;
+  /// x_h = F_hh^-1 (d_h - G_h'nu - F_hc x_c), for the x_c that `x` holds. An empty nu is zero. Collective.
+  void complete(const Vector& d, const Eigen::VectorXd& nu, Vector& x) const;
+
+ private:
+  void choose();
+  Eigen::VectorXd at_held(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const;
+
+  const DualProblem& problem_;
+  struct HeldRow {
+    Local row;  // of the overlapping map
+    Local unknown;
+    double coefficient;
+  };
+  std::vector<std::vector<HeldRow>> rows_;  // of each subdomain
+  std::vector<HeldSubdomain> subdomains_;
+  Global count_ = 0;
+  std::vector<Global> number_, touched_number_;
+};
+
+}  // namespace mortise::feti
