@@ -39,7 +39,7 @@ class CoulombRenewal {
 TEST(Coulomb, RadiiBelongToTheSolution)
 {
   constexpr double coefficient =
-      0.3;  // faces can take turns for ever with others; friction::Solver then goes on by Tresca problems
+      0.3;  // faces can take turns for ever with others; lib/friction then goes on by Tresca problems
   RandomProgramme programme;
   auto& set = programme.set;
   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(RandomProgramme::n);  // feasible whatever the coefficient
