@@ -11,6 +11,7 @@
 #include "auto_contacts.hpp"
 #include "base/interruption.hpp"
 #include "base/traffic.hpp"
+#include "base/traffic_counted.hpp"
 #include "effort.hpp"
 #include "initial_gaps.hpp"
 #include "io/files.hpp"
@@ -152,9 +153,10 @@ io::Summary::Spread over_ranks(const Traffic& mine, const Communicator& comm)
   return result;
 }
 
-// What is neither solution nor output sets up.
+// What is neither solution nor output sets up. Nothing in a build that does not count.
 void note_communication(const Timers& timers, const Traffic& total, const Communicator& comm, io::Summary& summary)
 {
+  if (!traffic_is_counted()) return;
   const Traffic solve = timers.traffic("solve");
   summary.communication["total"] = over_ranks(total, comm);
   summary.communication["set_up"] = over_ranks(total - solve - timers.traffic("output"), comm);
@@ -173,10 +175,10 @@ std::string bytes(double count)
   return fmt::format("{:.3g} {}", count, unit);
 }
 
-// Of the rank that sends most; nothing where there is one rank.
+// Of the rank that sends most; nothing where there is one rank, or nothing was counted.
 void print_communication(const io::Summary& summary, Log& log)
 {
-  if (summary.ranks == 1) return;
+  if (summary.ranks == 1 || summary.communication.empty()) return;
   const auto& [total, mean] = summary.communication.at("total");
   const auto& product = summary.communication.at("multiplication").largest;
   const double products = std::max(summary.hessian_multiplications, 1);
