@@ -4,12 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "constraint/supports.hpp"
-#include "fem/loads.hpp"
-#include "fem/stiffness.hpp"
-#include "partition/decompose.hpp"
+#include "blocks.hpp"
 #include "qp/face_newton.hpp"
 
 namespace mortise::feti {
@@ -18,90 +13,14 @@ namespace {
 constexpr double coefficient = 0.4;
 
 // Held at z = 0; pressed down and pushed sideways on top, where the upper block stands on the nodes of the lower one.
-struct Stack {
-  Communicator comm;
-  Timers timers;
-  Log log{comm, nullptr};
-  Context context{comm, log, timers};
-  partition::Decomposition decomposition;
-  std::unique_ptr<partition::NodeDirectory> directory;
-  partition::Interface interface;
-  Floating floating;
-  constraint::Constraints constraints;
-
-  Stack(const Point& traction, int pieces) : comm(MPI_COMM_WORLD)
+struct Stack : Blocks {
+  Stack(const Point& traction, int pieces)
+      : Blocks({{"lower", {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"}}, {"upper", {{0, 0, 1}, {1, 1, 2}, {3, 3, 4}, "hex8"}}},
+               {{"lower", {1, 1, 1}}, {"upper", {1, 1, pieces}}}, [](int) { return 1000.0; })
   {
-    mesh::Options mesh;
-    mesh.blocks["lower"] = {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"};
-    mesh.blocks["upper"] = {{0, 0, 1}, {1, 1, 2}, {3, 3, 4}, "hex8"};
-    partition::Options options;
-    options.method = "grid";
-    options.counts["lower"] = {1, 1, 1};
-    options.counts["upper"] = {1, 1, pieces};
-    decomposition = partition::decompose(mesh, options, 3, context);
-    Subdomains subdomains;
-    const auto load_on = boundary("upper.zmax");
-    for (const auto& s : decomposition.subdomains) {
-      auto stiffness = fem::stiffness(s.mesh, fem::Material{1000, 0.3, 0, 0}, fem::Kinematics::solid);
-      floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
-      floating.load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
-      fem::add_traction(s.mesh, load_on, fem::Kinematics::solid, traction, floating.load.back());
-      subdomains.push_back(std::make_shared<ElasticSubdomain>(
-          std::move(stiffness), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
-    }
-    directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
-    interface = partition::find_interface(decomposition, *directory, comm);
-    floating.clusters = Clusters(decomposition, interface, subdomains, floating.nodal_stiffness, fem::Kinematics::solid);
-    const std::vector<constraint::SupportOptions> supports{{"lower.zmin", {0, 0, 0}}};
-    constraints.held = constraint::hold(supports, std::vector<std::vector<Global>>{side("lower.zmin").node_id}, 3, comm);
-    touch();
-  }
-
-  int boundary(const std::string& name) const
-  {
-    const auto& names = decomposition.catalogue.boundaries;
-    return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-  }
-  mesh::Surface side(const std::string& name) const
-  {
-    return partition::boundary_surface(decomposition, boundary(name), {true, true});
-  }
-
-  struct Node {
-    double x, y;
-    Global id;
-  };
-  std::vector<Node> nodes_of(const std::string& name) const
-  {
-    const auto surface = side(name);
-    std::vector<Node> nodes;
-    for (std::size_t i = 0; i < surface.points.size(); ++i)
-      nodes.push_back({surface.points[i][0], surface.points[i][1], surface.node_id[i]});
-    nodes = comm.all_gather(nodes);
-    std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
-    nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.id == b.id; }), nodes.end());
-    return nodes;
-  }
-
-  // Node by node; rows stand on the ranks in turn.
-  void touch()
-  {
-    const auto above = nodes_of("upper.zmin"), below = nodes_of("lower.zmax");
-    auto& contacts = constraints.contacts;
-    for (std::size_t i = 0; i < above.size(); ++i) {
-      if (static_cast<int>(i) % comm.size() != comm.rank()) continue;
-      const std::vector<Point> frame{Point(0, 0, -1), Point(0.6, 0.8, 0), Point(0.8, -0.6, 0)};
-      contacts.points.push_back({0, above[i].id, 1, frame[0], {frame[1], frame[2]}, contacts.rows.size()});
-      contacts.bonded.push_back(false);
-      for (const auto& axis : frame) {
-        for (int c = 0; c < 3; ++c)
-          if (axis[c] != 0) {
-            contacts.rows.entries.push_back({above[i].id, c, axis[c]});
-            contacts.rows.entries.push_back({below[i].id, c, -axis[c]});
-          }
-        contacts.rows.close(0);
-      }
-    }
+    pull("upper.zmax", traction);
+    hold({{"lower.zmin", {0, 0, 0}}});
+    join("upper.zmin", "lower.zmax", false);
   }
 };
 
