@@ -157,7 +157,7 @@ void print_results(const post::Results& results, const io::Summary& s, Log& log)
 
 void print_communication(const io::Summary& summary, Log& log)
 {
-  if (summary.ranks == 1) return;
+  if (summary.ranks == 1 || summary.communication.empty()) return;
   const auto& [total, mean] = summary.communication.at("total");
   const auto& product = summary.communication.at("multiplication").largest;
   const double products = std::max(summary.hessian_multiplications, 1);

@@ -24,7 +24,7 @@ void print_state(const model::LoadState& state, std::size_t index, std::size_t c
 void print_step(const io::Summary& summary, Log& log);
 /// At the end.
 void print_results(const post::Results& results, const io::Summary& summary, Log& log);
-/// Of the rank that sends most; nothing where there is one rank.
+/// Of the rank that sends most; nothing where there is one rank, or nothing was counted.
 void print_communication(const io::Summary& summary, Log& log);
 void print_times(const std::vector<Timers::Spread>& spreads, Log& log);
 /// The last lines.

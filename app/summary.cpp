@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/traffic_counted.hpp"
+
 namespace mortise {
 
 namespace {
@@ -131,6 +133,7 @@ void add_up(const model::LoadState& acts, const io::Summary& before, io::Summary
 
 void note_communication(const Timers& timers, const Traffic& total, const Communicator& comm, io::Summary& summary)
 {
+  if (!traffic_is_counted()) return;
   const Traffic solve = timers.traffic("solve");
   summary.communication["total"] = over_ranks(total, comm);
   summary.communication["set_up"] = over_ranks(total - solve - timers.traffic("output"), comm);

@@ -45,7 +45,10 @@ def run(arguments, deck, settings, ranks):
         finished = subprocess.run(command, capture_output=True, text=True, env=environment)
         if finished.returncode != 0:
             sys.exit(f"{ranks} ranks: exit status {finished.returncode}\n{finished.stdout[-2000:]}{finished.stderr[-2000:]}")
-        return json.loads((pathlib.Path(directory) / "summary.json").read_text())
+        summary = json.loads((pathlib.Path(directory) / "summary.json").read_text())
+        if "communication" not in summary:
+            sys.exit("this build does not count what it sends: cmake --preset counted && cmake --build --preset counted")
+        return summary
 
 
 def row(summary):

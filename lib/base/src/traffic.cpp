@@ -5,12 +5,56 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/traffic_counted.hpp"
+
 namespace mortise {
 
 namespace {
 
 // The one global of Mortise: MPI's calls have no other place to count in.
 Traffic counted;
+
+}  // namespace
+
+Traffic& Traffic::operator+=(const Traffic& other)
+{
+  messages += other.messages;
+  bytes += other.bytes;
+  collectives += other.collectives;
+  collective_bytes += other.collective_bytes;
+  return *this;
+}
+
+Traffic& Traffic::operator-=(const Traffic& other)
+{
+  messages -= other.messages;
+  bytes -= other.bytes;
+  collectives -= other.collectives;
+  collective_bytes -= other.collective_bytes;
+  return *this;
+}
+
+Traffic traffic()
+{
+  return counted;
+}
+
+bool traffic_is_counted()
+{
+#ifdef MORTISE_COUNT_TRAFFIC
+  return true;
+#else
+  return false;
+#endif
+}
+
+}  // namespace mortise
+
+#ifdef MORTISE_COUNT_TRAFFIC
+
+namespace mortise {
+
+namespace {
 
 long long size_of(long long count, MPI_Datatype type)
 {
@@ -53,29 +97,6 @@ long long sum(const int* counts, MPI_Comm comm)
 }
 
 }  // namespace
-
-Traffic& Traffic::operator+=(const Traffic& other)
-{
-  messages += other.messages;
-  bytes += other.bytes;
-  collectives += other.collectives;
-  collective_bytes += other.collective_bytes;
-  return *this;
-}
-
-Traffic& Traffic::operator-=(const Traffic& other)
-{
-  messages -= other.messages;
-  bytes -= other.bytes;
-  collectives -= other.collectives;
-  collective_bytes -= other.collective_bytes;
-  return *this;
-}
-
-Traffic traffic()
-{
-  return counted;
-}
 
 }  // namespace mortise
 
@@ -221,3 +242,5 @@ int MPI_Alltoallv(const void* in, const int* in_counts, const int* in_places, MP
 }
 
 }  // extern "C"
+
+#endif

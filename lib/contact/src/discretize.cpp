@@ -12,6 +12,7 @@
 #include "contact/cyclic.hpp"
 #include "contact/mortar.hpp"
 #include "cut_faces.hpp"
+#include "discretization.hpp"
 #include "face_integrals.hpp"
 #include "held_nodes.hpp"
 #include "one_surface.hpp"
@@ -60,12 +61,13 @@ class Builder {
         faces_(secondary_, places_, share.own),
         tree_(tree_of_facets(primary_)),
         rays_(secondary_, places_, primary_, primary_places_, tree_, options.obstacle, reach),
+        discretization_(make_discretization(options.discretization, {secondary_, places_, primary_, primary_places_, tree_,
+                                                                     faces_, rays_, options.obstacle.has_value(), reach})),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, places_, primary_, curved, turn_of(options), comm)
                                             : OneSurface()),
         held_(held, secondary_.node_id, comm),
         primary_held_(held, primary_.node_id, comm),
-        writer_(secondary_, primary_, held_, primary_held_, dimension_, turn_of(options)),
-        reach_(reach)
+        writer_(secondary_, primary_, held_, primary_held_, dimension_, turn_of(options))
   {
   }
 
@@ -91,43 +93,17 @@ class Builder {
 
   void add_rows(constraint::Contacts& contacts)
   {
-    integrate_faces();
+    for (const std::size_t f : faces_.round()) discretization_->add_face(f);
     choose_places();
-    if (!nodal()) make_faces_dual();
+    discretization_->make_functions(kept_);
     faces_.sort_by_places();
     for (std::size_t p = 0; p < places_.all.size(); ++p)
       if (own(p) && kept_[p]) add_place(p, contacts);
   }
 
  private:
-  bool nodal() const { return options_.discretization == "node_to_segment"; }
   bool own(std::size_t place) const { return share_.own[static_cast<std::size_t>(places_.all[place].node)] != 0; }
   bool bonded() const { return options_.law == Law::bonded; }
-  void integrate_faces()
-  {
-    Integrator integrator(secondary_, places_, primary_, primary_places_, tree_, reach_);
-    const bool mortar = !options_.obstacle && !nodal();
-    for (const std::size_t f : faces_.round()) {
-      faces_.add(f, mortar ? integrator.integrate(f) : integrator.integrate_whole(f));
-      if (!mortar) uncover(f);
-    }
-  }
-
-  // Takes out what does not meet the other side: over an obstacle all of a face unless all its nodes face it, nodes one by one.
-  void uncover(std::size_t face)
-  {
-    auto covered = faces_.piece(faces_.pieces(face).front()).covered;
-    const auto places = faces_.node_places(face);
-    if (!nodal()) {
-      if (!std::all_of(places.begin(), places.end(), [&](Local p) { return rays_.meets(static_cast<std::size_t>(p)); }))
-        covered.setZero();
-      return;
-    }
-    const auto& control = control_values(secondary_.faces.type[face]);
-    for (Eigen::Index k = 0; k < control.rows(); ++k)
-      for (Eigen::Index l = 0; l < control.cols(); ++l)
-        if (control(k, l) != 0 && !rays_.meets(static_cast<std::size_t>(places[static_cast<std::size_t>(l)]))) covered[k] = 0;
-  }
 
   // Which places carry a multiplier: covered enough, and not left out of a bond.
   void choose_places()
@@ -155,7 +131,7 @@ class Builder {
     // and the seam say: pressures that nothing shares out. As the mortar method does where multipliers meet, the seam has none
     // there.
     std::vector<char> crossing(count, 0);
-    for (std::size_t p = 0; p < count && !nodal(); ++p)
+    for (std::size_t p = 0; p < count && discretization_->seams_end_at_contacts(); ++p)
       crossing[p] = std::binary_search(pressed_.begin(), pressed_.end(),
                                        Pressed{secondary_.node_id[static_cast<std::size_t>(places_.all[p].node)]},
                                        [](const Pressed& a, const Pressed& b) { return a.node < b.node; });
@@ -206,50 +182,6 @@ class Builder {
     for (const std::size_t p : more) kept_[p] = 1;
   }
 
-  void make_faces_dual()
-  {
-    for (const std::size_t f : faces_.near())
-      for (const std::size_t i : faces_.pieces(f)) {
-        auto piece = faces_.piece(i);
-        Few<char, 9> kept;
-        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) kept.push_back(kept_[faces_.place_of(f, piece, k)]);
-        make_dual(piece, kept);
-      }
-  }
-
-  // The coefficients of a place's rows that come from one function.
-  void add_terms(const CutFaces::Function& function)
-  {
-    const auto nodes = secondary_.faces[function.face];
-    const auto add = [&](Local node, bool on_primary, double value) {
-      if (value != 0) terms_.push_back({node, on_primary, value});
-    };
-    const auto piece = faces_.piece(function.piece);
-    if (nodal()) return add_nodal_terms(function.face, piece, function.k);
-    for (std::size_t j = 0; j < nodes.size(); ++j) add(nodes[j], false, piece.mass(function.k, static_cast<Eigen::Index>(j)));
-    for (std::size_t j = 0; j < piece.nodes.size(); ++j)
-      add(piece.nodes[j], true, piece.opposite(function.k, static_cast<Eigen::Index>(j)));
-  }
-
-  // u_s - sum_j N_j u_j at what each node meets, weighted with the node's share of the face.
-  void add_nodal_terms(std::size_t face, const PieceStore::View& piece, Eigen::Index k)
-  {
-    const auto places = faces_.node_places(face);
-    const auto nodes = secondary_.faces[face];
-    const auto& control = control_values(secondary_.faces.type[face]);
-    for (Eigen::Index l = 0; l < control.cols(); ++l) {
-      const double weight = control(k, l) * piece.covered[k];
-      if (weight == 0) continue;
-      terms_.push_back({nodes[static_cast<std::size_t>(l)], false, weight});
-      if (options_.obstacle) continue;
-      const Opposite& opposite = rays_.meet(static_cast<std::size_t>(places[static_cast<std::size_t>(l)]));
-      const auto other = primary_.faces[static_cast<std::size_t>(primary_.face_of[opposite.facet])];
-      const FaceShape shape = primary_.shape_in_face(opposite.facet, opposite.hit.shape, opposite.hit.frame, Plane::Zero());
-      for (std::size_t j = 0; j < other.size(); ++j)
-        terms_.push_back({other[j], true, -weight * shape[static_cast<Eigen::Index>(j)]});
-    }
-  }
-
   // One term a node, summed in the order of the faces.
   void merge_terms()
   {
@@ -271,10 +203,9 @@ class Builder {
     terms_.clear();
     double d = 0, rise = 0;
     for (const auto& function : faces_.at(p)) {
-      const auto piece = faces_.piece(function.piece);
-      d += piece.covered[function.k];
-      if (!nodal()) rise += piece.rise[function.k];
-      add_terms(function);
+      d += faces_.piece(function.piece).covered[function.k];
+      rise += discretization_->rise(function);
+      discretization_->add_terms(function, terms_);
     }
     if (!(d > 0)) return;
     merge_terms();
@@ -423,11 +354,11 @@ class Builder {
   CutFaces faces_;  // once dual, those near have their share of the rows
   Tree tree_;       // of the primary facets
   Rays rays_;
+  std::unique_ptr<Discretization> discretization_;
   OneSurface one_surface_;
   InitialGap initial_gap_;
   HeldNodes held_, primary_held_;
   RowWriter writer_;
-  double reach_;
   double crossing_ = 0;
   double covered_area_ = 0;
   std::vector<Directions> directions_;  // of each place

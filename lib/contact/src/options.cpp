@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "discretization.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -102,10 +104,13 @@ void describe(deck::Description<Options>& d)
       .required();
   d.custom("friction", "{coulomb: coefficient}, {tresca: slip bound as a traction} or {bonded: true}; absent: frictionless.",
            read_friction, write_friction, friction_schema);
-  d.key("discretization", &Options::discretization,
-        "mortar: dual multipliers, integrated segment by segment. node_to_segment: each secondary node against the primary face "
-        "opposite; no patch test where the meshes do not match.")
-      .one_of({"mortar", "node_to_segment"});
+  std::vector<std::string> names;
+  std::string help;
+  for (const auto& kind : discretizations()) {
+    names.emplace_back(kind.name);
+    help += fmt::format("{}{}: {}", help.empty() ? "" : " ", kind.name, kind.help);
+  }
+  d.key("discretization", &Options::discretization, help).one_of(names);
   d.key("interference", &Options::interference, "Added overlap (press fit); negative opens a gap.");
   d.key("adjust", &Options::adjust,
         "Initial gaps and overlaps of the meshes up to this size count as zero; 0: they are taken as they are, also where the "

@@ -65,7 +65,7 @@ SparseMatrix with_cuts(const SparseMatrix& g, std::span<const constraint::Cut> c
     if (!cut.preload.force) continue;
     for (const auto& [row, part] : cut.rows) {
       const auto column = jump.ranges().contacts + static_cast<Local>(row);
-      triplets.emplace_back(height, column, part * jump.scale()[column]);
+      triplets.emplace_back(height, column, jump.scaled(column, part));
     }
     ++height;
   }

@@ -88,7 +88,7 @@ void DualProblem::make_rhs()
       if (!cut.preload.force)
         for (const auto& [row, part] : cut.rows) {
           const auto at = jump_->ranges().contacts + static_cast<Local>(row);
-          linear[at] -= jump_->scale()[at] * part * cut.preload.shortening;
+          linear[at] -= jump_->scaled(at, part * cut.preload.shortening);
         }
   }
   if (linear_)
@@ -200,26 +200,23 @@ void DualProblem::make_set()
 
 Eigen::VectorXd DualProblem::forces(const Vector& lambda) const
 {
-  return view(lambda).cwiseProduct(jump_->scale());
+  return jump_->forces(lambda);
 }
 
 Vector DualProblem::multipliers(const Eigen::VectorXd& forces) const
 {
-  Vector lambda(jump_->rows());
-  view(lambda) = forces.cwiseQuotient(jump_->scale());
-  return lambda;
+  return jump_->multipliers(forces);
 }
 
 Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
 {
-  const Vector scaled = jump_->apply(u);
-  return view(scaled).cwiseQuotient(jump_->scale());
+  return jump_->jumps(u);
 }
 
 double DualProblem::slip_bound(std::size_t point) const
 {
   const auto& rows = points_[point];
-  return rows.disc < 0 ? 0.0 : set_.discs()[static_cast<std::size_t>(rows.disc)].radius * jump_->scale()[rows.normal];
+  return rows.disc < 0 ? 0.0 : jump_->force(rows.normal, set_.discs()[static_cast<std::size_t>(rows.disc)].radius);
 }
 
 std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const

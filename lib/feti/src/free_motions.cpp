@@ -263,7 +263,8 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   const int modes = bodies.modes;
   // Rows x amplitudes, in length units again: the support and contact rows that this rank owns.
   const Local first = jump.ranges().held, count = jump.ranges().extra - first;
-  const Eigen::VectorXd unscale = jump.scale().segment(first, count).cwiseInverse();
+  Eigen::VectorXd unscale(count);
+  for (Local row = 0; row < count; ++row) unscale[row] = 1 / jump.scaled(first + row, 1);
   SparseMatrix felt =
       unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
   const Local first_contact = jump.ranges().contacts - first;

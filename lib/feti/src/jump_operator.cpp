@@ -313,4 +313,17 @@ SparseMatrix JumpOperator::gather_columns(const std::vector<Columns>& parts, int
   return result;
 }
 
+Vector JumpOperator::multipliers(const Eigen::VectorXd& forces) const
+{
+  Vector lambda(rows_);
+  view(lambda) = forces.cwiseQuotient(scale_);
+  return lambda;
+}
+
+Eigen::VectorXd JumpOperator::jumps(const std::vector<Eigen::VectorXd>& u) const
+{
+  const Vector scaled = apply(u);
+  return view(scaled).cwiseQuotient(scale_);
+}
+
 }  // namespace mortise::feti

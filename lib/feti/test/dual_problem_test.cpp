@@ -7,10 +7,7 @@
 #include <Eigen/Dense>
 
 #include "base/error.hpp"
-#include "constraint/supports.hpp"
-#include "fem/loads.hpp"
-#include "fem/stiffness.hpp"
-#include "partition/decompose.hpp"
+#include "blocks.hpp"
 #include "qp/face_newton.hpp"
 #include "qp/smalse.hpp"
 
@@ -19,48 +16,15 @@ namespace {
 
 constexpr int cells = 4;
 
-struct Cube {
-  Communicator comm;
-  Timers timers;
-  Log log{comm, nullptr};
-  Context context{comm, log, timers};
-  partition::Decomposition decomposition;
-  std::unique_ptr<partition::NodeDirectory> directory;
-  partition::Interface interface;
-  Floating floating;
-  std::vector<Eigen::VectorXd> load;
-  constraint::Constraints constraints;
-
+struct Cube : Blocks {
   // Young's modulus jumps from subdomain to subdomain by `jump`. Held at z = 0, unless it floats; pulled at z = 1.
-  explicit Cube(double jump, bool held, const MPI_Comm mpi = MPI_COMM_WORLD, int subdomains_per_cluster = 1) : comm(mpi)
+  explicit Cube(double jump, bool held, const MPI_Comm mpi = MPI_COMM_WORLD, int subdomains_per_cluster = 1)
+      : Blocks(
+            {{"cube", {{0, 0, 0}, {1, 1, 1}, {cells, cells, cells}, "hex8"}}}, {{"cube", {2, 2, 2}}},
+            [jump](int id) { return (id + id / 2 + id / 4) % 2 == 0 ? 1.0 : jump; }, mpi, subdomains_per_cluster)
   {
-    mesh::Options mesh;
-    mesh::BlockOptions block;
-    block.cells = {cells, cells, cells};
-    mesh.blocks["cube"] = block;
-    partition::Options options;
-    options.method = "grid";
-    options.counts["cube"] = {2, 2, 2};
-    options.subdomains_per_cluster = subdomains_per_cluster;
-    decomposition = partition::decompose(mesh, options, 3, context);
-    std::vector<Global> bottom;
-    std::vector<SparseMatrix> stiffness;
-    Subdomains subdomains;
-    for (const auto& s : decomposition.subdomains) {
-      const double e = (s.id + s.id / 2 + s.id / 4) % 2 == 0 ? 1.0 : jump;
-      stiffness.push_back(fem::stiffness(s.mesh, fem::Material{e, 0.3, 0, 0}, fem::Kinematics::solid));
-      floating.nodal_stiffness.push_back(nodal_stiffness(stiffness.back(), 3));
-      load.emplace_back(Eigen::VectorXd::Zero(stiffness.back().cols()));
-      fem::add_traction(s.mesh, 5, fem::Kinematics::solid, Point(0.1, 0, 1), load.back());
-      subdomains.push_back(std::make_shared<ElasticSubdomain>(
-          stiffness.back(), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
-    }
-    directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
-    interface = partition::find_interface(decomposition, *directory, comm);
-    floating.clusters = Clusters(decomposition, interface, subdomains, floating.nodal_stiffness, fem::Kinematics::solid);
-    const std::vector<constraint::SupportOptions> supports{{"cube.zmin", {0, 0, 0.25}}};
-    const auto surface = partition::boundary_surface(decomposition, 4, {true});
-    if (held) constraints.held = constraint::hold(supports, std::vector<std::vector<Global>>{surface.node_id}, 3, comm);
+    pull("cube.zmax", Point(0.1, 0, 1));
+    if (held) hold({{"cube.zmin", {0, 0, 0.25}}});
   }
 };
 

@@ -3,13 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "base/error.hpp"
-#include "constraint/supports.hpp"
-#include "fem/stiffness.hpp"
-#include "feti/dual_problem.hpp"
-#include "partition/decompose.hpp"
+#include "blocks.hpp"
 #include "qp/face_newton.hpp"
 #include "qp/smalse.hpp"
 
@@ -18,94 +13,17 @@ namespace {
 
 constexpr double young = 1000, force = 50, shortening = force * 5 / young;
 
-struct Column {
-  Communicator comm;
-  Timers timers;
-  Log log{comm, nullptr};
-  Context context{comm, log, timers};
-  partition::Decomposition decomposition;
-  std::unique_ptr<partition::NodeDirectory> directory;
-  partition::Interface interface;
-  Floating floating;
-  std::vector<Eigen::VectorXd> load;
-  constraint::Constraints constraints;
-
+struct Column : Blocks {
   // Held along z at its ends, or at the lower one alone; nothing keeps it from moving sideways.
-  Column(const constraint::Preload& preload, bool both_ends) : comm(MPI_COMM_WORLD)
+  Column(const constraint::Preload& preload, bool both_ends)
+      : Blocks({{"lower", {{0, 0, 0}, {1, 1, 2}, {2, 2, 4}, "hex8"}}, {"upper", {{0, 0, 2}, {1, 1, 3}, {2, 2, 6}, "hex8"}}},
+               {{"lower", {1, 1, 2}}, {"upper", {1, 1, 3}}}, [](int) { return young; })
   {
-    mesh::Options mesh;
-    mesh.blocks["lower"] = {{0, 0, 0}, {1, 1, 2}, {2, 2, 4}, "hex8"};
-    mesh.blocks["upper"] = {{0, 0, 2}, {1, 1, 3}, {2, 2, 6}, "hex8"};
-    partition::Options options;
-    options.method = "grid";
-    options.counts["lower"] = {1, 1, 2};
-    options.counts["upper"] = {1, 1, 3};
-    decomposition = partition::decompose(mesh, options, 3, context);
-    Subdomains subdomains;
-    for (const auto& s : decomposition.subdomains) {
-      auto stiffness = fem::stiffness(s.mesh, fem::Material{young, 0.3, 0, 0}, fem::Kinematics::solid);
-      floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
-      load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
-      subdomains.push_back(std::make_shared<ElasticSubdomain>(
-          std::move(stiffness), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
-    }
-    directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
-    interface = partition::find_interface(decomposition, *directory, comm);
-    floating.clusters = Clusters(decomposition, interface, subdomains, floating.nodal_stiffness, fem::Kinematics::solid);
     std::vector<constraint::SupportOptions> supports{{"lower.zmin", {std::nullopt, std::nullopt, 0.0}}};
-    std::vector<std::vector<Global>> nodes{side("lower.zmin").node_id};
-    if (both_ends) {
-      supports.push_back({"upper.zmax", {std::nullopt, std::nullopt, 0.0}});
-      nodes.push_back(side("upper.zmax").node_id);
-    }
-    constraints.held = constraint::hold(supports, nodes, 3, comm);
-    tie();
+    if (both_ends) supports.push_back({"upper.zmax", {std::nullopt, std::nullopt, 0.0}});
+    hold(supports);
+    join("upper.zmin", "lower.zmax", true);
     constraints.cuts = constraint::find_cuts(constraints.contacts, std::vector{preload}, false, comm);
-  }
-
-  mesh::Surface side(const std::string& name) const
-  {
-    const auto& names = decomposition.catalogue.boundaries;
-    const auto index = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-    return partition::boundary_surface(decomposition, index, {true, true});
-  }
-
-  struct Node {
-    double x, y;
-    Global id;
-  };
-  // All nodes of a side, the same order on both sides of the cut.
-  std::vector<Node> nodes_of(const std::string& name) const
-  {
-    const auto surface = side(name);
-    std::vector<Node> nodes;
-    for (std::size_t i = 0; i < surface.points.size(); ++i)
-      nodes.push_back({surface.points[i][0], surface.points[i][1], surface.node_id[i]});
-    nodes = comm.all_gather(nodes);
-    std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
-    nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.id == b.id; }), nodes.end());
-    return nodes;
-  }
-
-  // The upper half is the secondary side: its normal is -z. Rows stand on the ranks in turn.
-  void tie()
-  {
-    const auto above = nodes_of("upper.zmin"), below = nodes_of("lower.zmax");
-    auto& contacts = constraints.contacts;
-    for (std::size_t i = 0; i < above.size(); ++i) {
-      if (static_cast<int>(i) % comm.size() != comm.rank()) continue;
-      const std::vector<Point> frame{Point(0, 0, -1), Point(0.6, 0.8, 0), Point(0.8, -0.6, 0)};
-      contacts.points.push_back({0, above[i].id, 1, frame[0], {frame[1], frame[2]}, contacts.rows.size()});
-      contacts.bonded.push_back(true);
-      for (const auto& axis : frame) {
-        for (int c = 0; c < 3; ++c)
-          if (axis[c] != 0) {
-            contacts.rows.entries.push_back({above[i].id, c, axis[c]});
-            contacts.rows.entries.push_back({below[i].id, c, -axis[c]});
-          }
-        contacts.rows.close(0);
-      }
-    }
   }
 };
 

@@ -36,7 +36,7 @@ bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Ve
     const double force = value[rows.normal], off = differs[rows.normal];
     pressed[c] += force > 0;
     if (points[i].cover < narrow || !(points[i].area > 0)) continue;
-    const double part = problem.jump().scale()[rows.normal] / points[i].area;
+    const double part = problem.jump().force(rows.normal, 1) / points[i].area;
     double square = off * off;
     for (int t = 1; t <= rows.tangents; ++t) square += differs[rows.normal + t] * differs[rows.normal + t];
     largest[c] = std::max(largest[c], part * force);
@@ -49,7 +49,7 @@ bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Ve
     if (bonded[i] || points[i].cover < narrow || !(points[i].area > 0)) continue;
     const auto normal = problem.points()[i].normal;
     const auto c = static_cast<std::size_t>(points[i].contact);
-    const double off = std::abs(differs[normal]), pressure = off * problem.jump().scale()[normal] / points[i].area;
+    const double off = std::abs(differs[normal]), pressure = problem.jump().force(normal, off) / points[i].area;
     undecided[c] += off >= std::abs(firmly[normal]) && pressure > nothing * largest[c];
   }
   comm.sum_in_place(undecided);

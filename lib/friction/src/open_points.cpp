@@ -50,7 +50,7 @@ class Pressures {
     const auto& contacts = problem_.constraints().contacts;
     const auto& point = contacts.points[i];
     if (contacts.bonded[i] || point.cover < narrow || !(point.area > 0)) return 0;
-    return multiplier * problem_.jump().scale()[problem_.points()[i].normal] / point.area;
+    return problem_.jump().force(problem_.points()[i].normal, multiplier) / point.area;
   }
 
   std::vector<double> largest;  // of each contact

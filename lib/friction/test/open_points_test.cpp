@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../src/budget.hpp"
+#include "qp/budget.hpp"
 #include "../src/state_record.hpp"
 
 namespace mortise::friction {

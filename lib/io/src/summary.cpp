@@ -135,8 +135,8 @@ std::string to_json(const Summary& s)
     json["time"][stage] = found == s.time.end() ? Json(0.0) : number(found->second);
   }
   json["peak_memory_bytes"] = std::llround(s.peak_memory_bytes);
-  json["communication"] = Json::object();
   for (const char* stage : {"total", "set_up", "solve", "multiplication"}) {
+    if (s.communication.empty()) break;  // not counted
     const auto found = s.communication.find(stage);
     const auto spread = found == s.communication.end() ? Summary::Spread{} : found->second;
     json["communication"][stage] = {{"largest", communication(spread.largest)}, {"mean", communication(spread.mean)}};

@@ -76,6 +76,15 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
   EXPECT_EQ(keys(json["communication"]["solve"]["mean"]), (Names{"messages", "bytes", "collectives", "collective_bytes"}));
 }
 
+TEST(Summary, WhatWasNotCountedHasNoNumbers)
+{
+  auto s = sample();
+  s.communication.clear();
+  const auto json = Json::parse(to_json(s));
+  EXPECT_FALSE(json.contains("communication"));
+  EXPECT_TRUE(json.contains("peak_memory_bytes"));
+}
+
 TEST(Summary, ValuesComeBack)
 {
   const auto json = Json::parse(to_json(sample()));

@@ -62,4 +62,9 @@ bool believable(double error, double rounding, const Vector& x, const Eigen::Vec
   return error <= goal.credible(finest) * goal.energy_norm(x, nu);
 }
 
+bool fits(const Solution& solution, const Goal& goal)
+{
+  return solution.projected_gradient <= Goal::largest_residual || believable(solution.error, 0, solution.x, solution.nu, goal);
+}
+
 }  // namespace mortise::qp

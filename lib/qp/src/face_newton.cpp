@@ -30,8 +30,6 @@ constexpr int settlings = 2;                  // renewals of slip bounds by a pr
 constexpr int max_retreats = 8;               // of slip bounds
 constexpr int max_retreats_to_z = 2;          // quarters of the way back, before the step becomes a gradient projection
 constexpr int max_safeguards = 12;            // after which another algorithm will do better
-constexpr double rounded = 1e-12;             // the same that no step makes smaller
-constexpr double finest = 1e-7;               // residual over ||P b|| that is enough where no error is allowed
 constexpr double at_rest = 0.05;              // of normal forces: change that is still to come
 constexpr double certain = 0.1;               // of the allowed error, at which their change does not matter
 constexpr double first_look = 0.1;            // part of the first error at which the allowed one is asked for
@@ -163,7 +161,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     if (observer) observer({"norm", 0, hessian.count()});
     if (norm_ == 0) norm_ = 1;
   }
-  double size = relative_size(problem_, goal.allowed_error ? finest : goal.residual);
+  double size = relative_size(problem_, goal.allowed_error ? tolerances::finest : goal.residual);
   if (size == 0) size = 1;
 
   State state(map);
@@ -267,9 +265,9 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     const double to_come = contact.change_to_come(z, result.error);
     // Infinite while points stick whose bounds are still to come.
     if (first_error == 0 && std::isfinite(result.error)) first_error = result.error;
-    const bool small = worst <= (goal.allowed_error ? finest : goal.residual) * size;
-    result.converged =
-        small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal, worst <= rounded * size);
+    const bool small = worst <= (goal.allowed_error ? tolerances::finest : goal.residual) * size;
+    result.converged = small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal,
+                                           worst <= tolerances::rounding * size);
     doubtful = small && !result.converged;
     if (goal.allowed_error && !result.converged && std::isfinite(result.error) &&
         result.error <= (allowed < 0 ? first_look * first_error : allowed)) {

@@ -1,17 +1,22 @@
 #include "qp/options.hpp"
 
+#include <fmt/format.h>
+
+#include "qp/solver.hpp"
+
 namespace mortise::qp {
 
 void describe(deck::Description<Options>& d)
 {
   d.help("How the quadratic programme in the multipliers is solved.");
-  d.key("algorithm", &Options::algorithm,
-        "face_newton: an active set method on exactly projected points; smalse: SMALSE-M with MPGP inside, the paper's; direct: "
-        "every "
-        "body one subdomain, the dual operator a matrix, contact solved exactly; auto: face_newton, and direct once that costs "
-        "less "
-        "than what is likely to come.")
-      .one_of({"auto", "face_newton", "smalse", "direct"});
+  std::vector<std::string> names{"auto"};
+  std::string help;
+  for (const auto& kind : solvers()) {
+    names.emplace_back(kind.name);
+    help += fmt::format("{}: {}; ", kind.name, kind.help);
+  }
+  help += "auto: face_newton, and direct once that costs less than what is likely to come.";
+  d.key("algorithm", &Options::algorithm, help).one_of(names);
   d.key("tolerance", &Options::tolerance,
         "Relative: the reduced projected gradient and the equality residual over ||P d||. auto: stop when the algebraic error is "
         "a "

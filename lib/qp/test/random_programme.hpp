@@ -15,11 +15,13 @@ inline const Communicator& world()
   return comm;
 }
 
-// ||x - P_Omega(x - (g + G'nu))||: zero exactly at a solution.
+// ||x - P_Omega(x - (g + G'nu))||, zero exactly at a solution, with g = A x - b computed anew. One product.
 inline double kkt(const Solution& solution, const Problem& problem)
 {
   Vector moved(solution.x, Teuchos::Copy);
-  Vector gradient(solution.gradient, Teuchos::Copy);
+  Vector gradient(solution.x.getMap());
+  problem.hessian.apply(solution.x, gradient);
+  gradient.update(-1, problem.linear, 1);
   if (problem.equality.size() > 0) problem.equality.add_transpose(1, solution.nu, gradient);
   moved.update(-1, gradient, 1);
   problem.set.project(view(moved));

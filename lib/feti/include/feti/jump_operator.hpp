@@ -43,8 +43,16 @@ class JumpOperator {
   const Ranges& ranges() const { return ranges_; }
   /// Global numbers of the contact rows of all ranks: first, and one past the last.
   std::pair<Global, Global> contact_rows() const { return contact_rows_; }
-  /// Row = scale * row of the mesh; a multiplier of the row times `scale` is a force. One entry for each owned row; 1 for gluing.
-  const Eigen::VectorXd& scale() const { return scale_; }
+  /// The force of a row with this multiplier, and the other way. By the same factor a coefficient, a bound or a jump of the row
+  /// as it was given becomes one of the row of B.
+  double force(Local row, double multiplier) const { return scale_[row] * multiplier; }
+  double multiplier(Local row, double force) const { return force / scale_[row]; }
+  double scaled(Local row, double given) const { return scale_[row] * given; }
+  /// Of all owned rows.
+  Eigen::VectorXd forces(const Vector& lambda) const { return view(lambda).cwiseProduct(scale_); }
+  Vector multipliers(const Eigen::VectorXd& forces) const;
+  /// B u as jumps of the rows as they were given, in lengths. Collective.
+  Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
   /// c, scaled, of the owned rows: B u = c, B u <= c.
   const Eigen::VectorXd& bound() const { return bound_; }
   /// c anew, of the same rows with other bounds.
@@ -84,7 +92,8 @@ class JumpOperator {
   Teuchos::RCP<const Import> import_;
   Ranges ranges_;
   std::pair<Global, Global> contact_rows_;
-  Eigen::VectorXd scale_, bound_;
+  Eigen::VectorXd scale_;  // of each owned row: that of B over that which was given; 1 for gluing
+  Eigen::VectorXd bound_;
   std::vector<Block> blocks_;
 };
 

@@ -2,9 +2,10 @@
 //
 // Tresca: the bound of a point is a given traction times its area; one quadratic programme gives the answer. Coulomb: the bound
 // is the coefficient times the point's normal force, which is found by repeating Tresca problems, each solved only as exactly as
-// the bounds are known and started from the one before. Face Newton solves for bounds and forces together instead, and falls back
-// to the fixed point where that does not settle. The first step lets every Coulomb point stick, so that a floating body that
-// is pushed sideways has an equilibrium from the start; a later load step begins with the bounds that the one before ended with.
+// the bounds are known and started from the one before. A solver that can follow a slip law by itself (qp::SlipLaw) is asked for
+// bounds and forces together first; the fixed point goes on where that does not settle. The first step lets every Coulomb point
+// stick, so that a floating body that is pushed sideways has an equilibrium from the start; a later load step begins with the
+// bounds that the one before ended with.
 #pragma once
 
 #include <functional>
@@ -13,23 +14,13 @@
 #include <vector>
 
 #include "feti/dual_problem.hpp"
-#include "feti/explicit_problem.hpp"
+#include "friction/law.hpp"
 #include "friction/open_points.hpp"
 #include "friction/options.hpp"
-#include "qp/face_newton.hpp"
 #include "qp/options.hpp"
+#include "qp/solver.hpp"
 
 namespace mortise::friction {
-
-/// The law of one contact. To add a law: a value here and its bound in slip_bounds().
-struct Law {
-  enum class Kind { frictionless, tresca, coulomb } kind = Kind::frictionless;
-  double value = 0;  ///< tresca: traction; coulomb: coefficient
-};
-
-/// Radii of the discs in the scaled unknowns of `problem`, from the multipliers `lambda`; without lambda Coulomb points stick.
-/// laws[c] is that of contact c.
-std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda);
 
 struct Result {
   qp::Solution solution;
@@ -55,14 +46,13 @@ struct Accuracy {
   Measure energy_norm;    ///< that of the displacements
 };
 
-class Budget;
 class StateRecord;
 
 /// A sequence of load steps on one dual problem, which may be renewed between them: what was learnt about F stays.
 class Solver {
  public:
   /// The problem outlives it. laws[c] is that of contact c. `patience`: products after which each solve gives up; it then also
-  /// gives up where face Newton makes no more progress. Collective.
+  /// gives up where its algorithm makes no more progress. Collective.
   Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver,
          std::optional<int> patience = {});
   ~Solver();
@@ -78,29 +68,28 @@ class Solver {
 
  private:
   struct Run;
-  void renew_at_faces(Run& run);
+  Run begin(const qp::Solution* start, const Accuracy& accuracy);
+  void follow_law(Run& run);
   bool solve_tresca(const qp::Goal& goal, Run& run);
   bool at_rest(const std::vector<double>& wanted, double tolerance, Run& run);
   double error_of_bounds(const std::vector<double>& wanted, const Run& run);
-  void refuse_if_far(const Run& run);
+  double change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const;
   void admit(Run& run);
   void fixed_point(Run& run);
-  void solve_directly(Run& run);
   void note(const Run& run, const qp::Progress& progress);
   void tell_what_is_open(Result& result);
 
   feti::DualProblem& problem_;
   std::vector<Law> laws_;
   Options options_;
-  qp::Options solver_;
+  std::optional<double> tolerance_;  // of the residual; without one the error decides
   std::optional<int> patience_;
   qp::Hessian hessian_;
-  std::unique_ptr<Budget> budget_;
+  qp::Budget budget_;
   std::unique_ptr<StateRecord> states_;
   Vector driven_;
   qp::Problem programme_;
-  std::unique_ptr<feti::ExplicitProblem> explicit_;  // of the direct solution
-  std::unique_ptr<qp::FaceNewton> newton_;
+  std::unique_ptr<qp::Solver> algorithm_;
 };
 
 }  // namespace mortise::friction

@@ -91,7 +91,7 @@ struct Summary : StateSummary {
   struct Spread {
     Communication largest, mean;  ///< over the ranks, each figure for itself
   };
-  std::map<std::string, Spread> communication;  ///< a stage
+  std::map<std::string, Spread> communication;  ///< a stage; empty: not counted, and not in the file
 };
 
 /// The text of summary.json; numbers that are not finite become null.

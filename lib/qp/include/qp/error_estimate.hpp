@@ -26,4 +26,8 @@ double rounding_of_error(const Problem& problem, double norm);
 /// norm. Infinite errors are those of points that stick without a limit, which is no law yet, and believed. Collective.
 bool believable(double error, double rounding, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal, bool finest = false);
 
+/// Whether the residual of a solution fits its error, which is good enough: not beyond Goal::largest_residual, or a believable
+/// error beside it. Collective.
+bool fits(const Solution& solution, const Goal& goal);
+
 }  // namespace mortise::qp

@@ -10,7 +10,7 @@ namespace mortise::qp {
 struct Options {
   std::string algorithm = "auto";
   deck::OrAuto<double> tolerance;         ///< relative: reduced projected gradient and equality residual over ||P d||
-  deck::OrAuto<int> max_multiplications;  ///< with F, in the whole run; auto: friction::Budget
+  deck::OrAuto<int> max_multiplications;  ///< with F, in the whole run; auto: see Budget
 };
 
 /// The keywords.

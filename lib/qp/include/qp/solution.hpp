@@ -9,6 +9,13 @@
 
 namespace mortise::qp {
 
+/// Of residuals, over ||P b||.
+namespace tolerances {
+inline constexpr double loosest = 1e-2;    ///< of a problem whose solution only leads to the next one
+inline constexpr double finest = 1e-7;     ///< enough where no error is allowed
+inline constexpr double rounding = 1e-12;  ///< below which there is nothing to gain
+}  // namespace tolerances
+
 /// When a solve may stop.
 struct Goal {
   double residual = 1e-4;  ///< natural residual over ||P b||

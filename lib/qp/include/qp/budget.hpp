@@ -7,7 +7,7 @@
 
 #include "qp/problem.hpp"
 
-namespace mortise::friction {
+namespace mortise::qp {
 
 /// A number that is given, for all solves together; else each solve goes on as long as something becomes better by 30 %: the
 /// residual, the bound of the error in the energy norm, by how much slip bounds change; or fewer points change their state in a
@@ -19,24 +19,26 @@ class Budget {
   static constexpr int most = 10000;    ///< of one solve, whatever becomes better
 
   /// `given`: the number. `steady`: for an algorithm whose residual may rise for long, where nothing but `most` ends it.
-  Budget(qp::Hessian& hessian, std::optional<int> given, bool steady);
+  Budget(Hessian& hessian, std::optional<int> given, bool steady);
 
   /// Before a solve, that gives up after `patience` products if there is one.
   void start(std::optional<int> patience);
   /// Another algorithm takes over: its residuals begin anew.
   void change_algorithm();
   /// After a step; `changes`: points whose state changed, if that was an outer step. The arguments are the same on all ranks.
-  void note(const qp::Progress& progress, std::optional<long long> changes, double change_of_bounds);
+  void note(const Progress& progress, std::optional<long long> changes, double change_of_bounds);
 
   /// Whether products are left, patience apart.
   bool left() const { return hessian_.count() < end_; }
+  /// Whether another algorithm may go on where one has ended: with products left, and nobody who waits for the solve to give up.
+  bool may_change() const { return !patience_ && left(); }
   /// What ended a solve whose products are spent, as the key of the deck and a remark.
   std::string reason() const;
 
  private:
   void set_limit();
 
-  qp::Hessian& hessian_;
+  Hessian& hessian_;
   std::optional<int> given_, patience_;
   bool steady_;
   int begin_ = 0, end_ = 0, better_ = 0;  // counts of products: at the start, the last one allowed, where something became better
@@ -46,4 +48,4 @@ class Budget {
   } best_;
 };
 
-}  // namespace mortise::friction
+}  // namespace mortise::qp

@@ -1,10 +1,10 @@
-#include "budget.hpp"
+#include "qp/budget.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-namespace mortise::friction {
+namespace mortise::qp {
 
 namespace {
 
@@ -19,7 +19,7 @@ bool improve(double value, double& best)
 
 }  // namespace
 
-Budget::Budget(qp::Hessian& hessian, std::optional<int> given, bool steady) : hessian_(hessian), given_(given), steady_(steady)
+Budget::Budget(Hessian& hessian, std::optional<int> given, bool steady) : hessian_(hessian), given_(given), steady_(steady)
 {
   start({});
 }
@@ -40,7 +40,7 @@ void Budget::change_algorithm()
   set_limit();
 }
 
-void Budget::note(const qp::Progress& progress, std::optional<long long> changes, double change_of_bounds)
+void Budget::note(const Progress& progress, std::optional<long long> changes, double change_of_bounds)
 {
   bool better = improve(std::max(progress.projected_gradient, progress.equality), best_.residual);
   better = improve(progress.error, best_.error) || better;
@@ -72,4 +72,4 @@ std::string Budget::reason() const
   return key + fmt::format(" (auto: nothing became better over {} products)", stretch);
 }
 
-}  // namespace mortise::friction
+}  // namespace mortise::qp

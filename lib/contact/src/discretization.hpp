@@ -1,0 +1,64 @@
+// Discretizations of contact, in one table: what of the secondary faces counts, and what their functions add to the rows.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cut_faces.hpp"
+#include "face_integrals.hpp"
+#include "opposite.hpp"
+
+namespace mortise::contact {
+
+/// One contact, as a discretization sees it. Refers to its parts, which outlive it.
+struct TwoSides {
+  const Side& secondary;
+  const Places& places;
+  const Side& primary;
+  const Places& primary_places;
+  const Tree& tree;  ///< of the primary facets
+  CutFaces& faces;   ///< of the secondary side
+  Rays& rays;        ///< from the places
+  bool obstacle;     ///< the primary side is rigid and has no faces
+  double reach;      ///< what lies farther away does not count
+};
+
+class Discretization {
+ public:
+  explicit Discretization(const TwoSides& sides) : sides_(sides) {}
+  virtual ~Discretization() = default;
+
+  /// Adds the next face of faces.round() in pieces, with their integrals over what meets the other side.
+  virtual void add_face(std::size_t face) = 0;
+  /// Turns the integrals of all pieces into functions of the places that are `kept`; those of the others become 0.
+  virtual void make_functions(std::span<const char> kept) = 0;
+  /// Adds what one function, once made, adds to the row of its place.
+  virtual void add_terms(const CutFaces::Function& function, std::vector<Term>& terms) = 0;
+  /// Its integral of how far both surfaces bulge out of their facets: what the mean gap of the facets is too large by.
+  virtual double rise(const CutFaces::Function& /*function*/) { return 0; }
+  /// Whether a bonded seam leaves out the places where it ends at a contact.
+  virtual bool seams_end_at_contacts() const { return true; }
+
+ protected:
+  const TwoSides sides_;
+};
+
+/// One row of the table.
+struct DiscretizationKind {
+  std::string_view name;  ///< in the deck
+  std::string_view help;
+  std::unique_ptr<Discretization> (*make)(const TwoSides& sides);
+};
+
+/// The table. To add a discretization: a file with its class and the function that makes it, and a row.
+std::span<const DiscretizationKind> discretizations();
+
+/// The one of a name in the deck, for one contact.
+std::unique_ptr<Discretization> make_discretization(std::string_view name, const TwoSides& sides);
+
+std::unique_ptr<Discretization> make_mortar(const TwoSides& sides);
+std::unique_ptr<Discretization> make_node_to_segment(const TwoSides& sides);
+
+}  // namespace mortise::contact

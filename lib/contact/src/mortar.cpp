@@ -1,0 +1,65 @@
+// Mortar contact: integrals over what both sides have in common, and dual functions. Over an obstacle all of a face or nothing.
+#include <algorithm>
+
+#include "discretization.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+class Mortar : public Discretization {
+ public:
+  explicit Mortar(const TwoSides& sides)
+      : Discretization(sides),
+        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_places, sides.tree, sides.reach)
+  {
+  }
+
+  void add_face(std::size_t face) override
+  {
+    auto& faces = sides_.faces;
+    if (!sides_.obstacle) return faces.add(face, integrator_.integrate(face));
+    faces.add(face, integrator_.integrate_whole(face));
+    const auto places = faces.node_places(face);
+    if (!std::all_of(places.begin(), places.end(), [&](Local p) { return sides_.rays.meets(static_cast<std::size_t>(p)); }))
+      faces.piece(faces.pieces(face).front()).covered.setZero();
+  }
+
+  void make_functions(std::span<const char> kept) override
+  {
+    auto& faces = sides_.faces;
+    for (const std::size_t f : faces.near())
+      for (const std::size_t i : faces.pieces(f)) {
+        auto piece = faces.piece(i);
+        Few<char, 9> here;
+        for (Eigen::Index k = 0; k < piece.covered.size(); ++k) here.push_back(kept[faces.place_of(f, piece, k)]);
+        make_dual(piece, here);
+      }
+  }
+
+  void add_terms(const CutFaces::Function& function, std::vector<Term>& terms) override
+  {
+    const auto nodes = sides_.secondary.faces[function.face];
+    const auto piece = sides_.faces.piece(function.piece);
+    const auto add = [&](Local node, bool on_primary, double value) {
+      if (value != 0) terms.push_back({node, on_primary, value});
+    };
+    for (std::size_t j = 0; j < nodes.size(); ++j) add(nodes[j], false, piece.mass(function.k, static_cast<Eigen::Index>(j)));
+    for (std::size_t j = 0; j < piece.nodes.size(); ++j)
+      add(piece.nodes[j], true, piece.opposite(function.k, static_cast<Eigen::Index>(j)));
+  }
+
+  double rise(const CutFaces::Function& function) override { return sides_.faces.piece(function.piece).rise[function.k]; }
+
+ private:
+  Integrator integrator_;
+};
+
+}  // namespace
+
+std::unique_ptr<Discretization> make_mortar(const TwoSides& sides)
+{
+  return std::make_unique<Mortar>(sides);
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,27 @@
+// Laws of friction: the slip bounds of contact points.
+#pragma once
+
+#include <vector>
+
+#include "feti/dual_problem.hpp"
+
+namespace mortise::friction {
+
+/// The law of one contact. To add a law: a value here and its bound in slip_bounds().
+struct Law {
+  enum class Kind { frictionless, tresca, coulomb } kind = Kind::frictionless;
+  double value = 0;  ///< tresca: traction; coulomb: coefficient
+};
+
+/// Radii of the discs in the scaled unknowns of `problem`, from the multipliers `lambda`; without lambda Coulomb points stick.
+/// laws[c] is that of contact c.
+std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda);
+
+/// The coefficient of each disc of `problem` under Coulomb's law; 0 under others.
+std::vector<double> coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws);
+
+/// ||next - now|| / ||next|| of slip bounds over all ranks, those that are infinite in either left out; `least` is the size below
+/// which bounds are rounding. Collective.
+double relative_change(const std::vector<double>& next, const std::vector<double>& now, double least, const Communicator& comm);
+
+}  // namespace mortise::friction

@@ -1,0 +1,47 @@
+#include "equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "qp/projection.hpp"
+
+namespace mortise::friction {
+
+void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven)
+{
+  if (!proven)
+    throw Error(ExitStatus::bad_input,
+                "no forces were found that balance the loads, though nothing proves that there are none: " + problem.runaway(nu) +
+                    " nearly freely, and stiffnesses that differ by 1e12 are too far apart for rounding. "
+                    "Look at the units of young_modulus and of sizes, or support that body");
+  throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.runaway(nu) +
+                                              "; contacts can only push and friction is limited, so nothing holds it against "
+                                              "the loads. Support it, or look at the direction of the loads and at the friction");
+}
+
+void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::Hessian& hessian, qp::Solution& solution)
+{
+  const qp::Projection nearest = qp::project(solution.x, problem.equality(), problem.set().with_cones());
+  if (nearest.empty) {  // with bounds that are given bodies slide; along the edge of a cone they would also lift
+    problem.set().set_radii(slip_bounds(problem, laws, &solution.x));
+    const qp::Projection given = qp::project(solution.x, problem.equality(), problem.set());
+    no_equilibrium(problem, given.empty ? given.nu : nearest.nu, true);
+  }
+  Vector beyond(solution.x, Teuchos::Copy), product(beyond.getMap());
+  beyond.update(-1, nearest.point, 1);
+  hessian.apply(beyond, product);
+  solution.error += std::sqrt(std::max(beyond.dot(product), 0.0));
+}
+
+void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x)
+{
+  constexpr double short_of = 0.05;
+  auto larger = slip_bounds(problem, laws, &x);
+  for (auto& bound : larger) bound *= 1 + short_of;
+  problem.set().set_radii(larger);
+  const qp::Projection nearest = qp::project(x, problem.equality(), problem.set());
+  if (nearest.empty) no_equilibrium(problem, nearest.nu, true);
+}
+
+}  // namespace mortise::friction

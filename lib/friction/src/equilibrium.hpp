@@ -1,0 +1,22 @@
+// Whether forces within the law of friction balance the loads at all.
+#pragma once
+
+#include "friction/law.hpp"
+#include "qp/solution.hpp"
+
+namespace mortise::friction {
+
+/// Throws that no forces balance the loads, and which body moves how along `nu`. `proven`: `nu` proves it, Error(no_equilibrium);
+/// else the search for such forces just did not settle, Error(bad_input). Collective.
+[[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven);
+
+/// Forces that bounds just allowed may be more than the law allows, by what bounds and normal forces still differ by. That counts
+/// as error; and where no forces within the law balance the loads there is no equilibrium, however little they lack. One product.
+/// Throws as no_equilibrium(). Changes radii. Collective.
+void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::Hessian& hessian, qp::Solution& solution);
+
+/// Where forces within the law balance the loads, but those that the bodies' stiffness asks for never do: throws as
+/// no_equilibrium() if those at x fall short by more than 5 %. Changes radii. Collective.
+void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x);
+
+}  // namespace mortise::friction

@@ -1,0 +1,88 @@
+// The solvers of quadratic programmes: what they have in common, and the table of them.
+//
+// A row of the table is a name in the deck and how its solver is made. What drives solvers (lib/friction) asks for one by that
+// name and knows no other difference between them than that some can follow a slip law by themselves.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "qp/budget.hpp"
+#include "qp/options.hpp"
+#include "qp/solution.hpp"
+
+namespace mortise::qp {
+
+/// Radii of discs that follow the solution, as those of Coulomb friction do.
+struct SlipLaw {
+  FeasibleSet& set;  ///< that of the problem
+  /// The radii that the law gives at x; without x those to begin with, before any force is known. One for each disc of `set`.
+  std::function<std::vector<double>(const Vector* x)> radii;
+};
+
+/// Half way from `radii`, which leave no feasible point, back to those `before`: twice as large where these were infinite.
+std::vector<double> half_way_back(std::vector<double> radii, std::span<const double> before);
+
+/// A programme whose Hessian is at hand as a matrix.
+struct ExplicitProgramme {
+  struct Point {
+    Vector x;
+    Eigen::VectorXd nu;
+    bool settled = false;  ///< exact to rounding; else the last guess
+  };
+  std::shared_ptr<FacePreconditioner> inverse;  ///< A^-1
+  /// Solves with the linear term, right-hand side and set that the programme has by now; radii of discs with a coefficient follow
+  /// their normal unknown. Collective.
+  std::function<Point()> solve;
+};
+
+/// What a solver may use beside the problem.
+struct Means {
+  Budget& budget;                                ///< of products; it decides whether another algorithm may take over
+  FacePreconditioner* preconditioner = nullptr;  ///< if there is one
+  /// Makes the matrices of a direct solution, for the solver that needs them. Collective.
+  std::function<ExplicitProgramme()> make_explicit = {};
+};
+
+/// Solves a sequence of similar problems, one after the other; what was learnt about A stays. Refers to the problem and its
+/// means, which outlive it. A solution tells why it ended: converged; not feasible, proven or not; else the products ran out, or
+/// nothing became better.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  /// Before the first of several solves that belong together (a load step), the last of them to `goal`: if the solver knows a
+  /// better start than `start` it replaces that, and tells the goal how exact it is. Collective.
+  virtual void begin(std::optional<Solution>& /*start*/, Goal& /*goal*/, const Observer& /*observer*/) {}
+  /// The solution to `goal` with the radii that discs have, from `start`, or from a point of its own choice. Collective.
+  virtual Solution solve(const std::optional<Solution>& start, const Goal& goal, const Observer& observer) = 0;
+  /// The solution that fulfils the law, with radii found together with it; the set then has those of the last step. Nothing
+  /// where the solver needs radii that are given. Collective.
+  virtual std::optional<Solution> solve(const SlipLaw& /*law*/, const std::optional<Solution>& /*start*/, const Goal& /*goal*/,
+                                        const Observer& /*observer*/)
+  {
+    return {};
+  }
+  /// The best approximation of A^-1 that it has; may be null.
+  virtual FacePreconditioner* preconditioner() = 0;
+};
+
+/// One row of the table.
+struct SolverKind {
+  std::string_view name;  ///< in the deck
+  std::string_view help;
+  bool steady;  ///< its residual may rise for long: see Budget
+  std::unique_ptr<Solver> (*make)(const Problem& problem, const Means& means);
+};
+
+/// The table. To add a solver: a file with the function that makes it, and a row.
+std::span<const SolverKind> solvers();
+
+/// The row of a name in the deck. `auto` begins with the first.
+const SolverKind& solver_kind(std::string_view name);
+
+}  // namespace mortise::qp

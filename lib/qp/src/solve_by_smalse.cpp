@@ -1,0 +1,58 @@
+// The row `smalse` of the table of solvers.
+#include <algorithm>
+
+#include "make_solvers.hpp"
+#include "qp/error_estimate.hpp"
+#include "qp/smalse.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+class SmalseSolver : public Solver {
+ public:
+  SmalseSolver(const Problem& problem, FacePreconditioner* preconditioner) : problem_(problem), preconditioner_(preconditioner) {}
+
+  Solution solve(const std::optional<Solution>& start, const Goal& goal, const Observer& observer) override
+  {
+    return smalse_to_goal(problem_, start, goal, preconditioner_, observer);
+  }
+  FacePreconditioner* preconditioner() override { return preconditioner_; }
+
+ private:
+  const Problem& problem_;
+  FacePreconditioner* preconditioner_;
+};
+
+}  // namespace
+
+Solution smalse_to_goal(const Problem& problem, std::optional<Solution> start, const Goal& goal,
+                        FacePreconditioner* preconditioner, const Observer& observer)
+{
+  double tolerance = goal.allowed_error ? tolerances::loosest : goal.residual;
+  int outer = 0;
+  while (true) {
+    Solution found = smalse(problem, start, tolerance, observer);
+    found.outer_iterations = outer += found.outer_iterations;
+    if (!found.feasible) return found;
+    found.error = error_bound(problem, found, preconditioner);
+    if (!found.converged) return found;
+    if (!goal.allowed_error || tolerance <= tolerances::finest) {
+      found.converged = believable(found.error, rounding_of_error(problem, found.hessian_norm), found.x, found.nu, goal);
+      if (found.converged || tolerance <= tolerances::rounding) return found;
+      tolerance *= 0.1;
+    } else {
+      const double allowed = goal.allowed_error(found.x, found.nu);
+      if (found.error <= allowed && fits(found, goal)) return found;
+      tolerance = std::max(tolerances::finest, tolerance * std::clamp(0.5 * allowed / found.error, 0.03, 0.5));
+    }
+    start = std::move(found);
+  }
+}
+
+std::unique_ptr<Solver> make_smalse(const Problem& problem, const Means& means)
+{
+  return std::make_unique<SmalseSolver>(problem, means.preconditioner);
+}
+
+}  // namespace mortise::qp

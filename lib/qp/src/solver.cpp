@@ -1,0 +1,33 @@
+#include "qp/solver.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "make_solvers.hpp"
+
+namespace mortise::qp {
+
+std::span<const SolverKind> solvers()
+{
+  static constexpr std::array table{
+      SolverKind{"face_newton", "an active set method on exactly projected points", false, make_face_newton},
+      SolverKind{"smalse", "SMALSE-M with MPGP inside, the paper's", true, make_smalse},
+      SolverKind{"direct", "every body one subdomain, the dual operator a matrix, contact solved exactly", false, make_direct}};
+  return table;
+}
+
+const SolverKind& solver_kind(std::string_view name)
+{
+  const auto table = solvers();
+  for (const auto& kind : table)
+    if (kind.name == name) return kind;
+  return table.front();
+}
+
+std::vector<double> half_way_back(std::vector<double> radii, std::span<const double> before)
+{
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = std::isinf(before[i]) ? 2 * radii[i] : 0.5 * (radii[i] + before[i]);
+  return radii;
+}
+
+}  // namespace mortise::qp

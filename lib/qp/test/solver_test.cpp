@@ -1,0 +1,189 @@
+// The table of solvers: each row solves the same programmes, and what passes from one algorithm to another.
+#include "qp/solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "qp/condensed_newton.hpp"
+#include "random_programme.hpp"
+
+namespace mortise::qp {
+namespace {
+
+// The matrices of a random programme, whole on every rank.
+class DenseProgramme : public FacePreconditioner {
+ public:
+  explicit DenseProgramme(RandomProgramme& programme) : programme_(programme) {}
+  Teuchos::RCP<const Map> getDomainMap() const override { return programme_.map; }
+  Teuchos::RCP<const Map> getRangeMap() const override { return programme_.map; }
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const override
+  {
+    const Eigen::VectorXd whole = programme_.dense.llt().solve(gathered(*x.getVector(0), world()));
+    y.getVectorNonConst(0)->update(alpha, local_part(whole, programme_.map), beta);
+  }
+  void fix(std::span<const Local>) override {}
+
+  ExplicitProgramme::Point solve() const
+  {
+    FeasibleSet set = RandomProgramme::bounds_and_discs(RandomProgramme::n);  // of all ranks: all discs are alike
+    const auto discs = programme_.set.discs();
+    set.set_radii(std::vector<double>(set.discs().size(), discs.front().radius));
+    set.set_coefficients(std::vector<double>(set.discs().size(), discs.front().coefficient));
+    const CondensedNewton newton(programme_.dense, programme_.g, set);
+    const auto found = newton.solve(gathered(programme_.b, world()), programme_.equality.right_side(), set);
+    return {local_part(found.x, programme_.map), found.nu, found.settled};
+  }
+
+ private:
+  RandomProgramme& programme_;
+};
+
+struct Setting {
+  RandomProgramme programme;
+  Budget budget{programme.hessian, {}, false};
+  Means means{budget, nullptr, [this] {
+                auto matrices = std::make_shared<DenseProgramme>(programme);
+                return ExplicitProgramme{matrices, [matrices] { return matrices->solve(); }};
+              }};
+  std::unique_ptr<Solver> make(const SolverKind& kind) { return kind.make(programme.problem, means); }
+};
+
+TEST(Solvers, NamesAreThoseOfTheDeckAndAutoBeginsWithTheFirst)
+{
+  std::set<std::string_view> names;
+  for (const auto& kind : solvers()) {
+    EXPECT_EQ(&solver_kind(kind.name), &kind);
+    EXPECT_FALSE(kind.help.empty());
+    names.insert(kind.name);
+  }
+  EXPECT_EQ(names, (std::set<std::string_view>{"face_newton", "smalse", "direct"}));
+  EXPECT_EQ(solver_kind("auto").name, "face_newton");
+}
+
+TEST(Solvers, EachSolvesWithGivenRadii)
+{
+  Eigen::VectorXd first;
+  for (const auto& kind : solvers()) {
+    Setting setting;
+    auto& [programme, budget, means] = setting;
+    const auto solver = setting.make(kind);
+    Goal goal{1e-10};
+    std::optional<Solution> start;
+    solver->begin(start, goal, {});
+    const Solution solution = solver->solve(start, goal, {});
+    ASSERT_TRUE(solution.feasible) << kind.name;
+    EXPECT_TRUE(solution.converged) << kind.name;
+    EXPECT_LT(programme.equality.norm(programme.equality.apply(solution.x) - programme.equality.right_side()), 1e-10)
+        << kind.name;
+    EXPECT_LT(kkt(solution, programme.problem), 1e-7) << kind.name;
+    const auto active = programme.set.active(view(solution.x));
+    EXPECT_GE(world().sum(active.bounds), 3) << kind.name;
+    EXPECT_GE(world().sum(active.discs), 3) << kind.name;
+    const Eigen::VectorXd x = gathered(solution.x, world());
+    if (first.size() == 0) first = x;
+    EXPECT_LT((x - first).norm(), 1e-7 * first.norm()) << kind.name;
+  }
+}
+
+// An exact start needs no more than what shows that it is one.
+TEST(Solvers, ADirectSolutionIsShownByAFewProducts)
+{
+  Setting setting;
+  const auto solver = setting.make(solver_kind("direct"));
+  Goal goal{1e-8};
+  std::optional<Solution> start;
+  std::vector<std::string> steps;
+  const Observer observer = [&](const Progress& progress) { steps.push_back(progress.what); };
+  solver->begin(start, goal, observer);
+  ASSERT_TRUE(start);
+  EXPECT_EQ(steps, std::vector<std::string>{"direct"});
+  EXPECT_EQ(setting.programme.hessian.count(), 0);
+  EXPECT_TRUE(solver->solve(start, goal, observer).converged);
+  EXPECT_LE(setting.programme.hessian.count(), 24);  // up to 20 of them for the norm
+}
+
+// Coulomb's law as SlipLaw; radii are infinite to begin with.
+SlipLaw coulomb(FeasibleSet& set, double coefficient)
+{
+  set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
+  return {
+      set, [&set](const Vector* x) {
+        std::vector<double> radii;
+        for (const auto& disc : set.discs())
+          radii.push_back(x ? disc.coefficient * std::max(view(*x)[disc.normal], 0.0) : std::numeric_limits<double>::infinity());
+        return radii;
+      }};
+}
+
+TEST(Solvers, ThoseThatFollowALawFulfilIt)
+{
+  int followed = 0;
+  for (const auto& kind : solvers()) {
+    Setting setting;
+    auto& [programme, budget, means] = setting;
+    // Normal and tangential unknowns of bodies have little to do with each other; those of a random matrix have.
+    programme.dense += Eigen::MatrixXd::Identity(RandomProgramme::n, RandomProgramme::n);
+    const DenseOperator a(programme.dense, programme.map, world());
+    Hessian hessian(a, 20000);
+    Budget own(hessian, {}, false);
+    const Problem problem{hessian, programme.b, programme.equality, programme.set};
+    Eigen::VectorXd pressed = Eigen::VectorXd::Zero(RandomProgramme::n);  // feasible whatever the coefficient
+    for (Eigen::Index i = 0; i < pressed.size(); i += 3) pressed[i] = 1;
+    programme.equality.set_right_side(programme.g * pressed);
+    const SlipLaw law = coulomb(programme.set, 0.3);
+    programme.set.set_radii(law.radii(nullptr));
+    const auto solver = kind.make(problem, {own, nullptr, means.make_explicit});
+    Goal goal{1e-9};
+    std::optional<Solution> start;
+    solver->begin(start, goal, {});
+    const auto solution = solver->solve(law, start, goal, {});
+    if (!solution) continue;
+    ++followed;
+    ASSERT_TRUE(solution->feasible) << kind.name;
+    EXPECT_TRUE(solution->converged) << kind.name;
+    programme.set.set_radii(law.radii(&solution->x));
+    EXPECT_LT(kkt(*solution, problem), 1e-6) << kind.name;
+    EXPECT_GE(world().sum(programme.set.active(view(solution->x)).discs), 3) << kind.name;
+  }
+  EXPECT_EQ(followed, 2);  // SMALSE-M needs radii
+}
+
+// A residual that no arithmetic reaches: face Newton finds no better one, and SMALSE-M goes on from its last point.
+TEST(Solvers, SmalseTakesOverWhereFaceNewtonCrawls)
+{
+  for (const bool waiting : {false, true}) {
+    Setting setting;
+    auto& programme = setting.programme;
+    Budget budget(programme.hessian, 400, false);
+    budget.start(waiting ? std::optional(390) : std::nullopt);
+    const auto solver = solver_kind("face_newton").make(programme.problem, {budget, nullptr, {}});
+    Goal goal{1e-18};
+    std::optional<Solution> start;
+    solver->begin(start, goal, {});
+    int of_smalse = 0, of_faces = 0;  // outer steps
+    const Solution solution = solver->solve(start, goal, [&](const Progress& progress) {
+      if (progress.what == "outer") ++(progress.precision > 0 ? of_smalse : of_faces);
+    });
+    ASSERT_TRUE(solution.feasible);
+    EXPECT_FALSE(solution.converged);
+    EXPECT_GE(of_faces, 5);
+    if (waiting)  // for the solve to give up
+      EXPECT_EQ(of_smalse, 0);
+    else
+      EXPECT_GE(of_smalse, 1);
+    EXPECT_EQ(solution.outer_iterations, of_faces + of_smalse);
+    EXPECT_LT(kkt(solution, programme.problem), 1e-8);  // what was reached stays
+  }
+}
+
+TEST(Solvers, HalfWayBackIsTheMeanOrTwiceAsFar)
+{
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const std::vector<double> before{1, infinite, 0};
+  EXPECT_EQ(half_way_back({3, 5, 4}, before), (std::vector<double>{2, 10, 2}));
+}
+
+}  // namespace
+}  // namespace mortise::qp
