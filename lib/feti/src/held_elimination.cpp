@@ -107,7 +107,8 @@ void HeldElimination::choose()
   const auto& jump = problem_.jump();
   const auto& import = jump.import();
   const auto& ranges = jump.ranges();
-  enum Kind { other, inclined, single };  // a row that holds several unknowns, copies of one included; one alone
+  // Kinds of rows; an inclined one holds several unknowns, copies of one included, a single one just one.
+  constexpr double other = 0, inclined = 1, single = 2;
   Vector entries(jump.rows()), touched(jump.touched_rows());
   {
     auto count = view(touched);

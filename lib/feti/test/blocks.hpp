@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 
 #include "constraint/supports.hpp"
@@ -32,9 +33,11 @@ struct Blocks {
     std::string block;
     std::array<int, 3> counts;
   };
-  // `young`: of the subdomain with that number.
+  using Rotation = std::function<std::optional<Eigen::Matrix3d>(const partition::Subdomain&)>;
+  // `young`: of the subdomain with that number. `rotation`: of the subdomains that are made as turned copies.
   Blocks(const std::map<std::string, mesh::BlockOptions>& blocks, const std::vector<Counts>& counts,
-         const std::function<double(int)>& young, MPI_Comm mpi = MPI_COMM_WORLD, int subdomains_per_cluster = 1)
+         const std::function<double(int)>& young, MPI_Comm mpi = MPI_COMM_WORLD, int subdomains_per_cluster = 1,
+         const Rotation& rotation = {})
       : comm(mpi)
   {
     mesh::Options mesh;
@@ -46,11 +49,16 @@ struct Blocks {
     decomposition = partition::decompose(mesh, options, 3, context);
     Subdomains subdomains;
     for (const auto& s : decomposition.subdomains) {
-      auto stiffness = fem::stiffness(s.mesh, fem::Material{young(static_cast<int>(s.id)), 0.3, 0, 0}, fem::Kinematics::solid);
+      const auto turned = rotation ? rotation(s) : std::nullopt;
+      auto original = s.mesh;
+      if (turned)
+        for (auto& point : original.points) point = turned->transpose() * point;
+      auto stiffness = fem::stiffness(original, fem::Material{young(static_cast<int>(s.id)), 0.3, 0, 0}, fem::Kinematics::solid);
       floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
       load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
       subdomains.push_back(std::make_shared<ElasticSubdomain>(
-          std::move(stiffness), fem::rigid_motions(s.mesh.points, fem::Kinematics::solid), s.mesh.points, 3, "cholmod"));
+          std::move(stiffness), fem::rigid_motions(original.points, fem::Kinematics::solid), original.points, 3, "cholmod"));
+      if (turned) subdomains.back() = std::make_shared<TurnedSubdomain>(subdomains.back(), *turned, 3);
     }
     directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
     interface = partition::find_interface(decomposition, *directory, comm);

@@ -9,12 +9,12 @@
 #include <limits>
 #include <optional>
 
+#include "blocks.hpp"
 #include "constraint/preload.hpp"
 #include "constraint/supports.hpp"
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/placement.hpp"
-#include "partition/decompose.hpp"
 #include "qp/face_newton.hpp"
 
 namespace mortise::feti {
@@ -24,71 +24,38 @@ constexpr double coefficient = 0.4;
 
 // What a stack has beside the supports below.
 struct Variant {
-  bool upper_held = false;      // along x on top, where there is a preload along all axes
-  bool inclined = false;        // at nodes of the lower block that are held along another axis, too
-  bool turned = false;          // the operator of the upper block is that of a turned copy
-  double moved = 0;             // along x, by all supports
-  std::optional<double> force;  // of a preload: the blocks are bonded and drawn together
+  bool upper_held = false;           // along x on top, where there is a preload along all axes
+  bool inclined = false;             // at nodes of the lower block that are held along another axis, too
+  bool turned = false;               // the operator of the upper block is that of a turned copy
+  double moved = 0;                  // along x, by all supports
+  std::optional<double> force = {};  // of a preload: the blocks are bonded and drawn together
 };
 
 // Held at z = 0; pressed down and pushed sideways on top, where the upper block stands on the nodes of the lower one.
-struct Stack {
-  Communicator comm;
-  Timers timers;
-  Log log{comm, nullptr};
-  Context context{comm, log, timers};
-  partition::Decomposition decomposition;
-  std::unique_ptr<partition::NodeDirectory> directory;
-  partition::Interface interface;
-  Floating floating;
-  std::vector<Eigen::VectorXd> load;
-  constraint::Constraints constraints;
-
-  Stack(const Point& traction, int pieces, const Variant& variant = {}) : comm(MPI_COMM_WORLD)
+struct Stack : Blocks {
+  Stack(const Point& traction, int pieces, const Variant& variant = {})
+      : Blocks(
+            {{"lower", {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"}}, {"upper", {{0, 0, 1}, {1, 1, 2}, {3, 3, 4}, "hex8"}}},
+            {{"lower", {1, 1, 1}}, {"upper", {1, 1, pieces}}}, [](int) { return 1000.0; }, MPI_COMM_WORLD, 1,
+            [&](const partition::Subdomain& s) { return variant.turned && s.body == 1 ? std::optional(turn()) : std::nullopt; })
   {
-    mesh::Options mesh;
-    mesh.blocks["lower"] = {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"};
-    mesh.blocks["upper"] = {{0, 0, 1}, {1, 1, 2}, {3, 3, 4}, "hex8"};
-    partition::Options options;
-    options.method = "grid";
-    options.counts["lower"] = {1, 1, 1};
-    options.counts["upper"] = {1, 1, pieces};
-    decomposition = partition::decompose(mesh, options, 3, context);
-    Subdomains subdomains;
-    const auto load_on = boundary("upper.zmax");
-    for (const auto& s : decomposition.subdomains) {
-      const bool turned = variant.turned && s.body == 1;
-      const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix();
-      auto original = s.mesh;
-      if (turned)
-        for (auto& point : original.points) point = rotation.transpose() * point;
-      auto stiffness = fem::stiffness(original, fem::Material{1000, 0.3, 0, 0}, fem::Kinematics::solid);
-      floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
-      load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
-      fem::add_traction(s.mesh, load_on, fem::Kinematics::solid, traction, load.back());
-      subdomains.push_back(std::make_shared<ElasticSubdomain>(
-          std::move(stiffness), fem::rigid_motions(original.points, fem::Kinematics::solid), original.points, 3, "cholmod"));
-      if (turned) subdomains.back() = std::make_shared<TurnedSubdomain>(subdomains.back(), rotation, 3);
-    }
-    directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
-    interface = partition::find_interface(decomposition, *directory, comm);
-    floating.clusters = Clusters(decomposition, interface, subdomains, floating.nodal_stiffness, fem::Kinematics::solid);
+    pull("upper.zmax", traction);
     std::vector<constraint::SupportOptions> supports{{"lower.zmin", {variant.moved, 0, 0}}};
-    std::vector<std::vector<Global>> nodes{side("lower.zmin").node_id};
     if (variant.upper_held) {
       const std::optional<double> others = variant.force ? std::optional(0.0) : std::nullopt;
       supports.push_back({"upper.zmax", {variant.moved, others, others}});
-      nodes.push_back(side("upper.zmax").node_id);
     }
-    constraints.held = constraint::hold(supports, nodes, 3, comm);
+    hold(supports);
     if (variant.inclined) incline();
-    touch(variant.force.has_value());
+    join("upper.zmin", "lower.zmax", variant.force.has_value());
     if (variant.force)
       constraints.cuts =
           constraint::find_cuts(constraints.contacts, std::vector{constraint::Preload{0, "cut", variant.force}}, false, comm);
     constraints.held = place(constraints.held, decomposition, *directory, comm);
     constraints.inclined = place(constraints.inclined, decomposition, *directory, comm);
   }
+
+  static Eigen::Matrix3d turn() { return Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix(); }
 
   // The lower block's nodes at x = z = 0 are held along y, and along a direction between x and z instead of these.
   void incline()
@@ -104,53 +71,6 @@ struct Stack {
         constraints.inclined.push_back({held.node, {0.6, 0, 0.8}, 0.01, {}, 0});
     }
     constraints.held = std::move(left);
-  }
-
-  int boundary(const std::string& name) const
-  {
-    const auto& names = decomposition.catalogue.boundaries;
-    return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-  }
-  mesh::Surface side(const std::string& name) const
-  {
-    return partition::boundary_surface(decomposition, boundary(name), {true, true});
-  }
-
-  struct Node {
-    double x, y;
-    Global id;
-  };
-  std::vector<Node> nodes_of(const std::string& name) const
-  {
-    const auto surface = side(name);
-    std::vector<Node> nodes;
-    for (std::size_t i = 0; i < surface.points.size(); ++i)
-      nodes.push_back({surface.points[i][0], surface.points[i][1], surface.node_id[i]});
-    nodes = comm.all_gather(nodes);
-    std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
-    nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.id == b.id; }), nodes.end());
-    return nodes;
-  }
-
-  // Node by node; rows stand on the ranks in turn.
-  void touch(bool bonded)
-  {
-    const auto above = nodes_of("upper.zmin"), below = nodes_of("lower.zmax");
-    auto& contacts = constraints.contacts;
-    for (std::size_t i = 0; i < above.size(); ++i) {
-      if (static_cast<int>(i) % comm.size() != comm.rank()) continue;
-      const std::vector<Point> frame{Point(0, 0, -1), Point(0.6, 0.8, 0), Point(0.8, -0.6, 0)};
-      contacts.points.push_back({0, above[i].id, 1, frame[0], {frame[1], frame[2]}, contacts.rows.size()});
-      contacts.bonded.push_back(bonded);
-      for (const auto& axis : frame) {
-        for (int c = 0; c < 3; ++c)
-          if (axis[c] != 0) {
-            contacts.rows.entries.push_back({above[i].id, c, axis[c]});
-            contacts.rows.entries.push_back({below[i].id, c, -axis[c]});
-          }
-        contacts.rows.close(0);
-      }
-    }
   }
 };
 

@@ -31,7 +31,8 @@ class DenseProgramme : public FacePreconditioner {
     const auto discs = programme_.set.discs();
     set.set_radii(std::vector<double>(set.discs().size(), discs.front().radius));
     set.set_coefficients(std::vector<double>(set.discs().size(), discs.front().coefficient));
-    const CondensedNewton newton(programme_.dense, programme_.g, set);
+    const CondensedNewton newton(programme_.dense, programme_.g, Eigen::MatrixXd::Zero(programme_.g.rows(), programme_.g.rows()),
+                                 set);
     const auto found = newton.solve(gathered(programme_.b, world()), programme_.equality.right_side(), set);
     return {local_part(found.x, programme_.map), found.nu, found.settled};
   }
