@@ -9,6 +9,7 @@
 #include "analysis/memory.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
+#include "feti/explicit_problem.hpp"
 
 namespace mortise::analysis {
 
@@ -43,14 +44,16 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
   comm.sum_in_place(sums);
   const double entries = std::max(sums[0], sums[1]), law = entries / sums[1];
   const auto& contacts = constraints.contacts;
-  const bool held = comm.any(!constraints.held.empty());
   double closing = 0;
   for (std::size_t i = 0; i < contacts.points.size(); ++i)
     if (!contacts.bonded[i]) closing += 1 + static_cast<double>(contacts.points[i].tangents.size());
   closing = comm.sum(closing);
-  // Supports along axes are eliminated with the stiffness, by factors of their own.
-  const auto inclined = static_cast<double>(comm.sum(static_cast<long long>(constraints.inclined.size())));
-  const double all = inclined + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size())));
+  // Many supports along axes are eliminated with the stiffness, by factors of their own.
+  const Global along_axes = comm.sum(static_cast<long long>(constraints.held.size()));
+  const bool eliminated = along_axes > feti::few_supports;
+  const auto held =
+      static_cast<double>(comm.sum(static_cast<long long>(constraints.inclined.size())) + (eliminated ? 0 : along_axes));
+  const double all = held + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size())));
   const double free = all - closing;
 
   double factors = 0, factorizing = 0, weighted = 0, unknowns = 0;
@@ -61,14 +64,14 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
     weighted += body * n;
     unknowns += n;
   }
-  const double columns = inclined + 2 * (all - inclined);
+  const double columns = held + 2 * (all - held);
   const double dense = free * free * free / 3 + free * free * closing + free * closing * closing +
                        (1 + newton_steps / 2) * closing * closing * closing;
-  const double work = (held ? 2 : 1) * factorizing + 4 * columns * weighted / unknowns + dense;
+  const double work = (eliminated ? 2 : 1) * factorizing + 4 * columns * weighted / unknowns + dense;
   DirectEffort effort;
   effort.seconds = work / dense_rate;
   effort.products = set_up + effort.seconds * sparse_rate / (4 * entries);
-  effort.bytes = sizeof(double) * ((held ? 2.5 : 1.5) * factors + 4 * all * all);
+  effort.bytes = sizeof(double) * ((eliminated ? 2.5 : 1.5) * factors + 4 * all * all);
   effort.multipliers = static_cast<Global>(all);
   return effort;
 }

@@ -26,8 +26,8 @@ std::vector<double> on_root(std::vector<double> values, const Communicator& comm
 
 }  // namespace
 
-ExplicitProblem::ExplicitProblem(const DualProblem& problem)
-    : problem_(problem), held_(std::make_unique<HeldElimination>(problem))
+ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
+    : problem_(problem), held_(std::make_unique<HeldElimination>(problem, few))
 {
   const auto& comm = problem.communicator();
   const auto size = static_cast<Eigen::Index>(held_->count());

@@ -89,9 +89,9 @@ Eigen::VectorXd HeldSubdomain::reactions(const Eigen::VectorXd& u) const
   return all(held_);
 }
 
-HeldElimination::HeldElimination(const DualProblem& problem) : problem_(problem)
+HeldElimination::HeldElimination(const DualProblem& problem, Global few) : problem_(problem)
 {
-  choose();
+  choose(few);
   collectively(problem.communicator(), [&] {
     for (std::size_t s = 0; s < rows_.size(); ++s) {
       end_if_told();
@@ -102,7 +102,7 @@ HeldElimination::HeldElimination(const DualProblem& problem) : problem_(problem)
   });
 }
 
-void HeldElimination::choose()
+void HeldElimination::choose(Global few)
 {
   const auto& jump = problem_.jump();
   const auto& import = jump.import();
@@ -144,6 +144,12 @@ void HeldElimination::choose()
     }
   }
 
+  long long chosen = 0;
+  for (const auto& rows : rows_) chosen += static_cast<long long>(rows.size());
+  if (problem_.communicator().sum(chosen) <= few) {
+    for (auto& rows : rows_) rows.clear();
+    eliminated.putScalar(0);
+  }
   entries.putScalar(0);
   entries.doExport(eliminated, import, Tpetra::ADD);
   auto number = view(entries);

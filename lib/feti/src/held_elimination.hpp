@@ -38,11 +38,11 @@ class HeldSubdomain {
 };
 
 /// All rows that can be eliminated: supports along an axis, at unknowns that no other subdomain has, of nodes with no inclined
-/// support. What is left is over the others.
+/// support; none if there are no more than `few`. What is left is over the others.
 class HeldElimination {
  public:
   /// The problem outlives it. Throws as HeldSubdomain does. Collective.
-  explicit HeldElimination(const DualProblem& problem);
+  HeldElimination(const DualProblem& problem, Global few);
 
   /// Rows that are left, over all ranks, and their numbers: of each owned row, and of each row of jump().touched_rows(); -1 for
   /// an eliminated one.
@@ -66,7 +66,7 @@ class HeldElimination {
   void complete(const Vector& d, const Eigen::VectorXd& nu, Vector& x) const;
 
  private:
-  void choose();
+  void choose(Global few);
   Eigen::VectorXd at_held(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const;
 
   const DualProblem& problem_;

@@ -141,7 +141,7 @@ TEST_P(Varied, HasTheInverseOfTheDualOperator)
   const Stack stack(Point(1, 0.5, -10), pieces, variant);
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
                       stack.context);
-  ExplicitProblem direct(problem);
+  ExplicitProblem direct(problem, 0);
   const auto map = problem.hessian().getDomainMap();
   for (Global row = 0; row < problem.dual_unknowns(); row += 7) {  // F^-1 F e_i = e_i
     Vector unit(map), product(map), back(map);
@@ -166,7 +166,7 @@ TEST_P(Varied, SolvesAsWithoutElimination)
   auto& set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
-  const auto found = ExplicitProblem(problem).solve();
+  const auto found = ExplicitProblem(problem, 0).solve();
   ASSERT_TRUE(found.settled);
 
   const Dense dense(problem);

@@ -9,7 +9,7 @@
 namespace mortise::analysis {
 
 struct DirectEffort {
-  Global multipliers = 0;  ///< with bodies taken whole, but for supports along axes, which are eliminated
+  Global multipliers = 0;  ///< with bodies taken whole, but for what is eliminated
   double products = 0;     ///< with F on the present decomposition, that take as long
   double seconds = 0;      ///< about, on one core of today
   double bytes = 0;        ///< of memory, on the rank that has most

@@ -8,14 +8,19 @@ namespace mortise::feti {
 
 class HeldElimination;
 
+/// Rows of supports along axes that are not worth an elimination. It costs figures where F is large beside what balanced forces
+/// do, as that of a thin plate is: products with F, to which a solution is shown, have the rounding of another factor.
+constexpr Global few_supports = 2000;
+
 /// F and G on rank 0 over the rows that are left when supports along axes are eliminated; of use where these are some thousand.
 /// As an operator it is F^-1, the best of all preconditioners. Heavy: neither copies nor moves.
 class ExplicitProblem : public qp::FacePreconditioner {
  public:
-  /// Factorizes each subdomain with its supports, and solves for the columns of its inverse times B', as many as its other rows
-  /// of B. Not for clusters of several subdomains. The problem outlives it. Throws as qp::CondensedNewton, Error(bad_input) if a
-  /// supported subdomain is not positive definite, and Error(machine) if memory runs out. Collective.
-  explicit ExplicitProblem(const DualProblem& problem);
+  /// If there are more than `few` supports along axes, factorizes each subdomain that has any with them, and solves for the
+  /// columns of its inverse times B', as many as its other rows of B. Not for clusters of several subdomains. The problem
+  /// outlives it. Throws as qp::CondensedNewton, Error(bad_input) if a supported subdomain is not positive definite, and
+  /// Error(machine) if memory runs out. Collective.
+  explicit ExplicitProblem(const DualProblem& problem, Global few = few_supports);
   ~ExplicitProblem() override;
 
   struct Result {
