@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "by_node.hpp"
 #include "overlap.hpp"
 
 namespace mortise::contact {
@@ -56,41 +57,38 @@ namespace {
 // Less cover makes a strip too narrow for a pressure of its own.
 constexpr double narrow = 0.35;
 
-// A PointState as plain bytes.
-struct Sent {
-  int contact, status;
-  Global node;
-  double area, cover, force, gap;
-  double traction[3], slip[3];
-};
-
-// All points at a node of a contact.
+// All points at a node of a contact; plain bytes. Lives on the node's own rank, see by_node().
 struct NodeState {
-  int contact, status;
   Global node;
+  int contact, status;
   double area, cover, force, gap;  // gap and slip times area until all points are there
-  Point traction, slip;            // traction: a force
+  double traction[3], slip[3];     // traction: a force
 };
 
-bool before(const NodeState& a, const NodeState& b)
+template <class T>
+bool before(const T& a, const NodeState& b)
 {
-  return std::tie(a.contact, a.node) < std::tie(b.contact, b.node);
+  return std::tie(a.node, a.contact) < std::tie(b.node, b.contact);
 }
 
-// Of all ranks, ascending. Collective.
-std::vector<NodeState> gather(std::span<const PointState> points, const Communicator& comm)
+// Those of this rank's own nodes, ascending by node and contact. Collective.
+std::vector<NodeState> meet(std::span<const PointState> points, const Communicator& comm)
 {
-  std::vector<Sent> mine;
+  std::vector<NodeState> mine;
   for (const auto& p : points) {
     const auto &f = p.force_on_secondary, &s = p.slip;
-    mine.push_back(
-        {p.contact, static_cast<int>(p.status), p.node, p.area, p.cover, p.force, p.gap, {f[0], f[1], f[2]}, {s[0], s[1], s[2]}});
+    mine.push_back({p.node,
+                    p.contact,
+                    static_cast<int>(p.status),
+                    p.area,
+                    p.cover,
+                    p.force,
+                    p.gap * p.area,
+                    {f[0], f[1], f[2]},
+                    {s[0] * p.area, s[1] * p.area, s[2] * p.area}});
   }
-  std::vector<NodeState> all;
-  for (const auto& p : comm.all_gather(mine))
-    all.push_back({p.contact, p.status, p.node, p.area, p.cover, p.force, p.gap * p.area,
-                   Point(p.traction[0], p.traction[1], p.traction[2]), Point(p.slip[0], p.slip[1], p.slip[2]) * p.area});
-  std::stable_sort(all.begin(), all.end(), before);
+  auto all = by_node<NodeState>(mine, comm);
+  std::stable_sort(all.begin(), all.end(), before<NodeState>);
   std::vector<NodeState> nodes;
   for (const auto& p : all) {
     if (nodes.empty() || before(nodes.back(), p)) {
@@ -103,84 +101,132 @@ std::vector<NodeState> gather(std::span<const PointState> points, const Communic
     node.area += p.area;
     node.force += p.force;
     node.gap += p.gap;
-    node.traction += p.traction;
-    node.slip += p.slip;
+    for (int c = 0; c < 3; ++c) {
+      node.traction[c] += p.traction[c];
+      node.slip[c] += p.slip[c];
+    }
   }
   for (auto& node : nodes) {
     node.gap /= node.area;
-    node.slip /= node.area;
+    for (double& slip : node.slip) slip /= node.area;
   }
   return nodes;
 }
 
-const NodeState* find(const std::vector<NodeState>& nodes, int contact, Global node)
+// Of ascending ones.
+template <class Nodes>
+auto* find(Nodes& nodes, int contact, Global node)
 {
   NodeState wanted{};
   wanted.contact = contact;
   wanted.node = node;
-  const auto found = std::lower_bound(nodes.begin(), nodes.end(), wanted, before);
+  const auto found = std::lower_bound(nodes.begin(), nodes.end(), wanted, before<NodeState>);
   return found != nodes.end() && !before(wanted, *found) ? &*found : nullptr;
 }
 
-// A node with little cover, and one of its neighbours with more; places in the list of all.
-struct Neighbour {
-  std::size_t narrow, wide;
-  friend auto operator<=>(const Neighbour&, const Neighbour&) = default;
+// What the nodes of this rank's secondary sides are, ascending. Collective.
+std::vector<NodeState> on_sides(const std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm)
+{
+  std::vector<Global> wanted;
+  for (const auto& pair : pairs) wanted.insert(wanted.end(), pair.secondary.node_id.begin(), pair.secondary.node_id.end());
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  auto result = answer(nodes, ask(wanted, comm), comm);
+  std::sort(result.begin(), result.end(), before<NodeState>);
+  return result;
+}
+
+// What passes between a node with little cover and one of its neighbours with more; lives on the rank of `node`, one of the two.
+struct Given {
+  Global node;
+  int contact;
+  Global other;
+  double part;                      // of what the narrow one has; at first the area of the wide one
+  double area, force, traction[3];  // that pass
 };
 
-// Ascending. Collective.
-std::vector<Neighbour> neighbours(const std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm)
+bool ascending(const Given& a, const Given& b)
 {
-  std::vector<Neighbour> result;
+  return std::tie(a.node, a.contact, a.other) < std::tie(b.node, b.contact, b.other);
+}
+
+// Each pair of neighbours once, on the rank of the narrow node. Collective.
+std::vector<Given> neighbours(const std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm)
+{
+  const auto known = on_sides(nodes, pairs, comm);
+  std::vector<Given> found;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& surface = pairs[c].secondary;
     std::vector<const NodeState*> here;
-    for (const Global node : surface.node_id) here.push_back(find(nodes, static_cast<int>(c), node));
+    for (const Global node : surface.node_id) here.push_back(find(known, static_cast<int>(c), node));
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
       for (const Local a : surface.faces[f])
         for (const Local b : surface.faces[f]) {
           const auto *from = here[static_cast<std::size_t>(a)], *to = here[static_cast<std::size_t>(b)];
           if (from && to && from->cover < narrow && to->cover >= narrow)
-            result.push_back({static_cast<std::size_t>(from - nodes.data()), static_cast<std::size_t>(to - nodes.data())});
+            found.push_back({from->node, from->contact, to->node, to->area, 0, 0, {0, 0, 0}});
         }
   }
-  result = comm.all_gather(result);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+  found = by_node<Given>(found, comm);
+  std::sort(found.begin(), found.end(), ascending);
+  const auto same = [](const Given& a, const Given& b) { return !ascending(a, b) && !ascending(b, a); };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
+  return found;
+}
+
+// The same on the ranks of the other nodes. Collective.
+std::vector<Given> turned_round(std::vector<Given> given, const Communicator& comm)
+{
+  for (auto& g : given) std::swap(g.node, g.other);
+  given = by_node<Given>(given, comm);
+  std::sort(given.begin(), given.end(), ascending);
+  return given;
 }
 
 // Turns forces into pressures and tractions. What has little cover gives force and area to its neighbours, by their areas, and
 // takes their mean. Collective.
 void divide_by_areas(std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm)
 {
-  const auto given = neighbours(nodes, pairs, comm);
-  std::vector<double> areas(nodes.size(), 0.0);  // of all neighbours of a narrow node
-  for (const auto& g : given) areas[g.narrow] += nodes[g.wide].area;
-  const auto before_giving = nodes;
-  for (const auto& g : given) {
-    const auto& from = before_giving[g.narrow];
-    auto& to = nodes[g.wide];
-    const double part = before_giving[g.wide].area / areas[g.narrow];
-    to.area += part * from.area;
-    to.force += part * from.force;
-    to.traction += part * from.traction;
+  auto given = neighbours(nodes, pairs, comm);
+  for (auto first = given.begin(); first != given.end();) {
+    const NodeState& from = *find(nodes, first->contact, first->node);
+    auto end = first;
+    double area = 0;  // of all neighbours
+    for (; end != given.end() && end->node == first->node && end->contact == first->contact; ++end) area += end->part;
+    for (; first != end; ++first) {
+      first->part /= area;
+      first->area = first->part * from.area;
+      first->force = first->part * from.force;
+      for (int c = 0; c < 3; ++c) first->traction[c] = first->part * from.traction[c];
+    }
+  }
+  auto taken = turned_round(given, comm);
+  for (const auto& g : taken) {
+    auto& to = *find(nodes, g.contact, g.node);
+    to.area += g.area;
+    to.force += g.force;
+    for (int c = 0; c < 3; ++c) to.traction[c] += g.traction[c];
   }
   for (auto& node : nodes) {
     node.force /= node.area;
-    node.traction /= node.area;
+    for (double& traction : node.traction) traction /= node.area;
   }
-  for (const auto& g : given) nodes[g.narrow].force = 0, nodes[g.narrow].traction.setZero();
+  for (auto& g : taken) {
+    const auto& wide = *find(nodes, g.contact, g.node);
+    g.force = g.part * wide.force;
+    for (int c = 0; c < 3; ++c) g.traction[c] = g.part * wide.traction[c];
+  }
   for (const auto& g : given) {
-    const double part = before_giving[g.wide].area / areas[g.narrow];
-    nodes[g.narrow].force += part * nodes[g.wide].force;
-    nodes[g.narrow].traction += part * nodes[g.wide].traction;
+    auto& node = *find(nodes, g.contact, g.node);
+    node.force = 0;
+    for (double& traction : node.traction) traction = 0;
+  }
+  for (const auto& g : turned_round(taken, comm)) {
+    auto& node = *find(nodes, g.contact, g.node);
+    node.force += g.force;
+    for (int c = 0; c < 3; ++c) node.traction[c] += g.traction[c];
   }
 }
-
-}  // namespace
-
-namespace {
 
 // The mean over the faces at each pressed node of the means of their pressed nodes: a contact one cell wide keeps its pressure,
 // and the border of a contact stays where it is. Collective.
@@ -208,19 +254,21 @@ std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std:
       mine[static_cast<std::size_t>(n)].area += size;
     }
   }
-  auto all = comm.all_gather(mine);
-  std::stable_sort(all.begin(), all.end(), [](const Sums& a, const Sums& b) { return a.node < b.node; });
-  std::vector<double> result;
-  auto at = all.begin();
-  for (std::size_t i = 0; i < surface.node_id.size(); ++i) {
-    const Global node = surface.node_id[i];
-    at = std::lower_bound(at, all.end(), node, [](const Sums& sums, Global wanted) { return sums.node < wanted; });
-    Sums total{node, 0, 0};
-    for (auto part = at; part != all.end() && part->node == node; ++part) {
-      total.force += part->force;
-      total.area += part->area;
+  std::vector<Sums> totals;
+  for (const auto& part : by_node<Sums>(mine, comm)) {
+    if (totals.empty() || totals.back().node != part.node) {
+      totals.push_back(part);
+    } else {
+      totals.back().force += part.force;
+      totals.back().area += part.area;
     }
-    result.push_back(pressure[i] > 0 && total.area > 0 ? total.force / total.area : 0.0);
+  }
+  const auto found = answer(totals, ask(surface.node_id, comm), comm);
+  std::vector<double> result;
+  for (std::size_t i = 0; i < surface.node_id.size(); ++i) {
+    const auto total = std::lower_bound(found.begin(), found.end(), surface.node_id[i],
+                                        [](const Sums& sums, Global wanted) { return sums.node < wanted; });
+    result.push_back(pressure[i] > 0 && total->area > 0 ? total->force / total->area : 0.0);
   }
   return result;
 }
@@ -230,8 +278,9 @@ std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std:
 std::vector<SurfaceState> surface_states(std::span<const PointState> points, std::span<const Pair> pairs,
                                          const Communicator& comm)
 {
-  auto all = gather(points, comm);
-  divide_by_areas(all, pairs, comm);
+  auto own = meet(points, comm);
+  divide_by_areas(own, pairs, comm);
+  const auto all = on_sides(own, pairs, comm);
   std::vector<SurfaceState> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& nodes = pairs[c].secondary.node_id;
@@ -245,9 +294,9 @@ std::vector<SurfaceState> surface_states(std::span<const PointState> points, std
       const auto* node = find(all, static_cast<int>(c), nodes[i]);
       if (!node) continue;
       state.pressure[i] = node->force;
-      state.traction[i] = node->traction;
+      state.traction[i] = Point(node->traction[0], node->traction[1], node->traction[2]);
       state.gap[i] = node->gap;
-      state.slip[i] = node->slip;
+      state.slip[i] = Point(node->slip[0], node->slip[1], node->slip[2]);
       state.status[i] = node->status;
     }
     state.recovered_pressure = averaged_over_faces(pairs[c].secondary, state.pressure, comm);

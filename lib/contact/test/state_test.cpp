@@ -55,6 +55,40 @@ TEST(State, SumsAndStatus)
   EXPECT_EQ(sums[0].slip, comm.size());
 }
 
+// Two faces in a row; the last two nodes are hardly covered and each give half of their force and area to the two before them.
+// Points stand on the ranks in turn, faces wherever they are.
+TEST(State, NarrowPointsGiveWhatPressesOnThemToTheirNeighbours)
+{
+  const Communicator comm;
+  const auto flat = [](double x, double y) { return Point(x, y, 0); };
+  const auto pair = make_pair(surface({2, 1, 0, 1, 0, 1, true}, flat, comm),
+                              surface({1, 1, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::frictionless);
+  std::vector<PointState> points;
+  for (Global node = 0; node < 6; ++node) {
+    if (node % comm.size() != comm.rank()) continue;
+    const bool narrow = node % 3 == 2;
+    PointState point;
+    point.node = node;
+    point.area = narrow ? 0.05 : 0.5;
+    point.cover = narrow ? 0.1 : 1;
+    point.force = narrow ? 3 : 5;
+    point.force_on_secondary = Point(0, narrow ? 1 : 2, 0);
+    point.gap = 0.25;
+    point.slip = Point(0, 0, 4);
+    point.status = narrow ? Status::slip : Status::stick;
+    points.push_back(point);
+  }
+  const auto state = surface_states(points, std::vector<Pair>{pair}, comm).front();
+  for (std::size_t n = 0; n < pair.secondary.node_id.size(); ++n) {
+    const bool alone = pair.secondary.node_id[n] % 3 == 0, narrow = pair.secondary.node_id[n] % 3 == 2;
+    EXPECT_NEAR(state.pressure[n], alone ? 5 / 0.5 : (5 + 3) / 0.55, 1e-12);
+    EXPECT_NEAR(state.traction[n][1], alone ? 2 / 0.5 : (2 + 1) / 0.55, 1e-12);
+    EXPECT_NEAR(state.gap[n], 0.25, 1e-15);
+    EXPECT_NEAR(state.slip[n][2], 4, 1e-14);
+    EXPECT_EQ(state.status[n], static_cast<int>(narrow ? Status::slip : Status::stick));
+  }
+}
+
 // Scatter that alternates from node to node goes, a constant stays, and so does a slope inside.
 TEST(State, RecoveredPressureIsSmooth)
 {

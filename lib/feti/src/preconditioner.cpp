@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/submatrix.hpp"
+#include "contact_gram.hpp"
 
 namespace mortise::feti {
 
@@ -115,98 +116,23 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
   }
 }
 
+Preconditioner::~Preconditioner() = default;
+
 void Preconditioner::invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension)
 {
-  const auto [first, end] = jump_.contact_rows();
-  const auto touched = jump_.touched_rows()->getNodeElementList();
-  std::vector<Eigen::Triplet<double>> products;
-  for (std::size_t s = 0; s < jump_.blocks().size(); ++s) {
-    const auto& block = jump_.blocks()[s];
-    std::vector<Eigen::Triplet<double>> rows;
-    for (std::size_t r = 0; r < block.row.size(); ++r)
-      if (const Global row = touched[block.row[r]]; row >= first && row < end)
-        for (std::size_t i = block.offset[r]; i < block.offset[r + 1]; ++i)
-          rows.emplace_back(
-              static_cast<int>(row - first), block.unknown[i],
-              block.coefficient[i] / std::sqrt(nodal_stiffness[s][static_cast<std::size_t>(block.unknown[i] / dimension)]));
-    if (rows.empty()) continue;
-    SparseMatrix b(static_cast<int>(end - first), block.size);
-    b.setFromTriplets(rows.begin(), rows.end());
-    const SparseMatrix product = SparseMatrix(b * SparseMatrix(b.transpose())).triangularView<Eigen::Lower>();
-    for (int c = 0; c < product.outerSize(); ++c)
-      for (SparseMatrix::InnerIterator it(product, c); it; ++it) products.emplace_back(static_cast<int>(it.row()), c, it.value());
-  }
-  SparseMatrix part(static_cast<int>(end - first), static_cast<int>(end - first));
-  part.setFromTriplets(products.begin(), products.end());
-  gram_ = qp::sum_over_ranks(part, comm_);
-  gram_.prune([](int row, int column, double value) { return row == column || std::abs(value) > 1e-10; });
-  if (gram_.nonZeros() == gram_.rows()) {
-    gram_.resize(0, 0);
-    return;
-  }
-  factor_.emplace(gram_);
-  fixed_.assign(static_cast<std::size_t>(gram_.rows()), false);
-  factorize_gram();
+  gram_ = std::make_unique<ContactGram>(jump_, nodal_stiffness, dimension, comm_);
 }
 
 void Preconditioner::fix(std::span<const Local> fixed)
 {
-  if (gram_.rows() == 0) return;
-  const auto& ranges = jump_.ranges();
-  std::vector<double> flags(fixed_.size(), 0);
-  for (const Local i : fixed)
-    if (i >= ranges.contacts && i < ranges.extra) flags[first_contact_row() + static_cast<std::size_t>(i - ranges.contacts)] = 1;
-  comm_.sum_in_place(flags);
-  std::vector<bool> now;
-  for (const double flag : flags) now.push_back(flag > 0);
-  if (now == fixed_) return;
-  fixed_ = std::move(now);
-  factorize_gram();
-}
-
-void Preconditioner::factorize_gram()
-{
-  SparseMatrix free = gram_;
-  for (int c = 0; c < free.outerSize(); ++c)
-    for (SparseMatrix::InnerIterator it(free, c); it; ++it)
-      if (fixed_[static_cast<std::size_t>(it.row())] || fixed_[static_cast<std::size_t>(c)])
-        it.valueRef() = it.row() == c ? 1 : 0;
-  // Rows that depend on each other (bonded contacts round a common edge, a pair named twice) need a trace more.
-  usable_ = false;
-  for (double trace = 0; !usable_ && trace <= 1e-2; trace = trace == 0 ? 1e-8 : 1e2 * trace) {
-    SparseMatrix matrix = free;
-    for (int c = 0; c < matrix.outerSize(); ++c)
-      for (SparseMatrix::InnerIterator it(matrix, c); it; ++it)
-        if (it.row() == c) it.valueRef() *= 1 + trace;
-    usable_ = factor_->factorize(matrix);
-  }
-}
-
-// Place of this rank's first contact row among all.
-std::size_t Preconditioner::first_contact_row() const
-{
-  const auto& ranges = jump_.ranges();
-  if (ranges.extra == ranges.contacts) return 0;
-  return static_cast<std::size_t>(jump_.rows()->getGlobalElement(ranges.contacts) - jump_.contact_rows().first);
-}
-
-void Preconditioner::apply_gram_inverse(Vector& x) const
-{
-  if (gram_.rows() == 0 || !usable_) return;
-  const auto& ranges = jump_.ranges();
-  const auto count = static_cast<Eigen::Index>(ranges.extra - ranges.contacts),
-             start = static_cast<Eigen::Index>(first_contact_row());
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(gram_.rows());
-  all.segment(start, count) = view(std::as_const(x)).segment(ranges.contacts, count);
-  comm_.sum_in_place({all.data(), static_cast<std::size_t>(all.size())});
-  view(x).segment(ranges.contacts, count) = factor_->solve(all).segment(start, count);
+  if (gram_) gram_->fix(fixed);
 }
 
 double Preconditioner::energy(const Vector& r)
 {
   const auto scope = timers_.scope("preconditioner");
   Vector right(r, Teuchos::Copy);
-  apply_gram_inverse(right);
+  if (gram_) gram_->apply_inverse(right);
   auto u = jump_.apply_transpose(right);
   double sum = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
@@ -228,7 +154,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
     Vector right(*in, Teuchos::Copy);
-    apply_gram_inverse(right);
+    if (gram_) gram_->apply_inverse(right);
     auto forces = jump_.apply_transpose(right);
     for (const auto& [surface, members] : groups_)
       for (std::size_t first = 0; first < members.size(); first += block_columns) {
@@ -255,7 +181,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
         }
       }
     Vector result = jump_.apply(forces);
-    apply_gram_inverse(result);
+    if (gram_) gram_->apply_inverse(result);
     const auto extra = jump_.ranges().end - jump_.ranges().extra;
     view(result).segment(jump_.ranges().extra, extra) = view(*in).segment(jump_.ranges().extra, extra);
     y.getVectorNonConst(column)->update(alpha, result, beta);

@@ -1,9 +1,8 @@
-// What a solve leaves open: the record of states, the budget of products, how wide a band of open points is.
+// What a solve leaves open: the record of states, how wide a band of open points is.
 #include "../src/open_points.hpp"
 
 #include <gtest/gtest.h>
 
-#include "qp/budget.hpp"
 #include "../src/state_record.hpp"
 
 namespace mortise::friction {
@@ -83,122 +82,6 @@ TEST(WidestBand, OfARingIsItsThicknessWhereverOneLooks)
     for (auto& p : places) p.at = turned * p.at;
     EXPECT_EQ(widest_band(places), width);
   }
-}
-
-// An operator of no unknowns, to count.
-class Nothing : public Operator {
- public:
-  Teuchos::RCP<const Map> getDomainMap() const override { return map_; }
-  Teuchos::RCP<const Map> getRangeMap() const override { return map_; }
-  void apply(const MultiVector&, MultiVector&, Teuchos::ETransp, Scalar, Scalar) const override {}
-
- private:
-  Teuchos::RCP<const Map> map_ = Teuchos::rcp(new Map(0, 0, teuchos(Communicator())));
-};
-
-class Products {
- public:
-  void take(int count)
-  {
-    Vector x(nothing_.getDomainMap()), y(nothing_.getDomainMap());
-    for (int i = 0; i < count; ++i) hessian.apply(x, y);
-  }
-
- private:
-  Nothing nothing_;
-
- public:
-  qp::Hessian hessian{nothing_, 0};
-};
-
-qp::Progress at(double residual)
-{
-  qp::Progress progress{"outer"};
-  progress.projected_gradient = residual;
-  return progress;
-}
-
-TEST(Budget, EndsWhereNothingBecomesBetter)
-{
-  Products products;
-  Budget budget(products.hessian, {}, false);
-  budget.start({});
-  products.take(1000);
-  budget.note(at(1e-2), {}, 1);
-  products.take(Budget::stretch - 1);
-  budget.note(at(0.8e-2), {}, 1);  // next to nothing
-  EXPECT_FALSE(products.hessian.exhausted());
-  products.take(1);
-  EXPECT_TRUE(products.hessian.exhausted());
-  EXPECT_TRUE(budget.left());
-  EXPECT_NE(budget.reason().find("nothing became better"), std::string::npos);
-  budget.change_algorithm();
-  EXPECT_FALSE(products.hessian.exhausted());
-}
-
-TEST(Budget, FewerChangesOrASmallerErrorAreBetter)
-{
-  Products products;
-  Budget budget(products.hessian, {}, false);
-  budget.note(at(1e-2), 20, 1);
-  products.take(Budget::stretch * 3 / 4);
-  budget.note(at(1), 19, 1);
-  products.take(Budget::stretch * 3 / 4);
-  EXPECT_FALSE(products.hessian.exhausted());
-  auto progress = at(1);
-  progress.error = 0.1;
-  budget.note(progress, 19, 1);
-  products.take(Budget::stretch * 3 / 4);
-  EXPECT_FALSE(products.hessian.exhausted());
-  budget.note(at(1), 19, 0.4);
-  products.take(Budget::stretch * 3 / 4);
-  EXPECT_FALSE(products.hessian.exhausted());
-  budget.note(at(1), 19, 0.4);
-  products.take(Budget::stretch / 4);
-  EXPECT_TRUE(products.hessian.exhausted());
-}
-
-TEST(Budget, NeverGoesBeyondItsEndWhateverBecomesBetter)
-{
-  Products products;
-  Budget budget(products.hessian, {}, false);
-  double residual = 1;
-  for (int i = 0; i < Budget::most / 1000; ++i) {
-    EXPECT_FALSE(products.hessian.exhausted());
-    products.take(1000);
-    budget.note(at(residual *= 0.4), {}, 1);
-  }
-  EXPECT_TRUE(products.hessian.exhausted());
-  EXPECT_FALSE(budget.left());
-  budget.start({});  // the next load step
-  EXPECT_FALSE(products.hessian.exhausted());
-}
-
-TEST(Budget, ANumberIsTakenAtItsWord)
-{
-  Products products;
-  Budget budget(products.hessian, 5000, false);
-  products.take(4999);
-  EXPECT_FALSE(products.hessian.exhausted());
-  budget.start({});
-  products.take(1);
-  EXPECT_TRUE(products.hessian.exhausted());
-  EXPECT_EQ(budget.reason(), "solver.max_multiplications");
-}
-
-TEST(Budget, ASteadyAlgorithmGoesToItsEndAndPatienceEndsSooner)
-{
-  Products products;
-  Budget steady(products.hessian, {}, true);
-  products.take(Budget::most - 1);
-  EXPECT_FALSE(products.hessian.exhausted());
-  products.take(1);
-  EXPECT_TRUE(products.hessian.exhausted());
-  Budget patient(products.hessian, {}, false);
-  patient.start(30);
-  products.take(30);
-  EXPECT_TRUE(products.hessian.exhausted());
-  EXPECT_TRUE(patient.left());
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/timer.hpp"
@@ -21,6 +20,8 @@
 
 namespace mortise::feti {
 
+class ContactGram;
+
 /// Refers to `jump`, `subdomains` and `nodal_stiffness`, which outlive it.
 class Preconditioner : public qp::FacePreconditioner {
  public:
@@ -29,8 +30,8 @@ class Preconditioner : public qp::FacePreconditioner {
   Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
                  const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization, Timers& timers,
                  const Communicator& comm);
-  /// Computes B D^-1 B' on the contact rows, which it takes for the identity until then; it stands whole on every rank.
-  /// Collective.
+  ~Preconditioner() override;
+  /// Computes B D^-1 B' on the contact rows, which it takes for the identity until then. Collective.
   void invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension);
 
   void fix(std::span<const Local> fixed) override;
@@ -43,10 +44,6 @@ class Preconditioner : public qp::FacePreconditioner {
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
 
  private:
-  void factorize_gram();
-  std::size_t first_contact_row() const;
-  void apply_gram_inverse(Vector& x) const;
-
   struct Surface {
     std::vector<int> unknowns;
     Eigen::VectorXd weight;  // 1 / D
@@ -63,10 +60,7 @@ class Preconditioner : public qp::FacePreconditioner {
     std::vector<std::size_t> members;  // copies of one subdomain, and alike in which nodes are touched
   };
   std::vector<Group> groups_;
-  SparseMatrix gram_;               // B D^-1 B' of the contact rows of all ranks, lower triangle; empty if it is the identity
-  std::vector<bool> fixed_;         // of these rows
-  std::optional<Cholesky> factor_;  // of its part that is not fixed
-  bool usable_ = false;
+  std::unique_ptr<ContactGram> gram_;  // B D^-1 B' of the contact rows; null: the identity
   const Communicator& comm_;
   Timers& timers_;
 };

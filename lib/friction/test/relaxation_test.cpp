@@ -1,0 +1,55 @@
+// Aitken's rule: how far the fixed point goes towards its next bounds.
+#include "../src/relaxation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace mortise::friction {
+namespace {
+
+// The fixed point of next = slope * now + shift, from 0: how many steps until it is known to 1e-10; 0 if never.
+int steps_to_rest(double slope, double shift)
+{
+  const Communicator comm(MPI_COMM_SELF);
+  Relaxation relaxation(comm);
+  const double goal = shift / (1 - slope);
+  std::vector<double> now{0.0};
+  for (int step = 1; step < 100; ++step) {
+    const std::vector<double> next{slope * now[0] + shift};
+    now[0] += relaxation(now, next) * (next[0] - now[0]);
+    if (std::abs(now[0] - goal) < 1e-10) return step;
+  }
+  return 0;
+}
+
+TEST(Relaxation, SettlesSwingsThatWouldGrow)
+{
+  for (const double slope : {-0.5, -1.0, -3.0}) {  // plain steps: settles, takes turns, runs away
+    const int steps = steps_to_rest(slope, 1);
+    EXPECT_GE(steps, 2) << slope;
+    EXPECT_LE(steps, 3) << slope;  // of one unknown the second step is exact
+  }
+}
+
+TEST(Relaxation, GoesAllTheWayAtFirstAndNeverBeyond)
+{
+  const Communicator comm(MPI_COMM_SELF);
+  Relaxation relaxation(comm);
+  EXPECT_EQ(relaxation({0}, {1}), 1);
+  EXPECT_EQ(relaxation({1}, {1.9}), 1);               // steps that hardly shrink ask for 10
+  EXPECT_NEAR(relaxation({1.9}, {1.0}), 0.5, 1e-12);  // 0.9 there, 0.9 back
+  EXPECT_EQ(relaxation({1.45}, {-100}), 0.05);        // and never less
+}
+
+TEST(Relaxation, PointsThatStickWithoutALimitHaveNoSay)
+{
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const Communicator comm(MPI_COMM_SELF);
+  Relaxation all(comm), one(comm);
+  const std::vector<std::pair<double, double>> path{{0, 1}, {1, 0.25}, {0.5, 0.75}};
+  for (const auto& [now, next] : path) EXPECT_EQ(all({now, infinite, 3}, {next, 5, infinite}), one({now}, {next}));
+}
+
+}  // namespace
+}  // namespace mortise::friction

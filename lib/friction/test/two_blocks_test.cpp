@@ -1,0 +1,336 @@
+// A block that stands free on another one, frictionless, with Tresca and with Coulomb friction: every solver of the table,
+// through the whole dual problem, against proximal gradient steps on the assembled matrix in displacements, which knows neither
+// multipliers nor subdomains.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "../../feti/test/blocks.hpp"
+#include "base/error.hpp"
+#include "friction/friction.hpp"
+#include "qp/error_estimate.hpp"
+
+namespace mortise::friction {
+namespace {
+
+using Kind = Law::Kind;
+
+// Nodal force at a point on top: pressed harder towards x = 1, and pushed along x.
+Point force_at(const Point& at, double push)
+{
+  return {push, 0, -0.3 - 1.5 * std::max(at[0] - 0.3, 0.0)};
+}
+
+struct Stack : feti::Blocks {
+  Stack(double push, bool tangents, int pieces, MPI_Comm mpi = MPI_COMM_WORLD)
+      : Blocks(
+            {{"lower", {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"}}, {"upper", {{0, 0, 1}, {1, 1, 1}, {3, 3, 3}, "hex8"}}},
+            {{"lower", {1, 1, 1}}, {"upper", {1, 1, pieces}}}, [](int) { return 100.0; }, mpi)
+  {
+    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+      const auto& points = decomposition.subdomains[s].mesh.points;
+      for (std::size_t n = 0; n < points.size(); ++n)
+        if (points[n][2] > 2 - 1e-9) load[s].segment(3 * static_cast<Eigen::Index>(n), 3) += force_at(points[n], push);
+    }
+    hold({{"lower.zmin", {0, 0, 0}}});
+    join("upper.zmin", "lower.zmax", false, tangents);
+  }
+};
+
+// Contact forces at the points of Stack, three a point: along the normal out of the upper block, and along the tangents.
+struct Reference {
+  Eigen::VectorXd forces, bounds;
+};
+
+class Displacements {
+ public:
+  // Relative displacements w of the upper block's contact nodes, all others eliminated: S w - c are minus the contact forces.
+  explicit Displacements(double push)
+  {
+    const Stack stack(push, true, 1, MPI_COMM_SELF);
+    const auto below = stack.nodes_of("lower.zmax"), above = stack.nodes_of("upper.zmin");
+    points_ = static_cast<Eigen::Index>(above.size());
+    // Unknowns: w, then all displacements that are free, those of the lower block's contact nodes among them.
+    std::map<Global, Eigen::Index> place;
+    Eigen::Index count = 3 * points_;
+    for (const auto& s : stack.decomposition.subdomains)
+      for (std::size_t n = 0; n < s.mesh.node_id.size(); ++n) {
+        const Global id = s.mesh.node_id[n];
+        const bool upper_contact = std::any_of(above.begin(), above.end(), [&](const auto& node) { return node.id == id; });
+        if (upper_contact || s.mesh.points[n][2] < 1e-9) continue;
+        place.emplace(id, count);
+        count += 3;
+      }
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(count, count);
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(count);
+    for (std::size_t s = 0; s < stack.decomposition.subdomains.size(); ++s) {
+      const auto& mesh = stack.decomposition.subdomains[s].mesh;
+      const Eigen::MatrixXd own = fem::stiffness(mesh, fem::Material{100, 0.3, 0, 0}, fem::Kinematics::solid);
+      Eigen::MatrixXd t = Eigen::MatrixXd::Zero(own.rows(), count);  // displacements of the block from the unknowns
+      for (std::size_t n = 0; n < mesh.node_id.size(); ++n) {
+        const auto row = 3 * static_cast<Eigen::Index>(n);
+        if (const auto at = place.find(mesh.node_id[n]); at != place.end()) t.block(row, at->second, 3, 3).setIdentity();
+        for (Eigen::Index p = 0; p < points_; ++p)
+          if (above[static_cast<std::size_t>(p)].id == mesh.node_id[n]) {
+            t.block(row, 3 * p, 3, 3).setIdentity();
+            t.block(row, place.at(below[static_cast<std::size_t>(p)].id), 3, 3).setIdentity();
+          }
+      }
+      const Eigen::MatrixXd whole = own.triangularView<Eigen::Lower>();
+      k += t.transpose() * whole.selfadjointView<Eigen::Lower>() * t;
+      f += t.transpose() * stack.load[s];
+    }
+    const Eigen::Index w = 3 * points_, rest = count - w;
+    const Eigen::LLT<Eigen::MatrixXd> factor(k.bottomRightCorner(rest, rest));
+    const Eigen::MatrixXd coupling = factor.solve(k.bottomLeftCorner(rest, w));
+    s_ = k.topLeftCorner(w, w) - k.topRightCorner(w, rest) * coupling;
+    c_ = f.head(w) - coupling.transpose() * f.tail(rest);
+    // In the frame of each point.
+    Eigen::MatrixXd frame(3, 3);
+    for (int i = 0; i < 3; ++i) frame.col(i) = Stack::frame()[static_cast<std::size_t>(i)];
+    for (Eigen::Index p = 0; p < points_; ++p) {
+      s_.middleRows(3 * p, 3) = (frame.transpose() * s_.middleRows(3 * p, 3)).eval();
+      s_.middleCols(3 * p, 3) = (s_.middleCols(3 * p, 3) * frame).eval();
+      c_.segment(3 * p, 3) = (frame.transpose() * c_.segment(3 * p, 3)).eval();
+    }
+  }
+
+  // min 1/2 w'S w - c'w + sum_p bound_p |w_t| over w_n <= 0, from `w`; Coulomb's bounds follow the forces.
+  Reference solve(Law law)
+  {
+    const double step = 1 / s_.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(c_.size()), y = w, before = w;
+    Reference result{Eigen::VectorXd::Zero(c_.size()),
+                     Eigen::VectorXd::Constant(points_, law.kind == Kind::tresca ? law.value : 0)};
+    for (int round = 0; round < (law.kind == Kind::coulomb ? 200 : 1); ++round) {
+      double t = 1, moved = 1;
+      y = before = w;
+      for (int i = 0; i < 200000 && moved > 1e-15; ++i) {  // Nesterov's, begun anew where it turns back
+        w = y + step * (c_ - s_ * y);
+        for (Eigen::Index p = 0; p < points_; ++p) {
+          w[3 * p] = std::min(w[3 * p], 0.0);
+          auto slip = w.segment(3 * p + 1, 2);
+          const double length = slip.norm();
+          slip *= length > step * result.bounds[p] ? 1 - step * result.bounds[p] / length : 0.0;
+        }
+        const double next = (y - w).dot(w - before) > 0 ? 1 : 0.5 * (1 + std::sqrt(1 + 4 * t * t));
+        moved = (w - before).norm();
+        y = w + (next == 1 ? 0 : (t - 1) / next) * (w - before);
+        before = w;
+        t = next;
+      }
+      result.forces = c_ - s_ * w;
+      if (law.kind != Kind::coulomb) break;
+      Eigen::VectorXd bounds = result.bounds;
+      for (Eigen::Index p = 0; p < points_; ++p) bounds[p] = law.value * std::max(result.forces[3 * p], 0.0);
+      const bool rests = (bounds - result.bounds).norm() <= 1e-12 * bounds.norm();
+      result.bounds = bounds;
+      if (rests) break;
+    }
+    return result;
+  }
+
+ private:
+  Eigen::Index points_ = 0;
+  Eigen::MatrixXd s_;
+  Eigen::VectorXd c_;
+};
+
+// Once for all solvers, by one rank. Collective.
+const Reference& reference(const Law& law, double push)
+{
+  static std::map<Kind, Reference> known;
+  if (const auto found = known.find(law.kind); found != known.end()) return found->second;
+  const Communicator comm;
+  std::vector<double> forces, bounds;
+  if (comm.root()) {
+    const Reference own = Displacements(push).solve(law);
+    forces.assign(own.forces.begin(), own.forces.end());
+    bounds.assign(own.bounds.begin(), own.bounds.end());
+  }
+  comm.broadcast(forces);
+  comm.broadcast(bounds);
+  const auto vector = [](const std::vector<double>& x) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())));
+  };
+  return known.emplace(law.kind, Reference{vector(forces), vector(bounds)}).first->second;
+}
+
+// Forces of all points, in the order of Stack, on every rank.
+Eigen::VectorXd forces_of(const Stack& stack, const feti::DualProblem& problem, const Vector& multipliers)
+{
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(stack.nodes_of("upper.zmin").size()));
+  const auto x = view(multipliers);
+  for (std::size_t i = 0; i < problem.points().size(); ++i) {
+    const auto& rows = problem.points()[i];
+    const auto at = 3 * (static_cast<Eigen::Index>(i) * stack.comm.size() + stack.comm.rank());
+    for (int k = 0; k <= rows.tangents; ++k) forces[at + k] = problem.jump().force(rows.normal + k, x[rows.normal + k]);
+  }
+  stack.comm.sum_in_place({forces.data(), static_cast<std::size_t>(forces.size())});
+  return forces;
+}
+
+struct Case {
+  const char* algorithm;
+  Law law;
+  double push;
+};
+std::ostream& operator<<(std::ostream& out, const Case& c)
+{
+  return out << c.algorithm << " law " << static_cast<int>(c.law.kind) << " push " << c.push;
+}
+
+std::vector<Case> cases()
+{
+  std::vector<Case> all;
+  for (const char* algorithm : {"face_newton", "smalse", "direct"}) {
+    all.push_back({algorithm, {Kind::frictionless, 0}, 0});
+    all.push_back({algorithm, {Kind::tresca, 0.12}, 0.1});
+    all.push_back({algorithm, {Kind::coulomb, 0.4}, 0.15});
+  }
+  return all;
+}
+
+class TwoBlocks : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(SolversAndLaws, TwoBlocks, testing::ValuesIn(cases()));
+
+TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
+{
+  const auto [algorithm, law, push] = GetParam();
+  const Reference& expected = reference(law, push);
+  const double size = expected.forces.norm();
+  ASSERT_GT(size, 1);
+  // The test tells something only where the law has its say.
+  int open = 0, slips = 0, sticks = 0;
+  for (Eigen::Index p = 0; p < expected.bounds.size(); ++p) {
+    if (expected.forces[3 * p] < 1e-9) {
+      ++open;
+      EXPECT_LT(std::abs(expected.forces[3 * p]), 1e-9);
+    }
+    const double tangential = expected.forces.segment(3 * p + 1, 2).norm();
+    EXPECT_LE(tangential, expected.bounds[p] + 1e-9);
+    (tangential >= expected.bounds[p] - 1e-9 ? slips : sticks) += expected.bounds[p] > 1e-6;
+  }
+  EXPECT_GE(open, 2);
+  if (law.kind != Kind::frictionless) {
+    EXPECT_GE(slips, 2);
+    EXPECT_GE(sticks, 2);
+  }
+
+  const bool slow = algorithm == std::string("smalse");
+  const double tolerance = slow ? 1e-7 : 1e-9;
+  for (const int pieces : {1, 3}) {
+    if (slow && (pieces > 1 || (law.kind == Kind::coulomb && Communicator().size() > 1))) continue;
+    Stack stack(push, law.kind != Kind::frictionless, pieces);
+    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating,
+                              stack.load, {}, stack.context);
+    qp::Options options;
+    options.algorithm = algorithm;
+    options.tolerance.value = tolerance;
+    Solver solver(problem, {law}, {tolerance, 200}, options);
+    const Result result = solver.solve(nullptr, {}, {});
+    EXPECT_TRUE(result.converged) << pieces;
+    EXPECT_EQ(result.multiplications, solver.multiplications());
+    const Eigen::VectorXd forces = forces_of(stack, problem, result.solution.x);
+    EXPECT_LT((forces - expected.forces).norm(), (slow ? 1e-4 : 1e-6) * size) << pieces;
+    // The radii of the laws, at the solution.
+    const auto bounds = slip_bounds(problem, {law}, &result.solution.x);
+    for (std::size_t i = 0; i < problem.points().size(); ++i) {
+      const auto& rows = problem.points()[i];
+      if (rows.disc < 0) continue;
+      const auto p = static_cast<Eigen::Index>(i) * stack.comm.size() + stack.comm.rank();
+      EXPECT_NEAR(problem.jump().force(rows.normal, bounds[static_cast<std::size_t>(rows.disc)]), expected.bounds[p],
+                  slow ? 1e-4 : 1e-6);
+    }
+  }
+}
+
+// From the bounds of one load step to the next.
+TEST(SlipBounds, StickFirstAndFollowTheNormalForces)
+{
+  Stack stack(0, true, 1);
+  const feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating,
+                                  stack.load, {}, stack.context);
+  const auto count = problem.set().discs().size();
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(slip_bounds(problem, {{Kind::coulomb, 0.5}}, nullptr), std::vector<double>(count, infinite));
+  EXPECT_EQ(slip_bounds(problem, {{Kind::frictionless, 0}}, nullptr), std::vector<double>(count, 0.0));
+  EXPECT_EQ(coefficients(problem, {{Kind::coulomb, 0.5}}), std::vector<double>(count, 0.5));
+  EXPECT_EQ(coefficients(problem, {{Kind::tresca, 0.5}}), std::vector<double>(count, 0.0));
+  Vector x(problem.linear().getMap());
+  for (std::size_t i = 0; i < problem.points().size(); ++i) view(x)[problem.points()[i].normal] = i % 2 == 0 ? 3.0 : -3.0;
+  const auto coulomb = slip_bounds(problem, {{Kind::coulomb, 0.5}}, &x), tresca = slip_bounds(problem, {{Kind::tresca, 7}}, &x);
+  for (std::size_t i = 0; i < problem.points().size(); ++i) {
+    const auto& rows = problem.points()[i];
+    const auto disc = static_cast<std::size_t>(rows.disc);
+    EXPECT_EQ(coulomb[disc], i % 2 == 0 ? 1.5 : 0.0);
+    EXPECT_NEAR(problem.jump().force(rows.normal, tresca[disc]), 7, 1e-12);  // as a force, on an area of 1
+  }
+}
+
+// Pressed by 9.5 in all, of which friction holds 0.3.
+TEST(TwoBlocksPushedTooHard, AreNoEquilibrium)
+{
+  for (const char* algorithm : {"face_newton", "smalse"}) {
+    Stack stack(0.5, true, 1);
+    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating,
+                              stack.load, {}, stack.context);
+    qp::Options options;
+    options.algorithm = algorithm;
+    options.tolerance.value = 1e-6;
+    Solver solver(problem, {{Kind::coulomb, 0.3}}, {1e-4, 50}, options);
+    try {
+      solver.solve(nullptr, {}, {});
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);
+      EXPECT_NE(std::string(error.what()).find("upper"), std::string::npos) << error.what();
+    }
+  }
+}
+
+// Who waits for a few products is told that it might go on; who gave their number is told the key.
+TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
+{
+  const Law law{Kind::coulomb, 0.4};
+  for (const bool waiting : {true, false}) {
+    Stack stack(0.15, true, 3);
+    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating,
+                              stack.load, {}, stack.context);
+    qp::Options options;
+    options.algorithm = "face_newton";
+    options.tolerance.value = 1e-10;
+    constexpr int few = 15;
+    if (!waiting) options.max_multiplications.value = few;
+    Solver solver(problem, {law}, {1e-9, 50}, options, waiting ? std::optional(few) : std::nullopt);
+    const Result result = solver.solve(nullptr, {}, {});
+    EXPECT_FALSE(result.converged);
+    EXPECT_EQ(result.gave_up, waiting);
+    EXPECT_LE(result.multiplications, few + 3);
+    EXPECT_EQ(result.limit.find("solver.max_multiplications"), 0U);
+  }
+}
+
+// The second load step is the first one again: it starts from its solution and has next to nothing to do.
+TEST(TwoBlocksAgain, StartFromWhatIsKnown)
+{
+  Stack stack(0.15, true, 3);
+  feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load,
+                            {}, stack.context);
+  qp::Options options;
+  options.algorithm = "face_newton";
+  options.tolerance.value = 1e-8;
+  Solver solver(problem, {{Kind::coulomb, 0.4}}, {1e-6, 50}, options);
+  const Result first = solver.solve(nullptr, {}, {});
+  ASSERT_TRUE(first.converged);
+  const Result second = solver.solve(&first.solution, {}, {});
+  EXPECT_TRUE(second.converged);
+  EXPECT_LE(second.multiplications, std::min(first.multiplications / 2, 8));
+  const Eigen::VectorXd a = forces_of(stack, problem, first.solution.x), b = forces_of(stack, problem, second.solution.x);
+  EXPECT_GT(a.norm(), 1);
+  EXPECT_LT((a - b).norm(), 1e-6 * a.norm());
+}
+
+}  // namespace
+}  // namespace mortise::friction
