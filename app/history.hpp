@@ -23,7 +23,7 @@ class History {
   const qp::Options& options_;
   const Context& context_;
   long long inner_ = 0;  // calls within outer iterations, the same on all ranks
-  std::string active_;   // contact points of all ranks at the end of the last outer iteration
+  std::string active_;   // contact nodes of all ranks at the end of the last outer iteration
   std::string text_ =
       "stage,friction_step,outer_iteration,hessian_multiplications,preconditionings,projected_gradient,equality,slip_bound_"
       "change,precision,open,"

@@ -25,7 +25,7 @@ std::string count(long long n, const char* what)
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-void print_open_ends(const io::StateSummary& summary, Log& log)
+void print_unresolved_contact(const io::StateSummary& summary, Log& log)
 {
   for (const auto& c : summary.contacts) {
     if (!c.undecided) continue;
@@ -61,7 +61,7 @@ void print_contacts(const io::StateSummary& s, Log& log)
   }
   for (const auto& c : s.contacts)
     if (c.preload) log.line("  preload {}: force {:.6g}, shortened by {:.6g}", c.name, c.preload->force, c.preload->shortening);
-  print_open_ends(s, log);
+  print_unresolved_contact(s, log);
 }
 
 }  // namespace
@@ -89,12 +89,12 @@ void print_check(const model::Model& model, const constraint::Constraints& const
   for (const auto& subdomain : decomposition.subdomains)
     unknowns += static_cast<long long>(subdomain.mesh.node_count()) * model.deck().dimension();
   const auto total = comm.sum(unknowns);
-  context.log.line("  {} unknowns in the subdomains, {} held components, {} contact points with {} rows", total,
-                   comm.sum(static_cast<long long>(constraints.held.size() + constraints.inclined.size())),
-                   comm.sum(static_cast<long long>(contacts.points.size())),
+  context.log.line("  {} unknowns in the subdomains, {} prescribed components, {} contact nodes with {} rows", total,
+                   comm.sum(static_cast<long long>(constraints.prescribed.size() + constraints.skew_supports.size())),
+                   comm.sum(static_cast<long long>(contacts.nodes.size())),
                    comm.sum(static_cast<long long>(contacts.rows.size())));
   std::vector<double> points(contact_names.size(), 0.0);
-  for (const auto& point : contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
+  for (const auto& point : contacts.nodes) points[static_cast<std::size_t>(point.contact)] += 1;
   comm.sum_in_place(points);
   for (std::size_t c = 0; c < points.size(); ++c) context.log.line("  contact {}: {} points", contact_names[c].name, points[c]);
   context.log.line("  memory expected: about {:.1f} GB, {:.1f} GB of it for the factors of the subdomains", memory.total / 1e9,

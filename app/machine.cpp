@@ -46,17 +46,17 @@ void end_by_default(int signal_number)
 void note(int signal_number)
 {
   if (getpid() != owner) return end_by_default(signal_number);
-  if (told_to_end() != 0) end_with("mortise: ended by a signal; results of the run are not complete.\n");
-  tell_to_end(signal_number);
+  if (stop_requested() != 0) end_with("mortise: ended by a signal; results of the run are not complete.\n");
+  request_stop(signal_number);
   alarm(grace);
 }
 
-void lose_patience(int)
+void end_without_cleanup(int)
 {
   end_with("mortise: ended by a signal; results of the run are not complete.\n");
 }
 
-void tell_fault(int signal_number)
+void report_fault(int signal_number)
 {
   if (getpid() != owner) return end_by_default(signal_number);
   switch (signal_number) {
@@ -108,7 +108,7 @@ bool is_ignored(int signal_number)
 bool mpi_started = false;
 
 // MPI may call exit() where it cannot start, with a status of its own.
-void tell_mpi_failed()
+void report_mpi_failure()
 {
   if (!mpi_started)
     end_with(
@@ -131,7 +131,7 @@ void catch_signals()
   for (const int signal_number : {SIGPIPE, SIGXFSZ}) std::signal(signal_number, SIG_IGN);
   for (const int signal_number : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU})
     handle(signal_number, is_ignored(signal_number) ? SIG_IGN : note, SA_RESTART);
-  handle(SIGALRM, lose_patience, 0);
+  handle(SIGALRM, end_without_cleanup, 0);
 }
 
 void catch_faults()
@@ -142,12 +142,12 @@ void catch_faults()
   const stack_t other{stack, 0, sizeof stack};
   sigaltstack(&other, nullptr);
   for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSYS})
-    handle(signal_number, tell_fault, SA_ONSTACK);
+    handle(signal_number, report_fault, SA_ONSTACK);
 }
 
 void expect_mpi()
 {
-  std::atexit(tell_mpi_failed);
+  std::atexit(report_mpi_failure);
 }
 
 void note_mpi_started()

@@ -7,10 +7,10 @@ namespace mortise {
 /// what is printed. To be called before any file is opened.
 void occupy_standard_streams();
 
-/// From now on a signal that would end the process (SIGTERM, SIGINT, SIGHUP ...) lets it go on to the next end_if_told(). If
-/// none comes within seconds, or with a second signal, it ends at once, with the exit status "machine". What is ignored already,
-/// as SIGHUP by nohup, stays so. Files need no care: each has its name only when it is whole. SIGPIPE and SIGXFSZ are ignored, so
-/// that writes return errors.
+/// From now on a signal that would end the process (SIGTERM, SIGINT, SIGHUP ...) lets it go on to the next stop_if_requested().
+/// If none comes within seconds, or with a second signal, it ends at once, with the exit status "machine". What is ignored
+/// already, as SIGHUP by nohup, stays so. Files need no care: each has its name only when it is whole. SIGPIPE and SIGXFSZ are
+/// ignored, so that writes return errors.
 void catch_signals();
 
 /// A fault of the program (SIGSEGV, SIGABRT ...) says so, and ends with the exit status "machine".

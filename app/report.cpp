@@ -31,7 +31,7 @@ Report::Report(const model::Deck& deck, const deck::Document& document, const Co
 void Report::end_stage(const char* what, const char* name)
 {
   const double seconds = context_.timers.seconds(name);
-  end_if_told(context_.comm);
+  stop_if_requested(context_.comm);
   context_.log.line("  {:<22} {:8.2f} s", what, context_.comm.max(seconds - seconds_before_[name]));
   seconds_before_[name] = seconds;
 }
@@ -46,7 +46,7 @@ void Report::resolution(const model::Resolution& resolved)
   print_header(deck_, resolved.contacts, resolved.decomposition, context_);
   end_stage("mesh", "mesh");
   end_stage("partition", "partition");
-  print_meetings(resolved.found, deck_, resolved.contacts, resolved.decomposition, command_line_.check, context_);
+  print_contact_candidates(resolved.found, deck_, resolved.contacts, resolved.decomposition, command_line_.check, context_);
   if (directory_) directory_->clear();
 }
 
@@ -59,9 +59,9 @@ void Report::rows(const model::Model& model, const analysis::Rows& first, std::s
   files_.emplace(deck_);
   if (approach.kind == Kind::as_asked) {
     end_stage("supports and contact", "contact");
-    for (auto& warning : analysis::check_model(model, first, comm)) warnings_.tell(std::move(warning), log);
+    for (auto& warning : analysis::check_model(model, first, comm)) warnings_.report(std::move(warning), log);
     for (auto& warning : report_initial_gaps(first.initial_gaps, model.contacts(), command_line_.check, log))
-      warnings_.tell(std::move(warning), log);
+      warnings_.report(std::move(warning), log);
     analysis::check_unconstrained_bodies(model, first, context_, warnings_);
   }
 }
@@ -109,7 +109,7 @@ void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepS
   summary.algorithm = approach.algorithm == "auto" ? "face_newton" : approach.algorithm;
   if (approach.kind == Kind::direct_instead) copy_sizes(sizes_as_cut_, summary);
   if (first) summary.hessian_multiplications += solver.spent_before();
-  add_up(acts_, summary_, summary);
+  accumulate_steps(acts_, summary_, summary);
   warnings_.add(analysis::check_results(model, state, results, comm));
   {
     const auto scope = context_.timers.scope("output");

@@ -9,7 +9,7 @@ namespace mortise {
 namespace {
 
 // What it leaves open; the summary's contacts stand there already.
-void add_open_ends(const friction::Result& solved, const model::Contacts& contacts, io::StateSummary& summary)
+void add_unresolved_contact(const friction::Result& solved, const model::Contacts& contacts, io::StateSummary& summary)
 {
   const auto band = [](const friction::Undecided::Band& b) { return io::StateSummary::Contact::Band{b.points, b.cells}; };
   for (const auto& u : solved.undecided)
@@ -44,10 +44,11 @@ void add_contacts(const model::Contacts& contacts, const analysis::StepState& st
     const auto& gap = state.rows->initial_gaps[c];
     summary.contacts.back().initial_gap = {gap.smallest, gap.largest_overlap(), gap.touching_area};
   }
-  const auto& cuts = state.rows->constraints.cuts;
-  for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const auto contact = static_cast<std::size_t>(cuts[i].preload.contact);
-    summary.contacts[contact].preload = {cuts[i].normal.dot(results.contact.resultants[contact].force), results.shortenings[i]};
+  const auto& pretension_sections = state.rows->constraints.pretension_sections;
+  for (std::size_t i = 0; i < pretension_sections.size(); ++i) {
+    const auto contact = static_cast<std::size_t>(pretension_sections[i].preload.contact);
+    summary.contacts[contact].preload = {pretension_sections[i].normal.dot(results.contact.resultants[contact].force),
+                                         results.shortenings[i]};
   }
 }
 
@@ -102,7 +103,7 @@ io::Summary summarise(const model::Model& model, const feti::DualProblem& proble
   summary.exit_status = static_cast<int>(results.verdict.status);
   summary.friction_steps = solved.steps;
   summary.outer_iterations = solved.outer_iterations;
-  summary.hessian_multiplications = solved.multiplications;
+  summary.hessian_multiplications = solved.applications;
   const auto& r = results.residuals;
   summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration, r.complementarity};
   summary.error_estimate.discretization = results.mesh_error.relative;
@@ -113,11 +114,11 @@ io::Summary summarise(const model::Model& model, const feti::DualProblem& proble
   for (std::size_t s = 0; s < results.reactions.size(); ++s)
     summary.reactions.push_back({model.deck().supports[s].boundary, results.reactions[s]});
   add_contacts(model.contacts(), state, results, comm, summary);
-  add_open_ends(solved, model.contacts(), summary);
+  add_unresolved_contact(solved, model.contacts(), summary);
   return summary;
 }
 
-void add_up(const model::LoadState& acts, const io::Summary& before, io::Summary& summary)
+void accumulate_steps(const model::LoadState& acts, const io::Summary& before, io::Summary& summary)
 {
   summary.steps = before.steps;
   if (acts.step.empty()) return;

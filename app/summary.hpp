@@ -16,7 +16,7 @@ io::Summary summarise(const model::Model& model, const feti::DualProblem& proble
                       const post::Results& results, const Communicator& comm);
 
 /// Adds the steps and the work of the states `before` to `summary`, which is that of the state `acts` alone.
-void add_up(const model::LoadState& acts, const io::Summary& before, io::Summary& summary);
+void accumulate_steps(const model::LoadState& acts, const io::Summary& before, io::Summary& summary);
 
 /// What ranks sent, `total` in all: what is neither solution nor output sets up. Nothing in a build that does not
 /// count. Collective.

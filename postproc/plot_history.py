@@ -28,7 +28,7 @@ def main():
     residuals.legend()
     for name in ("open", "slipping"):
         active.step(products, [int(row[name]) for row in rows], where="post", label=name)
-    active.set_ylabel("contact points")
+    active.set_ylabel("contact nodes")
     active.set_xlabel("products with F")
     active.legend()
     figure.tight_layout()

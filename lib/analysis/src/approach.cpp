@@ -10,7 +10,7 @@ namespace mortise::analysis {
 
 namespace {
 
-constexpr int products_to_show_it = 40;  // that a direct solution is one
+constexpr int products_of_check = 40;  // that a direct solution is one
 
 }  // namespace
 
@@ -24,9 +24,9 @@ bool is_tried_again(const Approach& approach, const Error& error)
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
                        const Communicator& comm)
 {
-  const auto effort = [&] { return effort_of_direct(assembly.decomposition(), assembly.floating(), constraints, comm); };
+  const auto effort = [&] { return effort_of_direct(assembly.decomposition(), assembly.system(), constraints, comm); };
   if (approach.kind == Approach::Kind::direct_instead)
-    approach.patience = products_to_show_it;
+    approach.patience = products_of_check;
   else if (approach.algorithm == "auto")
     approach.patience = patience_with_products(effort(), comm);
   else if (approach.algorithm == "direct")
@@ -43,7 +43,7 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
   log.line("  {} products with F, and no end near: a direct solution, with every body whole, costs as much", approach.spent);
   approach.kind = Approach::Kind::direct_instead;
   approach.algorithm = "direct";
-  const char* why = "does not settle, or rounding spoils it";
+  const char* why = "does not converge, or rounding spoils it";
   try {
     if (const auto status = attempt(partition::whole_bodies(as_cut, comm), approach)) return *status;
   } catch (const Error& error) {

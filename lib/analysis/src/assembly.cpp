@@ -19,7 +19,7 @@ feti::Subdomains factorize(const model::Model& model, const std::vector<partitio
     const auto& [original, rotation] = copies[s];
     if (original != s) {
       const auto& shared = subdomains[original];
-      subdomains.push_back(rotation ? std::make_shared<feti::TurnedSubdomain>(shared, *rotation, deck.dimension()) : shared);
+      subdomains.push_back(rotation ? std::make_shared<feti::RotatedSubdomain>(shared, *rotation, deck.dimension()) : shared);
       continue;
     }
     const auto& subdomain = decomposition.subdomains[s];
@@ -65,11 +65,11 @@ Assembly::Assembly(const model::Model& model, const std::vector<partition::CopyO
   const auto kinematics = model.deck().kinematics;
   const auto scope = context.timers.scope("factorization");
   collectively(context.comm, [&] {
-    floating_.clusters = feti::Clusters(model.decomposition(), interface_,
-                                        factorize(model, copies, std::move(stiffness.matrices)), stiffness.of_nodes, kinematics);
+    system_.clusters = feti::Clusters(model.decomposition(), interface_, factorize(model, copies, std::move(stiffness.matrices)),
+                                      stiffness.of_nodes, kinematics);
   });
-  floating_.nodal_stiffness = std::move(stiffness.of_nodes);
-  floating_.kinematics = kinematics;
+  system_.nodal_stiffness = std::move(stiffness.of_nodes);
+  system_.kinematics = kinematics;
 }
 
 }  // namespace mortise::analysis

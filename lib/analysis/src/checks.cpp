@@ -83,7 +83,7 @@ std::vector<Warning> short_searches(const Rows& rows, const post::Results& resul
   std::vector<post::Found> widest(pairs.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].status != contact::Status::open)
-      widest[static_cast<std::size_t>(points[i].contact)].take(contacts.points[i].gap, contacts.points[i].at);
+      widest[static_cast<std::size_t>(points[i].contact)].take(contacts.nodes[i].gap, contacts.nodes[i].at);
   widest = post::largest_of_ranks(widest, comm);
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -113,7 +113,7 @@ void append(std::vector<Warning>& all, std::vector<Warning> more)
 std::vector<Warning> idle_contacts(const Rows& rows, const Communicator& comm)
 {
   std::vector<double> points(rows.pairs.size(), 0.0);
-  for (const auto& point : rows.constraints.contacts.points) points[static_cast<std::size_t>(point.contact)] += 1;
+  for (const auto& point : rows.constraints.contacts.nodes) points[static_cast<std::size_t>(point.contact)] += 1;
   comm.sum_in_place(points);
   std::vector<Warning> result;
   for (std::size_t c = 0; c < points.size(); ++c) {

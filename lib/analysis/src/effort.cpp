@@ -28,11 +28,11 @@ constexpr Global most_multipliers = 12000;
 
 }  // namespace
 
-DirectEffort effort_of_direct(const partition::Decomposition& decomposition, const feti::Floating& floating,
+DirectEffort effort_of_direct(const partition::Decomposition& decomposition, const feti::SubdomainSystem& system,
                               const constraint::Constraints& constraints, const Communicator& comm)
 {
   const int dimension = decomposition.catalogue.dimension;
-  const auto& subdomains = floating.clusters.subdomains();
+  const auto& subdomains = system.clusters.subdomains();
   const auto bodies = decomposition.catalogue.bodies.size();
   std::vector<double> sums(2 + bodies, 0.0);  // entries of the factors, what the law says of them, unknowns of each body
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
@@ -45,15 +45,15 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
   const double entries = std::max(sums[0], sums[1]), law = entries / sums[1];
   const auto& contacts = constraints.contacts;
   double closing = 0;
-  for (std::size_t i = 0; i < contacts.points.size(); ++i)
-    if (!contacts.bonded[i]) closing += 1 + static_cast<double>(contacts.points[i].tangents.size());
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
+    if (!contacts.bonded[i]) closing += 1 + static_cast<double>(contacts.nodes[i].tangents.size());
   closing = comm.sum(closing);
   // Many supports along axes are eliminated with the stiffness, by factors of their own.
-  const Global along_axes = comm.sum(static_cast<long long>(constraints.held.size()));
+  const Global along_axes = comm.sum(static_cast<long long>(constraints.prescribed.size()));
   const bool eliminated = along_axes > feti::few_supports;
-  const auto held =
-      static_cast<double>(comm.sum(static_cast<long long>(constraints.inclined.size())) + (eliminated ? 0 : along_axes));
-  const double all = held + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size())));
+  const auto prescribed =
+      static_cast<double>(comm.sum(static_cast<long long>(constraints.skew_supports.size())) + (eliminated ? 0 : along_axes));
+  const double all = prescribed + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size())));
   const double free = all - closing;
 
   double factors = 0, factorizing = 0, weighted = 0, unknowns = 0;
@@ -64,7 +64,7 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
     weighted += body * n;
     unknowns += n;
   }
-  const double columns = held + 2 * (all - held);
+  const double columns = prescribed + 2 * (all - prescribed);
   const double dense = free * free * free / 3 + free * free * closing + free * closing * closing +
                        (1 + newton_steps / 2) * closing * closing * closing;
   const double work = (eliminated ? 2 : 1) * factorizing + 4 * columns * weighted / unknowns + dense;

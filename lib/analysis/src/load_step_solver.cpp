@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "constraint/renewal.hpp"
-#include "contact/slides.hpp"
-#include "same_points.hpp"
+#include "constraint/right_hand_sides.hpp"
+#include "contact/sliding_surfaces.hpp"
+#include "same_nodes.hpp"
 
 namespace mortise::analysis {
 
@@ -16,28 +16,28 @@ constexpr double algebraic_part = 0.1;
 // Of the size of the solution, whatever the discretization error is estimated to be.
 constexpr double smallest_part = 1e-6, largest_part = 0.05;
 
-// Multipliers of one problem as a start for another one of the same assembly, where other components are held.
+// Multipliers of one problem as a start for another one of the same assembly, where other components are prescribed.
 qp::Solution carry_multipliers(const feti::DualProblem& from, const qp::Solution& solution, const feti::DualProblem& to)
 {
   const Eigen::VectorXd before = from.forces(solution.x);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(to.jump().rows()->getNodeNumElements()));
   const auto &old_ranges = from.jump().ranges(), &ranges = to.jump().ranges();
   const auto &old = from.constraints(), &now = to.constraints();
-  forces.head(ranges.held) = before.head(old_ranges.held);
-  std::map<std::pair<Global, int>, Local> held;
-  for (std::size_t i = 0; i < old.held.size(); ++i)
-    held[{old.held[i].node, old.held[i].component}] = old_ranges.held + static_cast<Local>(i);
-  for (std::size_t i = 0; i < now.held.size(); ++i)
-    if (const auto found = held.find({now.held[i].node, now.held[i].component}); found != held.end())
-      forces[ranges.held + static_cast<Local>(i)] = before[found->second];
+  forces.head(ranges.dirichlet) = before.head(old_ranges.dirichlet);
+  std::map<std::pair<Global, int>, Local> prescribed;
+  for (std::size_t i = 0; i < old.prescribed.size(); ++i)
+    prescribed[{old.prescribed[i].node, old.prescribed[i].component}] = old_ranges.dirichlet + static_cast<Local>(i);
+  for (std::size_t i = 0; i < now.prescribed.size(); ++i)
+    if (const auto found = prescribed.find({now.prescribed[i].node, now.prescribed[i].component}); found != prescribed.end())
+      forces[ranges.dirichlet + static_cast<Local>(i)] = before[found->second];
   const auto points = index(old.contacts);
   for (const auto& [key, i] : index(now.contacts)) {
     const auto found = points.find(key);
     if (found == points.end()) continue;
-    const Local first = from.points()[found->second].normal, row = to.points()[i].normal;
+    const Local first = from.node_rows()[found->second].normal, row = to.node_rows()[i].normal;
     forces[row] = before[first];
-    turn(
-        old.contacts.points[found->second], now.contacts.points[i],
+    change_tangents(
+        old.contacts.nodes[found->second], now.contacts.nodes[i],
         [&](std::size_t t) { return before[first + 1 + static_cast<Local>(t)]; },
         [&](std::size_t t, double f) { forces[row + 1 + static_cast<Local>(t)] = f; });
   }
@@ -76,9 +76,9 @@ std::unique_ptr<feti::DualProblem> LoadStepSolver::make_problem(std::vector<Eige
 {
   const auto& deck = assembly_.deck();
   auto problem = std::make_unique<feti::DualProblem>(
-      assembly_.decomposition(), assembly_.directory(), assembly_.interface(), rows_->constraints, assembly_.floating(),
+      assembly_.decomposition(), assembly_.directory(), assembly_.interface(), rows_->constraints, assembly_.system(),
       std::move(load), deck.solver.subdomains, context_,
-      contact::slides(rows_->pairs, rows_->constraints.contacts, deck.kinematics, context_.comm));
+      contact::sliding_surfaces(rows_->pairs, rows_->constraints.contacts, deck.kinematics, context_.comm));
   context_.log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(),
                     problem->kernel_dimension());
   return problem;
@@ -110,8 +110,8 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
                             {jumps.data() + ranges.contacts, static_cast<std::size_t>(ranges.extra - ranges.contacts)});
 
   auto same = with_new_bounds(rows, model, assembly_.directory(), acts, from.shortenings, comm);
-  const bool same_cuts = rows.constraints.cuts.empty() || acts.locked == rows.acts.locked;
-  if (same && same_cuts && problem_->update_rhs(same->constraints, load)) {
+  const bool same_sections = rows.constraints.pretension_sections.empty() || acts.locked == rows.acts.locked;
+  if (same && same_sections && problem_->update_rhs(same->constraints, load)) {
     rows_ = std::make_shared<const Rows>(std::move(*same));
     return;
   }
@@ -120,7 +120,7 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
     carry_slip(rows.constraints.contacts, same->constraints.contacts);
   }
   rows_ = std::make_shared<const Rows>(std::move(*same));
-  before_ = multiplications();
+  before_ = applications();
   solver_.reset();
   auto next = make_problem(std::move(load));
   from.solved.solution = carry_multipliers(*problem_, from.solved.solution, *next);
@@ -146,7 +146,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
                                     },
                                     [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms(lambda, nu).solution; }};
   const auto count_on = [&](int step, double change, qp::Progress progress) {
-    progress.multiplications += before_;
+    progress.applications += before_;
     observer(step, change, progress);
   };
   auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
@@ -161,7 +161,7 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
   const auto& deck = assembly.deck();
   const auto constitution = assembly.model().constitution(state.rows->acts);
   const post::Equilibrium equilibrium{solver.problem(),
-                                      assembly.floating(),
+                                      assembly.system(),
                                       state.rows->pairs,
                                       state.solved,
                                       state.displacement,

@@ -14,11 +14,11 @@ namespace mortise::analysis {
 namespace {
 
 // Measured on the inputs and on regression/tables: what a run keeps besides factors and matrices.
-constexpr double bytes_an_unknown = 450;     // mesh, fields, vectors of the subdomains
-constexpr double bytes_a_multiplier = 1000;  // vectors of the dual space, most of them recycled directions; B, G
-constexpr double dirichlet_part = 0.8;       // of a factor: the preconditioner's own
-constexpr double joints = 45;                // averages that join a subdomain to others of its cluster, each a vector of it
-constexpr double margin = 0.9;               // of what is available
+constexpr double bytes_an_unknown = 450;         // mesh, fields, vectors of the subdomains
+constexpr double bytes_a_multiplier = 1000;      // vectors of the dual space, most of them recycled directions; B, G
+constexpr double dirichlet_part = 0.8;           // of a factor: the preconditioner's own
+constexpr double constraints_of_subdomain = 45;  // averages that join a subdomain to others of its cluster, each a vector of it
+constexpr double margin = 0.9;                   // of what is available
 
 // Sum over the ranks that share this rank's memory. Collective.
 double sum_on_machine(double x, const Communicator& comm)
@@ -65,7 +65,7 @@ Memory foresee_memory(const model::Model& model, const std::vector<partition::Co
     const double once = scaled / of_nested_dissection(unknowns(largest), dimension);
     factors = bytes * once * (deck.solver.subdomains.preconditioner == "dirichlet" ? 1 + dirichlet_part : 1.0);
     // While the largest is factorized there are two copies of it.
-    if (decomposition.clustered()) held += joints * sizeof(double) * matrices;
+    if (decomposition.clustered()) held += constraints_of_subdomain * sizeof(double) * matrices;
     held += factors + bytes + 12.0 * static_cast<double>(lower.nonZeros()) * matrices / unknowns(largest);
   });
   Memory memory;

@@ -3,21 +3,22 @@
 #include <algorithm>
 
 #include "constraint/normals.hpp"
-#include "constraint/preload.hpp"
-#include "constraint/renewal.hpp"
+#include "constraint/pretension.hpp"
+#include "constraint/right_hand_sides.hpp"
 #include "constraint/supports.hpp"
-#include "feti/placement.hpp"
+#include "feti/row_distribution.hpp"
 #include "model/curved_faces.hpp"
-#include "same_points.hpp"
+#include "same_nodes.hpp"
 
 namespace mortise::analysis {
 
 namespace {
 
-void find_cuts(const model::Model& model, const std::vector<double>& shortenings, const Communicator& comm, Rows& rows)
+void find_pretension_sections(const model::Model& model, const std::vector<double>& shortenings, const Communicator& comm,
+                              Rows& rows)
 {
-  rows.constraints.cuts =
-      constraint::find_cuts(rows.constraints.contacts, model.preloads(rows.acts, shortenings), model.deck().axisymmetric(), comm);
+  rows.constraints.pretension_sections = constraint::find_pretension_sections(
+      rows.constraints.contacts, model.preloads(rows.acts, shortenings), model.deck().axisymmetric(), comm);
 }
 
 }  // namespace
@@ -30,13 +31,13 @@ Rows make_rows(const model::Model& model, const model::LoadState& acts, const st
   const auto& deck = model.deck();
   Rows rows{acts, model.supports(acts), model.contact_pairs(acts), {}, {}};
   auto normals = constraint::node_normals(rows.supports, model.support_surfaces(), comm);
-  const auto aligned = constraint::take_aligned(rows.supports, normals);
+  const auto aligned = constraint::take_axis_aligned(rows.supports, normals);
   auto& constraints = rows.constraints;
-  constraints.held = constraint::hold(rows.supports, model.support_nodes(comm), deck.dimension(), comm, aligned);
-  constraints.inclined = constraint::incline(rows.supports, normals, constraints.held, comm);
-  constraints.contacts = contact::discretize(rows.pairs, constraints.held, deck.kinematics, comm, constraints.inclined,
+  constraints.prescribed = constraint::dirichlet_rows(rows.supports, model.support_nodes(comm), deck.dimension(), comm, aligned);
+  constraints.skew_supports = constraint::skew_support_rows(rows.supports, normals, constraints.prescribed, comm);
+  constraints.contacts = contact::discretize(rows.pairs, constraints.prescribed, deck.kinematics, comm, constraints.skew_supports,
                                              model::curved_faces(deck, model.decomposition(), rows.pairs), &rows.initial_gaps);
-  find_cuts(model, shortenings, comm, rows);
+  find_pretension_sections(model, shortenings, comm, rows);
   return rows;
 }
 
@@ -45,10 +46,10 @@ Rows place(Rows rows, const model::Model& model, const partition::NodeDirectory&
 {
   const auto& decomposition = model.decomposition();
   auto& constraints = rows.constraints;
-  constraints.held = feti::place(constraints.held, decomposition, directory, comm);
-  constraints.inclined = feti::place(constraints.inclined, decomposition, directory, comm);
-  constraints.contacts = feti::place(constraints.contacts, decomposition, directory, comm);
-  find_cuts(model, shortenings, comm, rows);
+  constraints.prescribed = feti::distribute_rows(constraints.prescribed, decomposition, directory, comm);
+  constraints.skew_supports = feti::distribute_rows(constraints.skew_supports, decomposition, directory, comm);
+  constraints.contacts = feti::distribute_rows(constraints.contacts, decomposition, directory, comm);
+  find_pretension_sections(model, shortenings, comm, rows);
   return rows;
 }
 
@@ -62,11 +63,12 @@ std::optional<Rows> with_new_bounds(Rows rows, const model::Model& model, const 
     return a.displacement == b.displacement && a.normal == b.normal;
   });
   if (moved) {
-    // What is held along normals may stand in many rows.
+    // What is prescribed along normals may stand in many rows.
     if (std::any_of(deck.supports.begin(), deck.supports.end(), [](const auto& s) { return s.normal.has_value(); })) return {};
-    auto held = feti::place(constraint::hold(supports, model.support_nodes(comm), deck.dimension(), comm), model.decomposition(),
-                            directory, comm);
-    if (!constraint::move_supports(rows.constraints, std::move(held), supports, rows.supports, comm)) return {};
+    auto prescribed =
+        feti::distribute_rows(constraint::dirichlet_rows(supports, model.support_nodes(comm), deck.dimension(), comm),
+                              model.decomposition(), directory, comm);
+    if (!constraint::update_rhs(rows.constraints, std::move(prescribed), supports, rows.supports, comm)) return {};
   }
   const auto& contacts = model.contacts();
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -76,7 +78,7 @@ std::optional<Rows> with_new_bounds(Rows rows, const model::Model& model, const 
   }
   rows.supports = std::move(supports);
   rows.acts = acts;
-  find_cuts(model, shortenings, comm, rows);
+  find_pretension_sections(model, shortenings, comm, rows);
   return rows;
 }
 
@@ -88,8 +90,8 @@ void carry_slip(const constraint::Contacts& from, constraint::Contacts& to)
   for (const auto& [key, i] : index(to)) {
     const auto found = old.find(key);
     if (found == old.end()) continue;
-    const auto &a = from.points[found->second], &b = to.points[i];
-    turn(
+    const auto &a = from.nodes[found->second], &b = to.nodes[i];
+    change_tangents(
         a, b, [&](std::size_t t) { return from.slipped[a.row + 1 + t]; },
         [&](std::size_t t, double slip) {
           to.slipped[b.row + 1 + t] = slip;

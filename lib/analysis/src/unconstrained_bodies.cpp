@@ -36,7 +36,7 @@ std::vector<bool> reached(const std::vector<contact::Pair>& pairs, const constra
     tell(pair.secondary);
     if (pair.primary) tell(*pair.primary);
   }
-  for (const auto& point : contacts.points) touched[static_cast<std::size_t>(point.node) % ranks].push_back(point.node);
+  for (const auto& point : contacts.nodes) touched[static_cast<std::size_t>(point.node) % ranks].push_back(point.node);
   for (const auto& entry : contacts.rows.entries) touched[static_cast<std::size_t>(entry.node) % ranks].push_back(entry.node);
   std::vector<Global> nodes;
   for (const auto& part : comm.exchange(touched)) nodes.insert(nodes.end(), part.begin(), part.end());
@@ -138,7 +138,7 @@ void check_unconstrained_bodies(const model::Model& model, const Rows& rows, con
       Warning w{"untouched_body", text, "its rigid motions are set to zero: support it, or let a contact reach it"};
       w.body = bodies[b].name;
       w.value = near.distance;
-      warnings.tell(std::move(w), context.log);
+      warnings.report(std::move(w), context.log);
     }
   }
   if (told > most) context.log.warning("... and {} more bodies that touch nothing", told - most);

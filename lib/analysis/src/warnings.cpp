@@ -16,7 +16,7 @@ void Warnings::add(Warning warning)
   all_.push_back(std::move(warning));
 }
 
-void Warnings::tell(Warning warning, Log& log)
+void Warnings::report(Warning warning, Log& log)
 {
   log.warning("{}; {}", warning.text, warning.cure);
   add(std::move(warning));

@@ -27,7 +27,7 @@ loads:
   - {name: press, boundary: upper.zmax, pressure: 2}
   - {name: push, boundary: upper.zmin, traction: [0.5, 0, 0]}
 )";
-const std::string held = R"(
+const std::string supports = R"(
 supports:
   - {boundary: lower.zmin, displacement: {x: 0, y: 0, z: 0}}
   - {name: guide, boundary: upper.ymin, displacement: {y: 0}}
@@ -87,7 +87,7 @@ void expect_near(const std::array<double, 3>& found, const Point& exact)
 // Pressed alone, without friction: uniform stress, what presses comes out below.
 TEST(LoadSteps, APressedColumn)
 {
-  Analysis run(blocks + held + "contacts: [{secondary: upper.zmin, primary: lower.zmax}]\n" +
+  Analysis run(blocks + supports + "contacts: [{secondary: upper.zmin, primary: lower.zmax}]\n" +
                "steps: [{name: rest, scale: {push: 0}}]\n");
   // Nothing keeps the upper block from sliding along x, but nothing moves it either.
   run.solve_all();
@@ -110,7 +110,7 @@ TEST(LoadSteps, APressedColumn)
 // Coulomb 0.5 carries the push; with half the pressure it could not carry more. What a state was stays what it was.
 TEST(LoadSteps, StatesAreValuesThatTheNextStartsFrom)
 {
-  Analysis run(blocks + held +
+  Analysis run(blocks + supports +
                "contacts: [{name: joint, secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.5}}]\n" +
                "steps: [{name: press, scale: {push: 0}}, {name: push, scale: {push: 1}}, {name: back, scale: {push: 0}}, {name: "
                "loose, off: [guide]}]\n");
@@ -130,7 +130,7 @@ TEST(LoadSteps, StatesAreValuesThatTheNextStartsFrom)
   EXPECT_NEAR(run.results[2].contact.resultants[0].force[0], 0, 1e-6);
 
   const auto rows = [&](std::size_t i) {
-    return run.comm.sum(static_cast<long long>(run.states[i].rows->constraints.held.size()));
+    return run.comm.sum(static_cast<long long>(run.states[i].rows->constraints.prescribed.size()));
   };
   EXPECT_EQ(rows(0), rows(2));
   EXPECT_LT(rows(3), rows(2));  // the guide lets go: other rows, while those of the states before are as they were
@@ -141,7 +141,7 @@ TEST(LoadSteps, StatesAreValuesThatTheNextStartsFrom)
 // More than friction can carry.
 TEST(LoadSteps, NoEquilibriumBeyondFriction)
 {
-  Analysis run(blocks + held + "contacts: [{secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.2}}]\n");
+  Analysis run(blocks + supports + "contacts: [{secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.2}}]\n");
   try {
     run.solve_all();
     FAIL() << "0.5 of push on 0.2 * 2 of friction";
@@ -157,7 +157,7 @@ TEST(Checks, ABodyThatNothingTouchesIsNamed)
   Timers timers;
   Log log(comm, nullptr);
   const Context context{comm, log, timers};
-  deck::Document document(blocks + held, "deck.yaml", {});
+  deck::Document document(blocks + supports, "deck.yaml", {});
   const auto deck = model::read_deck(document, "");
   const auto resolved = model::resolve(deck, document, partition::decompose(deck.mesh, deck.decomposition, 3, context), context);
   const model::Model model(deck, resolved.contacts, resolved.decomposition);

@@ -23,22 +23,22 @@ volatile std::sig_atomic_t told = 0;
 
 }  // namespace
 
-void tell_to_end(int signal_number)
+void request_stop(int signal_number)
 {
   told = signal_number;
 }
 
-int told_to_end()
+int stop_requested()
 {
   return told;
 }
 
-void end_if_told()
+void stop_if_requested()
 {
   if (told != 0) end(told);
 }
 
-void end_if_told(const Communicator& comm)
+void stop_if_requested(const Communicator& comm)
 {
   int first = told;
   PMPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MAX, comm.mpi());  // not counted among what the method sends

@@ -26,24 +26,24 @@ std::string said(const std::function<void()>& work)
 TEST(Interruption, EndsAllRanksWhereTheyMeet)
 {
   const Communicator comm;
-  EXPECT_EQ(said([&] { end_if_told(comm); }), "");
+  EXPECT_EQ(said([&] { stop_if_requested(comm); }), "");
   const bool last = comm.rank() == comm.size() - 1;
   const auto work = [&](const std::function<void()>& look) {
     if (last) {
-      tell_to_end(SIGTERM);
+      request_stop(SIGTERM);
       alarm(60);
     }
     const auto text = said(look);
     EXPECT_NE(text.find("told to end (SIGTERM)"), std::string::npos) << text;
     if (last) {
-      EXPECT_EQ(told_to_end(), SIGTERM);
+      EXPECT_EQ(stop_requested(), SIGTERM);
       EXPECT_EQ(alarm(0), 0U);
     }
-    tell_to_end(0);
+    request_stop(0);
   };
-  work([&] { end_if_told(comm); });
-  work([&] { collectively(comm, [] { end_if_told(); }); });
-  EXPECT_EQ(said([] { end_if_told(); }), "");
+  work([&] { stop_if_requested(comm); });
+  work([&] { collectively(comm, [] { stop_if_requested(); }); });
+  EXPECT_EQ(said([] { stop_if_requested(); }), "");
 }
 
 // What a lack of memory on one rank is, it is on all.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double smooth = 0.906;       // cosine of the angle up to which neighbouring faces are one smooth surface
 constexpr double aligned = 1 - 1e-12;  // largest component of a normal that counts as parallel to its axis
-constexpr double independent = 1e-3;   // length of what a direction has besides those that are held already
+constexpr double independent = 1e-3;   // length of what a direction has besides those that are prescribed already
 constexpr double disagreement = 1e-9;  // relative, of prescribed displacements
 
 Point vector(const std::array<double, 3>& v)
@@ -85,10 +85,10 @@ std::vector<Point> clusters(std::span<const Point> weighted)
                           one, supports[a].boundary, other, supports[b].boundary));
 }
 
-// The directions that are held at one node, orthonormal.
+// The directions that are prescribed at one node, orthonormal.
 class Directions {
  public:
-  Directions(std::span<const SupportOptions> supports, std::span<const Held> components) : supports_(supports)
+  Directions(std::span<const SupportOptions> supports, std::span<const PrescribedDof> components) : supports_(supports)
   {
     for (const auto& h : components)
       directions_.push_back(
@@ -99,7 +99,7 @@ class Directions {
   void add(const NodeNormal& normal)
   {
     const double value = *supports_[static_cast<std::size_t>(normal.support)].normal;
-    Inclined next{normal.node, {}, value, {{{normal.support, normal.direction}}}, 1};
+    SkewSupport next{normal.node, {}, value, {{{normal.support, normal.direction}}}, 1};
     Point rest = vector(normal.direction);
     double size = std::abs(value);
     for (const auto& known : directions_) {
@@ -122,11 +122,11 @@ class Directions {
     directions_.push_back(next);
   }
 
-  std::span<const Inclined> inclined() const { return std::span(directions_).subspan(components_); }
+  std::span<const SkewSupport> skew_supports() const { return std::span(directions_).subspan(components_); }
 
  private:
   std::span<const SupportOptions> supports_;
-  std::vector<Inclined> directions_;
+  std::vector<SkewSupport> directions_;
   std::size_t components_ = 0;
 };
 
@@ -169,35 +169,35 @@ std::vector<NodeNormal> node_normals(std::span<const SupportOptions> supports, s
   return normals;
 }
 
-std::vector<Held> take_aligned(std::span<const SupportOptions> supports, std::vector<NodeNormal>& normals)
+std::vector<PrescribedDof> take_axis_aligned(std::span<const SupportOptions> supports, std::vector<NodeNormal>& normals)
 {
-  std::vector<Held> held;
+  std::vector<PrescribedDof> prescribed;
   std::erase_if(normals, [&](const NodeNormal& normal) {
     for (int c = 0; c < 3; ++c) {
       const double along = normal.direction[static_cast<std::size_t>(c)];
       if (std::abs(along) < aligned) continue;
       const double value = *supports[static_cast<std::size_t>(normal.support)].normal;
-      held.push_back({normal.node, c, along > 0 ? value : -value, normal.support});
+      prescribed.push_back({normal.node, c, along > 0 ? value : -value, normal.support});
       return true;
     }
     return false;
   });
-  return held;
+  return prescribed;
 }
 
-std::vector<Inclined> incline(std::span<const SupportOptions> supports, std::span<const NodeNormal> normals,
-                              std::span<const Held> held, const Communicator& comm)
+std::vector<SkewSupport> skew_support_rows(std::span<const SupportOptions> supports, std::span<const NodeNormal> normals,
+                                           std::span<const PrescribedDof> prescribed, const Communicator& comm)
 {
-  std::vector<Inclined> result;
+  std::vector<SkewSupport> result;
   collectively(comm, [&] {
     for (auto begin = normals.begin(); begin != normals.end();) {
       const auto end = std::find_if(begin, normals.end(), [&](const NodeNormal& n) { return n.node != begin->node; });
-      const auto first =
-          std::lower_bound(held.begin(), held.end(), begin->node, [](const Held& h, Global node) { return h.node < node; });
-      const auto last = std::find_if(first, held.end(), [&](const Held& h) { return h.node != begin->node; });
+      const auto first = std::lower_bound(prescribed.begin(), prescribed.end(), begin->node,
+                                          [](const PrescribedDof& h, Global node) { return h.node < node; });
+      const auto last = std::find_if(first, prescribed.end(), [&](const PrescribedDof& h) { return h.node != begin->node; });
       Directions directions(supports, {first, last});
       for (auto normal = begin; normal != end; ++normal) directions.add(*normal);
-      result.insert(result.end(), directions.inclined().begin(), directions.inclined().end());
+      result.insert(result.end(), directions.skew_supports().begin(), directions.skew_supports().end());
       begin = end;
     }
   });

@@ -12,7 +12,7 @@ namespace mortise::constraint {
 
 namespace {
 
-void check_agreement(const Held& a, const Held& b, std::span<const SupportOptions> supports)
+void check_agreement(const PrescribedDof& a, const PrescribedDof& b, std::span<const SupportOptions> supports)
 {
   if (std::abs(a.value - b.value) <= 1e-12 * std::max(std::abs(a.value), std::abs(b.value))) return;
   throw Error(
@@ -25,32 +25,33 @@ void check_agreement(const Held& a, const Held& b, std::span<const SupportOption
 
 }  // namespace
 
-std::vector<Held> hold(std::span<const SupportOptions> supports, std::span<const std::vector<Global>> nodes, int dimension,
-                       const Communicator& comm, std::span<const Held> aligned)
+std::vector<PrescribedDof> dirichlet_rows(std::span<const SupportOptions> supports, std::span<const std::vector<Global>> nodes,
+                                          int dimension, const Communicator& comm, std::span<const PrescribedDof> aligned)
 {
-  std::vector<std::vector<Held>> send(static_cast<std::size_t>(comm.size()));
+  std::vector<std::vector<PrescribedDof>> send(static_cast<std::size_t>(comm.size()));
   for (std::size_t i = 0; i < supports.size(); ++i)
     for (const Global node : nodes[i])
       for (int c = 0; c < dimension; ++c)
         if (const auto value = supports[i].displacement[c])
           send[static_cast<std::size_t>(node % comm.size())].push_back({node, c, *value, static_cast<int>(i)});
 
-  std::vector<Held> held(aligned.begin(), aligned.end());
-  for (const auto& part : comm.exchange(send)) held.insert(held.end(), part.begin(), part.end());
-  std::sort(held.begin(), held.end(), [](const Held& a, const Held& b) {
+  std::vector<PrescribedDof> prescribed(aligned.begin(), aligned.end());
+  for (const auto& part : comm.exchange(send)) prescribed.insert(prescribed.end(), part.begin(), part.end());
+  std::sort(prescribed.begin(), prescribed.end(), [](const PrescribedDof& a, const PrescribedDof& b) {
     return std::tie(a.node, a.component, a.support) < std::tie(b.node, b.component, b.support);
   });
   collectively(comm, [&] {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < held.size(); ++i) {
-      if (kept > 0 && held[kept - 1].node == held[i].node && held[kept - 1].component == held[i].component)
-        check_agreement(held[kept - 1], held[i], supports);
+    for (std::size_t i = 0; i < prescribed.size(); ++i) {
+      if (kept > 0 && prescribed[kept - 1].node == prescribed[i].node &&
+          prescribed[kept - 1].component == prescribed[i].component)
+        check_agreement(prescribed[kept - 1], prescribed[i], supports);
       else
-        held[kept++] = held[i];
+        prescribed[kept++] = prescribed[i];
     }
-    held.resize(kept);
+    prescribed.resize(kept);
   });
-  return held;
+  return prescribed;
 }
 
 }  // namespace mortise::constraint

@@ -47,19 +47,19 @@ std::vector<SupportOptions> along_normal(std::initializer_list<double> values)
 TEST(Normals, OfAPlaneAreItsOwnInEveryFace)
 {
   const Communicator comm;
-  Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix();
+  Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix();
   for (const auto type : {CellType::tri3, CellType::quad4, CellType::tri6, CellType::quad8, CellType::quad9}) {
     std::vector<Point> points;
     std::vector<Local> nodes;
     for (const auto& at : mesh::shape_functions(type).nodes()) {
       nodes.push_back(static_cast<Local>(points.size()));
-      points.emplace_back(turn * Point(at[0] + 0.2 * at[1] * at[1], at[1], 4));
+      points.emplace_back(rotation * Point(at[0] + 0.2 * at[1] * at[1], at[1], 4));
     }
     const auto normals = node_normals(along_normal({0}), std::vector{surface(type, {nodes}, points, comm)}, comm);
     EXPECT_EQ(comm.sum(static_cast<long long>(normals.size())), static_cast<long long>(points.size()));
     for (const auto& n : normals) {
       EXPECT_EQ(n.node % comm.size(), comm.rank());
-      EXPECT_LT((vector(n.direction) - turn.col(2)).norm(), 1e-13);
+      EXPECT_LT((vector(n.direction) - rotation.col(2)).norm(), 1e-13);
     }
   }
 }
@@ -77,8 +77,8 @@ TEST(Normals, OfUnevenChordsAreThoseOfTheCircle)
     }
 }
 
-// Two chords that meet at 90 degrees, both off the axes, moved along their normals by 2 and -1: the node between them is held in
-// both, and goes where it must.
+// Two chords that meet at 90 degrees, both off the axes, moved along their normals by 2 and -1: the node between them is
+// prescribed in both, and goes where it must.
 TEST(Normals, ANodeOnAnEdgeIsHeldAcrossBothSides)
 {
   const Communicator comm;
@@ -88,16 +88,16 @@ TEST(Normals, ANodeOnAnEdgeIsHeldAcrossBothSides)
                                          surface(CellType::line2, {{1, 2}}, points, comm)};
   const auto supports = along_normal({2, -1});
   const auto normals = node_normals(supports, sides, comm);
-  const auto inclined = incline(supports, normals, {}, comm);
-  EXPECT_EQ(comm.sum(static_cast<long long>(inclined.size())), 4);
-  for (const auto& i : inclined) {
+  const auto skew_supports = skew_support_rows(supports, normals, {}, comm);
+  EXPECT_EQ(comm.sum(static_cast<long long>(skew_supports.size())), 4);
+  for (const auto& i : skew_supports) {
     if (i.node != 1) continue;
     // A chord with the direction t has the outward normal (t_y, -t_x): across and along.
     EXPECT_NEAR(vector(i.direction).dot(2 * across - along), i.value, 1e-13);
   }
 }
 
-// At one node: y held at 0.3, and normals at 60 degrees to y and to each other in space.
+// At one node: y prescribed at 0.3, and normals at 60 degrees to y and to each other in space.
 TEST(Normals, ObliqueSupportsAreMadeOrthogonalAndShareTheirForces)
 {
   const Communicator comm(MPI_COMM_SELF);
@@ -105,17 +105,17 @@ TEST(Normals, ObliqueSupportsAreMadeOrthogonalAndShareTheirForces)
   supports.push_back({"component", {std::nullopt, 0.3, std::nullopt}});
   const Point first = Point(std::sqrt(0.75), 0.5, 0), second = Point(0.2, 0.5, std::sqrt(0.71));
   const std::vector<NodeNormal> normals{{4, 0, {first[0], first[1], first[2]}}, {4, 1, {second[0], second[1], second[2]}}};
-  const std::vector<Held> held{{4, 1, 0.3, 2}};
-  const auto inclined = incline(supports, normals, held, comm);
-  ASSERT_EQ(inclined.size(), 2U);
+  const std::vector<PrescribedDof> prescribed{{4, 1, 0.3, 2}};
+  const auto skew_supports = skew_support_rows(supports, normals, prescribed, comm);
+  ASSERT_EQ(skew_supports.size(), 2U);
   Eigen::Matrix3d directions;
-  directions << 0, 1, 0, vector(inclined[0].direction).transpose(), vector(inclined[1].direction).transpose();
+  directions << 0, 1, 0, vector(skew_supports[0].direction).transpose(), vector(skew_supports[1].direction).transpose();
   EXPECT_LT((directions * directions.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-13);
-  const Point u = directions.inverse() * Point(0.3, inclined[0].value, inclined[1].value);
+  const Point u = directions.inverse() * Point(0.3, skew_supports[0].value, skew_supports[1].value);
   EXPECT_NEAR(first.dot(u), 0.7, 1e-13);
   EXPECT_NEAR(second.dot(u), -0.2, 1e-13);
   const std::vector<Point> own{first, second, Point(0, 1, 0)};
-  for (const auto& i : inclined) {
+  for (const auto& i : skew_supports) {
     Point sum = Point::Zero();
     for (int k = 0; k < i.share_count; ++k) {
       const auto& share = i.shares[static_cast<std::size_t>(k)];
@@ -130,22 +130,22 @@ TEST(Normals, AlongAnAxisAreComponents)
 {
   const auto supports = along_normal({0.5});
   std::vector<NodeNormal> normals{{1, 0, {0, -1, 0}}, {2, 0, {0.6, 0.8, 0}}};
-  const auto held = take_aligned(supports, normals);
-  ASSERT_EQ(held.size(), 1U);
-  EXPECT_EQ(held[0].component, 1);
-  EXPECT_EQ(held[0].value, -0.5);
+  const auto prescribed = take_axis_aligned(supports, normals);
+  ASSERT_EQ(prescribed.size(), 1U);
+  EXPECT_EQ(prescribed[0].component, 1);
+  EXPECT_EQ(prescribed[0].value, -0.5);
   ASSERT_EQ(normals.size(), 1U);
   EXPECT_EQ(normals[0].node, 2);
-  EXPECT_EQ(hold(supports, std::vector<std::vector<Global>>(1), 3, Communicator(MPI_COMM_SELF), held).size(), 1U);
+  EXPECT_EQ(dirichlet_rows(supports, std::vector<std::vector<Global>>(1), 3, Communicator(MPI_COMM_SELF), prescribed).size(), 1U);
 }
 
 TEST(Normals, ContradictionNamesBothBoundaries)
 {
   const Communicator comm(MPI_COMM_SELF);
   const std::vector<NodeNormal> normals{{3, 0, {0.6, 0.8, 0}}, {3, 1, {-0.6, -0.8, 0}}};
-  EXPECT_EQ(incline(along_normal({0.5, -0.5}), normals, {}, comm).size(), 1U);
+  EXPECT_EQ(skew_support_rows(along_normal({0.5, -0.5}), normals, {}, comm).size(), 1U);
   try {
-    incline(along_normal({0.5, 0.5}), normals, {}, comm);
+    skew_support_rows(along_normal({0.5, 0.5}), normals, {}, comm);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::bad_input);

@@ -4,8 +4,8 @@
 
 namespace mortise::contact {
 
-CutFaces::CutFaces(const Side& side, const Places& places, const std::vector<char>& own)
-    : side_(side), places_(places), begin_(side.faces.size(), 0), end_(side.faces.size(), 0)
+CutFaces::CutFaces(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<char>& own)
+    : side_(side), nodes_(surface_nodes), begin_(side.faces.size(), 0), end_(side.faces.size(), 0)
 {
   std::vector<char> touched = own;
   const auto touches = [&](std::size_t f) {
@@ -31,12 +31,12 @@ std::size_t CutFaces::place_of(std::size_t face, const PieceStore::View& piece, 
 {
   auto node = static_cast<std::size_t>(k);
   if (piece.facet >= 0) node = static_cast<std::size_t>(side_.corners[static_cast<std::size_t>(piece.facet)][node]);
-  return static_cast<std::size_t>(node_places(face)[node]);
+  return static_cast<std::size_t>(surface_nodes_of(face)[node]);
 }
 
-void CutFaces::sort_by_places()
+void CutFaces::sort_by_nodes()
 {
-  first_.assign(places_.all.size() + 1, 0);
+  first_.assign(nodes_.all.size() + 1, 0);
   const auto each = [&](const auto& use) {
     for (const std::size_t f : near_)
       for (const std::size_t i : pieces(f)) {
@@ -45,7 +45,7 @@ void CutFaces::sort_by_places()
       }
   };
   each([&](std::size_t p, const Function&) { ++first_[p + 1]; });
-  for (std::size_t p = 0; p < places_.all.size(); ++p) first_[p + 1] += first_[p];
+  for (std::size_t p = 0; p < nodes_.all.size(); ++p) first_[p + 1] += first_[p];
   functions_.resize(first_.back());
   auto next = first_;
   each([&](std::size_t p, const Function& function) { functions_[next[p]++] = function; });

@@ -1,4 +1,4 @@
-// The faces of a secondary side in pieces, and which functions of which pieces belong to each place.
+// The faces of a secondary side in pieces, and which functions of which pieces belong to each surface node.
 #pragma once
 
 #include <ranges>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pieces.hpp"
-#include "places.hpp"
+#include "surface_nodes.hpp"
 
 namespace mortise::contact {
 
@@ -19,7 +19,7 @@ class CutFaces {
   };
 
   /// Both must outlive it. `own`: of each node whether this rank makes its rows.
-  CutFaces(const Side& side, const Places& places, const std::vector<char>& own);
+  CutFaces(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<char>& own);
 
   /// Faces round this rank's nodes, whose share of the rows is needed; ascending.
   const std::vector<std::size_t>& near() const { return near_; }
@@ -31,28 +31,28 @@ class CutFaces {
   std::ranges::iota_view<std::size_t, std::size_t> pieces(std::size_t face) const { return {begin_[face], end_[face]}; }
   PieceStore::View piece(std::size_t i) { return store_[i]; }
 
-  /// The places at the nodes of a face.
-  std::span<const Local> node_places(std::size_t face) const
+  /// The surface nodes at the nodes of a face.
+  std::span<const Local> surface_nodes_of(std::size_t face) const
   {
-    return std::span(places_.of_node).subspan(static_cast<std::size_t>(side_.faces.offset[face]), side_.faces[face].size());
+    return std::span(nodes_.of_node).subspan(static_cast<std::size_t>(side_.faces.offset[face]), side_.faces[face].size());
   }
-  /// The place that a function belongs to.
+  /// The surface node that a function belongs to.
   std::size_t place_of(std::size_t face, const PieceStore::View& piece, Eigen::Index k) const;
 
-  /// Sorts the functions of near() by their places, ascending by face and piece.
-  void sort_by_places();
-  std::span<const Function> at(std::size_t place) const
+  /// Sorts the functions of near() by their surface nodes, ascending by face and piece.
+  void sort_by_nodes();
+  std::span<const Function> at(std::size_t surface_node) const
   {
-    return std::span(functions_).subspan(first_[place], first_[place + 1] - first_[place]);
+    return std::span(functions_).subspan(first_[surface_node], first_[surface_node + 1] - first_[surface_node]);
   }
 
  private:
   const Side& side_;
-  const Places& places_;
+  const SurfaceNodes& nodes_;
   std::vector<std::size_t> near_, round_;
   PieceStore store_;
   std::vector<std::size_t> begin_, end_;  // of each face in store_
-  std::vector<std::size_t> first_;        // of each place in functions_
+  std::vector<std::size_t> first_;        // of each surface node in functions_
   std::vector<Function> functions_;
 };
 

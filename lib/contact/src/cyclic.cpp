@@ -6,7 +6,7 @@
 
 namespace mortise::contact {
 
-std::optional<mesh::Motion> turn_of(const Options& options)
+std::optional<mesh::Motion> rotation_of(const Options& options)
 {
   if (!options.cyclic) return {};
   mesh::InstanceOptions once;
@@ -14,10 +14,10 @@ std::optional<mesh::Motion> turn_of(const Options& options)
   return mesh::motions({once}).front();
 }
 
-mesh::Surface turned(mesh::Surface surface, const Options& options)
+mesh::Surface rotated(mesh::Surface surface, const Options& options)
 {
-  if (const auto turn = turn_of(options))
-    for (auto& x : surface.points) x = (*turn)(x);
+  if (const auto rotation = rotation_of(options))
+    for (auto& x : surface.points) x = (*rotation)(x);
   return surface;
 }
 

@@ -15,9 +15,9 @@ namespace mortise::contact {
 /// One contact, as a discretization sees it. Refers to its parts, which outlive it.
 struct TwoSides {
   const Side& secondary;
-  const Places& places;
+  const SurfaceNodes& places;
   const Side& primary;
-  const Places& primary_places;
+  const SurfaceNodes& primary_nodes;
   const Tree& tree;  ///< of the primary facets
   CutFaces& faces;   ///< of the secondary side
   Rays& rays;        ///< from the places

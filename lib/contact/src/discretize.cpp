@@ -14,18 +14,18 @@
 #include "cut_faces.hpp"
 #include "discretization.hpp"
 #include "face_integrals.hpp"
-#include "held_nodes.hpp"
 #include "one_surface.hpp"
 #include "opposite.hpp"
 #include "rows.hpp"
 #include "sector_cuts.hpp"
 #include "share.hpp"
+#include "supported_nodes.hpp"
 
 namespace mortise::contact {
 
 namespace {
 
-// A place covered by less than this part of its surroundings gets no multiplier.
+// A surface node covered by less than this part of its surroundings gets no multiplier.
 constexpr double least_cover = 0.01;
 // Less than this part of a facet is covered by chance.
 constexpr double least_piece = 0.01;
@@ -39,39 +39,40 @@ Tree tree_of_facets(const Side& side)
 }
 
 // A node that has rows of a contact that is not bonded.
-struct Pressed {
+struct PressedNode {
   Global node;
 };
 
 // One contact on its way from faces to rows: those of the nodes that are this rank's.
 class Builder {
  public:
-  // `pressed`: nodes of share.secondary that have rows of contacts that are not bonded.
-  Builder(const Options& options, const Share& share, double reach, int index, const HeldDirectory& held,
-          const std::vector<Pressed>& pressed, const CurvedFaces& curved, fem::Kinematics kinematics, const Communicator& comm)
+  // `pressed_nodes`: nodes of share.secondary that have rows of contacts that are not bonded.
+  Builder(const Options& options, const Share& share, double reach, int index, const SupportDirectory& supports,
+          const std::vector<PressedNode>& pressed_nodes, const CurvedFaces& curved, fem::Kinematics kinematics,
+          const Communicator& comm)
       : options_(options),
         index_(index),
         dimension_(fem::dimension(kinematics)),
         share_(share),
         secondary_(share.secondary),
         primary_(share.primary),
-        pressed_(pressed),
-        places_(find_places(secondary_)),
-        primary_places_(find_places(primary_)),
-        faces_(secondary_, places_, share.own),
+        pressed_nodes_(pressed_nodes),
+        nodes_(find_surface_nodes(secondary_)),
+        primary_nodes_(find_surface_nodes(primary_)),
+        faces_(secondary_, nodes_, share.own),
         tree_(tree_of_facets(primary_)),
-        rays_(secondary_, places_, primary_, primary_places_, tree_, options.obstacle, reach),
-        discretization_(make_discretization(options.discretization, {secondary_, places_, primary_, primary_places_, tree_,
-                                                                     faces_, rays_, options.obstacle.has_value(), reach})),
-        one_surface_(asks_geometry(options) ? OneSurface(secondary_, places_, primary_, curved, turn_of(options), comm)
+        rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, options.obstacle, reach),
+        discretization_(make_discretization(options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_,
+                                                                     rays_, options.obstacle.has_value(), reach})),
+        one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
-        held_(held, secondary_.node_id, comm),
-        primary_held_(held, primary_.node_id, comm),
-        writer_(secondary_, primary_, held_, primary_held_, dimension_, turn_of(options))
+        supports_(supports, secondary_.node_id, comm),
+        primary_supports_(supports, primary_.node_id, comm),
+        writer_(secondary_, primary_, supports_, primary_supports_, dimension_, rotation_of(options))
   {
   }
 
-  // Of this rank's places.
+  // Of this rank's surface nodes.
   double covered_area() const { return covered_area_; }
 
   // How far supports alone push the two sides into each other.
@@ -81,12 +82,12 @@ class Builder {
   const InitialGap& initial_gap() const { return initial_gap_; }
   void set_touching(double touching) { initial_gap_.touching = touching; }
 
-  // How far the two sides are apart, at this rank's places that carry a multiplier.
+  // How far the two sides are apart, at this rank's surface nodes that carry a multiplier.
   double widest_gap() const
   {
     double widest = 0;
-    for (std::size_t p = 0; p < places_.all.size(); ++p)
-      if (const double gap = own(p) && kept_[p] ? std::abs(rays_.gap(p, places_.all[p].normal)) : 0; std::isfinite(gap))
+    for (std::size_t p = 0; p < nodes_.all.size(); ++p)
+      if (const double gap = own(p) && kept_[p] ? std::abs(rays_.gap(p, nodes_.all[p].normal)) : 0; std::isfinite(gap))
         widest = std::max(widest, gap);
     return widest;
   }
@@ -94,21 +95,21 @@ class Builder {
   void add_rows(constraint::Contacts& contacts)
   {
     for (const std::size_t f : faces_.round()) discretization_->add_face(f);
-    choose_places();
+    choose_contact_nodes();
     discretization_->make_functions(kept_);
-    faces_.sort_by_places();
-    for (std::size_t p = 0; p < places_.all.size(); ++p)
-      if (own(p) && kept_[p]) add_place(p, contacts);
+    faces_.sort_by_nodes();
+    for (std::size_t p = 0; p < nodes_.all.size(); ++p)
+      if (own(p) && kept_[p]) add_surface_node(p, contacts);
   }
 
  private:
-  bool own(std::size_t place) const { return share_.own[static_cast<std::size_t>(places_.all[place].node)] != 0; }
+  bool own(std::size_t surface_node) const { return share_.own[static_cast<std::size_t>(nodes_.all[surface_node].node)] != 0; }
   bool bonded() const { return options_.law == Law::bonded; }
 
-  // Which places carry a multiplier: covered enough, and not left out of a bond.
-  void choose_places()
+  // Which surface nodes carry a multiplier: covered enough, and not left out of a bond.
+  void choose_contact_nodes()
   {
-    const auto count = places_.all.size();
+    const auto count = nodes_.all.size();
     std::vector<double> covered(count, 0.0), whole(count, 0.0);
     for (const std::size_t f : faces_.round())  // in the order of the faces, whatever the ranks
       for (const std::size_t i : faces_.pieces(f)) {
@@ -121,31 +122,31 @@ class Builder {
     for (std::size_t p = 0; p < count; ++p)
       if (own(p)) covered_area_ += covered[p];
     directions_.reserve(count);
-    for (const auto& place : places_.all) {
-      const Global node = secondary_.node_id[static_cast<std::size_t>(place.node)];
-      const std::array<bool, 3> held{held_.find(node, 0) != nullptr, held_.find(node, 1) != nullptr,
-                                     held_.find(node, 2) != nullptr};
-      directions_.push_back(directions(place.normal, held, held_.inclined(node), dimension_));
+    for (const auto& surface_node : nodes_.all) {
+      const Global node = secondary_.node_id[static_cast<std::size_t>(surface_node.node)];
+      const std::array<bool, 3> prescribed{supports_.find(node, 0) != nullptr, supports_.find(node, 1) != nullptr,
+                                           supports_.find(node, 2) != nullptr};
+      directions_.push_back(directions(surface_node.normal, prescribed, supports_.skew_supports(node), dimension_));
     }
     // Where a bonded seam ends at a contact, both sides of the seam have rows of that contact, each of which says what the other
     // and the seam say: pressures that nothing shares out. As the mortar method does where multipliers meet, the seam has none
     // there.
     std::vector<char> crossing(count, 0);
     for (std::size_t p = 0; p < count && discretization_->seams_end_at_contacts(); ++p)
-      crossing[p] = std::binary_search(pressed_.begin(), pressed_.end(),
-                                       Pressed{secondary_.node_id[static_cast<std::size_t>(places_.all[p].node)]},
-                                       [](const Pressed& a, const Pressed& b) { return a.node < b.node; });
+      crossing[p] = std::binary_search(pressed_nodes_.begin(), pressed_nodes_.end(),
+                                       PressedNode{secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)]},
+                                       [](const PressedNode& a, const PressedNode& b) { return a.node < b.node; });
     const auto left_out = [&](std::size_t p) { return !directions_[p].free_normal || crossing[p]; };
-    // Places held along their normal keep their rows in a contact: the primary side alone feels them (add_point() drops them if
-    // it does not, as an obstacle). If their neighbours took over their share, these would see what moves along a curved surface
-    // there as an overlap. In a bond they would hold the primary side to the mean of what it meets, and leave their share to the
-    // others of the face, as those at a seam's end do; where a face has no others, as on a surface that a support moves as a
-    // whole, they stay.
+    // Surface nodes prescribed along their normal keep their rows in a contact: the primary side alone feels them (add_point()
+    // drops them if it does not, as an obstacle). If their neighbours took over their share, these would see what moves along a
+    // curved surface there as an overlap. In a bond they would hold the primary side to the mean of what it meets, and leave
+    // their share to the others of the face, as those at a seam's end do; where a face has no others, as on a surface that a
+    // support moves as a whole, they stay.
     stranded_.assign(count, 0);
     for (const std::size_t f : faces_.round()) {
-      const auto places = faces_.node_places(f);
-      if (std::all_of(places.begin(), places.end(), [&](Local p) { return left_out(static_cast<std::size_t>(p)); }))
-        for (const Local p : places) stranded_[static_cast<std::size_t>(p)] = 1;
+      const auto surface_nodes = faces_.surface_nodes_of(f);
+      if (std::all_of(surface_nodes.begin(), surface_nodes.end(), [&](Local p) { return left_out(static_cast<std::size_t>(p)); }))
+        for (const Local p : surface_nodes) stranded_[static_cast<std::size_t>(p)] = 1;
     }
     cover_.assign(count, 0);
     kept_.assign(count, 0);
@@ -153,7 +154,7 @@ class Builder {
     for (std::size_t p = 0; p < count; ++p) {
       freed_[p] = (stranded_[p] || !bonded()) && !directions_[p].free_normal;
       if (freed_[p])
-        directions_[p] = directions(places_.all[p].normal, {false, false, false}, {}, dimension_);  // moves() picks the tangents
+        directions_[p] = directions(nodes_.all[p].normal, {false, false, false}, {}, dimension_);  // moves() picks the tangents
       cover_[p] = whole[p] > 0 ? std::min(covered[p] / whole[p], 1.0) : 0.0;
       kept_[p] = (!left_out(p) || stranded_[p] || freed_[p]) && cover_[p] > least_cover;
     }
@@ -198,7 +199,7 @@ class Builder {
     terms_.resize(end);
   }
 
-  void add_place(std::size_t p, constraint::Contacts& contacts)
+  void add_surface_node(std::size_t p, constraint::Contacts& contacts)
   {
     terms_.clear();
     double d = 0, rise = 0;
@@ -212,28 +213,28 @@ class Builder {
     add_point(p, d, rise, contacts);
   }
 
-  // A place where supports prescribe both sides. At the border of a side they may move it along a curved surface, which normals
-  // of the meshes see as a little of a crossing, and what overlaps in the mesh has its own warning.
+  // A surface node where supports prescribe both sides. At the border of a side they may move it along a curved surface, which
+  // normals of the meshes see as a little of a crossing, and what overlaps in the mesh has its own warning.
   void note_crossing(std::size_t p, double d, const Point& normal, double gap)
   {
     constexpr double along = 0.1;  // of the motion: that of what slides along a coarse mesh
-    const double into = writer_.held_part(terms_, d, normal);
+    const double into = writer_.prescribed_part(terms_, d, normal);
     if (stranded_[p]) {
       crossing_ = std::max(crossing_, into - gap);
       return;
     }
     double square = into * into;
-    for (const auto& tangent : directions_[p].tangents) square += std::pow(writer_.held_part(terms_, d, tangent), 2);
+    for (const auto& tangent : directions_[p].tangents) square += std::pow(writer_.prescribed_part(terms_, d, tangent), 2);
     if (into > along * std::sqrt(square)) crossing_ = std::max(crossing_, into - std::max(gap, 0.0));
   }
 
-  // The point of a place's multiplier and the secondary side's normal there: at the node, unless it was moved into what is
+  // The point of a surface node's multiplier and the secondary side's normal there: at the node, unless it was moved into what is
   // covered.
   std::pair<Point, Point> point_of(std::size_t p)
   {
-    const Place& place = places_.all[p];
-    const Point& node = secondary_.points[static_cast<std::size_t>(place.node)];
-    Point shift = Point::Zero(), turn = Point::Zero();
+    const SurfaceNode& surface_node = nodes_.all[p];
+    const Point& node = secondary_.points[static_cast<std::size_t>(surface_node.node)];
+    Point shift = Point::Zero(), tilt = Point::Zero();
     double d = 0;
     for (const auto& [face, i, k] : faces_.at(p)) {
       const auto piece = faces_.piece(i);
@@ -243,21 +244,21 @@ class Builder {
       for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c) {
         const double part = piece.covered[k] * piece.points(k, static_cast<Eigen::Index>(c));
         shift += part * (secondary_.points[static_cast<std::size_t>(secondary_.facets[facet][c])] - node);
-        turn += part * (places_.normal(secondary_, facet, c) - place.normal);
+        tilt += part * (nodes_.normal(secondary_, facet, c) - surface_node.normal);
       }
     }
-    return {node + shift / d, (place.normal + turn / d).normalized()};
+    return {node + shift / d, (surface_node.normal + tilt / d).normalized()};
   }
 
   void add_point(std::size_t p, double d, double rise, constraint::Contacts& contacts)
   {
-    const Place& place = places_.all[p];
+    const SurfaceNode& surface_node = nodes_.all[p];
     const auto [at, own_normal] = point_of(p);
-    const Point normal = bonded() ? place.normal : rays_.direction(p, at, own_normal);
-    constraint::ContactPoint point{
-        index_, secondary_.node_id[static_cast<std::size_t>(place.node)], d, normal, {}, contacts.rows.size()};
-    const bool held = !writer_.moves(terms_, d, normal);  // on both sides
-    if (!held && options_.law != Law::frictionless)
+    const Point normal = bonded() ? surface_node.normal : rays_.direction(p, at, own_normal);
+    constraint::ContactNode point{
+        index_, secondary_.node_id[static_cast<std::size_t>(surface_node.node)], d, normal, {}, contacts.rows.size()};
+    const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
+    if (!prescribed && options_.law != Law::frictionless)
       for (const auto& tangent : tangents(p, normal))
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
 
@@ -275,13 +276,13 @@ class Builder {
     const double gap = starts_in_mesh() ? mesh_gap : starting_gap_at(p, normal, mean);
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
-    if (held) {
+    if (prescribed) {
       if (!bonded()) note_crossing(p, d, normal, point.gap);
       return;
     }
     writer_.add(terms_, d, normal, point.gap, contacts);
     for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
-    contacts.points.push_back(std::move(point));
+    contacts.nodes.push_back(std::move(point));
     contacts.bonded.push_back(bonded());
   }
 
@@ -290,16 +291,17 @@ class Builder {
   {
     const auto& known = directions_[p].tangents;
     Few<Point, 2> result;
-    if (normal == places_.all[p].normal) {
+    if (normal == nodes_.all[p].normal) {
       for (const auto& tangent : known) result.push_back(tangent);
       return result;
     }
-    const Global node = secondary_.node_id[static_cast<std::size_t>(places_.all[p].node)];
+    const Global node = secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)];
     const bool freed = freed_[p];
-    const std::array<bool, 3> held{!freed && held_.find(node, 0), !freed && held_.find(node, 1), !freed && held_.find(node, 2)};
-    const auto turned =
-        directions(normal, held, freed ? std::span<const constraint::Inclined>{} : held_.inclined(node), dimension_);
-    for (const auto& tangent : turned.tangents) result.push_back(tangent);
+    const std::array<bool, 3> prescribed{!freed && supports_.find(node, 0), !freed && supports_.find(node, 1),
+                                         !freed && supports_.find(node, 2)};
+    const auto rotated = directions(
+        normal, prescribed, freed ? std::span<const constraint::SkewSupport>{} : supports_.skew_supports(node), dimension_);
+    for (const auto& tangent : rotated.tangents) result.push_back(tangent);
     return result;
   }
 
@@ -334,13 +336,13 @@ class Builder {
 
   std::size_t face_of(std::size_t facet) const { return static_cast<std::size_t>(primary_.face_of[facet]); }
 
-  // That which the contact starts with; the terms are those of the place.
+  // That which the contact starts with; the terms are those of the surface node.
   double starting_gap_at(std::size_t p, const Point& direction, double mean)
   {
     return gap_at(p, direction, starting_gap(options_, mean, one_surface_.holds(p, terms_)),
-                  [&](std::size_t place, const Opposite& opposite) {
+                  [&](std::size_t surface_node, const Opposite& opposite) {
                     return starting_gap(options_, opposite.gap,
-                                        one_surface_.anywhere() && one_surface_.holds(place, face_of(opposite.facet)));
+                                        one_surface_.anywhere() && one_surface_.holds(surface_node, face_of(opposite.facet)));
                   });
   }
 
@@ -349,24 +351,24 @@ class Builder {
   int dimension_;
   const Share& share_;
   const Side &secondary_, &primary_;
-  const std::vector<Pressed>& pressed_;
-  Places places_, primary_places_;
+  const std::vector<PressedNode>& pressed_nodes_;
+  SurfaceNodes nodes_, primary_nodes_;
   CutFaces faces_;  // once dual, those near have their share of the rows
   Tree tree_;       // of the primary facets
   Rays rays_;
   std::unique_ptr<Discretization> discretization_;
   OneSurface one_surface_;
   InitialGap initial_gap_;
-  HeldNodes held_, primary_held_;
+  SupportedNodes supports_, primary_supports_;
   RowWriter writer_;
   double crossing_ = 0;
   double covered_area_ = 0;
-  std::vector<Directions> directions_;  // of each place
-  std::vector<char> stranded_;          // of each place: its faces have no place that supports and seams leave free
-  std::vector<char> freed_;             // of each place: its row keeps what supports hold of the secondary side
-  std::vector<char> kept_;              // of each place
-  std::vector<double> cover_;           // of each place
-  std::vector<Term> terms_;             // of the place at work
+  std::vector<Directions> directions_;  // of each surface node
+  std::vector<char> stranded_;          // of each surface node: its faces have no surface node that supports and seams leave free
+  std::vector<char> freed_;             // of each surface node: its row keeps what supports hold of the secondary side
+  std::vector<char> kept_;              // of each surface node
+  std::vector<double> cover_;           // of each surface node
+  std::vector<Term> terms_;             // of the surface node at work
 };
 
 [[noreturn]] void refuse_crossing(const Options& options, double crossing)
@@ -383,22 +385,23 @@ class Builder {
 
 }  // namespace
 
-constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
-                                const Communicator& comm, std::span<const constraint::Inclined> inclined,
-                                std::span<const CurvedFace> curved_faces, std::vector<InitialGap>* initial_gaps)
+constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::PrescribedDof> prescribed,
+                                fem::Kinematics kinematics, const Communicator& comm,
+                                std::span<const constraint::SkewSupport> skew_supports, std::span<const CurvedFace> curved_faces,
+                                std::vector<InitialGap>* initial_gaps)
 {
   constraint::Contacts contacts;
   const auto sizes = measure(pairs, comm);
-  const HeldDirectory directory(held, inclined, comm);
-  std::vector<Pressed> pressed;  // this rank's nodes by number, not by place; see by_node()
+  const SupportDirectory directory(prescribed, skew_supports, comm);
+  std::vector<PressedNode> pressed_nodes;  // this rank's nodes by number, not by place; see by_node()
   const CurvedFaces curved(curved_faces, comm);
   if (initial_gaps) initial_gaps->assign(pairs.size(), {});
   const auto add = [&](std::size_t c) {
     const auto& options = pairs[c].options;
     const Share share = share_out(pairs[c], sizes[c], kinematics, comm);
-    std::vector<Pressed> crossed;
-    if (options.law == Law::bonded && comm.any(!pressed.empty()))
-      crossed = answer(pressed, ask(share.secondary.node_id, comm), comm);
+    std::vector<PressedNode> crossed;
+    if (options.law == Law::bonded && comm.any(!pressed_nodes.empty()))
+      crossed = answer(pressed_nodes, ask(share.secondary.node_id, comm), comm);
     Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, crossed, curved, kinematics, comm);
     builder.set_touching(touching_gap(sizes[c].extent, sizes[c].secondary_face));
     builder.add_rows(contacts);
@@ -412,8 +415,8 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (!is_bonded(pairs[c])) add(c);
   if (std::none_of(pairs.begin(), pairs.end(), is_bonded)) return contacts;
-  for (const auto& point : contacts.points) pressed.push_back({point.node});
-  pressed = by_node<Pressed>(pressed, comm);
+  for (const auto& point : contacts.nodes) pressed_nodes.push_back({point.node});
+  pressed_nodes = by_node<PressedNode>(pressed_nodes, comm);
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (is_bonded(pairs[c])) add(c);
   return contacts;

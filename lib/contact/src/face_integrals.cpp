@@ -30,12 +30,12 @@ Eigen::Vector4d whole_of(const FaceGeometry& face)
 
 }  // namespace
 
-Integrator::Integrator(const Side& secondary, const Places& secondary_places, const Side& primary, const Places& primary_places,
-                       const Tree& tree, double reach)
+Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary,
+                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach)
     : secondary_(secondary),
-      secondary_places_(secondary_places),
+      secondary_nodes_(secondary_nodes),
       primary_(primary),
-      primary_places_(primary_places),
+      primary_nodes_(primary_nodes),
       tree_(tree),
       reach_(reach),
       slot_(primary.points.size(), -1)
@@ -112,7 +112,7 @@ void Integrator::add_points(std::size_t facet, std::size_t other, const Bulge& o
 {
   const auto face = static_cast<std::size_t>(secondary_.face_of[facet]),
              other_face = static_cast<std::size_t>(primary_.face_of[other]);
-  const Bulge other_bulge(primary_, primary_places_, other);
+  const Bulge other_bulge(primary_, primary_nodes_, other);
   const auto& basis = multiplier_basis(secondary_.faces.type[face]);
   constexpr bool first_order = Vector::SizeAtCompileTime == 4;
   const auto r = piece_->covered.size(), n = piece_->mass.cols();
@@ -201,7 +201,7 @@ void Integrator::add_pair(std::size_t facet, std::size_t other, const Bulge& own
 void Integrator::integrate_facet(std::size_t facet)
 {
   add_whole(facet);
-  const Bulge own_bulge(secondary_, secondary_places_, facet);
+  const Bulge own_bulge(secondary_, secondary_nodes_, facet);
   each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
 }
 
@@ -326,7 +326,7 @@ void Integrator::move_points(std::size_t face)
     const Eigen::Vector4d whole = whole_of(secondary_.geometry(facet));
     for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c)
       piece_->whole[nodes[c]] += whole[static_cast<Eigen::Index>(c)];
-    const Bulge own_bulge(secondary_, secondary_places_, facet);
+    const Bulge own_bulge(secondary_, secondary_nodes_, facet);
     each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
   }
   basis_.reset();

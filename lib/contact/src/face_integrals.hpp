@@ -7,7 +7,7 @@
 
 #include "covered_basis.hpp"
 #include "pieces.hpp"
-#include "places.hpp"
+#include "surface_nodes.hpp"
 #include "tree.hpp"
 
 namespace mortise::contact {
@@ -16,7 +16,7 @@ namespace mortise::contact {
 class Integrator {
  public:
   /// All of which must outlive it. `tree` has the facets of the primary side.
-  Integrator(const Side& secondary, const Places& secondary_places, const Side& primary, const Places& primary_places,
+  Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
              const Tree& tree, double reach);
   /// Everything on the primary side that a face looks at within reach: one piece, or those of its facets. Valid until the next
   /// call.
@@ -48,9 +48,9 @@ class Integrator {
                   Matrix across);
 
   const Side& secondary_;
-  const Places& secondary_places_;
+  const SurfaceNodes& secondary_nodes_;
   const Side& primary_;
-  const Places& primary_places_;
+  const SurfaceNodes& primary_nodes_;
   const Tree& tree_;
   double reach_;
   std::vector<PieceIntegrals> pieces_;

@@ -11,7 +11,7 @@ class Mortar : public Discretization {
  public:
   explicit Mortar(const TwoSides& sides)
       : Discretization(sides),
-        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_places, sides.tree, sides.reach)
+        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_nodes, sides.tree, sides.reach)
   {
   }
 
@@ -20,7 +20,7 @@ class Mortar : public Discretization {
     auto& faces = sides_.faces;
     if (!sides_.obstacle) return faces.add(face, integrator_.integrate(face));
     faces.add(face, integrator_.integrate_whole(face));
-    const auto places = faces.node_places(face);
+    const auto places = faces.surface_nodes_of(face);
     if (!std::all_of(places.begin(), places.end(), [&](Local p) { return sides_.rays.meets(static_cast<std::size_t>(p)); }))
       faces.piece(faces.pieces(face).front()).covered.setZero();
   }

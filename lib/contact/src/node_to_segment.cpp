@@ -9,7 +9,7 @@ class NodeToSegment : public Discretization {
  public:
   explicit NodeToSegment(const TwoSides& sides)
       : Discretization(sides),
-        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_places, sides.tree, sides.reach)
+        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_nodes, sides.tree, sides.reach)
   {
   }
 
@@ -19,7 +19,7 @@ class NodeToSegment : public Discretization {
     auto& faces = sides_.faces;
     faces.add(face, integrator_.integrate_whole(face));
     auto covered = faces.piece(faces.pieces(face).front()).covered;
-    const auto places = faces.node_places(face);
+    const auto places = faces.surface_nodes_of(face);
     const auto& control = control_values(sides_.secondary.faces.type[face]);
     for (Eigen::Index k = 0; k < control.rows(); ++k)
       for (Eigen::Index l = 0; l < control.cols(); ++l)
@@ -32,8 +32,8 @@ class NodeToSegment : public Discretization {
   // u_s - sum_j N_j u_j at what each node meets, weighted with the node's share of the face.
   void add_terms(const CutFaces::Function& function, std::vector<Term>& terms) override
   {
-    const auto& [secondary, own_places, primary, primary_places, tree, faces, rays, obstacle, reach] = sides_;
-    const auto places = faces.node_places(function.face);
+    const auto& [secondary, own_places, primary, primary_nodes, tree, faces, rays, obstacle, reach] = sides_;
+    const auto places = faces.surface_nodes_of(function.face);
     const auto nodes = secondary.faces[function.face];
     const auto piece = faces.piece(function.piece);
     const auto& control = control_values(secondary.faces.type[function.face]);

@@ -67,15 +67,15 @@ std::vector<int> CurvedFaces::of(const Side& side, std::vector<mesh::CurvedSurfa
   return result;
 }
 
-OneSurface::OneSurface(const Side& secondary, const Places& places, const Side& primary, const CurvedFaces& faces,
-                       const std::optional<mesh::Motion>& turn, const Communicator& comm)
+OneSurface::OneSurface(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary, const CurvedFaces& faces,
+                       const std::optional<mesh::Motion>& rotation, const Communicator& comm)
 {
   std::vector<mesh::CurvedSurface> here, there;
   const auto of_secondary = faces.of(secondary, here, comm);
   auto of_primary = faces.of(primary, there, comm);
   if (here.empty() || there.empty()) return;
-  if (turn)
-    for (auto& surface : there) surface = mesh::moved(surface, *turn);
+  if (rotation)
+    for (auto& surface : there) surface = mesh::moved(surface, *rotation);
   const auto common = matches(here, there);
   if (std::all_of(common.begin(), common.end(), [](const auto& same) { return same.empty(); })) return;
   of_primary_ = std::move(of_primary);
@@ -83,35 +83,35 @@ OneSurface::OneSurface(const Side& secondary, const Places& places, const Side& 
     if (of_secondary[f] < 0) continue;
     for (const int s : common[static_cast<std::size_t>(of_secondary[f])])
       for (std::size_t k = 0; k < secondary.faces[f].size(); ++k)
-        at_place_.emplace_back(places.of_node[static_cast<std::size_t>(secondary.faces.offset[f]) + k], s);
+        at_surface_node_.emplace_back(surface_nodes.of_node[static_cast<std::size_t>(secondary.faces.offset[f]) + k], s);
   }
   for (std::size_t f = 0; f < primary.faces.size(); ++f)
     if (of_primary_[f] >= 0)
       for (const Local n : primary.faces[f]) at_node_.emplace_back(n, static_cast<Local>(f));
-  sort_uniquely(at_place_);
+  sort_uniquely(at_surface_node_);
   sort_uniquely(at_node_);
 }
 
-bool OneSurface::knows(std::size_t place) const
+bool OneSurface::knows(std::size_t surface_node) const
 {
-  return !entries(at_place_, static_cast<Local>(place)).empty();
+  return !entries(at_surface_node_, static_cast<Local>(surface_node)).empty();
 }
 
-bool OneSurface::holds(std::size_t place, std::size_t primary_face) const
+bool OneSurface::holds(std::size_t surface_node, std::size_t primary_face) const
 {
   if (!anywhere()) return false;
-  const auto here = entries(at_place_, static_cast<Local>(place));
+  const auto here = entries(at_surface_node_, static_cast<Local>(surface_node));
   return std::any_of(here.begin(), here.end(), [&](const auto& entry) { return entry.second == of_primary_[primary_face]; });
 }
 
-bool OneSurface::holds(std::size_t place, std::span<const Term> terms) const
+bool OneSurface::holds(std::size_t surface_node, std::span<const Term> terms) const
 {
   bool any = false;
   for (const auto& term : terms) {
     if (!term.on_primary) continue;
     const auto faces = entries(at_node_, term.node);
     if (std::none_of(faces.begin(), faces.end(),
-                     [&](const auto& entry) { return holds(place, static_cast<std::size_t>(entry.second)); }))
+                     [&](const auto& entry) { return holds(surface_node, static_cast<std::size_t>(entry.second)); }))
       return false;
     any = true;
   }

@@ -7,7 +7,7 @@
 
 #include "contact/fit.hpp"
 #include "face_integrals.hpp"
-#include "places.hpp"
+#include "surface_nodes.hpp"
 
 namespace mortise::contact {
 
@@ -27,26 +27,26 @@ class CurvedFaces {
   std::vector<CurvedFace> own_;  // ascending
 };
 
-/// The places of a secondary side against the faces of a primary one.
+/// The surface nodes of a secondary side against the faces of a primary one.
 class OneSurface {
  public:
   OneSurface() = default;
-  /// `turn`: of the primary side, if it is turned. Collective.
-  OneSurface(const Side& secondary, const Places& places, const Side& primary, const CurvedFaces& faces,
-             const std::optional<mesh::Motion>& turn, const Communicator& comm);
+  /// `rotation`: of the primary side, if it is turned. Collective.
+  OneSurface(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary, const CurvedFaces& faces,
+             const std::optional<mesh::Motion>& rotation, const Communicator& comm);
 
   bool anywhere() const { return !of_primary_.empty(); }
-  /// Whether a face at the place is of a surface that the primary side has, too.
-  bool knows(std::size_t place) const;
-  /// Whether a face at the place is of the surface that a face of the primary side is of.
-  bool holds(std::size_t place, std::size_t primary_face) const;
+  /// Whether a face at the surface node is of a surface that the primary side has, too.
+  bool knows(std::size_t surface_node) const;
+  /// Whether a face at the surface node is of the surface that a face of the primary side is of.
+  bool holds(std::size_t surface_node, std::size_t primary_face) const;
   /// Whether every primary node of `terms` is on such a face.
-  bool holds(std::size_t place, std::span<const Term> terms) const;
+  bool holds(std::size_t surface_node, std::span<const Term> terms) const;
 
  private:
-  std::vector<int> of_primary_;                   // of each face its surface, or -1
-  std::vector<std::pair<Local, int>> at_place_;   // place, surface (of the primary side) of a face there; ascending
-  std::vector<std::pair<Local, Local>> at_node_;  // primary node, face there; ascending
+  std::vector<int> of_primary_;                         // of each face its surface, or -1
+  std::vector<std::pair<Local, int>> at_surface_node_;  // surface node, surface (of the primary side) of a face there; ascending
+  std::vector<std::pair<Local, Local>> at_node_;        // primary node, face there; ascending
 };
 
 }  // namespace mortise::contact

@@ -1,4 +1,4 @@
-// What lies opposite a place, along its normal: a smooth primary side or a rigid obstacle.
+// What lies opposite a surface node, along its normal: a smooth primary side or a rigid obstacle.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/obstacle.hpp"
-#include "places.hpp"
+#include "surface_nodes.hpp"
 #include "tree.hpp"
 
 namespace mortise::contact {
@@ -19,51 +19,51 @@ struct Opposite {
 
 class Rays {
  public:
-  /// All of which must outlive it; `tree` has the facets of the primary side. Turns the normals of the places at which an
+  /// All of which must outlive it; `tree` has the facets of the primary side. Turns the normals of the surface nodes at which an
   /// obstacle lies opposite into the direction of contact, that of the obstacle.
-  Rays(const Side& secondary, Places& places, const Side& primary, const Places& primary_places, const Tree& tree,
-       const std::optional<Obstacle>& obstacle, double reach);
+  Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
+       const Tree& tree, const std::optional<Obstacle>& obstacle, double reach);
 
-  /// What is next to a place on the line along its normal, both ways, within reach; looked up once for each place. An obstacle is
-  /// met at any distance.
-  const Opposite& meet(std::size_t place);
-  bool meets(std::size_t place) { return std::abs(meet(place).gap) <= reach_; }
+  /// What is next to a surface node on the line along its normal, both ways, within reach; looked up once for each surface node.
+  /// An obstacle is met at any distance.
+  const Opposite& meet(std::size_t surface_node);
+  bool meets(std::size_t surface_node) { return std::abs(meet(surface_node).gap) <= reach_; }
 
-  /// The direction of contact at a point of the secondary side near a place, whose normal there is given: between the two sides'
-  /// normals, the nearer to that of the flatter side the more it is flatter, weights being the other side's curvature. So both
-  /// sides mean the same direction, and a curved body on a flat one is not sheared. The given normal where nothing lies opposite;
-  /// an obstacle's own.
-  Point direction(std::size_t place, const Point& at, const Point& normal) const;
+  /// The direction of contact at a point of the secondary side near a surface node, whose normal there is given: between the two
+  /// sides' normals, the nearer to that of the flatter side the more it is flatter, weights being the other side's curvature. So
+  /// both sides mean the same direction, and a curved body on a flat one is not sheared. The given normal where nothing lies
+  /// opposite; an obstacle's own.
+  Point direction(std::size_t surface_node, const Point& at, const Point& normal) const;
 
-  /// Takes another gap than that of the meshes where a line from a place meets something.
-  using GapOf = std::function<double(std::size_t place, const Opposite&)>;
-  /// The gap along a direction of contact at a place, as the rows see it: in the middle of edges and faces as a control value,
-  /// see multiplier_basis(). Infinite if one of the lines meets nothing within twice the reach.
-  double gap(std::size_t place, const Point& direction, const GapOf& gap_of = {}) const;
-  /// The same at a point of a facet, behind which the smooth surface stands out, that stands for a place. Lines that just miss
-  /// the other side meet its faces continued.
+  /// Takes another gap than that of the meshes where a line from a surface node meets something.
+  using GapOf = std::function<double(std::size_t surface_node, const Opposite&)>;
+  /// The gap along a direction of contact at a surface node, as the rows see it: in the middle of edges and faces as a control
+  /// value, see multiplier_basis(). Infinite if one of the lines meets nothing within twice the reach.
+  double gap(std::size_t surface_node, const Point& direction, const GapOf& gap_of = {}) const;
+  /// The same at a point of a facet, behind which the smooth surface stands out, that stands for a surface node. Lines that just
+  /// miss the other side meet its faces continued.
   struct FacetPoint {
     std::size_t facet;
     Eigen::Vector4d shape;  ///< of the facet
   };
-  double gap(std::size_t place, const FacetPoint& point, const Point& direction, const GapOf& gap_of = {}) const;
+  double gap(std::size_t surface_node, const FacetPoint& point, const Point& direction, const GapOf& gap_of = {}) const;
 
  private:
   Opposite shoot(const Point& from, const Point& direction, double length) const;
   // The same; a line that meets nothing meets the nearest face continued, if it misses it by less than `past`.
   Opposite shoot_past(const Point& from, const Point& direction, double length, double past) const;
   const Side& secondary_;
-  const Places& places_;
+  const SurfaceNodes& nodes_;
   const Side& primary_;
-  const Places& primary_places_;
+  const SurfaceNodes& primary_nodes_;
   const Tree& tree_;
   double reach_;
   bool obstacle_;
-  std::vector<double> curvature_, past_;                 // of each place
-  std::vector<double> distance_;                         // of each place from the obstacle, if there is one
-  std::vector<std::pair<Local, Local>> face_of_middle_;  // of each place: a face and the node in it, if that is no corner
+  std::vector<double> curvature_, past_;                 // of each surface node
+  std::vector<double> distance_;                         // of each surface node from the obstacle, if there is one
+  std::vector<std::pair<Local, Local>> face_of_middle_;  // of each surface node: a face and the node in it, if that is no corner
   std::vector<Opposite> met_;
-  std::vector<Local> known_;  // of each place its entry in met_, or -1
+  std::vector<Local> met_index_;  // of each surface node its entry in met_, or -1
 };
 
 }  // namespace mortise::contact

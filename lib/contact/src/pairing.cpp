@@ -42,8 +42,8 @@ bool is_secondary(const Half& a, const Half& b, bool plane)
 }
 
 // A patch as a contact; `facing` are those of its faces.
-Meeting describe_meeting(const Bodies& bodies, const std::vector<int>& faces, const std::vector<Facing>& facing,
-                         const Ground& ground)
+ContactCandidate describe_candidate(const Bodies& bodies, const std::vector<int>& faces, const std::vector<Facing>& facing,
+                                    const Ground& ground)
 {
   const auto& skin = ground.skin;
   std::array<Half, 2> halves;
@@ -52,13 +52,13 @@ Meeting describe_meeting(const Bodies& bodies, const std::vector<int>& faces, co
   const auto half_of = [&](int face) -> Half& { return halves[skin.body[at(face)] == bodies.first ? 0 : 1]; };
   for (const int face : faces) half_of(face).faces.push_back(skin.face_id[at(face)]);
   std::set<int> seen;
-  Meeting meeting;
-  meeting.least_gap = std::numeric_limits<double>::infinity();
-  meeting.largest_gap = -meeting.least_gap;
+  ContactCandidate candidate;
+  candidate.least_gap = std::numeric_limits<double>::infinity();
+  candidate.largest_gap = -candidate.least_gap;
   for (const auto& f : facing) {
     seen.insert({f.face, f.other});
-    meeting.least_gap = std::min(meeting.least_gap, f.gap);
-    meeting.largest_gap = std::max(meeting.largest_gap, f.gap);
+    candidate.least_gap = std::min(candidate.least_gap, f.gap);
+    candidate.largest_gap = std::max(candidate.largest_gap, f.gap);
   }
   for (const int face : seen) {
     auto& half = half_of(face);
@@ -67,21 +67,22 @@ Meeting describe_meeting(const Bodies& bodies, const std::vector<int>& faces, co
     half.normal += skin.area[at(face)] * skin.normal[at(face)];
   }
   if (!is_secondary(halves[0], halves[1], fem::dimension(skin.side.kinematics) == 2)) std::swap(halves[0], halves[1]);
-  meeting.secondary = halves[0].body;
-  meeting.primary = halves[1].body;
-  meeting.secondary_faces = std::move(halves[0].faces);
-  meeting.primary_faces = std::move(halves[1].faces);
-  meeting.secondary_facing = halves[0].facing;
-  meeting.primary_facing = halves[1].facing;
-  meeting.area = halves[0].area;
-  meeting.reach = reach_of(facing, ground);
-  return meeting;
+  candidate.secondary = halves[0].body;
+  candidate.primary = halves[1].body;
+  candidate.secondary_faces = std::move(halves[0].faces);
+  candidate.primary_faces = std::move(halves[1].faces);
+  candidate.secondary_facing = halves[0].facing;
+  candidate.primary_facing = halves[1].facing;
+  candidate.area = halves[0].area;
+  candidate.reach = reach_of(facing, ground);
+  return candidate;
 }
 
 }  // namespace
 
-std::vector<Meeting> find_meetings(const mesh::Surface& skin, int bodies, const std::set<Bodies>& known, const Options& options,
-                                   fem::Kinematics kinematics, const Communicator& comm)
+std::vector<ContactCandidate> find_contact_candidates(const mesh::Surface& skin, int bodies, const std::set<Bodies>& known,
+                                                      const Options& options, fem::Kinematics kinematics,
+                                                      const Communicator& comm)
 {
   const Lengths lengths{options.search_distance, options.interference, options.law == Law::bonded, diagonals(skin, bodies, comm)};
   const auto near = gather_skin(near_others(skin, lengths, comm), kinematics, comm);
@@ -112,7 +113,7 @@ std::vector<Meeting> find_meetings(const mesh::Surface& skin, int bodies, const 
   std::map<std::pair<int, int>, std::vector<int>> patches;  // pair, patch: faces
   for (const auto& m : members) patches[{m.pair, m.patch}].push_back(m.face);
 
-  std::vector<Meeting> result;
+  std::vector<ContactCandidate> result;
   number = 0;
   for (const auto& [two, facing] : pairs) {
     const std::size_t first = result.size();
@@ -120,7 +121,7 @@ std::vector<Meeting> find_meetings(const mesh::Surface& skin, int bodies, const 
       std::vector<Facing> own;
       for (const auto& f : facing)
         if (std::binary_search(patch->second.begin(), patch->second.end(), f.face)) own.push_back(f);
-      result.push_back(describe_meeting(two, patch->second, own, ground));
+      result.push_back(describe_candidate(two, patch->second, own, ground));
     }
     if (result.size() - first > 1)
       for (std::size_t i = first; i < result.size(); ++i) result[i].patch = static_cast<int>(i - first) + 1;

@@ -18,18 +18,18 @@ const std::vector<RowWriter::Coefficient>& RowWriter::coefficients(std::span<con
   for (const auto& term : terms) {
     if (!(std::abs(term.value) > negligible * d)) continue;
     const Global node = node_of(term);
-    const auto& supports = term.on_primary ? primary_held_ : held_;
+    const auto& supports = term.on_primary ? primary_supports_ : supports_;
     Point rest = axis_of(term, axis);
-    // What inclined supports leave of the axis; parts that are rounding are 0.
-    if (const auto inclined = supports.inclined(node); !inclined.empty()) {
+    // What skew supports leave of the axis; parts that are rounding are 0.
+    if (const auto skew_supports = supports.skew_supports(node); !skew_supports.empty()) {
       const Point whole = rest;
-      for (const auto& i : inclined) rest -= whole.dot(along(i)) * along(i);
+      for (const auto& i : skew_supports) rest -= whole.dot(along(i)) * along(i);
       rest = (rest.array().abs() < 1e-9).select(0.0, rest);
     }
     for (int c = 0; c < dimension_; ++c)
       if (std::abs(rest[c]) > 1e-14) coefficients_.push_back({node, c, term.value / d * rest[c], supports.find(node, c)});
   }
-  if (turn_) merge();
+  if (rotation_) merge();
   return coefficients_;
 }
 
@@ -52,20 +52,20 @@ void RowWriter::merge()
 
 bool RowWriter::moves(std::span<const Term> terms, double d, const Point& axis)
 {
-  if (!terms.empty() && !turn_) {  // mostly the first term says it
-    if (const auto& first = coefficients(terms.first(1), d, axis); !first.empty() && !first[0].held) return true;
+  if (!terms.empty() && !rotation_) {  // mostly the first term says it
+    if (const auto& first = coefficients(terms.first(1), d, axis); !first.empty() && !first[0].prescribed) return true;
   }
   const auto& all = coefficients(terms, d, axis);
-  return std::any_of(all.begin(), all.end(), [](const Coefficient& c) { return !c.held; });
+  return std::any_of(all.begin(), all.end(), [](const Coefficient& c) { return !c.prescribed; });
 }
 
-double RowWriter::held_part(std::span<const Term> terms, double d, const Point& axis)
+double RowWriter::prescribed_part(std::span<const Term> terms, double d, const Point& axis)
 {
   double sum = 0;
   for (const auto& term : terms)
-    for (const auto& i : inclined_of(term)) sum += term.value / d * axis_of(term, axis).dot(along(i)) * i.value;
+    for (const auto& i : skew_supports_of(term)) sum += term.value / d * axis_of(term, axis).dot(along(i)) * i.value;
   for (const auto& c : coefficients(terms, d, axis))
-    if (c.held) sum += c.value * c.held->value;
+    if (c.prescribed) sum += c.value * c.prescribed->value;
   return sum;
 }
 
@@ -73,18 +73,18 @@ void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, do
 {
   const auto row = contacts.rows.size();
   for (const auto& term : terms)
-    for (const auto& i : inclined_of(term)) {
+    for (const auto& i : skew_supports_of(term)) {
       const double coefficient = term.value / d * axis_of(term, axis).dot(along(i));
       bound -= coefficient * i.value;
       for (const auto& share : std::span(i.shares).first(static_cast<std::size_t>(i.share_count)))
         for (int c = 0; c < dimension_; ++c)
           if (const double part = coefficient * share.part[static_cast<std::size_t>(c)]; part != 0)
-            contacts.held.push_back({row, c, share.support, part});
+            contacts.prescribed.push_back({row, c, share.support, part});
     }
   for (const auto& c : coefficients(terms, d, axis)) {
-    if (c.held) {
-      bound -= c.value * c.held->value;
-      contacts.held.push_back({row, c.component, c.held->support, c.value});
+    if (c.prescribed) {
+      bound -= c.value * c.prescribed->value;
+      contacts.prescribed.push_back({row, c.component, c.prescribed->support, c.value});
     } else {
       contacts.rows.entries.push_back({c.node, c.component, c.value});
     }

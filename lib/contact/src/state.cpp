@@ -9,10 +9,10 @@
 
 namespace mortise::contact {
 
-PointState state_of(const constraint::ContactPoint& point, bool bonded, std::span<const double> multipliers,
-                    std::span<const double> jumps, double bound, double limit, double nothing)
+ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std::span<const double> multipliers,
+                          std::span<const double> jumps, double bound, double slip_bound, double nothing)
 {
-  PointState state;
+  ContactNodeState state;
   state.contact = point.contact;
   state.node = point.node;
   state.area = point.area;
@@ -29,11 +29,11 @@ PointState state_of(const constraint::ContactPoint& point, bool bonded, std::spa
   if (bonded)
     state.status = Status::stick;
   else if (state.force > nothing * point.area)
-    state.status = limit > 0 && tangential < limit * (1 - 1e-6) ? Status::stick : Status::slip;
+    state.status = slip_bound > 0 && tangential < slip_bound * (1 - 1e-6) ? Status::stick : Status::slip;
   return state;
 }
 
-std::vector<Resultant> resultants(std::span<const PointState> points, std::size_t contacts, const Communicator& comm)
+std::vector<Resultant> resultants(std::span<const ContactNodeState> points, std::size_t contacts, const Communicator& comm)
 {
   constexpr std::size_t width = 7;
   std::vector<double> sums(contacts * width, 0.0);
@@ -72,7 +72,7 @@ bool before(const T& a, const NodeState& b)
 }
 
 // Those of this rank's own nodes, ascending by node and contact. Collective.
-std::vector<NodeState> meet(std::span<const PointState> points, const Communicator& comm)
+std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Communicator& comm)
 {
   std::vector<NodeState> mine;
   for (const auto& p : points) {
@@ -275,7 +275,7 @@ std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std:
 
 }  // namespace
 
-std::vector<SurfaceState> surface_states(std::span<const PointState> points, std::span<const Pair> pairs,
+std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,
                                          const Communicator& comm)
 {
   auto own = meet(points, comm);

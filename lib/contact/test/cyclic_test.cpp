@@ -62,13 +62,13 @@ struct Sector {
   std::map<Global, Point> at;  // of all nodes, where they lie in the mesh
 };
 
-Sector sector(double inner, int n, int other_n, double turn, const Communicator& comm)
+Sector sector(double inner, int n, int other_n, double rotation, const Communicator& comm)
 {
   Sector result;
   Options options;
   options.name = "cuts";
   options.law = Law::bonded;
-  options.cyclic = mesh::RotationOptions{{0, 0, 3}, turn, {0, 0, 0.2}};
+  options.cyclic = mesh::RotationOptions{{0, 0, 3}, rotation, {0, 0, 0.2}};
   const auto secondary = cut(10 + angle, inner, n, 3, true, 100, comm), primary = cut(10, inner, other_n, 3, false, 1000, comm);
   struct Node {
     Global id;
@@ -79,7 +79,7 @@ Sector sector(double inner, int n, int other_n, double turn, const Communicator&
     for (std::size_t i = 0; i < side->points.size(); ++i)
       mine.push_back({side->node_id[i], {side->points[i][0], side->points[i][1], side->points[i][2]}});
   for (const auto& node : comm.all_gather(mine)) result.at[node.id] = Point(node.x[0], node.x[1], node.x[2]);
-  result.pairs.push_back({options, secondary, std::make_shared<const mesh::Surface>(turned(primary, options))});
+  result.pairs.push_back({options, secondary, std::make_shared<const mesh::Surface>(rotated(primary, options))});
   return result;
 }
 
@@ -105,7 +105,7 @@ TEST_P(Cuts, FieldsThatRepeatAreNotFeltAndOthersAre)
   const auto [inner, other] = GetParam();
   const auto model = sector(inner, 5, other, angle, comm);
   const auto contacts = discretize(model.pairs, {}, fem::Kinematics::solid, comm);
-  EXPECT_GT(comm.sum(static_cast<long long>(contacts.points.size())), 20);
+  EXPECT_GT(comm.sum(static_cast<long long>(contacts.nodes.size())), 20);
   for (const double bound : contacts.rows.bound) EXPECT_EQ(bound, 0);
   const auto repeating = [](const Point& x) { return Point(0.3 * x[0] - 2 * x[1], 2 * x[0] + 0.3 * x[1], 5 - 0.7 * x[2]); };
   EXPECT_LT(felt(contacts, model, repeating, comm), 1e-12);
@@ -142,16 +142,16 @@ TEST(Cyclic, MatchingCutsGivePairsOfTurnedNodes)
 {
   const Communicator comm;
   const auto model = sector(1, 4, 4, angle, comm);
-  const auto turn = turn_of(model.pairs[0].options);
-  ASSERT_TRUE(turn.has_value());
+  const auto rotation = rotation_of(model.pairs[0].options);
+  ASSERT_TRUE(rotation.has_value());
   const auto contacts = discretize(model.pairs, {}, fem::Kinematics::solid, comm);
-  for (const auto& point : contacts.points) {
+  for (const auto& point : contacts.nodes) {
     ASSERT_EQ(point.tangents.size(), 2U);
     for (std::size_t r = 0; r < 3; ++r) {
-      const Point axis = r == 0 ? point.normal : point.tangents[r - 1], other = -turn->rotation.transpose() * axis;
+      const Point axis = r == 0 ? point.normal : point.tangents[r - 1], other = -rotation->rotation.transpose() * axis;
       for (const auto& e : contacts.rows[point.row + r]) {
         const bool on_primary = e.node >= 1000;
-        EXPECT_LT(((on_primary ? (*turn)(model.at.at(e.node)) : model.at.at(e.node)) - point.at).norm(), 1e-12);
+        EXPECT_LT(((on_primary ? (*rotation)(model.at.at(e.node)) : model.at.at(e.node)) - point.at).norm(), 1e-12);
         EXPECT_NEAR(e.coefficient, (on_primary ? other : axis)[e.component], 1e-12);
       }
     }
@@ -161,11 +161,11 @@ TEST(Cyclic, MatchingCutsGivePairsOfTurnedNodes)
 TEST(Cyclic, CutsThatDoNotMeetAreAnError)
 {
   const Communicator comm;
-  for (const double turn : {-angle, 36.0, 45.0}) {
-    const auto model = sector(1, 4, 5, turn, comm);
+  for (const double rotation : {-angle, 36.0, 45.0}) {
+    const auto model = sector(1, 4, 5, rotation, comm);
     try {
       discretize(model.pairs, {}, fem::Kinematics::solid, comm);
-      ADD_FAILURE() << "no error at " << turn;
+      ADD_FAILURE() << "no error at " << rotation;
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find("does not lie on the secondary one"), std::string::npos) << error.what();
     }

@@ -45,7 +45,7 @@ Found find(const Pair& pair, const std::vector<CurvedFace>& curved, const Commun
   std::vector<InitialGap> initial;
   const auto contacts = discretize(std::vector{pair}, {}, fem::Kinematics::solid, comm, {}, curved, &initial);
   std::vector<double> gaps;
-  for (const auto& point : contacts.points) {
+  for (const auto& point : contacts.nodes) {
     gaps.push_back(point.gap / point.weight);
     EXPECT_NEAR(contacts.rows.bound[point.row], point.gap, 1e-15);
   }

@@ -109,26 +109,26 @@ TEST(Mortar, MatchingMeshesGiveNodePairsAlsoAtTheBorderOfTheOverlap)
   }
 }
 
-// A side of which one border is held along the normal: in a bond its nodes leave their share to the others, in a contact they
-// keep rows that the primary side alone feels.
-class HeldBorder : public testing::TestWithParam<Law> {};
+// A side of which one border is prescribed along the normal: in a bond its nodes leave their share to the others, in a contact
+// they keep rows that the primary side alone feels.
+class PrescribedBorder : public testing::TestWithParam<Law> {};
 
-TEST_P(HeldBorder, ForcesAreConsistentWithWhatGoesIntoSupports)
+TEST_P(PrescribedBorder, ForcesAreConsistentWithWhatGoesIntoSupports)
 {
   const Communicator comm;
   const bool bonded = GetParam() == Law::bonded;
   const auto flat = [](double x, double y) { return Point(x, y, 0); };
   const auto pair = make_pair(surface({4, 4, 0, 1, 0, 1, true}, flat, comm),
                               surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), GetParam());
-  std::vector<constraint::Held> held;
+  std::vector<constraint::PrescribedDof> prescribed;
   if (comm.root())
-    for (const Global node : {0, 5, 10, 15, 20}) {             // x = 0: held along the normal, and along y
-      held.push_back({node, 2, 0.5, static_cast<int>(node)});  // each by a support of its own
-      held.push_back({node, 1, 0, static_cast<int>(node)});
+    for (const Global node : {0, 5, 10, 15, 20}) {                   // x = 0: prescribed along the normal, and along y
+      prescribed.push_back({node, 2, 0.5, static_cast<int>(node)});  // each by a support of its own
+      prescribed.push_back({node, 1, 0, static_cast<int>(node)});
     }
-  if (comm.root()) held.push_back({24, 0, 0, 24});  // one tangential component at a corner
-  const auto contacts = discretize(std::vector<Pair>{pair}, held, fem::Kinematics::solid, comm);
-  for (const auto& point : contacts.points) {
+  if (comm.root()) prescribed.push_back({24, 0, 0, 24});  // one tangential component at a corner
+  const auto contacts = discretize(std::vector<Pair>{pair}, prescribed, fem::Kinematics::solid, comm);
+  for (const auto& point : contacts.nodes) {
     const bool of_border = point.node % 5 == 0;
     EXPECT_FALSE(bonded && of_border);
     const auto& bound = contacts.rows.bound[point.row];
@@ -147,12 +147,12 @@ TEST_P(HeldBorder, ForcesAreConsistentWithWhatGoesIntoSupports)
     if (row.is_normal)
       for (const auto& e : row.entries)
         force.try_emplace(e.node, Point::Zero()).first->second[e.component] += row.area * e.coefficient;
-  // What acts on held components goes into their supports, and what these move stands in the bounds.
+  // What acts on prescribed components goes into their supports, and what these move stands in the bounds.
   std::vector<double> supported(3 * 25, 0.0);
   double shift = 0, expected_shift = 0;
-  for (const auto& point : contacts.points) {
+  for (const auto& point : contacts.nodes) {
     shift += point.gap - contacts.rows.bound[point.row];
-    for (const auto& entry : contacts.held) {
+    for (const auto& entry : contacts.prescribed) {
       if (entry.row != point.row) continue;
       supported[3 * static_cast<std::size_t>(entry.support) + static_cast<std::size_t>(entry.component)] +=
           point.area * entry.coefficient;
@@ -173,7 +173,7 @@ TEST_P(HeldBorder, ForcesAreConsistentWithWhatGoesIntoSupports)
       EXPECT_LT((force.at(node) - expected).norm(), 1e-11) << "node " << node;
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, HeldBorder, testing::Values(Law::bonded, Law::tresca));
+INSTANTIATE_TEST_SUITE_P(Laws, PrescribedBorder, testing::Values(Law::bonded, Law::tresca));
 
 TEST(Mortar, KinksHaveAPointForEachSide)
 {
@@ -211,7 +211,7 @@ TEST(Mortar, FarAndFacingAwayNeverMeet)
   const Communicator comm;
   const auto at = [](double z) { return [z](double x, double y) { return Point(x, y, z); }; };
   const auto count = [&](const Pair& pair) {
-    return comm.sum(static_cast<long long>(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm).points.size()));
+    return comm.sum(static_cast<long long>(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm).nodes.size()));
   };
   const auto below = surface({4, 4, 0, 1, 0, 1, true}, at(0), comm);
   EXPECT_EQ(count(make_pair(below, surface({4, 4, 0, 1, 0, 1, false, false, primary_ids}, at(0.2), comm), Law::frictionless)),
@@ -274,7 +274,7 @@ TEST(Mortar, SeamsHaveNoMultipliersWhereTheyEndAtAContact)
                   surface({3, 3, 0, 2, 0, 1, true, false, primary_ids}, flat, comm), Law::frictionless)};
     const auto contacts = discretize(pairs, {}, fem::Kinematics::solid, comm);
     std::vector<double> count(2, 0.0);  // points of the seam, and those of them at the plate
-    for (const auto& point : contacts.points) {
+    for (const auto& point : contacts.nodes) {
       if (point.contact != 0) continue;
       count[0] += 1;
       if (point.node < 100) count[1] += 1;
@@ -288,7 +288,7 @@ TEST(Mortar, SeamsHaveNoMultipliersWhereTheyEndAtAContact)
     EXPECT_EQ(count[1], 0);
     double felt = 0;  // of a linear field
     const auto nodes = nodes_of(pairs[0], comm);
-    for (const auto& point : contacts.points)
+    for (const auto& point : contacts.nodes)
       for (std::size_t r = point.row; point.contact == 0 && r <= point.row + 2; ++r) {
         double sum = 0;
         for (const auto& e : contacts.rows[r]) {

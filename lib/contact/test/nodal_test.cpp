@@ -50,13 +50,15 @@ TEST(Obstacles, SignedDistances)
 {
   using Shape = Obstacle::Shape;
   const Point x(3, 4, 7);
-  EXPECT_NEAR(foot({Shape::plane, Point(0, 0, 5), Point::UnitZ(), 0, false}, x).distance, 2, 1e-15);
-  EXPECT_NEAR(foot({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, false}, x).distance, 1, 1e-15);
-  EXPECT_NEAR(foot({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).distance, -1, 1e-15);
-  EXPECT_LT((foot({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).normal + Point(0.6, 0.8, 0)).norm(), 1e-15);
-  EXPECT_NEAR(foot({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, true}, x).distance, 1, 1e-15);
-  EXPECT_LT((foot({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, false}, x).normal - Point(0.6, 0.8, 0)).norm(), 1e-15);
-  EXPECT_FALSE(std::isfinite(foot({Shape::sphere, x, Point::UnitY(), 6, false}, x).distance));
+  EXPECT_NEAR(closest_point({Shape::plane, Point(0, 0, 5), Point::UnitZ(), 0, false}, x).distance, 2, 1e-15);
+  EXPECT_NEAR(closest_point({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, false}, x).distance, 1, 1e-15);
+  EXPECT_NEAR(closest_point({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).distance, -1, 1e-15);
+  EXPECT_LT((closest_point({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).normal + Point(0.6, 0.8, 0)).norm(),
+            1e-15);
+  EXPECT_NEAR(closest_point({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, true}, x).distance, 1, 1e-15);
+  EXPECT_LT((closest_point({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, false}, x).normal - Point(0.6, 0.8, 0)).norm(),
+            1e-15);
+  EXPECT_FALSE(std::isfinite(closest_point({Shape::sphere, x, Point::UnitY(), 6, false}, x).distance));
 }
 
 // A wavy sheet over a plane: rows of single nodes along the plane's normal, with their heights for gaps; areas of the whole
@@ -70,9 +72,9 @@ TEST(Obstacles, RowsAreThoseOfNodesAlongTheNormalOfTheObstacle)
   pair.options.obstacle = Obstacle{Obstacle::Shape::plane, Point(7, 8, -0.01), Point::UnitZ(), 0, false};
   pair.options.interference = 0.005;
   const auto contacts = discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm);
-  EXPECT_EQ(comm.sum(static_cast<long long>(contacts.points.size())), 30);
+  EXPECT_EQ(comm.sum(static_cast<long long>(contacts.nodes.size())), 30);
   std::vector<double> area{0};
-  for (const auto& point : contacts.points) {
+  for (const auto& point : contacts.nodes) {
     EXPECT_LT((point.normal + Point::UnitZ()).norm(), 1e-15);
     EXPECT_NEAR(point.gap, point.at[2] + 0.01 - 0.005, 1e-14);
     ASSERT_EQ(contacts.rows[point.row].size(), 1U);
@@ -85,8 +87,8 @@ TEST(Obstacles, RowsAreThoseOfNodesAlongTheNormalOfTheObstacle)
   EXPECT_NEAR(area[0], 1.00778, 5e-4);
 }
 
-// A belt round a drum whose end lies on it and is drawn along it: the place that is held has no row, as nothing is left to move
-// there, and its neighbours see no part of its motion, which seen along their normals goes into the drum.
+// A belt round a drum whose end lies on it and is drawn along it: the place that is prescribed has no row, as nothing is left to
+// move there, and its neighbours see no part of its motion, which seen along their normals goes into the drum.
 TEST(Obstacles, AnEndThatIsDrawnAlongADrumIsNoOverlapToItsNeighbours)
 {
   const Communicator comm;
@@ -94,14 +96,14 @@ TEST(Obstacles, AnEndThatIsDrawnAlongADrumIsNoOverlapToItsNeighbours)
   auto pair = make_pair(surface({6, 2, 0, 1.5, 0, 1, false}, drum, comm), {}, Law::coulomb);
   pair.primary = nullptr;
   pair.options.obstacle = Obstacle{Obstacle::Shape::cylinder, Point::Zero(), Point::UnitZ(), 1, false};
-  std::vector<constraint::Held> held;
+  std::vector<constraint::PrescribedDof> prescribed;
   if (comm.root())
     for (const Global node : {0, 7, 14})
       for (const int component : {0, 1, 2})
-        held.push_back({node, component, component == 1 ? -0.1 : 0.0, static_cast<int>(node)});
-  const auto contacts = discretize(std::vector<Pair>{pair}, held, fem::Kinematics::solid, comm);
-  EXPECT_EQ(comm.sum(static_cast<long long>(contacts.points.size())), 18);
-  for (const auto& point : contacts.points) {
+        prescribed.push_back({node, component, component == 1 ? -0.1 : 0.0, static_cast<int>(node)});
+  const auto contacts = discretize(std::vector<Pair>{pair}, prescribed, fem::Kinematics::solid, comm);
+  EXPECT_EQ(comm.sum(static_cast<long long>(contacts.nodes.size())), 18);
+  for (const auto& point : contacts.nodes) {
     EXPECT_NE(point.node % 7, 0);
     EXPECT_NEAR(contacts.rows.bound[point.row], 0, 1e-12) << "node " << point.node;
   }

@@ -75,12 +75,12 @@ struct Skin {
     return result;
   }
 
-  std::vector<Meeting> meetings(const Options& options = {}, const std::set<Bodies>& known = {}) const
+  std::vector<ContactCandidate> candidates(const Options& options = {}, const std::set<Bodies>& known = {}) const
   {
     const Communicator comm;
     const int bodies = 1 + *std::max_element(body.begin(), body.end());
-    return find_meetings(on_rank(comm), bodies, known, options,
-                         faces[0].size() == 2 ? fem::Kinematics::plane_strain : fem::Kinematics::solid, comm);
+    return find_contact_candidates(on_rank(comm), bodies, known, options,
+                                   faces[0].size() == 2 ? fem::Kinematics::plane_strain : fem::Kinematics::solid, comm);
   }
 };
 
@@ -103,7 +103,7 @@ Options within(double distance)
 TEST(Pairing, TwoBlocks)
 {
   const auto skin = two_blocks(0.05);
-  const auto found = skin.meetings();
+  const auto found = skin.candidates();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].secondary, 1);  // the finer one
   EXPECT_EQ(found[0].primary, 0);
@@ -124,26 +124,26 @@ TEST(Pairing, TwoBlocks)
 TEST(Pairing, Distance)
 {
   for (const double gap : {-0.2, -0.17, 0.17, 0.2}) {
-    const auto found = two_blocks(gap).meetings();
+    const auto found = two_blocks(gap).candidates();
     ASSERT_EQ(found.size(), std::abs(gap) < 0.1767 ? 1u : 0u) << gap;
-    for (const auto& meeting : found) EXPECT_NEAR(meeting.least_gap, gap, 1e-14);
+    for (const auto& candidate : found) EXPECT_NEAR(candidate.least_gap, gap, 1e-14);
   }
-  EXPECT_EQ(two_blocks(0.5).meetings(within(0.6)).size(), 1u);
-  EXPECT_EQ(two_blocks(-0.5).meetings(within(0.6)).size(), 1u);
-  EXPECT_EQ(two_blocks(0.5).meetings(within(0.4)).size(), 0u);
-  EXPECT_EQ(two_blocks(0.5).meetings(within(0.6), {{0, 1}}).size(), 0u);
-  EXPECT_EQ(two_blocks(0.5).meetings(within(0.6))[0].reach, 0.6);
+  EXPECT_EQ(two_blocks(0.5).candidates(within(0.6)).size(), 1u);
+  EXPECT_EQ(two_blocks(-0.5).candidates(within(0.6)).size(), 1u);
+  EXPECT_EQ(two_blocks(0.5).candidates(within(0.4)).size(), 0u);
+  EXPECT_EQ(two_blocks(0.5).candidates(within(0.6), {{0, 1}}).size(), 0u);
+  EXPECT_EQ(two_blocks(0.5).candidates(within(0.6))[0].reach, 0.6);
 }
 
 TEST(Pairing, GapsThatInterferenceCloses)
 {
   Options options;
   options.interference = 0.4;
-  EXPECT_EQ(two_blocks(0.5).meetings(options).size(), 1u);
-  EXPECT_EQ(two_blocks(-0.5).meetings(options).size(), 0u);
+  EXPECT_EQ(two_blocks(0.5).candidates(options).size(), 1u);
+  EXPECT_EQ(two_blocks(-0.5).candidates(options).size(), 0u);
   options.interference = -0.4;
-  EXPECT_EQ(two_blocks(0.5).meetings(options).size(), 0u);
-  EXPECT_EQ(two_blocks(-0.5).meetings(options).size(), 1u);
+  EXPECT_EQ(two_blocks(0.5).candidates(options).size(), 0u);
+  EXPECT_EQ(two_blocks(-0.5).candidates(options).size(), 1u);
 }
 
 // Plates much thinner than their faces are long: next ones meet, those beyond do not, nor do far sides, be the plates apart or
@@ -153,16 +153,16 @@ TEST(Pairing, ThinPlates)
   for (const double gap : {-0.005, 0.0, 0.01}) {
     Skin skin;
     for (int i = 0; i < 4; ++i) skin.add_box(i, Point(0.03 * i, 0, (0.05 + gap) * i), Point(1, 1, 0.05), {4, 4, 1});
-    const auto found = skin.meetings();
+    const auto found = skin.candidates();
     ASSERT_EQ(found.size(), 3u) << gap;
     for (int i = 0; i < 3; ++i) {
-      const auto& meeting = found[static_cast<std::size_t>(i)];
-      EXPECT_EQ(meeting.secondary, i);  // equal in all, so the lower number
-      EXPECT_EQ(meeting.primary, i + 1);
-      EXPECT_NEAR(meeting.least_gap, gap, 1e-14);
-      EXPECT_NEAR(meeting.largest_gap, gap, 1e-14);
-      EXPECT_EQ(meeting.secondary_faces.size(), 16u);
-      EXPECT_EQ(meeting.primary_faces.size(), 16u);
+      const auto& candidate = found[static_cast<std::size_t>(i)];
+      EXPECT_EQ(candidate.secondary, i);  // equal in all, so the lower number
+      EXPECT_EQ(candidate.primary, i + 1);
+      EXPECT_NEAR(candidate.least_gap, gap, 1e-14);
+      EXPECT_NEAR(candidate.largest_gap, gap, 1e-14);
+      EXPECT_EQ(candidate.secondary_faces.size(), 16u);
+      EXPECT_EQ(candidate.primary_faces.size(), 16u);
     }
   }
 }
@@ -174,7 +174,7 @@ TEST(Pairing, TwoPatchesAreTwoContacts)
   skin.add_box(0, Point(4, 0, 0), Point(1, 1, 1), {3, 3, 2});
   skin.add_box(1, Point(0, 0, 1), Point(1, 1, 1), {2, 2, 2});
   skin.add_box(1, Point(4, 0, 1), Point(1, 1, 1), {2, 2, 2});
-  const auto found = skin.meetings();
+  const auto found = skin.candidates();
   ASSERT_EQ(found.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(found[i].patch, static_cast<int>(i) + 1);
@@ -206,7 +206,7 @@ TEST(Pairing, FarSidesOfRoundedPlates)
   Skin skin;
   skin.add_line(0, plate(0));
   skin.add_line(1, plate(0.1));
-  const auto found = skin.meetings();
+  const auto found = skin.candidates();
   ASSERT_EQ(found.size(), 1u);
   const auto middle = [&](Global f) {
     const auto& face = skin.faces[static_cast<std::size_t>(f)];
@@ -245,7 +245,7 @@ TEST(Pairing, RollerOnTable)
   for (int i = 0; i < 40; ++i) table.emplace_back(2 - h * i, 0, 0);
   table.insert(table.end(), {Point(-2, 0, 0), Point(-2, -1, 0), Point(2, -1, 0)});
   skin.add_line(1, table);
-  const auto found = skin.meetings();
+  const auto found = skin.candidates();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].secondary, 1);
   EXPECT_EQ(found[0].primary, 0);
@@ -277,15 +277,15 @@ TEST(Pairing, RingOfRollers)
     const double angle = 2 * std::numbers::pi * i / rollers;
     skin.add_line(2 + i, circle(2.4 * std::cos(angle), 2.4 * std::sin(angle), 0.4, 40));
   }
-  const auto found = skin.meetings();
+  const auto found = skin.candidates();
   ASSERT_EQ(found.size(), 2u * rollers);
   std::set<std::pair<int, int>> pairs;
-  for (const auto& meeting : found) {
-    EXPECT_GE(meeting.secondary, 2);  // the finer ones
-    EXPECT_LE(meeting.primary, 1);
-    EXPECT_EQ(meeting.patch, 0);
-    pairs.emplace(meeting.secondary, meeting.primary);
-    EXPECT_LT(meeting.primary_faces.size(), 90u);  // not all of the raceway
+  for (const auto& candidate : found) {
+    EXPECT_GE(candidate.secondary, 2);  // the finer ones
+    EXPECT_LE(candidate.primary, 1);
+    EXPECT_EQ(candidate.patch, 0);
+    pairs.emplace(candidate.secondary, candidate.primary);
+    EXPECT_LT(candidate.primary_faces.size(), 90u);  // not all of the raceway
   }
   EXPECT_EQ(pairs.size(), 2u * rollers);
 }
@@ -295,7 +295,7 @@ TEST(Pairing, ShimHidesWhatIsBehind)
 {
   Skin skin = two_blocks(0.01);
   skin.add_box(2, Point(0, 0, 1), Point(1, 1, 0.01), {3, 3, 1});
-  const auto found = skin.meetings();
+  const auto found = skin.candidates();
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(std::max(found[0].secondary, found[0].primary), 2);
   EXPECT_EQ(std::max(found[1].secondary, found[1].primary), 2);
@@ -305,7 +305,7 @@ TEST(Pairing, BondedReachesNoFurtherThanWhatIsFound)
 {
   auto options = within(0);
   options.law = Law::bonded;
-  EXPECT_NEAR(two_blocks(0).meetings(options)[0].reach, 0.5 * 0.25 * std::sqrt(2), 1e-14);
+  EXPECT_NEAR(two_blocks(0).candidates(options)[0].reach, 0.5 * 0.25 * std::sqrt(2), 1e-14);
 }
 
 }  // namespace

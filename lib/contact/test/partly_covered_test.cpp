@@ -129,7 +129,7 @@ TEST_P(Pad, MultipliersReachItsCorners)
 }
 
 // In one facet, across facets, over a middle node.
-INSTANTIATE_TEST_SUITE_P(Places, Pad,
+INSTANTIATE_TEST_SUITE_P(SurfaceNodes, Pad,
                          testing::Combine(testing::Values(mesh::CellType::tri6, mesh::CellType::quad8, mesh::CellType::quad9),
                                           testing::Values(1.1, 1.4, 1.8, 2.3)));
 

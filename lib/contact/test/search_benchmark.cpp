@@ -93,7 +93,7 @@ unsigned long long mix(unsigned long long x)
 unsigned long long digest(const constraint::Contacts& contacts, const Communicator& comm)
 {
   unsigned long long sum = 0;
-  for (const auto& point : contacts.points)
+  for (const auto& point : contacts.nodes)
     for (std::size_t r = point.row; r <= point.row + point.tangents.size(); ++r) {
       unsigned long long row = mix(static_cast<unsigned long long>(point.node) + 17 * static_cast<unsigned>(point.contact));
       const auto add = [&](double x) { row = mix(row * 31 + std::bit_cast<unsigned long long>(x)); };
@@ -131,7 +131,7 @@ int run(int argc, char** argv)
   const double memory = peak(), start = MPI_Wtime(), cpu = processor_seconds();
   const auto contacts = discretize(pairs, {}, fem::Kinematics::solid, comm);
   const double seconds = comm.max(MPI_Wtime() - start), busy = comm.max(processor_seconds() - cpu), after = peak();
-  const auto points = comm.sum(static_cast<long long>(contacts.points.size()));
+  const auto points = comm.sum(static_cast<long long>(contacts.nodes.size()));
   const auto sum = digest(contacts, comm);
   if (comm.root())
     fmt::print(

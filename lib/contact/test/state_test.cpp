@@ -41,7 +41,7 @@ TEST(Proximity, DistanceOfFacesNotOfNodes)
 TEST(State, SumsAndStatus)
 {
   const Communicator comm;
-  constraint::ContactPoint point{0, 7, 0.5, Point(0, 0, 1), {Point(1, 0, 0), Point(0, 1, 0)}, 0};
+  constraint::ContactNode point{0, 7, 0.5, Point(0, 0, 1), {Point(1, 0, 0), Point(0, 1, 0)}, 0};
   const auto slip = state_of(point, false, std::vector<double>{10, 3, 0}, std::vector<double>{0.1, 0.2, 0.0}, 0.1, 3.0, 0);
   EXPECT_EQ(slip.status, Status::slip);
   EXPECT_LT((slip.force_on_secondary - Point(-3, 0, -10)).norm(), 1e-14);
@@ -50,7 +50,7 @@ TEST(State, SumsAndStatus)
   EXPECT_EQ(state_of(point, false, std::vector<double>{1e-6, 0, 0}, std::vector<double>{0, 0, 0}, 0, 3.0, 1e-3).status,
             Status::open);
   EXPECT_EQ(state_of(point, false, std::vector<double>{0, 0, 0}, std::vector<double>{0, 0, 0}, 0.2, 0.0, 0).status, Status::open);
-  const auto sums = resultants(std::vector<PointState>{slip}, 1, comm);
+  const auto sums = resultants(std::vector<ContactNodeState>{slip}, 1, comm);
   EXPECT_NEAR(sums[0].force[2], -10.0 * comm.size(), 1e-12);
   EXPECT_EQ(sums[0].slip, comm.size());
 }
@@ -63,11 +63,11 @@ TEST(State, NarrowPointsGiveWhatPressesOnThemToTheirNeighbours)
   const auto flat = [](double x, double y) { return Point(x, y, 0); };
   const auto pair = make_pair(surface({2, 1, 0, 1, 0, 1, true}, flat, comm),
                               surface({1, 1, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::frictionless);
-  std::vector<PointState> points;
+  std::vector<ContactNodeState> points;
   for (Global node = 0; node < 6; ++node) {
     if (node % comm.size() != comm.rank()) continue;
     const bool narrow = node % 3 == 2;
-    PointState point;
+    ContactNodeState point;
     point.node = node;
     point.area = narrow ? 0.05 : 0.5;
     point.cover = narrow ? 0.1 : 1;
@@ -97,11 +97,11 @@ TEST(State, RecoveredPressureIsSmooth)
   const auto pair = make_pair(surface({4, 4, 0, 1, 0, 1, true}, flat, comm),
                               surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::frictionless);
   const auto pressure = [](double x, double scatter) { return 10 + x + scatter; };
-  std::vector<PointState> points;
+  std::vector<ContactNodeState> points;
   if (comm.root())
     for (Global node = 0; node < 25; ++node) {
       const bool edge_x = node % 5 == 0 || node % 5 == 4, edge_y = node / 5 == 0 || node / 5 == 4;
-      PointState point;
+      ContactNodeState point;
       point.node = node;
       point.area = (edge_x ? 0.5 : 1.0) * (edge_y ? 0.5 : 1.0);
       point.force = point.area * pressure(0.25 * static_cast<double>(node % 5), (node % 5 + node / 5) % 2 == 0 ? 1 : -1);

@@ -89,7 +89,7 @@ struct Gathered {
 inline Gathered gather_rows(const constraint::Contacts& contacts, const Communicator& comm)
 {
   std::vector<double> stream;
-  for (const auto& point : contacts.points)
+  for (const auto& point : contacts.nodes)
     for (std::size_t r = point.row; r <= point.row + point.tangents.size(); ++r) {
       stream.insert(stream.end(),
                     {static_cast<double>(contacts.rows[r].size()), contacts.rows.bound[r], static_cast<double>(point.node),

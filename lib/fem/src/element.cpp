@@ -39,7 +39,7 @@ Element make(mesh::CellType type, const std::vector<IntegrationPoint>& points)
   const auto& functions = mesh::shape_functions(type);
   for (const auto& point : points) {
     result.weight.push_back(point.weight);
-    result.place.push_back(point.at);
+    result.point.push_back(point.at);
     functions.evaluate(point.at, result.shape.emplace_back(n), &result.gradient.emplace_back());
   }
   result.extrapolation = extrapolation(type, points);

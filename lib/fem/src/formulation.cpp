@@ -54,7 +54,7 @@ Eigen::MatrixXd CellFormulation::enriched_stiffness(const CellGeometry& cell)
     Eigen::Map<Eigen::MatrixXd> all(enriched_.data() + q * static_cast<std::size_t>((n + d) * d), n + d, d);
     all.topRows(n) = cell.gradient(q);
     const double ratio = centre.determinant() * element.weight[q] / cell.volumes()[q];
-    for (Eigen::Index k = 0; k < d; ++k) all.row(n + k) = -2 * element.place[q][k] * ratio * inverse.row(k);
+    for (Eigen::Index k = 0; k < d; ++k) all.row(n + k) = -2 * element.point[q][k] * ratio * inverse.row(k);
   }
   Eigen::MatrixXd k((n + d) * d, (n + d) * d);
   element.stiffness_with_modes(element, enriched_.data(), cell.volumes().data(), constants_.lambda, constants_.mu, k.data());

@@ -35,7 +35,7 @@ class CellGeometry {
     gradients_.resize(element_->points() * x_.size());
     volumes_.resize(element_->points());
     element_->gradients_in_space(*element_, x_.data(), gradients_.data(), volumes_.data());
-    if (axisymmetric_) turn();
+    if (axisymmetric_) revolve();
   }
 
   const Element& element() const { return *element_; }
@@ -58,7 +58,7 @@ class CellGeometry {
 
  private:
   // Volumes and hoop strains of the whole turn.
-  void turn()
+  void revolve()
   {
     const auto n = static_cast<std::size_t>(element_->nodes);
     hoop_.resize(element_->points() * n);

@@ -90,7 +90,7 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Mater
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     cell.gather(mesh, c);
     cell.evaluate();
-    const double density = materials[materials.place(c)].density;
+    const double density = materials[materials.index(c)].density;
     for (std::size_t q = 0; q < cell.volumes().size(); ++q)
       add(cell.element().shape[q], density * cell.volumes()[q] * acceleration, mesh.cells[c], dimension(kinematics), f);
   }
@@ -102,7 +102,7 @@ void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematic
   const int d = dimension(kinematics);
   CellGeometry cell(kinematics);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto& material = materials[materials.place(c)];
+    const auto& material = materials[materials.index(c)];
     const auto [lambda, mu] = lame(material, kinematics);
     // The stress that takes the free strain back: in plane stress lambda allows for the thickness, which stays free.
     const double stress =

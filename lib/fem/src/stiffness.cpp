@@ -152,7 +152,7 @@ Sparse stiffness(const mesh::Mesh& mesh, const Materials& materials, Kinematics 
   std::size_t computed_of = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     cell.gather(mesh, c);
-    const std::size_t place = materials.place(c);
+    const std::size_t place = materials.index(c);
     if (computed_with != &cell.element() || computed_of != place || !is_translate(cell.coordinates(), computed_for, kinematics)) {
       cell.evaluate();
       require_positive(cell);

@@ -47,11 +47,11 @@ void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematic
     displacement.resize(d, cell.element().nodes);
     for (int i = 0; i < cell.element().nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
     stress.resize(static_cast<Eigen::Index>(cell.volumes().size()), 6);
-    const double free_strain = materials[materials.place(c)].thermal_expansion * temperature_change;
-    const auto& gradients = cell_formulation[materials.place(c)].gradients(cell, displacement);
+    const double free_strain = materials[materials.index(c)].thermal_expansion * temperature_change;
+    const auto& gradients = cell_formulation[materials.index(c)].gradients(cell, displacement);
     for (std::size_t q = 0; q < gradients.size(); ++q)
       stress.row(static_cast<Eigen::Index>(q)) =
-          stress_of(gradients[q], constants[materials.place(c)], kinematics, free_strain).transpose();
+          stress_of(gradients[q], constants[materials.index(c)], kinematics, free_strain).transpose();
     visit(c, cell, stress);
   }
 }
@@ -79,12 +79,12 @@ StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinemat
                     volume += cell.volumes()[q];
                     field.strain_energy +=
                         0.5 * cell.volumes()[q] *
-                        complementary_energy(stress.row(static_cast<Eigen::Index>(q)).transpose(), materials[materials.place(c)]);
+                        complementary_energy(stress.row(static_cast<Eigen::Index>(q)).transpose(), materials[materials.index(c)]);
                   }
                   field.cell_von_mises[static_cast<Eigen::Index>(c)] = von_mises(sum / volume);
                   for (int i = 0; i < cell.element().nodes; ++i) {
                     auto row = field.nodal_sums.row(mesh.cells[c][static_cast<std::size_t>(i)])
-                                   .segment(7 * static_cast<Eigen::Index>(materials.place(c)), 7);
+                                   .segment(7 * static_cast<Eigen::Index>(materials.index(c)), 7);
                     row.head(6) += volume * cell.element().extrapolation.row(i).lazyProduct(stress);
                     row[6] += volume;
                   }
@@ -101,8 +101,8 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
       mesh, materials, kinematics, formulation, temperature_change, u,
       [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
         double& sum = result[static_cast<Eigen::Index>(c)];
-        const auto& material = materials[materials.place(c)];
-        const auto own = recovered.middleCols(6 * static_cast<Eigen::Index>(materials.place(c)), 6);
+        const auto& material = materials[materials.index(c)];
+        const auto own = recovered.middleCols(6 * static_cast<Eigen::Index>(materials.index(c)), 6);
         if (cell.volumes().size() == 1) {  // one point misses what is linear in s* - s; that is a simplex with nodes 0 .. n - 1:
           // the integral of a quadratic form q of a linear function is V / (n (n + 1)) (sum of q(f_i) + q(sum of f_i)).
           const int n = cell.element().nodes;

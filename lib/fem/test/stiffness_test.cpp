@@ -167,19 +167,19 @@ TEST(Formulations, BbarDoesNotLock)
 // Turned with its mesh, the stiffness turns with it: K' = T K T'.
 TEST(Stiffness, IsInvariantUnderRotation)
 {
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Point(1, 2, -1).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.8, Point(1, 2, -1).normalized()).toRotationMatrix();
   const Eigen::Matrix3d turn_in_plane = Eigen::AngleAxisd(0.8, Point(0, 0, 1)).toRotationMatrix();
   for (const auto& [name, kinematics] : all_cases()) {
     Block block(name, {2, 2, 2});
     block.distort(0.06, true);
     const int d = block.dimension;
-    const Eigen::MatrixXd q = (d == 3 ? turn : turn_in_plane).topLeftCorner(d, d);
+    const Eigen::MatrixXd q = (d == 3 ? rotation : turn_in_plane).topLeftCorner(d, d);
     const auto k = dense(stiffness(block.mesh, steel(), kinematics));
     for (auto& p : block.mesh.points) p.head(d) = q * p.head(d);
-    const auto turned = dense(stiffness(block.mesh, steel(), kinematics));
+    const auto rotated = dense(stiffness(block.mesh, steel(), kinematics));
     Eigen::MatrixXd t = Eigen::MatrixXd::Zero(k.rows(), k.cols());
     for (Eigen::Index n = 0; n < k.rows(); n += d) t.block(n, n, d, d) = q;
-    EXPECT_LT((turned - t * k * t.transpose()).norm(), 1e-12 * k.norm()) << name;
+    EXPECT_LT((rotated - t * k * t.transpose()).norm(), 1e-12 * k.norm()) << name;
   }
 }
 

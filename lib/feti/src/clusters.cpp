@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
-#include "bonds.hpp"
+#include "cluster_constraints.hpp"
 
 namespace mortise::feti {
 
@@ -28,14 +28,14 @@ bool agree(const SparseMatrix& a, const SparseMatrix& b)
 // One cluster; all that are copies of it use the same.
 struct Clusters::Shape {
   struct Member {
-    Bond bond;                 // rows of B0, the dependent ones left out
-    Eigen::MatrixXd response;  // K^+ B0' of them
-    Eigen::MatrixXd g0;        // R'B0' of them
-    int first = 0;             // of its kernel among those of the members
+    ClusterConstraint constraint;  // rows of B0, the dependent ones left out
+    Eigen::MatrixXd response;      // K^+ B0' of them
+    Eigen::MatrixXd g0;            // R'B0' of them
+    int first = 0;                 // of its kernel among those of the members
     int modes = 0;
   };
   std::vector<const SubdomainOperator*> operators;
-  std::vector<SparseMatrix> bonds;  // all rows, to compare with
+  std::vector<SparseMatrix> constraints;  // all rows, to compare with
   std::vector<Member> members;
   int rows = 0, kernels = 0;
   std::unique_ptr<Cholesky> f0;
@@ -59,11 +59,11 @@ void Clusters::Shape::respond(const Subdomains& subdomains, std::size_t start)
   for (std::size_t i = 0; i < members.size(); ++i) {
     auto& member = members[i];
     const auto& subdomain = *subdomains[start + i];
-    member.g0 = subdomain.kernel().transpose() * member.bond.columns;
+    member.g0 = subdomain.kernel().transpose() * member.constraint.columns;
     member.modes = static_cast<int>(subdomain.kernel().cols());
     member.first = kernels;
     kernels += member.modes;
-    member.response = member.bond.columns;
+    member.response = member.constraint.columns;
     std::vector<double*> columns;
     for (auto column : member.response.colwise()) columns.push_back(column.data());
     subdomain.apply_inverse(columns);
@@ -73,18 +73,19 @@ void Clusters::Shape::respond(const Subdomains& subdomains, std::size_t start)
 void Clusters::Shape::factorize(const std::vector<Eigen::MatrixXd>& part)
 {
   std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& [bond, response, g0, first, modes] : members) {
-    const Eigen::MatrixXd own = bond.columns.transpose() * response;
-    for (std::size_t c = 0; c < bond.row.size(); ++c)
-      for (std::size_t r = c; r < bond.row.size(); ++r)
-        entries.emplace_back(bond.row[r], bond.row[c], own(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)));
+  for (const auto& [constraint, response, g0, first, modes] : members) {
+    const Eigen::MatrixXd own = constraint.columns.transpose() * response;
+    for (std::size_t c = 0; c < constraint.row.size(); ++c)
+      for (std::size_t r = c; r < constraint.row.size(); ++r)
+        entries.emplace_back(constraint.row[r], constraint.row[c],
+                             own(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)));
   }
   SparseMatrix lower(rows, rows);
   lower.setFromTriplets(entries.begin(), entries.end());
   Eigen::MatrixXd transpose = Eigen::MatrixXd::Zero(rows, kernels);  // G0'
   for (const auto& member : members)
-    for (std::size_t r = 0; r < member.bond.row.size(); ++r)
-      transpose.row(member.bond.row[r]).segment(member.first, member.modes) =
+    for (std::size_t r = 0; r < member.constraint.row.size(); ++r)
+      transpose.row(member.constraint.row[r]).segment(member.first, member.modes) =
           member.g0.col(static_cast<Eigen::Index>(r)).transpose();
   f0 = std::make_unique<Cholesky>(lower);
   bool done = f0->factorize(lower);
@@ -98,15 +99,17 @@ void Clusters::Shape::factorize(const std::vector<Eigen::MatrixXd>& part)
     done = s0.info() == Eigen::Success;
   }
   if (!done)
-    throw Error(ExitStatus::machine,
-                "the joints of a cluster of subdomains cannot be factorized; look for cells without volume and for extreme "
-                "material data, or set decomposition.subdomains_per_cluster to 1");
+    throw Error(
+        ExitStatus::machine,
+        "the constraints between the subdomains of a cluster cannot be factorized; look for cells without volume and for extreme "
+        "material data, or set decomposition.subdomains_per_cluster to 1");
 }
 
 Eigen::MatrixXd Clusters::Shape::times_g0(const Eigen::MatrixXd& x) const
 {
   Eigen::MatrixXd result(kernels, x.cols());
-  for (const auto& member : members) result.middleRows(member.first, member.modes) = member.g0 * x(member.bond.row, Eigen::all);
+  for (const auto& member : members)
+    result.middleRows(member.first, member.modes) = member.g0 * x(member.constraint.row, Eigen::all);
   return result;
 }
 
@@ -114,7 +117,7 @@ Eigen::MatrixXd Clusters::Shape::times_g0_transpose(const Eigen::MatrixXd& x) co
 {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, x.cols());
   for (const auto& member : members)
-    result(member.bond.row, Eigen::all) += member.g0.transpose() * x.middleRows(member.first, member.modes);
+    result(member.constraint.row, Eigen::all) += member.g0.transpose() * x.middleRows(member.first, member.modes);
   return result;
 }
 
@@ -138,16 +141,16 @@ void Clusters::add(const partition::Decomposition& decomposition, const partitio
                    const std::vector<std::vector<double>>& nodal_stiffness, fem::Kinematics kinematics, std::size_t start,
                    std::size_t end)
 {
-  auto bonds = bond(decomposition, interface, nodal_stiffness, kinematics, start, end);
+  auto constraints = cluster_constraints(decomposition, interface, nodal_stiffness, kinematics, start, end);
   const auto copy = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
-    const auto& [operators, rows] = std::tie(group.shape->operators, group.shape->bonds);
-    if (operators.size() != bonds.size()) return false;
-    for (std::size_t i = 0; i < bonds.size(); ++i)
-      if (operators[i] != subdomains_[start + i].get() || !agree(rows[i], bonds[i].columns)) return false;
+    const auto& [operators, rows] = std::tie(group.shape->operators, group.shape->constraints);
+    if (operators.size() != constraints.size()) return false;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (operators[i] != subdomains_[start + i].get() || !agree(rows[i], constraints[i].columns)) return false;
     return true;
   });
   if (copy != groups_.end()) {
-    for (std::size_t i = 0; i < bonds.size(); ++i) part_[start + i] = part_[copy->clusters.front() + i];
+    for (std::size_t i = 0; i < constraints.size(); ++i) part_[start + i] = part_[copy->clusters.front() + i];
     copy->clusters.push_back(start);
     return;
   }
@@ -164,12 +167,12 @@ void Clusters::add(const partition::Decomposition& decomposition, const partitio
     at += kernel.rows();
   }
   auto shape = std::make_unique<Shape>();
-  for (std::size_t i = 0; i < bonds.size(); ++i) {
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
     shape->operators.push_back(subdomains_[start + i].get());
-    shape->bonds.push_back(bonds[i].columns);
+    shape->constraints.push_back(constraints[i].columns);
   }
-  shape->rows = drop_dependent(bonds, nodal_stiffness, fem::dimension(kinematics), start);
-  for (auto& bond : bonds) shape->members.emplace_back().bond = std::move(bond);
+  shape->rows = drop_dependent(constraints, nodal_stiffness, fem::dimension(kinematics), start);
+  for (auto& constraint : constraints) shape->members.emplace_back().constraint = std::move(constraint);
   shape->respond(subdomains_, start);
   shape->factorize({part_.begin() + static_cast<std::ptrdiff_t>(start), part_.begin() + static_cast<std::ptrdiff_t>(end)});
   groups_.push_back({std::move(shape), {start}});
@@ -216,14 +219,14 @@ void Clusters::balance(const std::vector<Eigen::VectorXd>& f, const Take& take) 
         const auto& member = shape->members[i];
         own.resize(member.response.rows(), columns);
         for (std::size_t c = 0; c < count; ++c) own.col(static_cast<Eigen::Index>(c)) = f[clusters[begin + c] + i];
-        right(member.bond.row, Eigen::all) += member.response.transpose() * own;
+        right(member.constraint.row, Eigen::all) += member.response.transpose() * own;
         moved.middleRows(member.first, member.modes) = subdomains_[clusters[begin] + i]->kernel().transpose() * own;
       }
       const Eigen::MatrixXd alpha = shape->s0.solve(moved - shape->times_g0(shape->solve_f0(right)));
       const Eigen::MatrixXd mu = shape->solve_f0(right + shape->times_g0_transpose(alpha));
       for (std::size_t i = 0; i < shape->members.size(); ++i) {
         const auto& member = shape->members[i];
-        const Eigen::MatrixXd forces = member.bond.columns * mu(member.bond.row, Eigen::all);
+        const Eigen::MatrixXd forces = member.constraint.columns * mu(member.constraint.row, Eigen::all);
         for (std::size_t c = 0; c < count; ++c)
           take(clusters[begin + c] + i, forces.col(static_cast<Eigen::Index>(c)),
                alpha.col(static_cast<Eigen::Index>(c)).segment(member.first, member.modes));

@@ -57,13 +57,14 @@ Eigen::VectorXd kernel_coordinates(const Clusters& clusters, const std::vector<E
   return result;
 }
 
-SparseMatrix with_cuts(const SparseMatrix& g, std::span<const constraint::Cut> cuts, const JumpOperator& jump)
+SparseMatrix with_pretension_rows(const SparseMatrix& g, std::span<const constraint::PretensionSection> pretension_sections,
+                                  const JumpOperator& jump)
 {
   std::vector<Eigen::Triplet<double>> triplets;
   auto height = static_cast<int>(g.rows());
-  for (const auto& cut : cuts) {
-    if (!cut.preload.force) continue;
-    for (const auto& [row, part] : cut.rows) {
+  for (const auto& section : pretension_sections) {
+    if (!section.preload.force) continue;
+    for (const auto& [row, part] : section.rows) {
       const auto column = jump.ranges().contacts + static_cast<Local>(row);
       triplets.emplace_back(height, column, jump.scaled(column, part));
     }

@@ -35,26 +35,26 @@ std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bo
 }  // namespace
 
 DualProblem::DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
-                         const partition::Interface& interface, constraint::Constraints constraints, const Floating& floating,
-                         std::vector<Eigen::VectorXd> load, const Options& options, const Context& context,
-                         std::span<const constraint::Slide> slides)
+                         const partition::Interface& interface, constraint::Constraints constraints,
+                         const SubdomainSystem& system, std::vector<Eigen::VectorXd> load, const Options& options,
+                         const Context& context, std::span<const constraint::SlidingSurface> sliding_surfaces)
     : decomposition_(decomposition),
       constraints_(std::move(constraints)),
-      floating_(floating),
+      system_(system),
       load_(std::move(load)),
       comm_(context.comm)
 {
-  jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints_.held, constraints_.inclined,
+  jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints_.prescribed, constraints_.skew_supports,
                                          constraints_.contacts, std::span<const SubdomainRow>(), comm_);
-  settle_free_motions(directory, interface, slides, context);
-  hessian_ = std::make_unique<DualOperator>(*jump_, floating.clusters, context.timers);
+  gauge_rigid_modes(directory, interface, sliding_surfaces, context);
+  hessian_ = std::make_unique<DualOperator>(*jump_, system.clusters, context.timers);
   if (options.preconditioner != "none") {
     collectively(comm_, [&] {
       const auto kind = options.preconditioner == "lumped" ? Preconditioner::Kind::lumped : Preconditioner::Kind::dirichlet;
-      preconditioner_ = std::make_unique<Preconditioner>(kind, decomposition, *jump_, floating.clusters.subdomains(),
-                                                         floating.nodal_stiffness, options.factorization, context.timers, comm_);
+      preconditioner_ = std::make_unique<Preconditioner>(kind, decomposition, *jump_, system.clusters.subdomains(),
+                                                         system.nodal_stiffness, options.factorization, context.timers, comm_);
     });
-    preconditioner_->invert_gram(floating.nodal_stiffness, decomposition.catalogue.dimension);
+    preconditioner_->invert_gram(system.nodal_stiffness, decomposition.catalogue.dimension);
   }
   make_set();
   make_rhs();
@@ -63,8 +63,8 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
 void DualProblem::make_equality(SparseMatrix g)
 {
   if (tightened() > 0) {
-    g = with_cuts(g, constraints_.cuts, *jump_);
-    pull_ = std::make_unique<Vector>(jump_->rows());
+    g = with_pretension_rows(g, constraints_.pretension_sections, *jump_);
+    pretension_multipliers_ = std::make_unique<Vector>(jump_->rows());
   }
   const auto size = g.rows();
   equality_ = std::make_unique<qp::EqualityConstraint>(std::move(g), Eigen::VectorXd::Zero(size), comm_);
@@ -72,23 +72,23 @@ void DualProblem::make_equality(SparseMatrix g)
 
 Eigen::Index DualProblem::tightened() const
 {
-  return std::count_if(constraints_.cuts.begin(), constraints_.cuts.end(),
-                       [](const constraint::Cut& cut) { return cut.preload.force.has_value(); });
+  return std::count_if(constraints_.pretension_sections.begin(), constraints_.pretension_sections.end(),
+                       [](const constraint::PretensionSection& section) { return section.preload.force.has_value(); });
 }
 
 void DualProblem::make_rhs()
 {
   std::vector<Eigen::VectorXd> u = load_;
-  floating_.clusters.apply_inverse(u);
+  system_.clusters.apply_inverse(u);
   Vector d = jump_->apply(u);
   {
     auto linear = view(d);
     linear -= jump_->bound();
-    for (const auto& cut : constraints_.cuts)
-      if (!cut.preload.force)
-        for (const auto& [row, part] : cut.rows) {
+    for (const auto& section : constraints_.pretension_sections)
+      if (!section.preload.force)
+        for (const auto& [row, part] : section.rows) {
           const auto at = jump_->ranges().contacts + static_cast<Local>(row);
-          linear[at] -= jump_->scaled(at, part * cut.preload.shortening);
+          linear[at] -= jump_->scaled(at, part * section.preload.shortening);
         }
   }
   if (linear_)
@@ -96,19 +96,19 @@ void DualProblem::make_rhs()
   else
     linear_ = std::make_unique<Vector>(d, Teuchos::Copy);
 
-  Eigen::VectorXd e = kernel_coordinates(floating_.clusters, load_, comm_);
+  Eigen::VectorXd e = kernel_coordinates(system_.clusters, load_, comm_);
   const auto kernels = e.size();
   std::vector<double> forces;
-  for (const auto& cut : constraints_.cuts)
-    if (cut.preload.force) forces.push_back(-*cut.preload.force);
+  for (const auto& section : constraints_.pretension_sections)
+    if (section.preload.force) forces.push_back(-*section.preload.force);
   const auto count = static_cast<Eigen::Index>(forces.size());
   e.conservativeResize(kernels + count);
   e.tail(count) = Eigen::Map<const Eigen::VectorXd>(forces.data(), count);
-  if (pull_) {
+  if (pretension_multipliers_) {
     Eigen::VectorXd alone = Eigen::VectorXd::Zero(e.size());
     alone.tail(count) = e.tail(count);
-    pull_->putScalar(0);
-    equality_->add_transpose(1, equality_->solve(alone), *pull_);
+    pretension_multipliers_->putScalar(0);
+    equality_->add_transpose(1, equality_->solve(alone), *pretension_multipliers_);
   }
   equality_->set_right_side(std::move(e));
 }
@@ -117,7 +117,7 @@ bool DualProblem::driven(const FreeMotion& motion, double work)
 {
   // What facets make of a body, its centre beside its axis, works on its motions, too.
   constexpr double work_of_facets = 1e-3;
-  return work > std::max({no_work, motion.slideway ? work_of_facets : 0.0, 3 * motion.felt});
+  return work > std::max({no_work, motion.sliding ? work_of_facets : 0.0, 3 * motion.resistance});
 }
 
 bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load)
@@ -126,51 +126,51 @@ bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Ei
   std::string loaded;
   for (const auto& motion : gauged_) {
     if (!driven(motion, work(motion, decomposition_, load, comm_))) continue;
-    if (!motion.slideway && motion.felt >= exactly_free) return false;
+    if (!motion.sliding && motion.resistance >= exactly_free) return false;
     loaded += fmt::format("\n  {}, driven by its loads", describe(motion, decomposition_.catalogue.bodies, frames));
   }
   if (!loaded.empty()) throw_driven(loaded);
   constraints_ = std::move(constraints);
   load_ = std::move(load);
-  jump_->renew_bounds(constraints_.held, constraints_.inclined, constraints_.contacts);
+  jump_->update_rhs(constraints_.prescribed, constraints_.skew_supports, constraints_.contacts);
   make_rhs();
   return true;
 }
 
-void DualProblem::settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
-                                      std::span<const constraint::Slide> slides, const Context& context)
+void DualProblem::gauge_rigid_modes(const partition::NodeDirectory& directory, const partition::Interface& interface,
+                                    std::span<const constraint::SlidingSurface> sliding_surfaces, const Context& context)
 {
-  SparseMatrix g = coarse_rows(*jump_, floating_.clusters, comm_);
-  const auto motions = find_free_motions(decomposition_, *jump_, floating_.clusters, floating_.kinematics, g,
-                                         constraints_.contacts, constraints_.cuts, slides, load_, comm_);
+  SparseMatrix g = coarse_rows(*jump_, system_.clusters, comm_);
+  const auto motions = find_free_motions(decomposition_, *jump_, system_.clusters, system_.kinematics, g, constraints_.contacts,
+                                         constraints_.pretension_sections, sliding_surfaces, load_, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;
   std::string loaded;
   int silent = 0;
   for (const auto& motion : motions) {
-    const bool free = motion.slideway || motion.felt < exactly_free;
+    const bool free = motion.sliding || motion.resistance < exactly_free;
     if (driven(motion, motion.work)) {
       // What is hardly resisted is left to the solver; what nothing but facets resists has no equilibrium.
       if (free) loaded += fmt::format("\n  {}, driven by its loads", describe(motion, bodies, frames));
       continue;
     }
-    gauges.push_back(gauge(motion, decomposition_, floating_.nodal_stiffness, comm_));
+    gauges.push_back(gauge(motion, decomposition_, system_.nodal_stiffness, comm_));
     gauged_.push_back(motion);
     if (gauges.size() <= 10)
       context.log.line("  free rigid motion, set to zero: {}{}", describe(motion, bodies, frames),
-                       motion.felt < exactly_free ? ""
-                       : motion.slideway          ? " (facets aside)"
-                                                  : fmt::format(" (but for facets, which feel {:.1e} of it)", motion.felt));
+                       motion.resistance < exactly_free ? ""
+                       : motion.sliding                 ? " (facets aside)"
+                                        : fmt::format(" (but for facets, which feel {:.1e} of it)", motion.resistance));
     else
       ++silent;
   }
   if (silent > 0) context.log.line("  ... and {} more free rigid motions", silent);
   if (!loaded.empty()) throw_driven(loaded);
   if (!gauges.empty()) {
-    jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.held, constraints_.inclined,
-                                           constraints_.contacts, gauges, comm_);
-    g = coarse_rows(*jump_, floating_.clusters, comm_);
+    jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.prescribed,
+                                           constraints_.skew_supports, constraints_.contacts, gauges, comm_);
+    g = coarse_rows(*jump_, system_.clusters, comm_);
   }
   make_equality(std::move(g));
 }
@@ -180,10 +180,10 @@ void DualProblem::make_set()
   const auto& contacts = constraints_.contacts;
   std::vector<qp::Bound> bounds;
   std::vector<qp::Disc> discs;
-  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
-    PointRows rows;
-    rows.normal = jump_->ranges().contacts + static_cast<Local>(contacts.points[i].row);
-    rows.tangents = static_cast<int>(contacts.points[i].tangents.size());
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
+    NodeRows rows;
+    rows.normal = jump_->ranges().contacts + static_cast<Local>(contacts.nodes[i].row);
+    rows.tangents = static_cast<int>(contacts.nodes[i].tangents.size());
     if (!contacts.bonded[i]) {
       bounds.push_back({rows.normal, 0});
       if (rows.tangents > 0) {
@@ -193,7 +193,7 @@ void DualProblem::make_set()
         discs.push_back(disc);
       }
     }
-    points_.push_back(rows);
+    node_rows_.push_back(rows);
   }
   set_ = qp::FeasibleSet(std::move(bounds), std::move(discs));
 }
@@ -215,13 +215,13 @@ Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
 
 double DualProblem::slip_bound(std::size_t point) const
 {
-  const auto& rows = points_[point];
+  const auto& rows = node_rows_[point];
   return rows.disc < 0 ? 0.0 : jump_->force(rows.normal, set_.discs()[static_cast<std::size_t>(rows.disc)].radius);
 }
 
 std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const
 {
-  const auto& clusters = floating_.clusters;
+  const auto& clusters = system_.clusters;
   auto u = jump_->apply_transpose(lambda);
   for (std::size_t s = 0; s < u.size(); ++s) u[s] = load_[s] - u[s];
   clusters.apply_inverse(u);
@@ -229,14 +229,14 @@ std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, con
   return u;
 }
 
-std::string DualProblem::runaway(const Eigen::VectorXd& nu) const
+std::string DualProblem::unbounded_rigid_mode(const Eigen::VectorXd& nu) const
 {
   const auto frames = body_frames(decomposition_, comm_);
   RigidMotion fastest;
   double speed = -1;
   for (std::size_t b = 0; b < frames.size(); ++b) {
     const auto motion =
-        rigid_part(decomposition_, floating_.clusters, floating_.kinematics, frames[b], static_cast<int>(b), -nu, comm_);
+        rigid_part(decomposition_, system_.clusters, system_.kinematics, frames[b], static_cast<int>(b), -nu, comm_);
     const double v = motion.translation.norm() + motion.rotation.norm() * frames[b].radius;
     if (v <= speed) continue;
     fastest = motion;
@@ -257,7 +257,7 @@ Point DualProblem::gauge_force(const Vector& lambda) const
     const auto from = view(lambda);
     for (Local row = ranges.extra; row < ranges.end; ++row) {
       const auto& motion = gauged_[static_cast<std::size_t>(lambda.getMap()->getGlobalElement(row) - first)];
-      if (motion.slideway || motion.felt < exactly_free) value[row] = from[row];
+      if (motion.sliding || motion.resistance < exactly_free) value[row] = from[row];
     }
   }
   std::vector<double> sum(3, 0.0);
@@ -273,13 +273,13 @@ double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vecto
   const auto forces = jump_->apply_transpose(lambda);
   std::vector<Eigen::VectorXd> given;
   for (std::size_t s = 0; s < forces.size(); ++s) given.push_back(load_[s] - forces[s]);
-  const auto inner = floating_.clusters.inner_forces(given);
+  const auto inner = system_.clusters.inner_forces(given);
   double residual = 0, size = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
-    residual += (floating_.clusters.subdomains()[s]->apply(u[s]) + forces[s] - load_[s] + inner[s]).squaredNorm();
+    residual += (system_.clusters.subdomains()[s]->apply(u[s]) + forces[s] - load_[s] + inner[s]).squaredNorm();
     size += load_[s].squaredNorm() + forces[s].squaredNorm();
     for (Eigen::Index i = 0; i < u[s].size(); ++i) {  // what rounding makes of a rigid motion is no force
-      const double k = floating_.nodal_stiffness[s][static_cast<std::size_t>(i / decomposition_.catalogue.dimension)];
+      const double k = system_.nodal_stiffness[s][static_cast<std::size_t>(i / decomposition_.catalogue.dimension)];
       size += std::pow(1e-6 * k * u[s][i], 2);
     }
   }
@@ -291,7 +291,8 @@ std::vector<double> DualProblem::shortenings(const Eigen::VectorXd& nu) const
 {
   std::vector<double> result;
   Eigen::Index next = kernel_dimension();
-  for (const auto& cut : constraints_.cuts) result.push_back(cut.preload.force ? nu[next++] : cut.preload.shortening);
+  for (const auto& section : constraints_.pretension_sections)
+    result.push_back(section.preload.force ? nu[next++] : section.preload.shortening);
   return result;
 }
 

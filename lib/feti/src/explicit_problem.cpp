@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "held_elimination.hpp"
+#include "dirichlet_elimination.hpp"
 
 namespace mortise::feti {
 
@@ -27,15 +27,15 @@ std::vector<double> on_root(std::vector<double> values, const Communicator& comm
 }  // namespace
 
 ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
-    : problem_(problem), held_(std::make_unique<HeldElimination>(problem, few))
+    : problem_(problem), elimination_(std::make_unique<DirichletElimination>(problem, few))
 {
   const auto& comm = problem.communicator();
-  const auto size = static_cast<Eigen::Index>(held_->count());
+  const auto size = static_cast<Eigen::Index>(elimination_->count());
   // Of each subdomain: how many rows and motions, where these start; which rows; W, H and C.
   std::vector<double> parts;
   collectively(comm, [&] {
     for (std::size_t s = 0; s < problem.jump().blocks().size(); ++s) {
-      const auto part = held_->part(s);
+      const auto part = elimination_->part(s);
       parts.insert(parts.end(),
                    {static_cast<double>(part.w.cols()), static_cast<double>(part.c.cols()), static_cast<double>(part.first)});
       for (const Global number : part.number) parts.push_back(static_cast<double>(number));
@@ -47,7 +47,7 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
   const auto& g = problem.equality().local();
   std::vector<double> columns;  // of each row: its number and its column of G
   for (int c = 0; c < g.cols(); ++c) {
-    const Global number = held_->number()[static_cast<std::size_t>(c)];
+    const Global number = elimination_->number()[static_cast<std::size_t>(c)];
     if (number < 0) continue;
     columns.push_back(static_cast<double>(number));
     const Eigen::VectorXd column = g.col(c);
@@ -66,12 +66,12 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
                  first = static_cast<Eigen::Index>(at[2]);
       const double* const number = at + 3;
       const Eigen::Map<const Eigen::MatrixXd> part(number + count, count, count);
-      const Eigen::Map<const Eigen::MatrixXd> pull(part.data() + part.size(), modes, count);
-      const Eigen::Map<const Eigen::MatrixXd> stiffness(pull.data() + pull.size(), modes, modes);
+      const Eigen::Map<const Eigen::MatrixXd> kernel_part(part.data() + part.size(), modes, count);
+      const Eigen::Map<const Eigen::MatrixXd> stiffness(kernel_part.data() + kernel_part.size(), modes, modes);
       for (Eigen::Index j = 0; j < count; ++j) {
         const auto column = static_cast<Eigen::Index>(number[j]);
         for (Eigen::Index i = 0; i < count; ++i) w(static_cast<Eigen::Index>(number[i]), column) += part(i, j);
-        h.col(column).segment(first, modes) += pull.col(j);
+        h.col(column).segment(first, modes) += kernel_part.col(j);
       }
       c.block(first, first, modes, modes) += stiffness;
       at = stiffness.data() + stiffness.size();
@@ -87,7 +87,9 @@ qp::FeasibleSet ExplicitProblem::whole_set() const
 {
   const auto& comm = problem_.communicator();
   const auto& set = problem_.set();
-  const auto number = [&](Local i) { return i < 0 ? -1.0 : static_cast<double>(held_->number()[static_cast<std::size_t>(i)]); };
+  const auto number = [&](Local i) {
+    return i < 0 ? -1.0 : static_cast<double>(elimination_->number()[static_cast<std::size_t>(i)]);
+  };
   std::vector<double> bounds, discs;
   for (const auto& bound : set.bounds()) bounds.insert(bounds.end(), {number(bound.index), bound.lower});
   for (const auto& disc : set.discs())
@@ -113,7 +115,7 @@ std::vector<double> ExplicitProblem::to_root(const Vector& x) const
   const auto own = view(x);
   std::vector<double> entries;  // number and value of each row
   for (Eigen::Index i = 0; i < own.size(); ++i)
-    if (const Global number = held_->number()[static_cast<std::size_t>(i)]; number >= 0)
+    if (const Global number = elimination_->number()[static_cast<std::size_t>(i)]; number >= 0)
       entries.insert(entries.end(), {static_cast<double>(number), own[i]});
   entries = on_root(std::move(entries), problem_.communicator());
   std::vector<double> all(entries.size() / 2);
@@ -128,7 +130,7 @@ Vector ExplicitProblem::from_root(std::vector<double> all) const
   Vector x(problem_.jump().rows());
   auto values = view(x);
   for (Eigen::Index i = 0; i < values.size(); ++i)
-    if (const Global number = held_->number()[static_cast<std::size_t>(i)]; number >= 0)
+    if (const Global number = elimination_->number()[static_cast<std::size_t>(i)]; number >= 0)
       values[i] = all[static_cast<std::size_t>(number)];
   return x;
 }
@@ -139,7 +141,7 @@ void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
     Eigen::VectorXd motions = Eigen::VectorXd::Zero(problem_.equality().size());
-    auto all = to_root(held_->reduce(*in, motions));
+    auto all = to_root(elimination_->reduce(*in, motions));
     collectively(comm, [&] {
       if (!comm.root()) return;
       const auto solved =
@@ -147,7 +149,7 @@ void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
       all.assign(solved.begin(), solved.end());
     });
     Vector result = from_root(std::move(all));
-    held_->complete(*in, {}, result);
+    elimination_->complete(*in, {}, result);
     y.getVectorNonConst(column)->update(alpha, result, beta);
   }
 }
@@ -156,7 +158,7 @@ ExplicitProblem::Result ExplicitProblem::solve() const
 {
   const auto& comm = problem_.communicator();
   Eigen::VectorXd e = problem_.equality().right_side();
-  const auto linear = to_root(held_->reduce(problem_.linear(), e));
+  const auto linear = to_root(elimination_->reduce(problem_.linear(), e));
   const qp::FeasibleSet set = whole_set();
   std::vector<double> x, nu;
   std::vector<long long> outcome;
@@ -166,13 +168,13 @@ ExplicitProblem::Result ExplicitProblem::solve() const
         newton_->solve(Eigen::Map<const Eigen::VectorXd>(linear.data(), static_cast<Eigen::Index>(linear.size())), e, set);
     x.assign(found.x.begin(), found.x.end());
     nu.assign(found.nu.begin(), found.nu.end());
-    outcome = {found.settled ? 1 : 0, found.steps};
+    outcome = {found.converged ? 1 : 0, found.steps};
   });
   comm.broadcast(nu);
   comm.broadcast(outcome);
   Result result{from_root(std::move(x)), Eigen::Map<const Eigen::VectorXd>(nu.data(), static_cast<Eigen::Index>(nu.size())),
                 outcome[0] == 1, static_cast<int>(outcome[1])};
-  held_->complete(problem_.linear(), result.nu, result.x);
+  elimination_->complete(problem_.linear(), result.nu, result.x);
   const auto& equality = problem_.equality();
   if (!comm.any(!problem_.set().constrained().empty()) && equality.size() > 0) {
     // A body may be free to change its shape and have no other forces than those of G x = e: rounding of d is large beside them.

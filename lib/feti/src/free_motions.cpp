@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "slideways.hpp"
+#include "sliding_modes.hpp"
 
 namespace mortise::feti {
 
@@ -109,22 +109,22 @@ Eigen::MatrixXd unfelt_by(const Eigen::VectorXd& counts, const Eigen::MatrixXd& 
 }
 
 // The bodies that bonded contacts join, with the others alone: each body by itself first, then the sets of several.
-std::vector<std::vector<int>> units(const SparseMatrix& felt, const constraint::Contacts& contacts, Local first_contact,
+std::vector<std::vector<int>> units(const SparseMatrix& row_values, const constraint::Contacts& contacts, Local first_contact,
                                     int bodies, int modes, const Communicator& comm)
 {
-  struct Bond {
+  struct BodyPair {
     int one, other;
   };
-  std::vector<Bond> bonds;
-  const Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows(felt);
-  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+  std::vector<BodyPair> pairs;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows(row_values);
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     if (!contacts.bonded[i]) continue;
     int before = -1;
-    for (decltype(rows)::InnerIterator entry(rows, first_contact + static_cast<Local>(contacts.points[i].row)); entry; ++entry) {
+    for (decltype(rows)::InnerIterator entry(rows, first_contact + static_cast<Local>(contacts.nodes[i].row)); entry; ++entry) {
       const int body = static_cast<int>(entry.col()) / modes;
       if (std::abs(entry.value()) < 1e-9 || body == before) continue;
-      if (before >= 0 && (bonds.empty() || bonds.back().one != before || bonds.back().other != body))
-        bonds.push_back({before, body});
+      if (before >= 0 && (pairs.empty() || pairs.back().one != before || pairs.back().other != body))
+        pairs.push_back({before, body});
       before = body;
     }
   }
@@ -134,8 +134,8 @@ std::vector<std::vector<int>> units(const SparseMatrix& felt, const constraint::
     while (root[static_cast<std::size_t>(b)] != b) b = root[static_cast<std::size_t>(b)];
     return b;
   };
-  for (const auto& bond : comm.all_gather(bonds)) {
-    const int a = find(bond.one), b = find(bond.other);
+  for (const auto& pair : comm.all_gather(pairs)) {
+    const int a = find(pair.one), b = find(pair.other);
     root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
   std::map<int, std::vector<int>> sets;
@@ -149,24 +149,25 @@ std::vector<std::vector<int>> units(const SparseMatrix& felt, const constraint::
   return result;
 }
 
-// Takes out of `felt` what a cut that is tightened to a force gives way to, part * s with the s that is nearest to each motion,
-// and adds what the force works on it. `first`: the first contact row of `felt`.
-void release(const constraint::Cut& cut, Local first, Bodies& bodies, SparseMatrix& felt, const Communicator& comm)
+// Takes out of `row_values` what a pretension section that is tightened to a force gives way to, part * s with the s that is
+// nearest to each motion, and adds what the force works on it. `first`: the first contact row of `row_values`.
+void release(const constraint::PretensionSection& section, Local first, Bodies& bodies, SparseMatrix& row_values,
+             const Communicator& comm)
 {
-  SparseMatrix parts(felt.rows(), 1);
-  for (const auto& [row, part] : cut.rows) parts.insert(first + static_cast<Local>(row), 0) = part;
-  Eigen::VectorXd shortening = Eigen::MatrixXd(felt.transpose() * parts);
+  SparseMatrix parts(row_values.rows(), 1);
+  for (const auto& [row, part] : section.rows) parts.insert(first + static_cast<Local>(row), 0) = part;
+  Eigen::VectorXd shortening = Eigen::MatrixXd(row_values.transpose() * parts);
   comm.sum_in_place({shortening.data(), static_cast<std::size_t>(shortening.size())});
   shortening /= comm.sum(parts.squaredNorm());
-  felt -= SparseMatrix(parts * SparseMatrix(shortening.sparseView(1.0, 1e-12)).transpose());
-  bodies.generalised += *cut.preload.force * shortening;
+  row_values -= SparseMatrix(parts * SparseMatrix(shortening.sparseView(1.0, 1e-12)).transpose());
+  bodies.generalised += *section.preload.force * shortening;
   for (Eigen::Index b = 0; b < bodies.force.size(); ++b)
-    if (shortening.segment(b * bodies.modes, bodies.modes).norm() > 1e-6) bodies.force[b] += *cut.preload.force;
+    if (shortening.segment(b * bodies.modes, bodies.modes).norm() > 1e-6) bodies.force[b] += *section.preload.force;
 }
 
 // Turns an orthonormal basis so that the loads drive its first vector alone, and in its own sense: of many motions together, that
 // is the one to tell.
-void turn_to_loads(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised)
+void align_with_loads(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised)
 {
   if (basis.cols() == 0) return;
   const Eigen::VectorXd work = basis.transpose() * generalised;
@@ -187,10 +188,10 @@ std::string describe(const RigidMotion& motion, double size)
 {
   const auto print = [](const Point& p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p[0], p[1], p[2]); };
   const auto clean = [](Point p) { return Point((p.array().abs() < 1e-4 * p.cwiseAbs().maxCoeff()).select(0.0, p)); };
-  const double turning = motion.rotation.norm() * size;
-  if (turning < 2e-2 * motion.translation.norm() || turning == 0)
+  const double rotation_part = motion.rotation.norm() * size;
+  if (rotation_part < 2e-2 * motion.translation.norm() || rotation_part == 0)
     return "moves along " + print(clean(motion.translation.normalized()));
-  if (turning < 0.5 * motion.translation.norm())
+  if (rotation_part < 0.5 * motion.translation.norm())
     return "moves along " + print(clean(motion.translation.normalized())) + ", turning as it goes";
   const Point axis = motion.centre + motion.rotation.cross(motion.translation) / motion.rotation.squaredNorm();
   return "rotates about the axis through " + print(clean(axis)) + " along " + print(clean(motion.rotation.normalized()));
@@ -255,32 +256,33 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clus
 
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
-                                          const constraint::Contacts& contacts, std::span<const constraint::Cut> cuts,
-                                          std::span<const constraint::Slide> slides, const std::vector<Eigen::VectorXd>& load,
-                                          const Communicator& comm)
+                                          const constraint::Contacts& contacts,
+                                          std::span<const constraint::PretensionSection> pretension_sections,
+                                          std::span<const constraint::SlidingSurface> sliding_surfaces,
+                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
   Bodies bodies = aggregate(decomposition, clusters, kinematics, load, comm);
   const int modes = bodies.modes;
   // Rows x amplitudes, in length units again: the support and contact rows that this rank owns.
-  const Local first = jump.ranges().held, count = jump.ranges().extra - first;
+  const Local first = jump.ranges().dirichlet, count = jump.ranges().extra - first;
   Eigen::VectorXd unscale(count);
   for (Local row = 0; row < count; ++row) unscale[row] = 1 / jump.scaled(first + row, 1);
-  SparseMatrix felt =
+  SparseMatrix row_values =
       unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
   const Local first_contact = jump.ranges().contacts - first;
-  for (const auto& cut : cuts)
-    if (cut.preload.force) release(cut, first_contact, bodies, felt, comm);
+  for (const auto& section : pretension_sections)
+    if (section.preload.force) release(section, first_contact, bodies, row_values, comm);
   Eigen::VectorXd weight_of_row = Eigen::VectorXd::Constant(count, support_weight);
-  for (std::size_t i = 0; i < contacts.points.size(); ++i)
-    if (!contacts.bonded[i]) weight_of_row[first_contact + static_cast<Local>(contacts.points[i].row)] /= support_weight;
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
+    if (!contacts.bonded[i]) weight_of_row[first_contact + static_cast<Local>(contacts.nodes[i].row)] /= support_weight;
   const Eigen::VectorXd fixed_row = (weight_of_row.array() > 1).cast<double>();
   // Whether the normal rows feel no more of a motion than the angles of facets explain: a small part of the velocity there.
   const auto along_surfaces = [&](const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) {
     double worst = 0;
-    for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+    for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
       if (contacts.bonded[i]) continue;
-      const double here = std::abs(rows.row(first_contact + static_cast<Local>(contacts.points[i].row)).dot(v));
-      if (here > 1e-6) worst = std::max(worst, here / std::max(motion.at(contacts.points[i].at).norm(), 1e-12));
+      const double here = std::abs(rows.row(first_contact + static_cast<Local>(contacts.nodes[i].row)).dot(v));
+      if (here > 1e-6) worst = std::max(worst, here / std::max(motion.at(contacts.nodes[i].at).norm(), 1e-12));
     }
     return comm.max(worst) <= 3 * nearly;
   };
@@ -288,7 +290,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
 
   std::vector<FreeMotion> found;
   std::vector<Eigen::VectorXd> amplitudes;  // of each found motion, over all bodies
-  for (const auto& unit : units(felt, contacts, first_contact, body_count, modes, comm)) {
+  for (const auto& unit : units(row_values, contacts, first_contact, body_count, modes, comm)) {
     // Bodies of which one moves by itself are left to the joint motions below.
     if (unit.size() > 1 && std::any_of(found.begin(), found.end(), [&](const FreeMotion& motion) {
           return std::find(unit.begin(), unit.end(), motion.motions.front().body) != unit.end();
@@ -304,12 +306,12 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
                                                              bodies.frames[static_cast<std::size_t>(b)], kinematics);
       force += bodies.force[b];
     }
-    const Eigen::MatrixXd rows = weight_of_row.asDiagonal() * Eigen::MatrixXd(felt * spread.sparseView(1.0, 1e-14));
+    const Eigen::MatrixXd rows = weight_of_row.asDiagonal() * Eigen::MatrixXd(row_values * spread.sparseView(1.0, 1e-14));
     const Eigen::VectorXd drives = spread.transpose() * bodies.generalised;
-    const auto add = [&](const Eigen::VectorXd& v, double motion_felt, bool slideway) {
+    const auto add = [&](const Eigen::VectorXd& v, double motion_felt, bool sliding) {
       FreeMotion motion;
-      motion.felt = motion_felt;
-      motion.slideway = slideway;
+      motion.resistance = motion_felt;
+      motion.sliding = sliding;
       for (const int b : unit) {
         motion.motions.push_back(combine(unit.front(), frame, v, kinematics));
         motion.motions.back().body = b;
@@ -326,13 +328,13 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
       taken.conservativeResize(Eigen::NoChange, taken.cols() + 1);
       taken.rightCols(1) = v;
     }
-    turn_to_loads(taken, drives);
+    align_with_loads(taken, drives);
     for (const auto& v : taken.colwise()) add(v, largest(rows * v, comm), false);
 
-    const Slideways slideways(unit, frame, kinematics, slides);
-    Eigen::MatrixXd sliding = slideways.free(unfelt_by(fixed_row, rows, complement(taken), exactly * support_weight, comm));
-    turn_to_loads(sliding, drives);
-    for (const auto& v : sliding.colwise()) add(v, slideways.felt(v), true);
+    const SlidingModes sliding_modes(unit, frame, kinematics, sliding_surfaces);
+    Eigen::MatrixXd sliding = sliding_modes.free(unfelt_by(fixed_row, rows, complement(taken), exactly * support_weight, comm));
+    align_with_loads(sliding, drives);
+    for (const auto& v : sliding.colwise()) add(v, sliding_modes.resistance(v), true);
 
     Eigen::MatrixXd all(modes, taken.cols() + sliding.cols());
     all << taken, sliding;
@@ -349,7 +351,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   // Several bodies together: the null space of all rows once the motions found so far are stopped.
   constexpr int dense_limit = 3000;
   if (body_count < 2 || body_count * modes > dense_limit) return found;
-  Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(felt.transpose() * felt));
+  Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(row_values.transpose() * row_values));
   comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
   const double weight = std::max(gram.diagonal().maxCoeff(), 1.0);
   for (const auto& v : amplitudes) gram += weight * v * v.transpose();
@@ -357,10 +359,10 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   Eigen::Index together = 0;
   while (together < gram.cols() && eigen.eigenvalues()[together] < exactly * exactly * weight * 100) ++together;
   Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(together);
-  turn_to_loads(basis, bodies.generalised);
+  align_with_loads(basis, bodies.generalised);
   for (const auto& v : basis.colwise()) {
     FreeMotion motion;
-    motion.felt = largest(felt * v, comm);
+    motion.resistance = largest(row_values * v, comm);
     double force = 0;
     for (int b = 0; b < body_count; ++b) {
       if (v.segment(b * modes, modes).norm() < 1e-6) continue;

@@ -109,16 +109,16 @@ double total_weight(std::span<const partition::Copy> copies)
 }  // namespace
 
 JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
-                           const partition::Interface& interface, std::span<const constraint::Held> held,
-                           std::span<const constraint::Inclined> inclined, const constraint::Contacts& contacts,
+                           const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
+                           std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
                            std::span<const SubdomainRow> extra, const Communicator& comm)
 {
   const int dimension = decomposition.catalogue.dimension;
   Assembly assembly(decomposition, comm);
   const auto [glued, glued_total] = glue(decomposition, interface, dimension, comm, assembly);
-  const Numbering held_numbers = number(held.size() + inclined.size(), comm);
+  const Numbering dirichlet_numbers = number(prescribed.size() + skew_supports.size(), comm);
   const Numbering contact_numbers = number(contacts.rows.size(), comm);
-  const Global held_base = glued_total, contact_base = held_base + held_numbers.total,
+  const Global dirichlet_base = glued_total, contact_base = dirichlet_base + dirichlet_numbers.total,
                extra_base = contact_base + contact_numbers.total;
   contact_rows_ = {contact_base, extra_base};
 
@@ -127,19 +127,19 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   std::vector<double> scale(glued, 1.0);
   const Global glue_start = comm.offset(static_cast<long long>(glued));
   for (std::size_t i = 0; i < glued; ++i) owned.push_back(glue_start + static_cast<Global>(i));
-  ranges_.held = static_cast<Local>(owned.size());
+  ranges_.dirichlet = static_cast<Local>(owned.size());
 
   std::vector<Global> nodes;
-  for (const auto& h : held) nodes.push_back(h.node);
-  for (const auto& i : inclined) nodes.push_back(i.node);
-  const auto held_copies = directory.find(nodes, comm);
+  for (const auto& h : prescribed) nodes.push_back(h.node);
+  for (const auto& i : skew_supports) nodes.push_back(i.node);
+  const auto prescribed_copies = directory.find(nodes, comm);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Global row = held_base + held_numbers.start + static_cast<Global>(i);
-    const double factor = std::sqrt(total_weight(held_copies[i]));
-    const auto* along = i < held.size() ? nullptr : &inclined[i - held.size()];
-    for (const auto& copy : held_copies[i])
+    const Global row = dirichlet_base + dirichlet_numbers.start + static_cast<Global>(i);
+    const double factor = std::sqrt(total_weight(prescribed_copies[i]));
+    const auto* along = i < prescribed.size() ? nullptr : &skew_supports[i - prescribed.size()];
+    for (const auto& copy : prescribed_copies[i])
       for (int c = 0; c < dimension; ++c) {
-        const double part = along ? along->direction[static_cast<std::size_t>(c)] : (c == held[i].component ? 1.0 : 0.0);
+        const double part = along ? along->direction[static_cast<std::size_t>(c)] : (c == prescribed[i].component ? 1.0 : 0.0);
         if (part != 0) assembly.add({copy.subdomain, row, copy.node * dimension + c, part * copy.weight / factor});
       }
     owned.push_back(row);
@@ -155,7 +155,7 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   const auto copies_of = [&](Global node) {
     return contact_copies[static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin())];
   };
-  for (const auto& point : contacts.points) {
+  for (const auto& point : contacts.nodes) {
     double square = 0;  // of the normal row in D^-1, the copies' averages taken together
     for (const auto& entry : contacts.rows[point.row])
       square += entry.coefficient * entry.coefficient / total_weight(copies_of(entry.node));
@@ -191,7 +191,7 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   }
   ranges_.end = static_cast<Local>(owned.size());
   scale_ = Eigen::Map<const Eigen::VectorXd>(scale.data(), static_cast<Eigen::Index>(scale.size()));
-  renew_bounds(held, inclined, contacts);
+  update_rhs(prescribed, skew_supports, contacts);
 
   // The rows that this rank's subdomains take part in, and their blocks.
   const auto pieces = assembly.receive();
@@ -225,13 +225,13 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   }
 }
 
-void JumpOperator::renew_bounds(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
-                                const constraint::Contacts& contacts)
+void JumpOperator::update_rhs(std::span<const constraint::PrescribedDof> prescribed,
+                              std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts)
 {
   bound_ = Eigen::VectorXd::Zero(ranges_.end);
-  Local row = ranges_.held;
-  for (const auto& h : held) bound_[row++] = h.value;
-  for (const auto& i : inclined) bound_[row++] = i.value;
+  Local row = ranges_.dirichlet;
+  for (const auto& h : prescribed) bound_[row++] = h.value;
+  for (const auto& i : skew_supports) bound_[row++] = i.value;
   for (std::size_t r = 0; r < contacts.rows.size(); ++r)
     bound_[ranges_.contacts + static_cast<Local>(r)] = contacts.rows.bound[r];
   bound_.array() *= scale_.array();

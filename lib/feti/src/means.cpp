@@ -13,7 +13,7 @@ qp::Means means_of(const DualProblem& problem, qp::Budget& budget)
     const auto matrices = std::make_shared<ExplicitProblem>(problem);
     const auto solve = [matrices] {
       auto found = matrices->solve();
-      return qp::ExplicitProgramme::Point{std::move(found.x), std::move(found.nu), found.settled};
+      return qp::ExplicitProgramme::Point{std::move(found.x), std::move(found.nu), found.converged};
     };
     return qp::ExplicitProgramme{matrices, solve};
   };

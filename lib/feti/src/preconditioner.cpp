@@ -48,14 +48,14 @@ std::vector<std::pair<Nodes, std::vector<std::size_t>>> by_interface(const JumpO
   return groups;
 }
 
-// u'K u once conjugate gradients have moved what is not held towards where that is least: an upper bound of the least one.
-double relaxed_energy(const SubdomainOperator& subdomain, const std::vector<bool>& held, Eigen::VectorXd u)
+// u'K u once conjugate gradients have moved what is not prescribed towards where that is least: an upper bound of the least one.
+double relaxed_energy(const SubdomainOperator& subdomain, const std::vector<bool>& fixed, Eigen::VectorXd u)
 {
   if (u.isZero(0)) return 0;
   const Eigen::VectorXd diagonal = subdomain.stiffness().diagonal();
   const auto release = [&](Eigen::VectorXd v) {
     for (Eigen::Index i = 0; i < v.size(); ++i)
-      if (held[static_cast<std::size_t>(i)]) v[i] = 0;
+      if (fixed[static_cast<std::size_t>(i)]) v[i] = 0;
     return v;
   };
   const Eigen::VectorXd force = subdomain.apply(u);
@@ -136,14 +136,14 @@ double Preconditioner::energy(const Vector& r)
   auto u = jump_.apply_transpose(right);
   double sum = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
-    subdomains_[s]->turn_back(u[s]);
+    subdomains_[s]->rotate_back(u[s]);
     for (Eigen::Index i = 0; i < u[s].size(); ++i) u[s][i] /= nodal_stiffness_[s][static_cast<std::size_t>(i / dimension_)];
-    std::vector<bool> held(static_cast<std::size_t>(u[s].size()), false);
-    const bool turned = subdomains_[s].get() != &subdomains_[s]->original();
+    std::vector<bool> fixed(static_cast<std::size_t>(u[s].size()), false);
+    const bool rotated = subdomains_[s].get() != &subdomains_[s]->original();
     for (const Local i : jump_.blocks()[s].unknown)
-      for (Local k = turned ? i / dimension_ * dimension_ : i; k < (turned ? (i / dimension_ + 1) * dimension_ : i + 1); ++k)
-        held[static_cast<std::size_t>(k)] = true;
-    sum += relaxed_energy(subdomains_[s]->original(), held, std::move(u[s]));
+      for (Local k = rotated ? i / dimension_ * dimension_ : i; k < (rotated ? (i / dimension_ + 1) * dimension_ : i + 1); ++k)
+        fixed[static_cast<std::size_t>(k)] = true;
+    sum += relaxed_energy(subdomains_[s]->original(), fixed, std::move(u[s]));
   }
   return comm_.sum(sum);
 }
@@ -162,7 +162,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
         Eigen::MatrixXd u(surface.weight.size(), static_cast<Eigen::Index>(count));
         for (std::size_t c = 0; c < count; ++c) {
           const std::size_t s = members[first + c];
-          subdomains_[s]->turn_back(forces[s]);
+          subdomains_[s]->rotate_back(forces[s]);
           u.col(static_cast<Eigen::Index>(c)) = forces[s](surface.unknowns).cwiseProduct(surface.weight);
         }
         Eigen::MatrixXd f = surface.lower.selfadjointView<Eigen::Lower>() * u;
@@ -177,7 +177,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
           const std::size_t s = members[first + c];
           forces[s].setZero();
           forces[s](surface.unknowns) = f.col(static_cast<Eigen::Index>(c)).cwiseProduct(surface.weight);
-          subdomains_[s]->turn(forces[s]);
+          subdomains_[s]->rotate(forces[s]);
         }
       }
     Vector result = jump_.apply(forces);

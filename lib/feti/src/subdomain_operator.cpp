@@ -66,11 +66,11 @@ void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v
   for (const auto& [original, list] : by_original(subdomains)) {
     columns.clear();
     for (const auto s : list) {
-      subdomains[s]->turn_back(v[s]);
+      subdomains[s]->rotate_back(v[s]);
       columns.push_back(v[s].data());
     }
     original->apply_inverse(columns);
-    for (const auto s : list) subdomains[s]->turn(v[s]);
+    for (const auto s : list) subdomains[s]->rotate(v[s]);
   }
 }
 
@@ -150,50 +150,50 @@ std::size_t ElasticSubdomain::foreseen_factor_bytes(const SparseMatrix& lower, c
   return Cholesky(lower + fixing(lower, kernel, points, dimension), dimension).factor_bytes();
 }
 
-TurnedSubdomain::TurnedSubdomain(std::shared_ptr<const SubdomainOperator> original, const Eigen::Matrix3d& rotation,
-                                 int dimension)
+RotatedSubdomain::RotatedSubdomain(std::shared_ptr<const SubdomainOperator> original, const Eigen::Matrix3d& rotation,
+                                   int dimension)
     : original_(std::move(original)), rotation_(rotation.topLeftCorner(dimension, dimension)), kernel_(original_->kernel())
 {
   for (Eigen::Index i = 0; i < kernel_.rows(); i += dimension)
     kernel_.middleRows(i, dimension) = rotation_ * Eigen::MatrixXd(kernel_.middleRows(i, dimension));
 }
 
-void TurnedSubdomain::turn_back(Eigen::VectorXd& v) const
+void RotatedSubdomain::rotate_back(Eigen::VectorXd& v) const
 {
   Eigen::Map<Eigen::MatrixXd> nodes(v.data(), rotation_.rows(), v.size() / rotation_.rows());
   nodes = rotation_.transpose() * nodes;
 }
 
-void TurnedSubdomain::turn(Eigen::VectorXd& v) const
+void RotatedSubdomain::rotate(Eigen::VectorXd& v) const
 {
   Eigen::Map<Eigen::MatrixXd> nodes(v.data(), rotation_.rows(), v.size() / rotation_.rows());
   nodes = rotation_ * nodes;
 }
 
-void TurnedSubdomain::apply_inverse(std::span<double* const> columns) const
+void RotatedSubdomain::apply_inverse(std::span<double* const> columns) const
 {
   for (double* column : columns) {
     Eigen::Map<Eigen::VectorXd> v(column, size());
     Eigen::VectorXd x = v;
-    turn_back(x);
+    rotate_back(x);
     double* const pointer = x.data();
     original_->apply_inverse({&pointer, 1});
-    turn(x);
+    rotate(x);
     v = x;
   }
 }
 
-Eigen::VectorXd TurnedSubdomain::apply(const Eigen::VectorXd& u) const
+Eigen::VectorXd RotatedSubdomain::apply(const Eigen::VectorXd& u) const
 {
   Eigen::VectorXd v = u;
-  turn_back(v);
+  rotate_back(v);
   v = original_->apply(v);
-  turn(v);
+  rotate(v);
   return v;
 }
 
 // T K T' of the original's.
-SparseMatrix TurnedSubdomain::regularised() const
+SparseMatrix RotatedSubdomain::regularised() const
 {
   std::vector<Eigen::Triplet<double>> entries;
   for (int node = 0; node < size(); node += static_cast<int>(rotation_.rows()))

@@ -43,12 +43,12 @@ Eigen::VectorXd amplitudes_of(const RigidMotion& motion, const BodyFrame& frame,
   return result;
 }
 
-Eigen::MatrixXd complement(const Eigen::MatrixXd& taken)
+Eigen::MatrixXd complement(const Eigen::MatrixXd& given)
 {
-  const auto modes = taken.rows();
-  if (taken.cols() == 0) return Eigen::MatrixXd::Identity(modes, modes);
-  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(taken).householderQ();
-  return q.rightCols(modes - taken.cols());
+  const auto modes = given.rows();
+  if (given.cols() == 0) return Eigen::MatrixXd::Identity(modes, modes);
+  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(given).householderQ();
+  return q.rightCols(modes - given.cols());
 }
 
 }  // namespace mortise::feti

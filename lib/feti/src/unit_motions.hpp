@@ -17,7 +17,7 @@ RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eig
 /// The amplitudes of a rigid motion, of a body with that frame; the reverse of combine().
 Eigen::VectorXd amplitudes_of(const RigidMotion& motion, const BodyFrame& frame, fem::Kinematics kinematics);
 
-/// An orthonormal basis of what is orthogonal to the orthonormal columns of `taken`.
-Eigen::MatrixXd complement(const Eigen::MatrixXd& taken);
+/// An orthonormal basis of what is orthogonal to the orthonormal columns of `given`.
+Eigen::MatrixXd complement(const Eigen::MatrixXd& given);
 
 }  // namespace mortise::feti

@@ -25,7 +25,7 @@ struct Blocks {
   partition::Decomposition decomposition;
   std::unique_ptr<partition::NodeDirectory> directory;
   partition::Interface interface;
-  Floating floating;
+  SubdomainSystem system;
   std::vector<Eigen::VectorXd> load;  // none yet
   constraint::Constraints constraints;
 
@@ -34,7 +34,7 @@ struct Blocks {
     std::array<int, 3> counts;
   };
   using Rotation = std::function<std::optional<Eigen::Matrix3d>(const partition::Subdomain&)>;
-  // `young`: of the subdomain with that number. `rotation`: of the subdomains that are made as turned copies.
+  // `young`: of the subdomain with that number. `rotation`: of the subdomains that are made as rotated copies.
   Blocks(const std::map<std::string, mesh::BlockOptions>& blocks, const std::vector<Counts>& counts,
          const std::function<double(int)>& young, MPI_Comm mpi = MPI_COMM_WORLD, int subdomains_per_cluster = 1,
          const Rotation& rotation = {})
@@ -49,20 +49,20 @@ struct Blocks {
     decomposition = partition::decompose(mesh, options, 3, context);
     Subdomains subdomains;
     for (const auto& s : decomposition.subdomains) {
-      const auto turned = rotation ? rotation(s) : std::nullopt;
+      const auto rotated = rotation ? rotation(s) : std::nullopt;
       auto original = s.mesh;
-      if (turned)
-        for (auto& point : original.points) point = turned->transpose() * point;
+      if (rotated)
+        for (auto& point : original.points) point = rotated->transpose() * point;
       auto stiffness = fem::stiffness(original, fem::Material{young(static_cast<int>(s.id)), 0.3, 0, 0}, fem::Kinematics::solid);
-      floating.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
+      system.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
       load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
       subdomains.push_back(std::make_shared<ElasticSubdomain>(
           std::move(stiffness), fem::rigid_motions(original.points, fem::Kinematics::solid), original.points, 3, "cholmod"));
-      if (turned) subdomains.back() = std::make_shared<TurnedSubdomain>(subdomains.back(), *turned, 3);
+      if (rotated) subdomains.back() = std::make_shared<RotatedSubdomain>(subdomains.back(), *rotated, 3);
     }
-    directory = std::make_unique<partition::NodeDirectory>(decomposition, floating.nodal_stiffness, comm);
+    directory = std::make_unique<partition::NodeDirectory>(decomposition, system.nodal_stiffness, comm);
     interface = partition::find_interface(decomposition, *directory, comm);
-    floating.clusters = Clusters(decomposition, interface, subdomains, floating.nodal_stiffness, fem::Kinematics::solid);
+    system.clusters = Clusters(decomposition, interface, subdomains, system.nodal_stiffness, fem::Kinematics::solid);
   }
 
   int boundary(const std::string& name) const
@@ -76,16 +76,16 @@ struct Blocks {
                                        std::vector<bool>(decomposition.catalogue.bodies.size(), true));
   }
 
-  void pull(const std::string& name, const Point& traction)
+  void pretension_multipliers(const std::string& name, const Point& traction)
   {
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
       fem::add_traction(decomposition.subdomains[s].mesh, boundary(name), fem::Kinematics::solid, traction, load[s]);
   }
-  void hold(const std::vector<constraint::SupportOptions>& supports)
+  void dirichlet_rows(const std::vector<constraint::SupportOptions>& supports)
   {
     std::vector<std::vector<Global>> nodes;
     for (const auto& support : supports) nodes.push_back(side(support.boundary).node_id);
-    constraints.held = constraint::hold(supports, nodes, 3, comm);
+    constraints.prescribed = constraint::dirichlet_rows(supports, nodes, 3, comm);
   }
 
   struct Node {
@@ -117,7 +117,7 @@ struct Blocks {
       if (static_cast<int>(i) % comm.size() != comm.rank()) continue;
       auto axes = frame();
       if (!tangents) axes.resize(1);
-      contacts.points.push_back({0, above[i].id, 1, axes[0], {axes.begin() + 1, axes.end()}, contacts.rows.size()});
+      contacts.nodes.push_back({0, above[i].id, 1, axes[0], {axes.begin() + 1, axes.end()}, contacts.rows.size()});
       contacts.bonded.push_back(bonded);
       for (const auto& axis : axes) {
         for (int c = 0; c < 3; ++c)

@@ -20,7 +20,7 @@ struct Chains : Blocks {
     auto& contacts = constraints.contacts;
     for (std::size_t i = 0; i < above.size(); ++i) {
       if (static_cast<int>(i) % comm.size() != comm.rank()) continue;
-      contacts.points.push_back({0, above[i].id, 1, Point(0, 0, -1), {}, contacts.rows.size()});
+      contacts.nodes.push_back({0, above[i].id, 1, Point(0, 0, -1), {}, contacts.rows.size()});
       contacts.bonded.push_back(false);
       contacts.rows.entries.push_back({above[i].id, 2, -1});
       const bool pair = i % 4 != 3;  // not from one chain to the next
@@ -50,14 +50,14 @@ TEST(ContactGram, IsInvertedBlockByBlock)
         for (std::size_t i = block.offset[r]; i < block.offset[r + 1]; ++i)
           b(row - first, block.unknown[i]) += block.coefficient[i];
     for (Eigen::Index i = 0; i < b.cols(); ++i)
-      b.col(i) /= std::sqrt(chains.floating.nodal_stiffness[s][static_cast<std::size_t>(i / 3)]);
+      b.col(i) /= std::sqrt(chains.system.nodal_stiffness[s][static_cast<std::size_t>(i / 3)]);
     gram += b * b.transpose();
   }
   comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
   EXPECT_LT((gram.diagonal().array() - 1).abs().maxCoeff(), 1e-12);
   EXPECT_GT((gram - Eigen::MatrixXd::Identity(size, size)).cwiseAbs().maxCoeff(), 0.1);
 
-  ContactGram contact(jump, chains.floating.nodal_stiffness, 3, comm);
+  ContactGram contact(jump, chains.system.nodal_stiffness, 3, comm);
   for (const int every : {0, 3, 5}) {  // rows that are fixed
     std::vector<Local> fixed;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(size);

@@ -1,4 +1,4 @@
-// The dual problem of a cube cut into eight, glued and held on one face: its rows, its operator, and its solution against a
+// The dual problem of a cube cut into eight, glued and prescribed on one face: its rows, its operator, and its solution against a
 // direct solve.
 #include "feti/dual_problem.hpp"
 
@@ -18,22 +18,23 @@ constexpr int cells = 4;
 
 struct Cube : Blocks {
   // Young's modulus jumps from subdomain to subdomain by `jump`. Held at z = 0, unless it floats; pulled at z = 1.
-  explicit Cube(double jump, bool held, const MPI_Comm mpi = MPI_COMM_WORLD, int subdomains_per_cluster = 1)
+  explicit Cube(double jump, bool prescribed, const MPI_Comm mpi = MPI_COMM_WORLD, int subdomains_per_cluster = 1)
       : Blocks(
             {{"cube", {{0, 0, 0}, {1, 1, 1}, {cells, cells, cells}, "hex8"}}}, {{"cube", {2, 2, 2}}},
             [jump](int id) { return (id + id / 2 + id / 4) % 2 == 0 ? 1.0 : jump; }, mpi, subdomains_per_cluster)
   {
-    pull("cube.zmax", Point(0.1, 0, 1));
-    if (held) hold({{"cube.zmin", {0, 0, 0.25}}});
+    pretension_multipliers("cube.zmax", Point(0.1, 0, 1));
+    if (prescribed) dirichlet_rows({{"cube.zmin", {0, 0, 0.25}}});
   }
 };
 
 TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
 {
   const Cube cube(1e6, true, MPI_COMM_SELF);
-  const JumpOperator jump(cube.decomposition, *cube.directory, cube.interface, cube.constraints.held, {}, {}, {}, cube.comm);
+  const JumpOperator jump(cube.decomposition, *cube.directory, cube.interface, cube.constraints.prescribed, {}, {}, {},
+                          cube.comm);
   int unknowns = 0;
-  for (const auto& w : cube.floating.nodal_stiffness) unknowns += 3 * static_cast<int>(w.size());
+  for (const auto& w : cube.system.nodal_stiffness) unknowns += 3 * static_cast<int>(w.size());
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(jump.rows()->getGlobalNumElements()), unknowns);
   int base = 0;
   for (std::size_t s = 0; s < jump.blocks().size(); ++s) {
@@ -41,7 +42,7 @@ TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
     for (std::size_t r = 0; r < block.row.size(); ++r)
       for (std::size_t i = block.offset[r]; i < block.offset[r + 1]; ++i)
         b(block.row[r], base + block.unknown[i]) =
-            block.coefficient[i] / std::sqrt(cube.floating.nodal_stiffness[s][static_cast<std::size_t>(block.unknown[i] / 3)]);
+            block.coefficient[i] / std::sqrt(cube.system.nodal_stiffness[s][static_cast<std::size_t>(block.unknown[i] / 3)]);
     base += block.size;
   }
   EXPECT_LT((b * b.transpose() - Eigen::MatrixXd::Identity(b.rows(), b.rows())).cwiseAbs().maxCoeff(), 1e-12);
@@ -50,7 +51,7 @@ TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
 TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
 {
   const Cube cube(100, true);
-  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
                             cube.context);
   const auto map = problem.hessian().getDomainMap();
   Vector x(map), y(map), fx(map), fy(map);
@@ -75,14 +76,14 @@ TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
 TEST(DualProblem, ARenewedOneIsThatOfTheNewLoadsAndBounds)
 {
   Cube cube(10, true);
-  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
                       cube.context);
   const auto* linear = &problem.linear();
   const auto before = problem.equality().right_side();
   for (auto& f : cube.load) f *= -2.5;
-  for (auto& held : cube.constraints.held) held.value += 0.125 * held.component;
+  for (auto& prescribed : cube.constraints.prescribed) prescribed.value += 0.125 * prescribed.component;
   ASSERT_TRUE(problem.update_rhs(cube.constraints, cube.load));
-  const DualProblem fresh(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+  const DualProblem fresh(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
                           cube.context);
   EXPECT_EQ(&problem.linear(), linear);  // solvers keep on referring to it
   Vector difference(problem.linear(), Teuchos::Copy);
@@ -97,7 +98,7 @@ TEST(DualProblem, LoadsThatDriveAFreeMotionLaterAreNoEquilibrium)
   Cube cube(1, false);
   auto pulled = cube.load;
   for (auto& f : cube.load) f.setZero();
-  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
                       cube.context);
   EXPECT_TRUE(problem.update_rhs(cube.constraints, cube.load));
   cube.load = pulled;
@@ -118,7 +119,7 @@ TEST(DualProblem, PreconditionersAreSymmetricAndApproximateTheInverse)
   for (const auto* kind : {"none", "lumped", "dirichlet"}) {
     Options options;
     options.preconditioner = kind;
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load,
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load,
                               options, cube.context);
     qp::Hessian hessian(problem.hessian(), 1000);
     const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
@@ -151,7 +152,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
   const auto [algorithm, subdomains_per_cluster] = GetParam();
   for (const double jump : {1.0, 1e6}) {
     Cube cube(jump, true, MPI_COMM_WORLD, subdomains_per_cluster);
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
                               cube.context);
     EXPECT_EQ(problem.kernel_dimension(), 6 * 8 / subdomains_per_cluster);
     qp::Hessian hessian(problem.hessian(), 1000);
@@ -170,7 +171,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
     for (std::size_t s = 0; s < whole.decomposition.subdomains.size(); ++s) {
       const auto& id = whole.decomposition.subdomains[s].mesh.node_id;
       const auto unknown = [&](Eigen::Index i) { return 3 * id[static_cast<std::size_t>(i / 3)] + i % 3; };
-      const auto& subdomain = *whole.floating.clusters.subdomains()[s];
+      const auto& subdomain = *whole.system.clusters.subdomains()[s];
       const auto size = subdomain.size();
       for (Eigen::Index j = 0; j < size; ++j) {
         const Eigen::VectorXd column = subdomain.apply(Eigen::VectorXd::Unit(size, j));
@@ -178,7 +179,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
         f[unknown(j)] += whole.load[s][j];
       }
     }
-    for (const auto& h : whole.constraints.held) {
+    for (const auto& h : whole.constraints.prescribed) {
       const auto i = 3 * h.node + h.component;
       f -= k.col(i) * h.value;
       k.row(i).setZero();
@@ -186,7 +187,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
       k(i, i) = 1;
       f[i] = h.value;
     }
-    for (const auto& h : whole.constraints.held) f[3 * h.node + h.component] = h.value;
+    for (const auto& h : whole.constraints.prescribed) f[3 * h.node + h.component] = h.value;
     const Eigen::VectorXd expected = k.ldlt().solve(f);
     for (std::size_t s = 0; s < u.size(); ++s)
       for (std::size_t n = 0; n < cube.decomposition.subdomains[s].mesh.node_count(); ++n)
@@ -207,7 +208,7 @@ TEST(DualProblem, TheEnergyOfAResidualBoundsTheErrorBehindIt)
       const Cube cube(jump, true);
       Options options;
       options.preconditioner = kind;
-      const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load,
+      const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load,
                                 options, cube.context);
       const auto map = problem.hessian().getDomainMap();
       for (int wave = 1; wave < 30; wave += 4) {
@@ -231,7 +232,7 @@ TEST(DualProblem, AFloatingBodyThatIsPulledIsNamed)
 {
   const Cube cube(1, false);
   try {
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
                               cube.context);
     FAIL() << "no error";
   } catch (const Error& error) {
@@ -244,7 +245,7 @@ TEST(DualProblem, AFloatingBodyThatNothingPullsIsGauged)
 {
   Cube cube(1, false);
   for (auto& f : cube.load) f.setZero();
-  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.floating, cube.load, {},
+  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
                             cube.context);
   EXPECT_EQ(cube.comm.sum(static_cast<long long>(problem.jump().ranges().end - problem.jump().ranges().extra)), 6);
 }

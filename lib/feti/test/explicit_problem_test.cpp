@@ -10,11 +10,11 @@
 #include <optional>
 
 #include "blocks.hpp"
-#include "constraint/preload.hpp"
+#include "constraint/pretension.hpp"
 #include "constraint/supports.hpp"
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
-#include "feti/placement.hpp"
+#include "feti/row_distribution.hpp"
 #include "qp/face_newton.hpp"
 
 namespace mortise::feti {
@@ -25,8 +25,8 @@ constexpr double coefficient = 0.4;
 // What a stack has beside the supports below.
 struct Variant {
   bool upper_held = false;           // along x on top, where there is a preload along all axes
-  bool inclined = false;             // at nodes of the lower block that are held along another axis, too
-  bool turned = false;               // the operator of the upper block is that of a turned copy
+  bool skew_supports = false;        // at nodes of the lower block that are prescribed along another axis, too
+  bool rotated = false;              // the operator of the upper block is that of a rotated copy
   double moved = 0;                  // along x, by all supports
   std::optional<double> force = {};  // of a preload: the blocks are bonded and drawn together
 };
@@ -37,40 +37,42 @@ struct Stack : Blocks {
       : Blocks(
             {{"lower", {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"}}, {"upper", {{0, 0, 1}, {1, 1, 2}, {3, 3, 4}, "hex8"}}},
             {{"lower", {1, 1, 1}}, {"upper", {1, 1, pieces}}}, [](int) { return 1000.0; }, MPI_COMM_WORLD, 1,
-            [&](const partition::Subdomain& s) { return variant.turned && s.body == 1 ? std::optional(turn()) : std::nullopt; })
+            [&](const partition::Subdomain& s) {
+              return variant.rotated && s.body == 1 ? std::optional(rotate()) : std::nullopt;
+            })
   {
-    pull("upper.zmax", traction);
+    pretension_multipliers("upper.zmax", traction);
     std::vector<constraint::SupportOptions> supports{{"lower.zmin", {variant.moved, 0, 0}}};
     if (variant.upper_held) {
       const std::optional<double> others = variant.force ? std::optional(0.0) : std::nullopt;
       supports.push_back({"upper.zmax", {variant.moved, others, others}});
     }
-    hold(supports);
-    if (variant.inclined) incline();
+    dirichlet_rows(supports);
+    if (variant.skew_supports) skew_support_rows();
     join("upper.zmin", "lower.zmax", variant.force.has_value());
     if (variant.force)
-      constraints.cuts =
-          constraint::find_cuts(constraints.contacts, std::vector{constraint::Preload{0, "cut", variant.force}}, false, comm);
-    constraints.held = place(constraints.held, decomposition, *directory, comm);
-    constraints.inclined = place(constraints.inclined, decomposition, *directory, comm);
+      constraints.pretension_sections = constraint::find_pretension_sections(
+          constraints.contacts, std::vector{constraint::Preload{0, "cut", variant.force}}, false, comm);
+    constraints.prescribed = distribute_rows(constraints.prescribed, decomposition, *directory, comm);
+    constraints.skew_supports = distribute_rows(constraints.skew_supports, decomposition, *directory, comm);
   }
 
-  static Eigen::Matrix3d turn() { return Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix(); }
+  static Eigen::Matrix3d rotate() { return Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix(); }
 
-  // The lower block's nodes at x = z = 0 are held along y, and along a direction between x and z instead of these.
-  void incline()
+  // The lower block's nodes at x = z = 0 are prescribed along y, and along a direction between x and z instead of these.
+  void skew_support_rows()
   {
     std::vector<Global> edge;
     for (const auto& node : nodes_of("lower.zmin"))
       if (node.x < 0.1) edge.push_back(node.id);
-    std::vector<constraint::Held> left;
-    for (const auto& held : constraints.held) {
-      if (held.component == 1 || std::find(edge.begin(), edge.end(), held.node) == edge.end())
-        left.push_back(held);
-      else if (held.component == 0)
-        constraints.inclined.push_back({held.node, {0.6, 0, 0.8}, 0.01, {}, 0});
+    std::vector<constraint::PrescribedDof> left;
+    for (const auto& prescribed : constraints.prescribed) {
+      if (prescribed.component == 1 || std::find(edge.begin(), edge.end(), prescribed.node) == edge.end())
+        left.push_back(prescribed);
+      else if (prescribed.component == 0)
+        constraints.skew_supports.push_back({prescribed.node, {0.6, 0, 0.8}, 0.01, {}, 0});
     }
-    constraints.held = std::move(left);
+    constraints.prescribed = std::move(left);
   }
 };
 
@@ -139,7 +141,7 @@ TEST_P(Varied, HasTheInverseOfTheDualOperator)
 {
   const auto& [pieces, variant] = GetParam();
   const Stack stack(Point(1, 0.5, -10), pieces, variant);
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
   ExplicitProblem direct(problem, 0);
   const auto map = problem.hessian().getDomainMap();
@@ -161,19 +163,19 @@ TEST_P(Varied, SolvesAsWithoutElimination)
 {
   const auto& [pieces, variant] = GetParam();
   const Stack stack(Point(1, 0.5, -10), pieces, variant);
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
   auto& set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
   const auto found = ExplicitProblem(problem, 0).solve();
-  ASSERT_TRUE(found.settled);
+  ASSERT_TRUE(found.converged);
 
   const Dense dense(problem);
   const auto motions = dense.g.rows();
   const auto expected = qp::CondensedNewton(dense.f, dense.g, Eigen::MatrixXd::Zero(motions, motions), dense.set)
                             .solve(dense.d, problem.equality().right_side(), dense.set);
-  ASSERT_TRUE(expected.settled);
+  ASSERT_TRUE(expected.converged);
   EXPECT_GT(expected.x.norm(), 0.1);
   EXPECT_LT((dense.whole(found.x) - expected.x).norm(), 1e-9 * expected.x.norm());
   EXPECT_LT((found.nu - expected.nu).norm(), 1e-9 * expected.nu.norm());
@@ -183,12 +185,12 @@ class Directly : public testing::TestWithParam<std::pair<double, int>> {};
 INSTANTIATE_TEST_SUITE_P(PushesAndPieces, Directly,
                          testing::Values(std::pair{0.0, 1}, std::pair{1.0, 1}, std::pair{2.0, 1}, std::pair{2.0, 3}));
 
-// Pressed with 10, a push of up to 4 is held.
+// Pressed with 10, a push of up to 4 is prescribed.
 TEST_P(Directly, SolvesAsFaceNewtonDoes)
 {
   const auto [push, pieces] = GetParam();
   const Stack stack(Point(push, 0, -10), pieces);
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
   auto& set = problem.set();
   ASSERT_EQ(stack.comm.sum(static_cast<long long>(set.discs().size())), 16);
@@ -196,7 +198,7 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
   const ExplicitProblem direct(problem);
   const auto found = direct.solve();
-  ASSERT_TRUE(found.settled);
+  ASSERT_TRUE(found.converged);
 
   // Coulomb's law: within cones; and with the radii that it gives it is the one solution of a problem with fixed radii.
   std::vector<double> radii;
@@ -226,11 +228,11 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
 TEST(ExplicitProblem, SaysWhereNothingBalancesTheLoads)
 {
   const Stack stack(Point(4.5, 0, -10), 1);  // friction holds 4
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load, {},
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
   auto& set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
-  EXPECT_FALSE(ExplicitProblem(problem).solve().settled);
+  EXPECT_FALSE(ExplicitProblem(problem).solve().converged);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
-// A column of two halves, 5 high, of section 1, tied node by node across a cut that is drawn together.
-#include "constraint/preload.hpp"
-
+// A column of two halves, 5 high, of section 1, tied node by node across a pretension section that is drawn together.
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
 #include "blocks.hpp"
+#include "constraint/pretension.hpp"
 #include "qp/face_newton.hpp"
 #include "qp/smalse.hpp"
 
@@ -21,9 +20,10 @@ struct Column : Blocks {
   {
     std::vector<constraint::SupportOptions> supports{{"lower.zmin", {std::nullopt, std::nullopt, 0.0}}};
     if (both_ends) supports.push_back({"upper.zmax", {std::nullopt, std::nullopt, 0.0}});
-    hold(supports);
+    dirichlet_rows(supports);
     join("upper.zmin", "lower.zmax", true);
-    constraints.cuts = constraint::find_cuts(constraints.contacts, std::vector{preload}, false, comm);
+    constraints.pretension_sections =
+        constraint::find_pretension_sections(constraints.contacts, std::vector{preload}, false, comm);
   }
 };
 
@@ -31,17 +31,18 @@ qp::Solution solve(const DualProblem& problem, const std::string& algorithm)
 {
   qp::Hessian hessian(problem.hessian(), 1000);
   Vector driven(problem.linear().getMap());
-  if (problem.pull()) hessian.apply(*problem.pull(), driven);
-  const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set(), problem.pull() ? &driven : nullptr};
+  if (problem.pretension_multipliers()) hessian.apply(*problem.pretension_multipliers(), driven);
+  const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set(),
+                              problem.pretension_multipliers() ? &driven : nullptr};
   return algorithm == "smalse" ? qp::smalse(programme, {}, 1e-10, {})
                                : qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-10, {}}, nullptr, {});
 }
 
-// Tension over the cut from the multipliers.
+// Tension over the pretension section from the multipliers.
 double tension(const DualProblem& problem, const Vector& lambda)
 {
   double sum = 0;
-  for (const auto& [row, part] : problem.constraints().cuts[0].rows) {
+  for (const auto& [row, part] : problem.constraints().pretension_sections[0].rows) {
     const auto at = problem.jump().ranges().contacts + static_cast<Local>(row);
     sum -= part * problem.forces(lambda)[at];
   }
@@ -54,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Preloads, testing::Values("smalse", "face_newton"
 TEST_P(Preloads, AForceHasItsShortening)
 {
   const Column column({0, "cut", force}, true);
-  const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.floating,
+  const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.system,
                             column.load, {}, column.context);
   EXPECT_EQ(problem.kernel_dimension(), 5 * 6);
   EXPECT_EQ(problem.equality().size(), 5 * 6 + 1);
@@ -66,7 +67,7 @@ TEST_P(Preloads, AForceHasItsShortening)
   EXPECT_NEAR(found[0], shortening, 1e-8 * shortening);
   const auto u = problem.displacement(solution.x, solution.nu);
   EXPECT_LT(problem.imbalance(u, solution.x), 1e-10);
-  // u_z rises to force / young * 2 below the cut, and from there as much less as it is drawn together.
+  // u_z rises to force / young * 2 below the pretension section, and from there as much less as it is drawn together.
   for (std::size_t s = 0; s < u.size(); ++s)
     for (std::size_t n = 0; n < column.decomposition.subdomains[s].mesh.node_count(); ++n) {
       const double z = column.decomposition.subdomains[s].mesh.points[n][2];
@@ -78,10 +79,10 @@ TEST_P(Preloads, AForceHasItsShortening)
 TEST_P(Preloads, AShorteningHasItsForce)
 {
   const Column column({0, "cut", {}, shortening}, true);
-  const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.floating,
+  const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.system,
                             column.load, {}, column.context);
   EXPECT_EQ(problem.equality().size(), 5 * 6);
-  EXPECT_EQ(problem.pull(), nullptr);
+  EXPECT_EQ(problem.pretension_multipliers(), nullptr);
   const auto solution = solve(problem, GetParam());
   ASSERT_TRUE(solution.converged);
   EXPECT_NEAR(tension(problem, solution.x), force, 1e-8 * force);
@@ -93,7 +94,7 @@ TEST(Preload, AHalfThatNothingStopsIsNamed)
 {
   const Column column({0, "cut", force}, false);
   try {
-    const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.floating,
+    const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.system,
                               column.load, {}, column.context);
     FAIL() << "no error";
   } catch (const Error& error) {

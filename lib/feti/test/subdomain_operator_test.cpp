@@ -65,30 +65,30 @@ TEST(Inverse, GoesThroughSharedFactorsInBlocks)
   for (std::size_t s = 0; s < v.size(); ++s) EXPECT_LT((v[s] - expected[s]).norm(), 1e-12 * expected[s].norm()) << s;
 }
 
-// A turned copy behaves as what its own mesh gives.
+// A rotated copy behaves as what its own mesh gives.
 TEST(Inverse, OfATurnedCopyIsItsOwn)
 {
   const auto mesh = block({3, 2, 2}, {1, 1, 1});
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(2.1, Point(1, -2, 0.5).normalized()).matrix();
-  auto turned_mesh = mesh;
-  for (auto& p : turned_mesh.points) p = rotation * p + Point(3, 1, 4);
+  auto rotated_mesh = mesh;
+  for (auto& p : rotated_mesh.points) p = rotation * p + Point(3, 1, 4);
   const auto make = [](const mesh::Mesh& m) {
     return std::make_shared<const ElasticSubdomain>(fem::stiffness(m, fem::Material{2e5, 0.3, 0, 0}, fem::Kinematics::solid),
                                                     fem::rigid_motions(m.points, fem::Kinematics::solid), m.points, 3, "cholmod");
   };
-  const auto original = make(mesh), own = make(turned_mesh);
-  const auto turned = std::make_shared<const TurnedSubdomain>(original, rotation, 3);
+  const auto original = make(mesh), own = make(rotated_mesh);
+  const auto rotated = std::make_shared<const RotatedSubdomain>(original, rotation, 3);
   const Eigen::VectorXd u = Eigen::VectorXd::Random(own->size());
   const Eigen::VectorXd f = own->apply(u);
-  EXPECT_LT((turned->apply(u) - f).norm(), 1e-12 * f.norm());
-  EXPECT_LT((turned->kernel() * (turned->kernel().transpose() * own->kernel()) - own->kernel()).norm(), 1e-12);
-  const Subdomains subdomains{original, turned};
+  EXPECT_LT((rotated->apply(u) - f).norm(), 1e-12 * f.norm());
+  EXPECT_LT((rotated->kernel() * (rotated->kernel().transpose() * own->kernel()) - own->kernel()).norm(), 1e-12);
+  const Subdomains subdomains{original, rotated};
   std::vector<Eigen::VectorXd> v{original->apply(u), f};
   apply_inverse(subdomains, v);
   EXPECT_LT((own->apply(v[1]) - f).norm(), 1e-11 * f.norm());
   Eigen::VectorXd alone = f;
   double* const column = alone.data();
-  turned->apply_inverse({&column, 1});
+  rotated->apply_inverse({&column, 1});
   EXPECT_LT((alone - v[1]).norm(), 1e-12 * alone.norm());
 }
 

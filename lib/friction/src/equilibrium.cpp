@@ -12,10 +12,11 @@ void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu,
 {
   if (!proven)
     throw Error(ExitStatus::bad_input,
-                "no forces were found that balance the loads, though nothing proves that there are none: " + problem.runaway(nu) +
+                "no forces were found that balance the loads, though nothing proves that there are none: " +
+                    problem.unbounded_rigid_mode(nu) +
                     " nearly freely, and stiffnesses that differ by 1e12 are too far apart for rounding. "
                     "Look at the units of young_modulus and of sizes, or support that body");
-  throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.runaway(nu) +
+  throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.unbounded_rigid_mode(nu) +
                                               "; contacts can only push and friction is limited, so nothing holds it against "
                                               "the loads. Support it, or look at the direction of the loads and at the friction");
 }

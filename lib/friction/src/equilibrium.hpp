@@ -7,7 +7,7 @@
 namespace mortise::friction {
 
 /// Throws that no forces balance the loads, and which body moves how along `nu`. `proven`: `nu` proves it, Error(no_equilibrium);
-/// else the search for such forces just did not settle, Error(bad_input). Collective.
+/// else the search for such forces just did not converge, Error(bad_input). Collective.
 [[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven);
 
 /// Forces that bounds just allowed may be more than the law allows, by what bounds and normal forces still differ by. That counts

@@ -5,13 +5,13 @@
 #include <memory>
 #include <utility>
 
-#include "contact_settled.hpp"
+#include "contact_converged.hpp"
 #include "equilibrium.hpp"
 #include "feti/means.hpp"
-#include "open_points.hpp"
 #include "qp/error_estimate.hpp"
 #include "relaxation.hpp"
 #include "state_record.hpp"
+#include "unresolved_nodes.hpp"
 
 namespace mortise::friction {
 
@@ -45,7 +45,7 @@ struct Solver::Run {
   bool proven = false;                   // and whether it proves that
   double change = 1, least_change = 1;
   int step = 0, outer = 0, preconditionings = 0;
-  bool settled = false;
+  bool converged = false;
 
   void count(const qp::Solution& found)
   {
@@ -64,7 +64,8 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
       hessian_(problem.hessian(), 0),
       budget_(hessian_, solver.max_multiplications.value, qp::solver_kind(solver.algorithm).steady),
       driven_(problem.linear().getMap()),
-      programme_{hessian_, problem.linear(), problem.equality(), problem.set(), problem.pull() ? &driven_ : nullptr}
+      programme_{hessian_, problem.linear(), problem.equality(), problem.set(),
+                 problem.pretension_multipliers() ? &driven_ : nullptr}
 {
   problem.set().set_coefficients(coefficients(problem, laws_));
   algorithm_ = qp::solver_kind(solver.algorithm).make(programme_, feti::means_of(problem, budget_));
@@ -81,7 +82,7 @@ double Solver::change_of_bounds(const std::vector<double>& wanted, const std::ve
   return relative_change(wanted, now, least, problem_.communicator());
 }
 
-// Bounds and forces together, if the algorithm can. Where that does not settle, the fixed point goes on from there.
+// Bounds and forces together, if the algorithm can. Where that does not converge, the fixed point goes on from there.
 void Solver::follow_law(Run& run)
 {
   const qp::SlipLaw law{problem_.set(), [this](const Vector* x) { return slip_bounds(problem_, laws_, x); }};
@@ -96,7 +97,7 @@ void Solver::follow_law(Run& run)
   run.bounds = slip_bounds(problem_, laws_, &found->x);
   run.change = change_of_bounds(run.bounds, radii(problem_.set()), *found);
   // Where the error decides, what the bounds would still change counts in it.
-  run.settled = found->converged && (run.goal.allowed_error || run.change <= options_.tolerance);
+  run.converged = found->converged && (run.goal.allowed_error || run.change <= options_.tolerance);
   run.solution = std::move(found);
   run.solved = true;
 }
@@ -162,7 +163,7 @@ double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run
 void Solver::admit(Run& run)
 {
   constexpr double room = 1 + 1e-6;
-  constexpr double balanced = 1e-6;  // of all forces: what a search that does not settle may leave
+  constexpr double balanced = 1e-6;  // of all forces: what a search that does not converge may leave
   const qp::FeasibleSet cones = problem_.set().with_cones();
   const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), cones);
   if (!nearest.found && nearest.residual > balanced)
@@ -179,8 +180,8 @@ void Solver::fixed_point(Run& run)
   Relaxation relaxation(problem_.communicator());
   int infeasible = 0, failures = 0;
   double strictness = 1;
-  if (!run.settled) budget_.change_algorithm();
-  while (!run.settled) {
+  if (!run.converged) budget_.change_algorithm();
+  while (!run.converged) {
     ++run.step;
     // Looser again would bring swings of its own; and bounds that rest but for a loose tolerance would stay where they are.
     const double tightest =
@@ -205,10 +206,10 @@ void Solver::fixed_point(Run& run)
     infeasible = 0;
     auto wanted = slip_bounds(problem_, laws_, &run.solution->x);
     run.change = first ? 1.0 : change_of_bounds(wanted, run.bounds, *run.solution);
-    run.settled = !first && at_rest(wanted, tolerance, run);
+    run.converged = !first && at_rest(wanted, tolerance, run);
     // Bounds at rest beside an error that is too large.
-    if (!run.settled && run.change <= options_.tolerance && tolerance <= tightest) strictness *= 0.1;
-    if (run.settled || run.step >= options_.max_steps || hessian_.exhausted()) return;
+    if (!run.converged && run.change <= options_.tolerance && tolerance <= tightest) strictness *= 0.1;
+    if (run.converged || run.step >= options_.max_steps || hessian_.exhausted()) return;
     run.least_change = first ? 1.0 : std::min(run.least_change, run.change);
     const double part = relaxation(run.bounds, wanted);
     for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -222,14 +223,14 @@ Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy)
 {
   budget_.start(patience_);
   states_ = std::make_unique<StateRecord>();
-  if (problem_.pull()) hessian_.apply(*problem_.pull(), driven_);
+  if (problem_.pretension_multipliers()) hessian_.apply(*problem_.pretension_multipliers(), driven_);
   Run run;
   if (tolerance_) {
     run.goal.residual = *tolerance_;
   } else {
     run.goal.allowed_error = accuracy.allowed_error;
-    run.goal.settled = [this](const Vector& x, const Vector& argument, const Vector& off) {
-      return contact_settled(problem_, x, argument, off);
+    run.goal.contact_converged = [this](const Vector& x, const Vector& argument, const Vector& off) {
+      return contact_converged(problem_, x, argument, off);
     };
   }
   run.goal.energy_norm = accuracy.energy_norm;
@@ -252,26 +253,26 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   if (coulomb) {
     follow_law(run);
     if (!run.solved || !patience_) fixed_point(run);
-    if (run.solved && (run.settled || !hessian_.exhausted())) judge_by_law(problem_, laws_, hessian_, *run.solution);
+    if (run.solved && (run.converged || !hessian_.exhausted())) judge_by_law(problem_, laws_, hessian_, *run.solution);
   } else {
     run.step = 1;
     if (!solve_tresca(run.goal, run)) no_equilibrium(problem_, run.escape, run.proven);
-    run.settled = true;
+    run.converged = true;
     run.change = 0;
   }
   Result result{std::move(*run.solution)};
   result.steps = run.step;
   result.change = run.change;
-  result.converged = run.settled && result.solution.converged;
+  result.converged = run.converged && result.solution.converged;
   result.gave_up = patience_ && !result.converged && budget_.left();
   if (!result.converged && hessian_.exhausted())
     result.limit = budget_.reason();
   else if (!result.converged && coulomb && run.step >= options_.max_steps)
     result.limit = "friction_loop.max_steps";
-  result.multiplications = hessian_.count() - before;
+  result.applications = hessian_.count() - before;
   result.preconditionings = run.preconditionings;
   result.outer_iterations = run.outer;
-  if (!result.gave_up) tell_what_is_open(result);
+  if (!result.gave_up) report_unresolved_nodes(result);
   return result;
 }
 
@@ -283,15 +284,15 @@ void Solver::note(const Run& run, const qp::Progress& progress)
 }
 
 // What the last residual still changes, by the preconditioner. No product.
-void Solver::tell_what_is_open(Result& result)
+void Solver::report_unresolved_nodes(Result& result)
 {
   const auto& bonded = problem_.constraints().contacts.bonded;
   const bool any = std::find(bonded.begin(), bonded.end(), false) != bonded.end();
   if (!problem_.communicator().any(any)) return;
-  qp::FacePreconditioner* preconditioner = algorithm_->preconditioner();
-  const auto foretold = preconditioner ? foretell(problem_, result.solution, *preconditioner) : std::nullopt;
-  if (foretold) result.undecided = undecided(problem_, result.solution.x, *foretold);
-  if (!result.converged) result.stuck = stuck(problem_, *states_, result.solution.x, foretold ? &*foretold : nullptr);
+  qp::ActiveSetPreconditioner* preconditioner = algorithm_->preconditioner();
+  const auto predicted = preconditioner ? predict(problem_, result.solution, *preconditioner) : std::nullopt;
+  if (predicted) result.undecided = undecided(problem_, result.solution.x, *predicted);
+  if (!result.converged) result.stuck = stuck(problem_, *states_, result.solution.x, predicted ? &*predicted : nullptr);
 }
 
 }  // namespace mortise::friction

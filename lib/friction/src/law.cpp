@@ -8,10 +8,10 @@ namespace mortise::friction {
 
 std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda)
 {
-  const auto& points = problem.constraints().contacts.points;
+  const auto& points = problem.constraints().contacts.nodes;
   std::vector<double> radii(problem.set().discs().size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& rows = problem.points()[i];
+    const auto& rows = problem.node_rows()[i];
     if (rows.disc < 0) continue;
     const Law& law = laws[static_cast<std::size_t>(points[i].contact)];
     double& radius = radii[static_cast<std::size_t>(rows.disc)];
@@ -25,11 +25,11 @@ std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vec
 std::vector<double> coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws)
 {
   std::vector<double> result(problem.set().discs().size(), 0.0);
-  const auto& points = problem.constraints().contacts.points;
+  const auto& points = problem.constraints().contacts.nodes;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (const Law& law = laws[static_cast<std::size_t>(points[i].contact)];
-        law.kind == Law::Kind::coulomb && problem.points()[i].disc >= 0)
-      result[static_cast<std::size_t>(problem.points()[i].disc)] = law.value;
+        law.kind == Law::Kind::coulomb && problem.node_rows()[i].disc >= 0)
+      result[static_cast<std::size_t>(problem.node_rows()[i].disc)] = law.value;
   return result;
 }
 

@@ -10,8 +10,8 @@
 
 namespace mortise::friction {
 
-// How far to go towards the next bounds of the fixed point: Aitken's rule, which makes a swing about a point settle there [Irons
-// and Tuck, IJNME 1 (1969)].
+// How far to go towards the next bounds of the fixed point: Aitken's rule, which makes a swing about a point converge there
+// [Irons and Tuck, IJNME 1 (1969)].
 class Relaxation {
  public:
   explicit Relaxation(const Communicator& comm) : comm_(comm) {}

@@ -4,7 +4,7 @@
 
 namespace mortise::friction {
 
-long long StateRecord::note(std::vector<PointState> states)
+long long StateRecord::note(std::vector<ContactStatus> states)
 {
   if (!steps_.empty() && steps_.back().size() != states.size()) steps_.clear();
   long long changes = 0;
@@ -15,14 +15,14 @@ long long StateRecord::note(std::vector<PointState> states)
   return changes;
 }
 
-std::vector<StateRecord::Turns> StateRecord::turns() const
+std::vector<StateRecord::Changes> StateRecord::changes() const
 {
-  std::vector<Turns> result(steps_.empty() ? 0 : steps_.back().size());
+  std::vector<Changes> result(steps_.empty() ? 0 : steps_.back().size());
   for (std::size_t s = 1; s < steps_.size(); ++s)
     for (std::size_t i = 0; i < result.size(); ++i) {
       const auto before = steps_[s - 1][i], now = steps_[s][i];
       if (before == now) continue;
-      (before == PointState::open || now == PointState::open ? result[i].contact : result[i].friction) += 1;
+      (before == ContactStatus::open || now == ContactStatus::open ? result[i].contact : result[i].friction) += 1;
     }
   return result;
 }

@@ -25,7 +25,7 @@ int steps_to_rest(double slope, double shift)
 
 TEST(Relaxation, SettlesSwingsThatWouldGrow)
 {
-  for (const double slope : {-0.5, -1.0, -3.0}) {  // plain steps: settles, takes turns, runs away
+  for (const double slope : {-0.5, -1.0, -3.0}) {  // plain steps: converges, takes turns, runs away
     const int steps = steps_to_rest(slope, 1);
     EXPECT_GE(steps, 2) << slope;
     EXPECT_LE(steps, 3) << slope;  // of one unknown the second step is exact

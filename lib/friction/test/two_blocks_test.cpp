@@ -33,7 +33,7 @@ struct Stack : feti::Blocks {
       for (std::size_t n = 0; n < points.size(); ++n)
         if (points[n][2] > 2 - 1e-9) load[s].segment(3 * static_cast<Eigen::Index>(n), 3) += force_at(points[n], push);
     }
-    hold({{"lower.zmin", {0, 0, 0}}});
+    dirichlet_rows({{"lower.zmin", {0, 0, 0}}});
     join("upper.zmin", "lower.zmax", false, tangents);
   }
 };
@@ -162,8 +162,8 @@ Eigen::VectorXd forces_of(const Stack& stack, const feti::DualProblem& problem, 
 {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(stack.nodes_of("upper.zmin").size()));
   const auto x = view(multipliers);
-  for (std::size_t i = 0; i < problem.points().size(); ++i) {
-    const auto& rows = problem.points()[i];
+  for (std::size_t i = 0; i < problem.node_rows().size(); ++i) {
+    const auto& rows = problem.node_rows()[i];
     const auto at = 3 * (static_cast<Eigen::Index>(i) * stack.comm.size() + stack.comm.rank());
     for (int k = 0; k <= rows.tangents; ++k) forces[at + k] = problem.jump().force(rows.normal + k, x[rows.normal + k]);
   }
@@ -223,21 +223,21 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
   for (const int pieces : {1, 3}) {
     if (slow && (pieces > 1 || (law.kind == Kind::coulomb && Communicator().size() > 1))) continue;
     Stack stack(push, law.kind != Kind::frictionless, pieces);
-    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating,
-                              stack.load, {}, stack.context);
+    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
+                              {}, stack.context);
     qp::Options options;
     options.algorithm = algorithm;
     options.tolerance.value = tolerance;
     Solver solver(problem, {law}, {tolerance, 200}, options);
     const Result result = solver.solve(nullptr, {}, {});
     EXPECT_TRUE(result.converged) << pieces;
-    EXPECT_EQ(result.multiplications, solver.multiplications());
+    EXPECT_EQ(result.applications, solver.applications());
     const Eigen::VectorXd forces = forces_of(stack, problem, result.solution.x);
     EXPECT_LT((forces - expected.forces).norm(), (slow ? 1e-4 : 1e-6) * size) << pieces;
     // The radii of the laws, at the solution.
     const auto bounds = slip_bounds(problem, {law}, &result.solution.x);
-    for (std::size_t i = 0; i < problem.points().size(); ++i) {
-      const auto& rows = problem.points()[i];
+    for (std::size_t i = 0; i < problem.node_rows().size(); ++i) {
+      const auto& rows = problem.node_rows()[i];
       if (rows.disc < 0) continue;
       const auto p = static_cast<Eigen::Index>(i) * stack.comm.size() + stack.comm.rank();
       EXPECT_NEAR(problem.jump().force(rows.normal, bounds[static_cast<std::size_t>(rows.disc)]), expected.bounds[p],
@@ -250,7 +250,7 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
 TEST(SlipBounds, StickFirstAndFollowTheNormalForces)
 {
   Stack stack(0, true, 1);
-  const feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating,
+  const feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system,
                                   stack.load, {}, stack.context);
   const auto count = problem.set().discs().size();
   const double infinite = std::numeric_limits<double>::infinity();
@@ -259,10 +259,10 @@ TEST(SlipBounds, StickFirstAndFollowTheNormalForces)
   EXPECT_EQ(coefficients(problem, {{Kind::coulomb, 0.5}}), std::vector<double>(count, 0.5));
   EXPECT_EQ(coefficients(problem, {{Kind::tresca, 0.5}}), std::vector<double>(count, 0.0));
   Vector x(problem.linear().getMap());
-  for (std::size_t i = 0; i < problem.points().size(); ++i) view(x)[problem.points()[i].normal] = i % 2 == 0 ? 3.0 : -3.0;
+  for (std::size_t i = 0; i < problem.node_rows().size(); ++i) view(x)[problem.node_rows()[i].normal] = i % 2 == 0 ? 3.0 : -3.0;
   const auto coulomb = slip_bounds(problem, {{Kind::coulomb, 0.5}}, &x), tresca = slip_bounds(problem, {{Kind::tresca, 7}}, &x);
-  for (std::size_t i = 0; i < problem.points().size(); ++i) {
-    const auto& rows = problem.points()[i];
+  for (std::size_t i = 0; i < problem.node_rows().size(); ++i) {
+    const auto& rows = problem.node_rows()[i];
     const auto disc = static_cast<std::size_t>(rows.disc);
     EXPECT_EQ(coulomb[disc], i % 2 == 0 ? 1.5 : 0.0);
     EXPECT_NEAR(problem.jump().force(rows.normal, tresca[disc]), 7, 1e-12);  // as a force, on an area of 1
@@ -274,8 +274,8 @@ TEST(TwoBlocksPushedTooHard, AreNoEquilibrium)
 {
   for (const char* algorithm : {"face_newton", "smalse"}) {
     Stack stack(0.5, true, 1);
-    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating,
-                              stack.load, {}, stack.context);
+    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
+                              {}, stack.context);
     qp::Options options;
     options.algorithm = algorithm;
     options.tolerance.value = 1e-6;
@@ -296,8 +296,8 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
   const Law law{Kind::coulomb, 0.4};
   for (const bool waiting : {true, false}) {
     Stack stack(0.15, true, 3);
-    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating,
-                              stack.load, {}, stack.context);
+    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
+                              {}, stack.context);
     qp::Options options;
     options.algorithm = "face_newton";
     options.tolerance.value = 1e-10;
@@ -307,7 +307,7 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
     const Result result = solver.solve(nullptr, {}, {});
     EXPECT_FALSE(result.converged);
     EXPECT_EQ(result.gave_up, waiting);
-    EXPECT_LE(result.multiplications, few + 3);
+    EXPECT_LE(result.applications, few + 3);
     EXPECT_EQ(result.limit.find("solver.max_multiplications"), 0U);
   }
 }
@@ -316,7 +316,7 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
 TEST(TwoBlocksAgain, StartFromWhatIsKnown)
 {
   Stack stack(0.15, true, 3);
-  feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.floating, stack.load,
+  feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
                             {}, stack.context);
   qp::Options options;
   options.algorithm = "face_newton";
@@ -326,7 +326,7 @@ TEST(TwoBlocksAgain, StartFromWhatIsKnown)
   ASSERT_TRUE(first.converged);
   const Result second = solver.solve(&first.solution, {}, {});
   EXPECT_TRUE(second.converged);
-  EXPECT_LE(second.multiplications, std::min(first.multiplications / 2, 8));
+  EXPECT_LE(second.applications, std::min(first.applications / 2, 8));
   const Eigen::VectorXd a = forces_of(stack, problem, first.solution.x), b = forces_of(stack, problem, second.solution.x);
   EXPECT_GT(a.norm(), 1);
   EXPECT_LT((a - b).norm(), 1e-6 * a.norm());

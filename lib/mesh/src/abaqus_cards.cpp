@@ -44,7 +44,7 @@ long long AbaqusReader::number(const std::string& word, int line) const
   long long result = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), result);
   if (error != std::errc() || end != word.data() + word.size())
-    complain(line, fmt::format("expected a number, found \"{}\"", word));
+    report_error(line, fmt::format("expected a number, found \"{}\"", word));
   return result;
 }
 
@@ -57,8 +57,8 @@ double AbaqusReader::value(const std::string& word, int line) const
   double result = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
   if (error != std::errc() || end != text.data() + text.size())
-    complain(line, fmt::format("expected a coordinate, found \"{}\"", word));
-  if (!std::isfinite(result)) complain(line, fmt::format("expected a finite coordinate, found \"{}\"", word));
+    report_error(line, fmt::format("expected a coordinate, found \"{}\"", word));
+  if (!std::isfinite(result)) report_error(line, fmt::format("expected a finite coordinate, found \"{}\"", word));
   return result;
 }
 
@@ -71,7 +71,8 @@ const std::string& AbaqusReader::known_name(const std::string& name)
 void AbaqusReader::finish_element()
 {
   if (pending_.empty()) return;
-  complain(line_, fmt::format("element {} has {} nodes, its type needs {}", pending_[0], pending_.size() - 1, pending_nodes_));
+  report_error(line_,
+               fmt::format("element {} has {} nodes, its type needs {}", pending_[0], pending_.size() - 1, pending_nodes_));
 }
 
 void AbaqusReader::begin(const std::string& line)
@@ -89,20 +90,21 @@ void AbaqusReader::begin(const std::string& line)
   static const std::set<std::string> refused{"PART",  "INSTANCE", "ASSEMBLY", "INCLUDE", "NGEN",    "NFILL",
                                              "NCOPY", "ELGEN",    "ELCOPY",   "SYSTEM",  "SUBMODEL"};
   if (refused.contains(card_.name))
-    complain(line_,
-             fmt::format("the card *{} is not understood: write the mesh as one flat model, all nodes and elements in this file "
-                         "with numbers of their own",
-                         card_.name));
+    report_error(
+        line_,
+        fmt::format("the card *{} is not understood: write the mesh as one flat model, all nodes and elements in this file "
+                    "with numbers of their own",
+                    card_.name));
   if (card_.name == "STEP") over_ = true;
   if (!ours.contains(card_.name)) {
     if (!harmless.contains(card_.name)) left_out_.insert("*" + card_.name);
     return;
   }
   const auto need = [&](const char* key) {
-    if (!card_.has(key) || card_.parameters[key].empty()) complain(line_, fmt::format("*{} needs {}=", card_.name, key));
+    if (!card_.has(key) || card_.parameters[key].empty()) report_error(line_, fmt::format("*{} needs {}=", card_.name, key));
   };
   if (card_.name == "NODE" && card_.has("SYSTEM") && upper(card_.parameters["SYSTEM"]) != "R")
-    complain(line_, "only nodes in rectangular coordinates are understood (no SYSTEM=)");
+    report_error(line_, "only nodes in rectangular coordinates are understood (no SYSTEM=)");
   if (card_.name == "NSET") {
     need("NSET");
     node_sets_[known_name(card_.parameters["NSET"])];
@@ -120,14 +122,14 @@ void AbaqusReader::begin(const std::string& line)
     open_surface_ = known_name(card_.parameters["NAME"]);
     const auto type = card_.has("TYPE") ? upper(card_.parameters["TYPE"]) : "ELEMENT";
     if (type != "ELEMENT" && type != "NODE")
-      complain(line_, fmt::format("*SURFACE, TYPE={} is not understood; expected ELEMENT or NODE", type));
+      report_error(line_, fmt::format("*SURFACE, TYPE={} is not understood; expected ELEMENT or NODE", type));
     surfaces_[open_surface_];
   }
   if (card_.name != "ELEMENT") return;
   need("TYPE");
   const auto type = element_type(upper(card_.parameters["TYPE"]), dimension_);
   if (!type.known)
-    complain(
+    report_error(
         line_,
         fmt::format("elements of type {} are not understood; known are C3D4, C3D6, C3D8, C3D10, C3D15, C3D20, CPE, CPS and CAX "
                     "of 3 to 8 nodes, and surface elements (S, M3D, SFM3D) for boundaries",
@@ -135,16 +137,17 @@ void AbaqusReader::begin(const std::string& line)
   pending_type_ = type.type;
   const int d = type.type ? mesh::dimension(*type.type) : -1;
   pending_nodes_ = d == dimension_ || d == dimension_ - 1 ? static_cast<std::size_t>(node_count(*type.type)) : 0;
-  if (d > dimension_) complain(line_, "a plane model cannot have elements with a volume");
+  if (d > dimension_) report_error(line_, "a plane model cannot have elements with a volume");
 }
 
 // Short lines can name more numbers than there is memory for; those of nodes and elements in the file are fewer than its bytes.
 void AbaqusReader::take_members(long long count)
 {
   if (count > most_members_ - members_)
-    complain(line_, fmt::format("this set would hold {} numbers, together with those before more than nodes and elements that a "
-                                "file of this length can have",
-                                count));
+    report_error(line_,
+                 fmt::format("this set would hold {} numbers, together with those before more than nodes and elements that a "
+                             "file of this length can have",
+                             count));
   members_ += count;
 }
 
@@ -152,10 +155,10 @@ void AbaqusReader::add_to_set(std::map<std::string, Numbers>& sets, const std::v
 {
   auto& set = sets[known_name(card_.parameters[card_.name])];
   if (card_.has("GENERATE")) {
-    if (words.size() < 2) complain(line_, "expected first, last and step");
+    if (words.size() < 2) report_error(line_, "expected first, last and step");
     const auto first = number(words[0], line_), last = number(words[1], line_),
                step = words.size() > 2 ? number(words[2], line_) : 1;
-    if (step < 1 || last < first || first < 0) complain(line_, "expected 0 <= first <= last and a step > 0");
+    if (step < 1 || last < first || first < 0) report_error(line_, "expected 0 <= first <= last and a step > 0");
     take_members((last - first) / step + 1);
     for (auto n = first; n <= last; n += step) set.push_back(n);
     return;
@@ -167,7 +170,7 @@ void AbaqusReader::add_to_set(std::map<std::string, Numbers>& sets, const std::v
       continue;
     }
     const auto other = sets.find(known_name(word));
-    if (other == sets.end()) complain(line_, fmt::format("there is no set \"{}\" before this line", word));
+    if (other == sets.end()) report_error(line_, fmt::format("there is no set \"{}\" before this line", word));
     const auto copy = other->second;
     take_members(static_cast<long long>(copy.size()));
     set.insert(set.end(), copy.begin(), copy.end());
@@ -179,30 +182,31 @@ void AbaqusReader::data(const std::string& line)
   const auto words = split(line);
   if (words.empty()) return;
   if (card_.name == "NODE") {
-    if (words.size() < 3) complain(line_, "expected the number of a node and its coordinates");
+    if (words.size() < 3) report_error(line_, "expected the number of a node and its coordinates");
     Point x = Point::Zero();
     for (std::size_t c = 0; c < 3 && c + 1 < words.size(); ++c)
       if (!words[c + 1].empty()) x[static_cast<Eigen::Index>(c)] = value(words[c + 1], line_);
     const auto n = number(words[0], line_);
-    if (n < 1) complain(line_, fmt::format("expected the number of a node, found {}", n));
-    if (!node_.emplace(n, static_cast<Local>(points_.size())).second) complain(line_, fmt::format("node {} is given twice", n));
+    if (n < 1) report_error(line_, fmt::format("expected the number of a node, found {}", n));
+    if (!node_.emplace(n, static_cast<Local>(points_.size())).second)
+      report_error(line_, fmt::format("node {} is given twice", n));
     points_.push_back(options_.scale * x);
     if (card_.has("NSET")) node_sets_[known_name(card_.parameters["NSET"])].push_back(n);
   } else if (card_.name == "ELEMENT" && pending_nodes_ > 0) {
     for (const auto& word : words) pending_.push_back(number(word, line_));
     if (pending_.size() <= pending_nodes_) return;  // it goes on in the next line
     if (pending_.size() > pending_nodes_ + 1) finish_element();
-    if (pending_[0] < 1) complain(line_, fmt::format("expected the number of an element, found {}", pending_[0]));
+    if (pending_[0] < 1) report_error(line_, fmt::format("expected the number of an element, found {}", pending_[0]));
     std::vector<Local> nodes;
     for (std::size_t i = 1; i < pending_.size(); ++i) {
       const auto found = node_.find(pending_[i]);
       if (found == node_.end())
-        complain(line_, fmt::format("element {} has the node {}, which is not given before it", pending_[0], pending_[i]));
+        report_error(line_, fmt::format("element {} has the node {}, which is not given before it", pending_[0], pending_[i]));
       nodes.push_back(found->second);
     }
     const auto ours = *pending_type_ == CellType::line3 ? middle_last(nodes, points_) : cell(*pending_type_, nodes);
     if (!elements_.emplace(pending_[0], Element{*pending_type_, ours}).second)
-      complain(line_, fmt::format("element {} is given twice", pending_[0]));
+      report_error(line_, fmt::format("element {} is given twice", pending_[0]));
     if (card_.has("ELSET"))
       for (auto* sets : {&element_sets_, &sets_of_cards_}) (*sets)[known_name(card_.parameters["ELSET"])].push_back(pending_[0]);
     pending_.clear();
@@ -220,7 +224,7 @@ void AbaqusReader::data(const std::string& line)
         take_members(static_cast<long long>(other->second.size())),
             set.insert(set.end(), other->second.begin(), other->second.end());
       else
-        complain(line_, fmt::format("there is no set of nodes \"{}\" before this line", words[0]));
+        report_error(line_, fmt::format("there is no set of nodes \"{}\" before this line", words[0]));
       return;
     }
     surfaces_[open_surface_].push_back({words[0], words.size() > 1 ? upper(words[1]) : "", line_});

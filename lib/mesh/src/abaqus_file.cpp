@@ -110,11 +110,11 @@ void AbaqusReader::add_surfaces(RawMesh& raw) const
                spelled != spelling_.end() && element_sets_.contains(spelled->second))
         members = element_sets_.at(spelled->second);
       else
-        complain(line, fmt::format("the surface \"{}\" names the ELSET \"{}\", which does not exist", name, of));
+        report_error(line, fmt::format("the surface \"{}\" names the ELSET \"{}\", which does not exist", name, of));
       for (const auto e : members) {
         const auto found = elements_.find(e);
         if (found == elements_.end())
-          complain(line, fmt::format("the surface \"{}\" names element {}, which is not in the mesh", name, e));
+          report_error(line, fmt::format("the surface \"{}\" names element {}, which is not in the mesh", name, e));
         const auto& [type, nodes] = found->second;
         std::vector<int> corners;
         if (mesh::dimension(type) == dimension_ - 1) {
@@ -122,7 +122,7 @@ void AbaqusReader::add_surfaces(RawMesh& raw) const
         } else {
           const auto table = abaqus_faces(first_order(type));
           if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || static_cast<std::size_t>(side[1] - '1') >= table.size())
-            complain(line, fmt::format("expected a face S1 to S{} of element {}, found \"{}\"", table.size(), e, side));
+            report_error(line, fmt::format("expected a face S1 to S{} of element {}, found \"{}\"", table.size(), e, side));
           corners = table[static_cast<std::size_t>(side[1] - '1')];
         }
         std::vector<Local> face;

@@ -40,7 +40,10 @@ class AbaqusReader {
     std::string side;
     int line;
   };
-  [[noreturn]] void complain(int line, const std::string& what) const { fail(fmt::format("{}:{}", options_.file, line), what); }
+  [[noreturn]] void report_error(int line, const std::string& what) const
+  {
+    fail(fmt::format("{}:{}", options_.file, line), what);
+  }
   long long number(const std::string& word, int line) const;
   double value(const std::string& word, int line) const;
   void begin(const std::string& line);

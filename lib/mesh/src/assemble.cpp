@@ -38,7 +38,7 @@ double orientation(CellType type, std::span<const Local> nodes, const std::vecto
 }
 
 // The corners of a cell turned inside out, as corners of the cell as it is.
-std::vector<int> turned_corners(CellType first_order)
+std::vector<int> reversed_corners(CellType first_order)
 {
   using enum CellType;
   switch (first_order) {
@@ -58,9 +58,9 @@ std::vector<int> turned_corners(CellType first_order)
 }
 
 // The same cell, turned inside out.
-std::vector<Local> turned(CellType type, std::span<const Local> nodes)
+std::vector<Local> reversed(CellType type, std::span<const Local> nodes)
 {
-  const auto corner = turned_corners(first_order(type));
+  const auto corner = reversed_corners(first_order(type));
   std::vector<Local> result;
   for (const int c : corner) result.push_back(nodes[static_cast<std::size_t>(c)]);
   for (const auto& amid : middles(type)) {
@@ -108,7 +108,7 @@ void orient(RawMesh& raw, const Options& options, int dimension)
       fail(options.file, fmt::format("element {} ({}) of body \"{}\" has no volume; improve the mesh there", raw.tag[c],
                                      name(type), raw.volumes[static_cast<std::size_t>(raw.volume[c])]));
     if (volume < 0)
-      right.add(type, turned(type, nodes));
+      right.add(type, reversed(type, nodes));
     else
       right.add(type, nodes);
   }

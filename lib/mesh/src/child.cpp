@@ -54,7 +54,7 @@ void send_error(ExitStatus status, const std::string& text)
   send_error(status, text.data(), text.size());
 }
 
-void tell_refused(const char* what)
+void report_refused(const char* what)
 {
   static char words[most_words];
   const int size = std::snprintf(words, sizeof words, "%s: wants to %s%s", file_of_child.c_str(), what, remedy_of_child.c_str());
@@ -86,7 +86,7 @@ void send_current_exception()
 }
 
 // gmsh throws strings through its own parallel loops, which ends the process: what it had to say is kept.
-[[noreturn]] void tell_and_exit()
+[[noreturn]] void report_and_exit()
 {
   send_current_exception();
   _exit(0);
@@ -155,7 +155,7 @@ void limit_processor_time(double seconds)
 
 bool confine_child()
 {
-  return confine(tell_refused);
+  return confine(report_refused);
 }
 
 Child::Child(Task task, const std::function<void(Sender&)>& work)
@@ -176,7 +176,7 @@ Child::Child(Task task, const std::function<void(Sender&)>& work)
     error_pipe = ends[1];
     file_of_child = task_.file;
     remedy_of_child = task_.remedy;
-    std::set_terminate(tell_and_exit);
+    std::set_terminate(report_and_exit);
     stand_alone(parent);
     limit(RLIMIT_CORE, 0);
     limited_by_file = task_.memory > 0 && task_.memory < memory;

@@ -33,9 +33,9 @@ std::vector<Motion> powers(const InstanceOptions& entry, int first, int last)
   const double angle = entry.rotate->angle * std::numbers::pi / 180;
   Point shift = Point::Zero();  // of all turns before
   for (int k = 0; k < last; ++k) {
-    const Eigen::Matrix3d turned = Eigen::AngleAxisd(k * angle, axis).toRotationMatrix();
-    if (k >= first) result.push_back({turned, centre - turned * centre + shift});
-    shift += turned * point(entry.translate);
+    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(k * angle, axis).toRotationMatrix();
+    if (k >= first) result.push_back({rotation, centre - rotation * centre + shift});
+    shift += rotation * point(entry.translate);
   }
   return result;
 }
@@ -211,17 +211,17 @@ Layout lay_out(Catalogue parts, const std::map<std::string, std::vector<Motion>>
   return layout;
 }
 
-Mesh place(Mesh piece, const Placed& placed, int body)
+Mesh instantiate(Mesh piece, const PartInstance& instance, int body)
 {
-  for (auto& id : piece.node_id) id += placed.node_shift;
-  for (auto& id : piece.cell_id) id += placed.cell_shift;
+  for (auto& id : piece.node_id) id += instance.node_shift;
+  for (auto& id : piece.cell_id) id += instance.cell_shift;
   std::fill(piece.cell_body.begin(), piece.cell_body.end(), body);
-  if (placed.motion)
-    for (auto& x : piece.points) x = (*placed.motion)(x);
-  if (placed.own_boundary.empty()) return piece;
+  if (instance.motion)
+    for (auto& x : piece.points) x = (*instance.motion)(x);
+  if (instance.own_boundary.empty()) return piece;
   auto& facets = piece.facets;
   for (std::size_t f = 0, count = facets.cells.size(); f < count; ++f) {
-    const int own = placed.own_boundary[static_cast<std::size_t>(facets.boundary[f])];
+    const int own = instance.own_boundary[static_cast<std::size_t>(facets.boundary[f])];
     if (own < 0) continue;
     const std::vector<Local> nodes(facets.cells[f].begin(), facets.cells[f].end());
     facets.cells.add(facets.cells.type[f], nodes);

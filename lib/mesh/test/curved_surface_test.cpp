@@ -54,10 +54,10 @@ TEST(CurvedSurface, IsTheSameFromAnywhereOnIt)
 TEST(CurvedSurface, MovesAndScales)
 {
   const CurvedSurface cone{{3, 0, 0}, {1, 0, 0}, 2, 0.5};
-  Motion turn;
-  turn.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Point::UnitZ()).toRotationMatrix();
-  turn.translation = Point(0, 0, 4);
-  EXPECT_TRUE(same(moved(cone, turn), {{0, 3, 4}, {0, 1, 0}, 2, 0.5}));
+  Motion rotation;
+  rotation.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Point::UnitZ()).toRotationMatrix();
+  rotation.translation = Point(0, 0, 4);
+  EXPECT_TRUE(same(moved(cone, rotation), {{0, 3, 4}, {0, 1, 0}, 2, 0.5}));
   EXPECT_TRUE(same(scaled(cone, 25.4), {{76.2, 0, 0}, {1, 0, 0}, 50.8, 0.5}));
 }
 

@@ -11,7 +11,7 @@
 namespace mortise::mesh {
 namespace {
 
-InstanceOptions turn(double angle, std::array<double, 3> center = {0, 0, 0}, std::optional<int> count = {})
+InstanceOptions rotation(double angle, std::array<double, 3> center = {0, 0, 0}, std::optional<int> count = {})
 {
   InstanceOptions entry;
   entry.count = count;
@@ -21,7 +21,7 @@ InstanceOptions turn(double angle, std::array<double, 3> center = {0, 0, 0}, std
 
 TEST(Motions, TurnFirstThenMove)
 {
-  auto entry = turn(90, {1, 0, 0});
+  auto entry = rotation(90, {1, 0, 0});
   entry.translate = {0, 0, 5};
   const auto all = motions({entry});
   ASSERT_EQ(all.size(), 1U);
@@ -30,7 +30,7 @@ TEST(Motions, TurnFirstThenMove)
 
 TEST(Motions, ARowStartsWhereThePartLies)
 {
-  const auto all = motions({turn(360.0 / 35, {2, -1, 0}, 35)});
+  const auto all = motions({rotation(360.0 / 35, {2, -1, 0}, 35)});
   ASSERT_EQ(all.size(), 35U);
   for (int k = 0; k < 35; ++k) {
     const double a = 2 * std::numbers::pi * k / 35;
@@ -41,7 +41,7 @@ TEST(Motions, ARowStartsWhereThePartLies)
 
 TEST(Motions, AScrewIsAppliedAgainAndAgain)
 {
-  auto entry = turn(30, {1, 2, 0}, 8);
+  auto entry = rotation(30, {1, 2, 0}, 8);
   entry.translate = {0.5, 0, 1};
   const auto all = motions({entry});
   auto once = entry;
@@ -60,7 +60,7 @@ TEST(Motions, RowsOfRows)
   InstanceOptions along;
   along.count = 2;
   along.translate = {0, 0, 10};
-  along.of = {turn(120, {0, 0, 0}, 3)};
+  along.of = {rotation(120, {0, 0, 0}, 3)};
   const auto all = motions({along});
   ASSERT_EQ(all.size(), 6U);
   const double h = std::sqrt(3) / 2;
@@ -70,8 +70,8 @@ TEST(Motions, RowsOfRows)
 
 TEST(Motions, CoincidingCopiesAreFound)
 {
-  EXPECT_FALSE(coinciding(motions({turn(90, {1, 1, 0}, 4)})));
-  const auto found = coinciding(motions({turn(90, {1, 1, 0}, 5)}));
+  EXPECT_FALSE(coinciding(motions({rotation(90, {1, 1, 0}, 4)})));
+  const auto found = coinciding(motions({rotation(90, {1, 1, 0}, 5)}));
   ASSERT_TRUE(found);
   EXPECT_EQ(*found, std::pair(std::size_t{0}, std::size_t{4}));
 }
@@ -125,19 +125,19 @@ TEST(Place, MovesAndNumbers)
   block.cells = {2, 1, 1};
   options.blocks["pad"] = block;
   const auto piece = generate(options, 3, 0, {0, 0, 0}, {2, 1, 1});
-  Placed placed{0, motions({turn(90)})[0], 100, 50, std::vector<int>(6, -1)};
-  placed.own_boundary[3] = 17;
-  const auto placed_piece = place(piece, placed, 4);
-  EXPECT_EQ(placed_piece.node_id[0], piece.node_id[0] + 100);
-  EXPECT_EQ(placed_piece.cell_id[1], piece.cell_id[1] + 50);
-  EXPECT_EQ(placed_piece.cell_body, (std::vector<int>{4, 4}));
+  PartInstance instance{0, motions({rotation(90)})[0], 100, 50, std::vector<int>(6, -1)};
+  instance.own_boundary[3] = 17;
+  const auto moved_piece = instantiate(piece, instance, 4);
+  EXPECT_EQ(moved_piece.node_id[0], piece.node_id[0] + 100);
+  EXPECT_EQ(moved_piece.cell_id[1], piece.cell_id[1] + 50);
+  EXPECT_EQ(moved_piece.cell_body, (std::vector<int>{4, 4}));
   for (std::size_t n = 0; n < piece.node_count(); ++n) {
     const Point x = piece.points[n];
-    EXPECT_LT((placed_piece.points[n] - Point(-x[1], x[0], x[2])).norm(), 1e-15);
+    EXPECT_LT((moved_piece.points[n] - Point(-x[1], x[0], x[2])).norm(), 1e-15);
   }
-  ASSERT_EQ(placed_piece.facets.cells.size(), piece.facets.cells.size() + 2);  // of the side ymax
-  EXPECT_EQ(placed_piece.facets.boundary.back(), 17);
-  EXPECT_EQ(placed_piece.facets.parent.size(), placed_piece.facets.boundary.size());
+  ASSERT_EQ(moved_piece.facets.cells.size(), piece.facets.cells.size() + 2);  // of the side ymax
+  EXPECT_EQ(moved_piece.facets.boundary.back(), 17);
+  EXPECT_EQ(moved_piece.facets.parent.size(), moved_piece.facets.boundary.size());
 }
 
 }  // namespace

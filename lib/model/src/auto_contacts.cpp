@@ -44,7 +44,7 @@ std::set<contact::Bodies> pairs_that_are_named(const std::vector<contact::Option
   for (const auto& [name, which] : sides)
     for (const auto& [boundary, body] : own)
       if (catalogue.boundaries[static_cast<std::size_t>(boundary)] == name.first &&
-          (name.second.empty() || is_called(catalogue.bodies[static_cast<std::size_t>(body)], name.second)))
+          (name.second.empty() || matches_name(catalogue.bodies[static_cast<std::size_t>(body)], name.second)))
         for (const int side : which) mine.insert({side, body});
   std::map<int, std::set<int>> bodies;  // of each contact and side
   for (const auto& [side, body] : comm.all_gather(std::vector(mine.begin(), mine.end()))) bodies[side].insert(body);
@@ -57,8 +57,8 @@ std::set<contact::Bodies> pairs_that_are_named(const std::vector<contact::Option
 }
 
 // The bodies that no contact names, but the one with most faces: its neighbours are asked. Collective.
-std::vector<bool> worth_asking(const mesh::Surface& skin, const std::set<contact::Bodies>& named, std::size_t bodies,
-                               const Communicator& comm)
+std::vector<bool> unnamed_bodies(const mesh::Surface& skin, const std::set<contact::Bodies>& named, std::size_t bodies,
+                                 const Communicator& comm)
 {
   std::vector<double> faces(bodies, 0.0);
   for (const int body : skin.body) faces[static_cast<std::size_t>(body)] += 1;
@@ -104,30 +104,30 @@ void define(const std::vector<std::pair<std::string, const std::vector<Global>*>
 
 }  // namespace
 
-std::vector<contact::Meeting> resolve_auto(const Deck& deck, Contacts& contacts, deck::Document& document,
-                                           partition::Decomposition& decomposition, const Context& context)
+std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& contacts, deck::Document& document,
+                                                    partition::Decomposition& decomposition, const Context& context)
 {
   const std::size_t place = auto_entry(contacts.options);
   if (place == contacts.size()) return {};
   const auto scope = context.timers.scope("contact");
   const auto entry = contacts[place];
   const auto& bodies = decomposition.catalogue.bodies;
-  auto meetings = contact::find_meetings(partition::outer_surface(decomposition, context.comm), static_cast<int>(bodies.size()),
-                                         pairs_that_are_named(contacts.options, decomposition, context.comm), entry,
-                                         deck.kinematics, context.comm);
+  auto candidates = contact::find_contact_candidates(
+      partition::outer_surface(decomposition, context.comm), static_cast<int>(bodies.size()),
+      pairs_that_are_named(contacts.options, decomposition, context.comm), entry, deck.kinematics, context.comm);
   std::vector<contact::Options> found;
   std::vector<std::pair<std::string, const std::vector<Global>*>> boundaries;
-  for (const auto& meeting : meetings) {
+  for (const auto& candidate : candidates) {
     auto& contact = found.emplace_back(entry);
     contact.name = fmt::format(
-        "{}{}/{}{}", entry.name == "auto" ? "" : entry.name + ".", bodies[static_cast<std::size_t>(meeting.secondary)].name,
-        bodies[static_cast<std::size_t>(meeting.primary)].name, meeting.patch > 0 ? fmt::format(".{}", meeting.patch) : "");
+        "{}{}/{}{}", entry.name == "auto" ? "" : entry.name + ".", bodies[static_cast<std::size_t>(candidate.secondary)].name,
+        bodies[static_cast<std::size_t>(candidate.primary)].name, candidate.patch > 0 ? fmt::format(".{}", candidate.patch) : "");
     contact.secondary = contact.name + ".secondary";
     contact.primary = contact.name + ".primary";
-    contact.search_distance = meeting.reach;
+    contact.search_distance = candidate.reach;
     contact.automatic = false;
-    boundaries.emplace_back(contact.secondary, &meeting.secondary_faces);
-    boundaries.emplace_back(contact.primary, &meeting.primary_faces);
+    boundaries.emplace_back(contact.secondary, &candidate.secondary_faces);
+    boundaries.emplace_back(contact.primary, &candidate.primary_faces);
   }
   define(boundaries, decomposition);
 
@@ -138,28 +138,29 @@ std::vector<contact::Meeting> resolve_auto(const Deck& deck, Contacts& contacts,
   contacts.options.erase(contacts.options.begin() + at);
   contacts.options.insert(contacts.options.begin() + at, found.begin(), found.end());
   check_contacts(contacts, deck.kinematics, document);
-  return meetings;
+  return candidates;
 }
 
-void print_meetings(const std::vector<contact::Meeting>& meetings, const Deck& deck, const Contacts& contacts,
-                    const partition::Decomposition& decomposition, bool all, const Context& context)
+void print_contact_candidates(const std::vector<contact::ContactCandidate>& candidates, const Deck& deck,
+                              const Contacts& contacts, const partition::Decomposition& decomposition, bool all,
+                              const Context& context)
 {
   const std::size_t entry = auto_entry(deck.contacts);
   if (entry == deck.contacts.size()) return;
   auto& log = context.log;
   const auto& bodies = decomposition.catalogue.bodies;
-  if (!meetings.empty()) {
+  if (!candidates.empty()) {
     const auto first = std::find(contacts.entry.begin(), contacts.entry.end(), entry) - contacts.entry.begin();
     constexpr std::size_t most = 40;
-    const std::size_t count = all ? meetings.size() : std::min(most, meetings.size());
+    const std::size_t count = all ? candidates.size() : std::min(most, candidates.size());
     for (std::size_t m = 0; m < count; ++m) {
-      const auto& meeting = meetings[m];
+      const auto& candidate = candidates[m];
       log.line("  found {}: {} + {} faces face each other, area {:.5g}, gaps {:.3g} to {:.3g}; search distance {:.3g}",
-               contacts[static_cast<std::size_t>(first) + m].name, meeting.secondary_facing, meeting.primary_facing, meeting.area,
-               without_rounding(meeting.least_gap, meeting.reach), without_rounding(meeting.largest_gap, meeting.reach),
-               meeting.reach);
+               contacts[static_cast<std::size_t>(first) + m].name, candidate.secondary_facing, candidate.primary_facing,
+               candidate.area, without_rounding(candidate.least_gap, candidate.reach),
+               without_rounding(candidate.largest_gap, candidate.reach), candidate.reach);
     }
-    if (count < meetings.size()) log.line("  found {} more pairs, which --check lists", meetings.size() - count);
+    if (count < candidates.size()) log.line("  found {} more pairs, which --check lists", candidates.size() - count);
     return;
   }
   const auto skin = partition::outer_surface(decomposition, context.comm);
@@ -168,7 +169,7 @@ void print_meetings(const std::vector<contact::Meeting>& meetings, const Deck& d
                                            : fmt::format("half the size of their faces, which is at most {:.4g}",
                                                          contact::widest_distance(skin, context.comm));
   const auto alone =
-      worth_asking(skin, pairs_that_are_named(contacts.options, decomposition, context.comm), bodies.size(), context.comm);
+      unnamed_bodies(skin, pairs_that_are_named(contacts.options, decomposition, context.comm), bodies.size(), context.comm);
   const auto nearest = contact::nearest_bodies(skin, alone, context.comm);
   const auto best =
       std::min_element(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });

@@ -320,10 +320,10 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
     if (load.body.empty()) continue;
     const auto at = fmt::format("loads[{}].body", i);
     const bool known = std::any_of(catalogue.bodies.begin(), catalogue.bodies.end(),
-                                   [&](const mesh::Body& b) { return is_called(b, load.body); });
+                                   [&](const mesh::Body& b) { return matches_name(b, load.body); });
     if (!known) document.error(at, fmt::format("the mesh has no body \"{}\"{}", load.body, deck::suggestion(load.body, groups)));
     for (const auto& body : catalogue.bodies) {
-      if (!is_called(body, load.body)) continue;
+      if (!matches_name(body, load.body)) continue;
       const auto entry = deck.bodies.find(body.group);
       if (entry == deck.bodies.end()) continue;
       const auto of_body = [&](const auto& material) { return is_made_of(entry->second, material.first); };

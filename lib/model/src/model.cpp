@@ -27,10 +27,10 @@ Point point(const std::array<double, 3>& x)
 
 }  // namespace
 
-std::vector<bool> Model::bodies_called(const std::string& name) const
+std::vector<bool> Model::bodies_named(const std::string& name) const
 {
   std::vector<bool> result;
-  for (const auto& body : decomposition_.catalogue.bodies) result.push_back(name.empty() || is_called(body, name));
+  for (const auto& body : decomposition_.catalogue.bodies) result.push_back(name.empty() || matches_name(body, name));
   return result;
 }
 
@@ -38,7 +38,7 @@ Model::Selection Model::select(const std::string& name) const
 {
   const auto [boundary, body] = parse_boundary(name);
   const auto& known = decomposition_.catalogue.boundaries;
-  return {static_cast<int>(std::find(known.begin(), known.end(), boundary) - known.begin()), bodies_called(body)};
+  return {static_cast<int>(std::find(known.begin(), known.end(), boundary) - known.begin()), bodies_named(body)};
 }
 
 std::vector<std::string> material_names(const fem::BodyOptions& body)
@@ -86,7 +86,7 @@ double Model::temperature_change(const partition::Subdomain& subdomain, const Lo
   double warmer = 0;
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
     const auto& load = deck_.loads[i];
-    if (load.temperature_change && bodies_called(load.body)[static_cast<std::size_t>(subdomain.body)])
+    if (load.temperature_change && bodies_named(load.body)[static_cast<std::size_t>(subdomain.body)])
       warmer += state.load[i] * *load.temperature_change;
   }
   return warmer;
@@ -193,7 +193,7 @@ std::vector<partition::CopyOf> Model::congruent() const
     const auto& body = deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group);
     const auto own = materials(subdomain);
     std::vector<std::size_t> detail{static_cast<std::size_t>(formulation(subdomain))};
-    for (std::size_t c = 0; own.count() > 1 && c < subdomain.mesh.cells.size(); ++c) detail.push_back(own.place(c));
+    for (std::size_t c = 0; own.count() > 1 && c < subdomain.mesh.cells.size(); ++c) detail.push_back(own.index(c));
     kind.push_back(
         kinds.emplace(std::pair(material_names(body), std::move(detail)), static_cast<int>(kinds.size())).first->second);
   }
@@ -237,7 +237,7 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
     const double factor = state.load[i];
     if (factor == 0 || load.temperature_change) continue;
     if (load.acceleration) {
-      const auto on_body = bodies_called(load.body);
+      const auto on_body = bodies_named(load.body);
       for (std::size_t s = 0; s < f.size(); ++s)
         if (const auto& subdomain = decomposition_.subdomains[s]; on_body[static_cast<std::size_t>(subdomain.body)])
           fem::add_acceleration(subdomain.mesh, deck_.kinematics, materials(subdomain), factor * point(*load.acceleration), f[s]);
@@ -264,7 +264,7 @@ std::vector<constraint::SupportOptions> Model::supports(const LoadState& state) 
 {
   auto supports = deck_.supports;
   const auto act = [&](std::size_t i, std::optional<double>& value) {
-    if (!state.held[i])
+    if (!state.acting[i])
       value.reset();
     else if (value)
       *value *= state.support[i];
@@ -357,7 +357,7 @@ std::vector<contact::Pair> Model::contact_pairs(const LoadState& state) const
     pairs.back().options.interference *= state.contact[c];
     if (contact.obstacle) continue;
     if (contact.cyclic) {
-      pairs.back().primary = std::make_shared<const mesh::Surface>(contact::turned(surface(contact.primary), contact));
+      pairs.back().primary = std::make_shared<const mesh::Surface>(contact::rotated(surface(contact.primary), contact));
       continue;
     }
     auto& primary = primaries[contact.primary];

@@ -78,8 +78,7 @@ std::vector<Place> places_for(const std::string& pattern, const Candidates& cand
   return places;
 }
 
-void complain_of_no_match(const std::string& pattern, const std::string& path, const Candidates& candidates,
-                          deck::Document& document)
+void report_no_match(const std::string& pattern, const std::string& path, const Candidates& candidates, deck::Document& document)
 {
   std::vector<std::string> names;
   if (pattern.find(':') == std::string::npos)
@@ -127,10 +126,10 @@ std::vector<contact::Options> matching_contacts(const contact::Options& entry, c
     return {};
   }
   const auto names = names_for(entry.secondary, candidates);
-  if (names.empty()) complain_of_no_match(entry.secondary, path + ".secondary", candidates, document);
+  if (names.empty()) report_no_match(entry.secondary, path + ".secondary", candidates, document);
   std::vector<contact::Options> contacts;
   for (const auto& name : names) {
-    const auto text = *text_for_star(entry.secondary, name);
+    const auto text = *wildcard_text(entry.secondary, name);
     contact::Options contact = entry;
     contact.secondary = name;
     if (const auto star = contact.primary.find('*'); star != std::string::npos) contact.primary.replace(star, 1, text);
@@ -169,7 +168,7 @@ bool matches(const std::string& pattern, const std::string& text)
   return p == pattern.size();
 }
 
-std::optional<std::string> text_for_star(const std::string& pattern, const std::string& text)
+std::optional<std::string> wildcard_text(const std::string& pattern, const std::string& text)
 {
   const auto star = pattern.find('*');
   const std::size_t rest = pattern.size() - star - 1;
@@ -177,7 +176,7 @@ std::optional<std::string> text_for_star(const std::string& pattern, const std::
   return text.substr(star, text.size() - star - rest);
 }
 
-bool is_called(const mesh::Body& body, const std::string& name)
+bool matches_name(const mesh::Body& body, const std::string& name)
 {
   if (is_pattern(name)) return matches(name, body.name) || matches(name, body.instance) || matches(name, body.group);
   return body.name == name || body.group == name || (!name.empty() && body.instance == name);
@@ -214,7 +213,7 @@ Contacts resolve_patterns(const Deck& deck, deck::Document& document, partition:
   const auto resolve = [&](const std::string& name, const std::string& path) {
     if (!is_pattern(name) || !defined.insert(name).second) return;
     const auto places = places_for(name, known);
-    if (places.empty()) complain_of_no_match(name, path, known, document);
+    if (places.empty()) report_no_match(name, path, known, document);
     define(name, places, decomposition);
   };
   for (std::size_t i = 0; i < deck.supports.size(); ++i)

@@ -60,7 +60,7 @@ void toggle(const std::vector<T>& list, const StepOptions& step, std::vector<boo
 // What acts at the end of a step.
 struct Factors {
   std::vector<double> load, support, contact;
-  std::vector<bool> loaded, held;
+  std::vector<bool> loaded, acting;
 
   std::vector<double> acting_load() const
   {
@@ -131,7 +131,7 @@ std::vector<LoadState> load_states(const Deck& deck, const Contacts& on_mesh)
               std::vector<double>(on_mesh.size(), 1.0), std::vector<bool>(deck.loads.size(), true),
               std::vector<bool>(deck.supports.size(), true)};
   const std::vector<bool> none(on_mesh.size(), false);
-  if (deck.steps.empty()) return {{"", 1, now.load, now.support, now.contact, now.held, none}};
+  if (deck.steps.empty()) return {{"", 1, now.load, now.support, now.contact, now.acting, none}};
   const auto loads = names_of(deck.loads), supports = names_of(deck.supports), contacts = names_of_contacts(deck, on_mesh);
   std::vector<LoadState> states;
   // The first step comes from nothing: no load, no displacement, no overlap.
@@ -142,7 +142,7 @@ std::vector<LoadState> load_states(const Deck& deck, const Contacts& on_mesh)
     scale(supports, step, now.support);
     scale(contacts, step, now.contact);
     toggle(deck.loads, step, now.loaded);
-    toggle(deck.supports, step, now.held);
+    toggle(deck.supports, step, now.acting);
     const auto acting = now.acting_load();
     std::vector<bool> locked;
     for (const auto& name : contacts) locked.push_back(s > 0 && !step.scale.contains(name));
@@ -150,7 +150,7 @@ std::vector<LoadState> load_states(const Deck& deck, const Contacts& on_mesh)
       const double part = static_cast<double>(i) / step.increments;
       states.push_back({step.name.empty() ? std::to_string(s + 1) : step.name, static_cast<double>(s) + part,
                         between(load, acting, part), between(support, now.support, part), between(contact, now.contact, part),
-                        now.held, locked});
+                        now.acting, locked});
     }
     load = acting;
     support = now.support;

@@ -17,16 +17,16 @@ TEST(Patterns, Matches)
   EXPECT_TRUE(matches("*ab", "aaab"));
   EXPECT_FALSE(matches("roller.*.surface", "roller.1.face"));
   EXPECT_FALSE(matches("aba*aba", "aba"));
-  EXPECT_EQ(text_for_star("roller.*.surface", "roller.12.surface"), "12");
-  EXPECT_EQ(text_for_star("*:top", "pad.1:top"), "pad.1");
-  EXPECT_FALSE(text_for_star("ab*ab", "ab"));
+  EXPECT_EQ(wildcard_text("roller.*.surface", "roller.12.surface"), "12");
+  EXPECT_EQ(wildcard_text("*:top", "pad.1:top"), "pad.1");
+  EXPECT_FALSE(wildcard_text("ab*ab", "ab"));
 }
 
 TEST(Patterns, BodiesByNameInstanceAndGroup)
 {
   const mesh::Body part{"pin.2.1", "pin", "pin.2"};
-  for (const char* name : {"pin", "pin.2", "pin.2.1", "pin.*", "*"}) EXPECT_TRUE(is_called(part, name)) << name;
-  for (const char* name : {"pin.1", "pi", "", "pan*"}) EXPECT_FALSE(is_called(part, name)) << name;
+  for (const char* name : {"pin", "pin.2", "pin.2.1", "pin.*", "*"}) EXPECT_TRUE(matches_name(part, name)) << name;
+  for (const char* name : {"pin.1", "pi", "", "pan*"}) EXPECT_FALSE(matches_name(part, name)) << name;
 }
 
 const char* pads = R"(

@@ -45,7 +45,7 @@ TEST(Steps, ADeckWithoutThemHasOneStateInWhichAllActs)
   EXPECT_EQ(states[0].load, (std::vector<double>{1, 1}));
   EXPECT_EQ(states[0].support, (std::vector<double>{1, 1}));
   EXPECT_EQ(states[0].contact, std::vector<double>{1});
-  EXPECT_EQ(states[0].held, (std::vector<bool>{true, true}));
+  EXPECT_EQ(states[0].acting, (std::vector<bool>{true, true}));
 }
 
 TEST(Steps, FactorsStayUntilAStepNamesThemAndGoLinearlyBetween)
@@ -78,9 +78,9 @@ TEST(Steps, WhatIsSwitchedOffKeepsItsFactorForLater)
   const auto states = states_of(deck_of("steps: [{scale: {upper.ymin: 3}}, {off: [upper.ymin, ram]}, {on: [upper.ymin, ram]}]"));
   ASSERT_EQ(states.size(), 3U);
   EXPECT_EQ(states[1].load, (std::vector<double>{1, 0}));
-  EXPECT_EQ(states[1].held, (std::vector<bool>{true, false}));
+  EXPECT_EQ(states[1].acting, (std::vector<bool>{true, false}));
   EXPECT_EQ(states[2].load, (std::vector<double>{1, 3}));
-  EXPECT_EQ(states[2].held, (std::vector<bool>{true, true}));
+  EXPECT_EQ(states[2].acting, (std::vector<bool>{true, true}));
 }
 
 std::string complaint(const std::string& steps)

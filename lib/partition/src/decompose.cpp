@@ -129,7 +129,7 @@ Share distribute(const mesh::Mesh& parts, const mesh::Layout& layout, int dimens
       for (Global s = share.first[static_cast<std::size_t>(rank)]; s < share.first[static_cast<std::size_t>(rank) + 1]; ++s) {
         const auto& [body, number] = pieces[static_cast<std::size_t>(s)];
         auto piece = mesh::submesh(parts, of_part[part_of(body)][number].cells);
-        pack({s, body, mesh::place(std::move(piece), layout.bodies[static_cast<std::size_t>(body)], body)},
+        pack({s, body, mesh::instantiate(std::move(piece), layout.bodies[static_cast<std::size_t>(body)], body)},
              send[static_cast<std::size_t>(rank)]);
       }
     const auto received = comm.exchange(send);
@@ -202,9 +202,9 @@ Share generate_grid(const mesh::Options& mesh, const Options& options, int dimen
   const auto rank = static_cast<std::size_t>(comm.rank());
   for (Global s = share.first[rank]; s < share.first[rank + 1]; ++s) {
     const auto& box = boxes[static_cast<std::size_t>(s)];
-    const auto& placed = layout.bodies[static_cast<std::size_t>(box.body)];
-    auto piece = mesh::generate(mesh, dimension, placed.part, box.first, box.last);
-    share.subdomains.push_back({s, box.body, mesh::place(std::move(piece), placed, box.body)});
+    const auto& instance = layout.bodies[static_cast<std::size_t>(box.body)];
+    auto piece = mesh::generate(mesh, dimension, instance.part, box.first, box.last);
+    share.subdomains.push_back({s, box.body, mesh::instantiate(std::move(piece), instance, box.body)});
   }
   return share;
 }

@@ -232,15 +232,15 @@ TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
 {
   auto d = two_halves();
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).matrix();
-  auto& turned = d.subdomains[1].mesh.points;
-  for (auto& p : turned) p = rotation * p + Point(5, 0, -2);
+  auto& rotated = d.subdomains[1].mesh.points;
+  for (auto& p : rotated) p = rotation * p + Point(5, 0, -2);
   const std::vector<int> kind(2, 0);
   const auto copies = congruent(d.subdomains, kind);
   EXPECT_EQ(copies[1].original, 0U);
   ASSERT_TRUE(copies[1].rotation);
   EXPECT_LT((*copies[1].rotation - rotation).norm(), 1e-10);
   EXPECT_EQ(congruent(d.subdomains, kind, Motions::along_y)[1].original, 1U);
-  for (auto& p : turned) p[1] = -p[1];
+  for (auto& p : rotated) p[1] = -p[1];
   EXPECT_EQ(congruent(d.subdomains, kind)[1].original, 1U);
 }
 

@@ -19,17 +19,17 @@ std::vector<std::array<double, 3>> reactions(const feti::DualProblem& problem, c
   std::vector<double> sums((supports + 1) * 3, 0.0);  // the last for an axis of revolution
   const Eigen::VectorXd forces = problem.forces(lambda);
   const auto& ranges = problem.jump().ranges();
-  const auto& held = problem.constraints().held;
-  for (std::size_t i = 0; i < held.size(); ++i)
-    sums[static_cast<std::size_t>(held[i].support) * 3 + static_cast<std::size_t>(held[i].component)] -=
-        forces[ranges.held + static_cast<Local>(i)];
-  const auto& inclined = problem.constraints().inclined;
-  for (std::size_t i = 0; i < inclined.size(); ++i) {
-    const auto row = ranges.held + static_cast<Local>(held.size() + i);
-    for (const auto& share : std::span(inclined[i].shares).first(static_cast<std::size_t>(inclined[i].share_count)))
+  const auto& prescribed = problem.constraints().prescribed;
+  for (std::size_t i = 0; i < prescribed.size(); ++i)
+    sums[static_cast<std::size_t>(prescribed[i].support) * 3 + static_cast<std::size_t>(prescribed[i].component)] -=
+        forces[ranges.dirichlet + static_cast<Local>(i)];
+  const auto& skew_supports = problem.constraints().skew_supports;
+  for (std::size_t i = 0; i < skew_supports.size(); ++i) {
+    const auto row = ranges.dirichlet + static_cast<Local>(prescribed.size() + i);
+    for (const auto& share : std::span(skew_supports[i].shares).first(static_cast<std::size_t>(skew_supports[i].share_count)))
       for (std::size_t c = 0; c < 3; ++c) sums[static_cast<std::size_t>(share.support) * 3 + c] -= forces[row] * share.part[c];
   }
-  for (const auto& entry : problem.constraints().contacts.held)  // contact forces that go straight into supports
+  for (const auto& entry : problem.constraints().contacts.prescribed)  // contact forces that go straight into supports
     sums[static_cast<std::size_t>(entry.support) * 3 + static_cast<std::size_t>(entry.component)] +=
         entry.coefficient * forces[ranges.contacts + static_cast<Local>(entry.row)];
   problem.communicator().sum_in_place(sums);
@@ -68,8 +68,8 @@ Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::spa
   for (const auto& force : reactions) b.supports += counted(force);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& options = pairs[c].options;
-    if (const auto turn = contact::turn_of(options))
-      b.neighbours += contacts[c].force - turn->rotation.transpose() * contacts[c].force;
+    if (const auto rotation = contact::rotation_of(options))
+      b.neighbours += contacts[c].force - rotation->rotation.transpose() * contacts[c].force;
     if (options.obstacle) b.obstacles += counted(contacts[c].force);
   }
   b.largest = std::max({b.applied.norm(), b.supports.norm(), rounding.force, 1e-300});

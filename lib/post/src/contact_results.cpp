@@ -12,13 +12,13 @@ namespace {
 // A point is open while its pressure is at most this part of the largest of its contact.
 constexpr double nothing = 1e-4;
 
-// g of this rank's contact rows, with what cuts are drawn together.
+// g of this rank's contact rows, with what pretension sections are drawn together.
 std::vector<double> bounds(const feti::DualProblem& problem, const Eigen::VectorXd& nu)
 {
   auto result = problem.constraints().contacts.rows.bound;
   const auto shortenings = problem.shortenings(nu);
   for (std::size_t c = 0; c < shortenings.size(); ++c)
-    for (const auto& [row, part] : problem.constraints().cuts[c].rows) result[row] += part * shortenings[c];
+    for (const auto& [row, part] : problem.constraints().pretension_sections[c].rows) result[row] += part * shortenings[c];
   return result;
 }
 
@@ -32,21 +32,21 @@ ContactResults contact_results(const feti::DualProblem& problem, const Vector& l
   const auto& contacts = problem.constraints().contacts;
   const auto bound = bounds(problem, nu);
   std::vector<double> largest(pairs.size(), 0.0);  // pressure of each contact
-  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
-    auto& pressure = largest[static_cast<std::size_t>(contacts.points[i].contact)];
-    pressure = std::max(pressure, forces[problem.points()[i].normal] / contacts.points[i].area);
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
+    auto& pressure = largest[static_cast<std::size_t>(contacts.nodes[i].contact)];
+    pressure = std::max(pressure, forces[problem.node_rows()[i].normal] / contacts.nodes[i].area);
   }
   for (auto& pressure : largest) pressure = comm.max(pressure);
   ContactResults results;
-  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
-    const auto& point = contacts.points[i];
-    const auto& rows = problem.points()[i];
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
+    const auto& point = contacts.nodes[i];
+    const auto& rows = problem.node_rows()[i];
     std::vector<double> multipliers, row_jumps;
     for (Local r = rows.normal; r <= rows.normal + rows.tangents; ++r) {
       multipliers.push_back(forces[r]);
       row_jumps.push_back(jumps[r]);
-      // Of the tangential rows, what moving supports and cuts contribute stands in the bound, beside the slip of the steps
-      // before.
+      // Of the tangential rows, what moving supports and pretension sections contribute stands in the bound, beside the slip of
+      // the steps before.
       const auto row = point.row + static_cast<std::size_t>(r - rows.normal);
       if (r > rows.normal) row_jumps.back() -= bound[row] - contacts.slipped_before(row);
     }

@@ -24,7 +24,7 @@ const std::vector<Eigen::MatrixXd>& gradients(mesh::CellType type)
   if (!table.empty()) return table;
   const auto& functions = mesh::shape_functions(type);
   auto places = functions.nodes();
-  for (const auto& place : fem::element(type).place) places.push_back(place);
+  for (const auto& place : fem::element(type).point) places.push_back(place);
   Eigen::VectorXd value(functions.count());
   for (const auto& place : places) {
     Eigen::MatrixXd gradient(functions.count(), mesh::dimension(type));
@@ -129,7 +129,7 @@ std::unordered_map<Global, Nodal> fetch(std::vector<Global> nodes, const std::ve
 
 // The jump of the displacements at a point, along the surface. A normal row has m n at each node; of nodes that supports hold in
 // part it has the other components.
-Point tangential_jump(const constraint::Contacts& contacts, const constraint::ContactPoint& point,
+Point tangential_jump(const constraint::Contacts& contacts, const constraint::ContactNode& point,
                       const std::unordered_map<Global, Nodal>& nodes)
 {
   std::map<Global, std::array<double, 2>> parts;  // of each node: |n_c| of the best component, m from it
@@ -227,7 +227,7 @@ std::vector<Warning> inverted_cells(const partition::Decomposition& decompositio
 }
 
 std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                 std::span<const contact::PointState> points, const partition::Decomposition& decomposition,
+                                 std::span<const contact::ContactNodeState> points, const partition::Decomposition& decomposition,
                                  const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
   const auto counts = [&](std::size_t i) {
@@ -237,14 +237,14 @@ std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const con
   std::vector<Global> wanted;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (counts(i)) {
-      wanted.push_back(contacts.points[i].node);
-      for (const auto& entry : contacts.rows[contacts.points[i].row]) wanted.push_back(entry.node);
+      wanted.push_back(contacts.nodes[i].node);
+      for (const auto& entry : contacts.rows[contacts.nodes[i].row]) wanted.push_back(entry.node);
     }
   const auto nodes = fetch(std::move(wanted), own_nodes(pairs, decomposition, displacement), comm);
   std::vector<Found> longest(pairs.size()), parts(pairs.size());  // slide; slide over size of the face
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!counts(i)) continue;
-    const auto& point = contacts.points[i];
+    const auto& point = contacts.nodes[i];
     const auto found = nodes.find(point.node);
     if (found == nodes.end() || !(found->second.size > 0)) continue;
     const double slide = tangential_jump(contacts, point, nodes).norm();

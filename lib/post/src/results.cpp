@@ -20,11 +20,11 @@ double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, in
 // How far supports, gaps and overlaps may move a body.
 double prescribed(const constraint::Constraints& constraints, const Communicator& comm)
 {
-  double held = 0, gap = 0;
-  for (const auto& h : constraints.held) held = std::max(held, std::abs(h.value));
-  for (const auto& i : constraints.inclined) held = std::max(held, std::abs(i.value));
-  for (const auto& point : constraints.contacts.points) gap = std::max(gap, std::abs(point.gap));
-  return comm.max(held) + comm.max(gap);
+  double prescribed = 0, gap = 0;
+  for (const auto& h : constraints.prescribed) prescribed = std::max(prescribed, std::abs(h.value));
+  for (const auto& i : constraints.skew_supports) prescribed = std::max(prescribed, std::abs(i.value));
+  for (const auto& point : constraints.contacts.nodes) gap = std::max(gap, std::abs(point.gap));
+  return comm.max(prescribed) + comm.max(gap);
 }
 
 // Relative errors of the mesh and of the solver.
@@ -46,11 +46,11 @@ void estimate_errors(const friction::Result& solved, const Rounding& rounding, c
 
 Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, const Communicator& comm)
 {
-  const auto& [problem, floating, pairs, solved, displacement, supports, tolerance] = equilibrium;
+  const auto& [problem, system, pairs, solved, displacement, supports, tolerance] = equilibrium;
   const auto& lambda = solved.solution.x;
   const auto& nu = solved.solution.nu;
   const int dimension = problem.dimension();
-  const auto rounding = post::rounding(displacement, floating.nodal_stiffness, dimension, comm);
+  const auto rounding = post::rounding(displacement, system.nodal_stiffness, dimension, comm);
   Results results;
   results.max_displacement = largest_displacement(displacement, dimension, comm);
   results.stress = recover_stress(bodies, displacement, comm);

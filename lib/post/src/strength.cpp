@@ -71,7 +71,8 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
   return worst(std::move(result), "contacts");
 }
 
-std::vector<double> largest_tensions(std::span<const contact::PointState> points, std::size_t contacts, const Communicator& comm)
+std::vector<double> largest_tensions(std::span<const contact::ContactNodeState> points, std::size_t contacts,
+                                     const Communicator& comm)
 {
   std::vector<double> result(contacts, 0.0);
   for (const auto& p : points) {

@@ -89,7 +89,7 @@ StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen:
     for (std::size_t s = 0; s < subdomains.size(); ++s) {
       auto& blocks = field.cell_block.emplace_back();
       for (std::size_t c = 0; c < subdomains[s].mesh.cells.size(); ++c)
-        blocks.push_back(static_cast<int>(bodies.constitution[s].materials.place(c)));
+        blocks.push_back(static_cast<int>(bodies.constitution[s].materials.index(c)));
     }
     field.by_material = std::move(recovered.nodal);
   }

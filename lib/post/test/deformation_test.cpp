@@ -72,9 +72,9 @@ TEST(Bodies, sizes_are_diagonals)
   EXPECT_NEAR(sizes[0], std::sqrt(6), 1e-12);
   EXPECT_NEAR(sizes[1], std::sqrt(3), 1e-12);
   // The whole turn of x from 0 to 2, from 0.5 to 1.5.
-  const auto turned = body_sizes(blocks.decomposition, fem::Kinematics::axisymmetric, blocks.comm);
-  EXPECT_NEAR(turned[0], std::sqrt(18), 1e-12);
-  EXPECT_NEAR(turned[1], std::sqrt(11), 1e-12);
+  const auto rotated = body_sizes(blocks.decomposition, fem::Kinematics::axisymmetric, blocks.comm);
+  EXPECT_NEAR(rotated[0], std::sqrt(18), 1e-12);
+  EXPECT_NEAR(rotated[1], std::sqrt(11), 1e-12);
 }
 
 TEST(LargeDisplacements, from_a_twentieth_of_the_body)
@@ -118,12 +118,12 @@ std::vector<Warning> slide(double length, double lower, contact::Law law, contac
   std::vector<contact::Pair> pairs{blocks.pair("upper.zmin", "lower.zmax")};
   pairs[0].options.law = law;
   // The lower block is held across the slide, so that its entries lack that component.
-  std::vector<constraint::Held> held;
+  std::vector<constraint::PrescribedDof> prescribed;
   if (blocks.comm.root())
-    for (Global node = 0; node < 45; ++node) held.push_back({node, 1, 0.0, 0});
-  const auto contacts = contact::discretize(pairs, held, fem::Kinematics::solid, blocks.comm);
-  EXPECT_GT(blocks.comm.sum(static_cast<long long>(contacts.points.size())), 0);
-  std::vector<contact::PointState> points(contacts.points.size());
+    for (Global node = 0; node < 45; ++node) prescribed.push_back({node, 1, 0.0, 0});
+  const auto contacts = contact::discretize(pairs, prescribed, fem::Kinematics::solid, blocks.comm);
+  EXPECT_GT(blocks.comm.sum(static_cast<long long>(contacts.nodes.size())), 0);
+  std::vector<contact::ContactNodeState> points(contacts.nodes.size());
   for (auto& point : points) point.status = status;
   auto u = blocks.displacement(1, [&](const Point&) { return Point(length, 0, 0.3); });
   const auto below = blocks.displacement(0, [&](const Point&) { return Point(lower, 0, 0.3); });

@@ -103,7 +103,7 @@ TEST(FacetPush, from_a_thousandth_of_the_largest_force)
 
 TEST(Tensions, are_of_what_pulls)
 {
-  contact::PointState pulls, presses, open;
+  contact::ContactNodeState pulls, presses, open;
   pulls.force = -6;
   pulls.area = 2;
   pulls.status = contact::Status::stick;
@@ -113,7 +113,7 @@ TEST(Tensions, are_of_what_pulls)
   open = pulls;
   open.status = contact::Status::open;
   open.contact = 2;
-  const std::vector<contact::PointState> points{pulls, presses, open};
+  const std::vector<contact::ContactNodeState> points{pulls, presses, open};
   EXPECT_EQ(largest_tensions(points, 3, Communicator()), (std::vector<double>{3, 0, 0}));
 }
 

@@ -13,7 +13,7 @@ constexpr int small = 300;  // touched rows up to which dense matrices are quick
 constexpr int columns_at_once = 64;
 
 // Where the entry (row, column) of a compressed matrix with sorted columns is stored, looked for from `from` on.
-int place_of(const SparseMatrix& matrix, int row, int column, int from)
+int position_of(const SparseMatrix& matrix, int row, int column, int from)
 {
   const int* rows = matrix.innerIndexPtr();
   if (rows[from] == row) return from;
@@ -21,7 +21,7 @@ int place_of(const SparseMatrix& matrix, int row, int column, int from)
 }
 
 // Where G D G' may differ from G G', lower triangle: the rows of G that meet in a block of any rank.
-SparseMatrix meetings(const EqualityConstraint& equality, std::span<const BlockIndex> blocks)
+SparseMatrix changing_pattern(const EqualityConstraint& equality, std::span<const BlockIndex> blocks)
 {
   const SparseMatrix& g = equality.local();
   std::vector<Eigen::Triplet<double>> triplets;
@@ -39,13 +39,13 @@ SparseMatrix meetings(const EqualityConstraint& equality, std::span<const BlockI
 }  // namespace
 
 CoarseMatrix::CoarseMatrix(const EqualityConstraint& equality, std::span<const BlockIndex> blocks, int largest_dense)
-    : equality_(equality), changing_(meetings(equality, blocks))
+    : equality_(equality), changing_(changing_pattern(equality, blocks))
 {
-  place_.assign(static_cast<std::size_t>(equality.size()), -1);
+  position_.assign(static_cast<std::size_t>(equality.size()), -1);
   for (int i = 0; i < equality.size(); ++i) {
     const bool touched = changing_.outerIndexPtr()[i + 1] > changing_.outerIndexPtr()[i];  // its diagonal entry changes
     auto& list = touched ? touched_ : others_;
-    if (touched) place_[static_cast<std::size_t>(i)] = static_cast<int>(list.size());
+    if (touched) position_[static_cast<std::size_t>(i)] = static_cast<int>(list.size());
     list.push_back(i);
   }
   if (equality.size() == 0) return;
@@ -64,7 +64,7 @@ CoarseMatrix::CoarseMatrix(const EqualityConstraint& equality, std::span<const B
   for (int column = 0; column < changing_.outerSize(); ++column) {
     int from = whole_.outerIndexPtr()[column];
     for (SparseMatrix::InnerIterator it(changing_, column); it; ++it)
-      in_whole_.push_back(from = place_of(whole_, static_cast<int>(it.row()), column, from));
+      in_whole_.push_back(from = position_of(whole_, static_cast<int>(it.row()), column, from));
   }
 }
 
@@ -88,7 +88,7 @@ void CoarseMatrix::eliminate()
 }
 
 // G (I - D) G' over the entries of changing_, summed over the ranks.
-Eigen::VectorXd CoarseMatrix::taken(std::span<const LostBlock> lost) const
+Eigen::VectorXd CoarseMatrix::downdate(std::span<const DowndateBlock> downdates) const
 {
   const SparseMatrix& g = equality_.local();
   Eigen::VectorXd result = Eigen::VectorXd::Zero(changing_.nonZeros());
@@ -97,12 +97,12 @@ Eigen::VectorXd CoarseMatrix::taken(std::span<const LostBlock> lost) const
       int at = changing_.outerIndexPtr()[j.row()];
       for (SparseMatrix::InnerIterator i(g, a); i; ++i)
         if (i.row() >= j.row()) {
-          at = place_of(changing_, static_cast<int>(i.row()), static_cast<int>(j.row()), at);
+          at = position_of(changing_, static_cast<int>(i.row()), static_cast<int>(j.row()), at);
           result[at++] += factor * i.value() * j.value();
         }
     }
   };
-  for (const auto& [index, matrix] : lost)
+  for (const auto& [index, matrix] : downdates)
     for (std::size_t a = 0; a < index.size(); ++a)
       for (std::size_t b = 0; b < index.size(); ++b)
         if (index[a] >= 0 && index[b] >= 0 && matrix(static_cast<int>(a), static_cast<int>(b)) != 0)
@@ -111,11 +111,11 @@ Eigen::VectorXd CoarseMatrix::taken(std::span<const LostBlock> lost) const
   return result;
 }
 
-bool CoarseMatrix::factorize(std::span<const LostBlock> lost, double regularisation)
+bool CoarseMatrix::factorize(std::span<const DowndateBlock> downdates, double regularisation)
 {
   if (touched_.empty() && dense_) return true;
   const SparseMatrix& gram = equality_.gram();
-  const Eigen::VectorXd change = taken(lost);
+  const Eigen::VectorXd change = downdate(downdates);
   if (!dense_) {
     std::copy(whole_.valuePtr(), whole_.valuePtr() + whole_.nonZeros(), matrix_.valuePtr());
     for (std::size_t i = 0; i < in_whole_.size(); ++i) matrix_.valuePtr()[in_whole_[i]] -= change[static_cast<Eigen::Index>(i)];
@@ -126,7 +126,7 @@ bool CoarseMatrix::factorize(std::span<const LostBlock> lost, double regularisat
   Eigen::Index next = 0;
   for (int column = 0; column < changing_.outerSize(); ++column)
     for (SparseMatrix::InnerIterator it(changing_, column); it; ++it)
-      schur(place_[static_cast<std::size_t>(it.row())], place_[static_cast<std::size_t>(column)]) -= change[next++];
+      schur(position_[static_cast<std::size_t>(it.row())], position_[static_cast<std::size_t>(column)]) -= change[next++];
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     schur(at, at) += regularisation * gram.coeff(touched_[i], touched_[i]);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int max_steps = 15;         // of guesses at one softness
 constexpr int max_turns = 3;          // of the slip at a point; then it sticks before it turns
-constexpr double settled = 1e-10;     // residual over x
+constexpr double converged = 1e-10;   // residual over x
 constexpr double flutter = 1e-12;     // the same below which guesses differ by rounding
 constexpr double stalled = 0.5;       // of the residual before: what rounding has left of it,
 constexpr double rounding = 1e-6;     // over x, which is no more than this, or than so many times
@@ -72,13 +72,13 @@ VectorXd CondensedNewton::inverse_times(const VectorXd& r) const
   return x;
 }
 
-// Guesses from `states` on; false if they do not settle.
-bool CondensedNewton::settle(const CondensedProgramme& programme, ConstraintStates& states, Point& point)
+// Guesses from `states` on; false if they do not converge.
+bool CondensedNewton::iterate(const CondensedProgramme& programme, ConstraintStates& states, Point& point)
 {
   std::vector<int> turns(states.kind.size(), 0);
   double before = 0;
   for (int step = 0; step < max_steps; ++step) {
-    end_if_told();
+    stop_if_requested();
     programme.solve(states, point.x, point.nu);
     ++point.steps;
     const double residual = programme.residual(point.x, point.nu), size = programme.size(point.x);
@@ -86,7 +86,7 @@ bool CondensedNewton::settle(const CondensedProgramme& programme, ConstraintStat
     const int changes = compare(states, next, turns);
     states = std::move(next);
     const bool small =
-        residual <= settled * size ||
+        residual <= converged * size ||
         (residual > stalled * before && (residual <= rounding * size || residual <= roundings * programme.rounding(point.x)));
     if (step > 0 && small && (changes == 0 || residual <= flutter * size)) return true;
     before = residual;
@@ -94,18 +94,18 @@ bool CondensedNewton::settle(const CondensedProgramme& programme, ConstraintStat
   return false;
 }
 
-// The same from a soft contact on, which becomes harder as fast as guesses settle.
+// The same from a soft contact on, which becomes harder as fast as guesses converge.
 bool CondensedNewton::harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point)
 {
   double part = stride;
   programme.soften(softness);
-  settle(programme, states, point);
+  iterate(programme, states, point);
   while (softness > 0) {
     const double next = softness * part > hardest ? softness * part : 0;
     auto trial = states;
     const VectorXd nu = point.nu;
     programme.soften(next);
-    if (settle(programme, trial, point)) {
+    if (iterate(programme, trial, point)) {
       part = std::max(stride, part * part);
     } else if (part < least_stride) {
       part = std::sqrt(part);
@@ -128,11 +128,11 @@ CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd&
   point.x = VectorXd::Zero(programme.unknowns());
   point.nu = VectorXd::Zero(programme.motions());
   auto states = programme.all_closed();
-  point.settled = settle(programme, states, point);
-  if (!point.settled && programme.unknowns() > 0) {
+  point.converged = iterate(programme, states, point);
+  if (!point.converged && programme.unknowns() > 0) {
     states = programme.all_closed();
     point.nu.setZero();
-    point.settled = harden(programme, softest * matrices_.w.diagonal().cwiseQuotient(matrices_.own).maxCoeff(), states, point);
+    point.converged = harden(programme, softest * matrices_.w.diagonal().cwiseQuotient(matrices_.own).maxCoeff(), states, point);
   }
   VectorXd x(b.size());
   x(constrained_) = point.x;

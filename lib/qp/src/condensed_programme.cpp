@@ -96,7 +96,7 @@ void CondensedProgramme::soften(double softness)
   step_ = (own_ * (1 + softness)).cwiseInverse();
 }
 
-VectorXd CondensedProgramme::felt(const VectorXd& x, const VectorXd& nu) const
+VectorXd CondensedProgramme::gradient(const VectorXd& x, const VectorXd& nu) const
 {
   return matrices_.w * x + softness_ * own_.cwiseProduct(x) + matrices_.h.transpose() * nu - b_;
 }
@@ -112,7 +112,7 @@ ConstraintStates CondensedProgramme::all_closed() const
 
 ConstraintStates CondensedProgramme::states(const VectorXd& x, const VectorXd& nu) const
 {
-  const VectorXd y = x - step_.cwiseProduct(felt(x, nu));
+  const VectorXd y = x - step_.cwiseProduct(gradient(x, nu));
   const auto discs = set_.discs();
   ConstraintStates result = all_closed();
   for (std::size_t i = 0; i < result.closed.size(); ++i) {
@@ -141,7 +141,7 @@ ConstraintStates CondensedProgramme::states(const VectorXd& x, const VectorXd& n
 
 double CondensedProgramme::residual(const VectorXd& x, const VectorXd& nu) const
 {
-  VectorXd y = x - step_.cwiseProduct(felt(x, nu));
+  VectorXd y = x - step_.cwiseProduct(gradient(x, nu));
   for (const auto& bound : set_.bounds()) y[bound.index] = std::max(y[bound.index], bound.lower);
   for (std::size_t d = 0; d < bound_of_.size(); ++d) {
     const auto& disc = set_.discs()[d];
@@ -217,7 +217,7 @@ std::vector<CondensedProgramme::Move> CondensedProgramme::moves(const Constraint
 
 // `matrix` nu = `right`; by springs that hold nu where it is, if the matrix is singular without. Else there are none: where
 // contact is much stiffer than its bodies, what is weak beside it is not so beside them.
-void CondensedProgramme::hold(MatrixXd matrix, const VectorXd& right, VectorXd& nu) const
+void CondensedProgramme::solve_with_springs(MatrixXd matrix, const VectorXd& right, VectorXd& nu) const
 {
   if (right.size() == 0) return;
   const Eigen::PartialPivLU<MatrixXd> alone(matrix);
@@ -237,14 +237,14 @@ void CondensedProgramme::solve(const ConstraintStates& states, VectorXd& x, Vect
   const auto all = moves(states, base, symmetric);
   const auto count = static_cast<Index>(all.size());
   // T: trial, E: test; the matrix E'W T, H T and E'H'.
-  MatrixXd moved = MatrixXd::Zero(unknowns(), count), pull = MatrixXd::Zero(motions(), count),
+  MatrixXd moved = MatrixXd::Zero(unknowns(), count), h_moved = MatrixXd::Zero(motions(), count),
            push = MatrixXd::Zero(count, motions());
   for (Index j = 0; j < count; ++j) {
     const auto& [index, trial, test, curvature] = all[static_cast<std::size_t>(j)];
     for (std::size_t k = 0; k < 3 && index[k] >= 0; ++k) {
       moved.col(j) += trial[k] * w.col(index[k]);
       moved(index[k], j) += softness_ * own_[index[k]] * trial[k];
-      pull.col(j) += trial[k] * h.col(index[k]);
+      h_moved.col(j) += trial[k] * h.col(index[k]);
       push.row(j) += test[k] * h.col(index[k]).transpose();
     }
   }
@@ -267,11 +267,11 @@ void CondensedProgramme::solve(const ConstraintStates& states, VectorXd& x, Vect
     amount = alone;
     if (motions() == 0) return;
     const MatrixXd response = factor.solve(push);
-    hold(c + pull * response, pull * alone - lacking, nu);
+    solve_with_springs(c + h_moved * response, h_moved * alone - lacking, nu);
     amount -= response * nu;
   };
   if (count == 0)
-    hold(c, -lacking, nu);
+    solve_with_springs(c, -lacking, nu);
   else if (symmetric)
     eliminate(factorize(matrix));
   else

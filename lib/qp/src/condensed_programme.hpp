@@ -11,16 +11,16 @@
 namespace mortise::qp {
 
 /// Cholesky factors, with as little added to the diagonal as rounding or dependent rows make necessary. Throws
-/// Error(not_converged) if that is not enough, and as end_if_told: some thousand rows take a while.
+/// Error(not_converged) if that is not enough, and as stop_if_requested: some thousand rows take a while.
 Eigen::LLT<Eigen::MatrixXd> factorize(const Eigen::MatrixXd& a);
 
-/// Has `work` take columns first to first + count of so many; between two pieces throws as end_if_told.
+/// Has `work` take columns first to first + count of so many; between two pieces throws as stop_if_requested.
 template <class Work>
 void in_pieces(Eigen::Index columns, const Work& work)
 {
   constexpr Eigen::Index piece = 256;
   for (Eigen::Index first = 0; first < columns; first += piece) {
-    end_if_told();
+    stop_if_requested();
     work(first, std::min(piece, columns - first));
   }
 }
@@ -33,7 +33,7 @@ struct ConstraintStates {
   enum class Kind : char { sticks, slips, gone };  // gone: the bound that the radius follows is open
   struct Slip {
     Eigen::Vector2d direction = Eigen::Vector2d::Zero();
-    double radius = 0, curvature = 0;  // see face.hpp
+    double radius = 0, curvature = 0;  // see active_set.hpp
   };
   std::vector<char> closed;  // of each bound: the unknown is free
   std::vector<Kind> kind;    // of each disc
@@ -41,7 +41,7 @@ struct ConstraintStates {
 };
 
 /// W x + H'nu - b = s, H x - C nu = e, with x in a set and s in its normal cone. W may be softened by a compliance of every
-/// unknown of its own, `softness` times what the unknown has if all others are held.
+/// unknown of its own, `softness` times what the unknown has if all others are fixed.
 class CondensedProgramme {
  public:
   /// `set` over the unknowns of `matrices`, which outlive it.
@@ -70,8 +70,8 @@ class CondensedProgramme {
  private:
   struct Move;
   std::vector<Move> moves(const ConstraintStates& states, Eigen::VectorXd& base, bool& symmetric) const;
-  void hold(Eigen::MatrixXd matrix, const Eigen::VectorXd& right, Eigen::VectorXd& nu) const;
-  Eigen::VectorXd felt(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
+  void solve_with_springs(Eigen::MatrixXd matrix, const Eigen::VectorXd& right, Eigen::VectorXd& nu) const;
+  Eigen::VectorXd gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
 
   const CondensedMatrices& matrices_;
   FeasibleSet set_;

@@ -24,7 +24,7 @@ std::vector<Local> far_from_contact(const Problem& problem, const Vector& x, con
 }  // namespace
 
 double error_bound(const Problem& problem, const Vector& x, const Projection& natural, double norm,
-                   FacePreconditioner* preconditioner)
+                   ActiveSetPreconditioner* preconditioner)
 {
   Vector residual(x, Teuchos::Copy), reaction(natural.point, Teuchos::Copy);
   residual.update(-1, natural.point, 1);
@@ -42,7 +42,7 @@ double error_bound(const Problem& problem, const Vector& x, const Projection& na
   return 0.5 * (std::sqrt(square) + std::sqrt(square + 4 * slackness));
 }
 
-double error_bound(const Problem& problem, const Solution& solution, FacePreconditioner* preconditioner)
+double error_bound(const Problem& problem, const Solution& solution, ActiveSetPreconditioner* preconditioner)
 {
   const double norm = solution.hessian_norm > 0 ? solution.hessian_norm : 1;
   Vector moved(solution.x, Teuchos::Copy);

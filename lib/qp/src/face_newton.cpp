@@ -11,28 +11,29 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double longer_step = 20;      // times step_length: where bounds follow the solution, on what is not free
-constexpr double safe_length = 1.5;     // of the step that is sure to descend
-constexpr double held_weight = 4;       // over the step's length: what a force off its constraint counts beside gaps
-constexpr double slip_stiffness = 0.1;  // curvatures of slip directions are measured against this part of ||P A P||
-constexpr double norm_accuracy = 0.4;   // the step only picks the face, and a descent is checked
-constexpr int max_faces = 200;
-constexpr double first_faint = 1e-3;          // distances from bounds, over the largest, that count as none
-constexpr double first_faint_renewed = 1e-5;  // the same where bounds follow the solution: the longer step picks better
-constexpr double longer = 4.0;                // from one of the steps that a start is looked for with to the next
-constexpr double soft = 0.25;                 // curvature along the first step over ||P A P|| below which one is looked for
-constexpr int max_starts = 10;                // attempts
-constexpr int patience = 20;                  // faces without a better residual after which it gives up
-constexpr int renewal_patience = 10;          // the same where slip bounds move, for then there is another way
-constexpr std::size_t max_known = 60;         // products kept from face to face
-constexpr double known_bytes = 1e9;           // that they may take of each rank; at least 10 are kept
-constexpr int settlings = 2;                  // renewals of slip bounds by a projection's own normal forces
-constexpr int max_retreats = 8;               // of slip bounds
-constexpr int max_retreats_to_z = 2;          // quarters of the way back, before the step becomes a gradient projection
-constexpr int max_safeguards = 12;            // after which another algorithm will do better
-constexpr double at_rest = 0.05;              // of normal forces: change that is still to come
-constexpr double certain = 0.1;               // of the allowed error, at which their change does not matter
-constexpr double first_look = 0.1;            // part of the first error at which the allowed one is asked for
+constexpr double longer_step = 20;       // times step_length: where bounds follow the solution, on what is not free
+constexpr double safe_length = 1.5;      // of the step that is sure to descend
+constexpr double constraint_weight = 4;  // over the step's length: what a force off its constraint counts beside gaps
+constexpr double slip_stiffness = 0.1;   // curvatures of slip directions are measured against this part of ||P A P||
+constexpr double norm_accuracy = 0.4;    // the step only picks the active set, and a descent is checked
+constexpr int max_active_sets = 200;
+constexpr double first_active_set_tolerance = 1e-3;  // distances from bounds, over the largest, that count as none
+constexpr double first_active_set_tolerance_updated =
+    1e-5;                                 // the same where bounds follow the solution: the longer step picks better
+constexpr double longer = 4.0;            // from one of the steps that a start is looked for with to the next
+constexpr double soft = 0.25;             // curvature along the first step over ||P A P|| below which one is looked for
+constexpr int max_starts = 10;            // attempts
+constexpr int patience = 20;              // active sets without a better residual after which it gives up
+constexpr int update_patience = 10;       // the same where slip bounds move, for then there is another way
+constexpr std::size_t max_recycled = 60;  // directions kept from one active set to the next
+constexpr double recycled_bytes = 1e9;    // that they may take of each rank; at least 10 are kept
+constexpr int max_updates = 2;            // updates of slip bounds by a projection's own normal forces
+constexpr int max_retreats = 8;           // of slip bounds
+constexpr int max_retreats_to_z = 2;      // quarters of the way back, before the step becomes a gradient projection
+constexpr int max_safeguards = 12;        // after which another algorithm will do better
+constexpr double at_rest = 0.05;          // of normal forces: change that is still to come
+constexpr double certain = 0.1;           // of the allowed error, at which their change does not matter
+constexpr double first_look = 0.1;        // part of the first error at which the allowed one is asked for
 
 // Whether normal forces are at rest: by how much they are still to change, if they change like the error.
 class ContactForces {
@@ -67,27 +68,27 @@ class ContactForces {
 
 }  // namespace
 
-FaceNewton::FaceNewton(const Problem& problem, FacePreconditioner* preconditioner)
+FaceNewton::FaceNewton(const Problem& problem, ActiveSetPreconditioner* preconditioner)
     : problem_(problem), preconditioner_(preconditioner), projector_(problem.equality, problem.set)
 {
   const auto constraints = static_cast<long long>(problem.set.bounds().size() + problem.set.discs().size());
-  only_face_ = problem.equality.communicator().sum(constraints) == 0;
-  // Three vectors each, and three more while a face uses them.
+  unconstrained_ = problem.equality.communicator().sum(constraints) == 0;
+  // Three vectors each, and three more while an active set uses them.
   const double pair = 48.0 * static_cast<double>(problem.linear.getGlobalLength()) / problem.equality.communicator().size();
-  kept_ = static_cast<std::size_t>(std::clamp(known_bytes / std::max(pair, 1.0), 10.0, static_cast<double>(max_known)));
+  kept_ = static_cast<std::size_t>(std::clamp(recycled_bytes / std::max(pair, 1.0), 10.0, static_cast<double>(max_recycled)));
 }
 
-// Where the next projection begins if bounds follow the solution: y less a step along its gradient that is long where the face
-// says what x is and short where x is free. What y takes out of Omega is made up for by forces at all points of a subdomain, as
-// if they were nearer by as much over the length of the step: the longer it is, the fewer points without force are caught. Along
-// free unknowns it would only carry on what conjugate residuals have left.
-Vector FaceNewton::look_beyond(const Face& face, const State& state) const
+// Where the next projection begins if bounds follow the solution: y less a step along its gradient that is long where the active
+// set says what x is and short where x is free. What y takes out of Omega is made up for by forces at all points of a subdomain,
+// as if they were nearer by as much over the length of the step: the longer it is, the fewer points without force are caught.
+// Along free unknowns it would only carry on what conjugate residuals have left.
+Vector FaceNewton::long_gradient_step(const ActiveSet& active_set, const State& state) const
 {
   const double step = step_length / norm_;
   Vector reaction(state.gy, Teuchos::Copy);
-  const Vector felt = face.reduce(reaction);
+  const Vector residual = active_set.reduce(reaction);
   Vector beyond(state.y, Teuchos::Copy);
-  beyond.update(-longer_step * step, reaction, (longer_step - 1) * step, felt, 1);
+  beyond.update(-longer_step * step, reaction, (longer_step - 1) * step, residual, 1);
   // Slip that goes back sticks first: nobody crosses the disc to slip in the opposite direction.
   const auto from = view(std::as_const(state.y));
   auto to = view(beyond);
@@ -114,7 +115,7 @@ bool FaceNewton::soft_between(const Vector& a, const Vector& ga, const Vector& b
 // The feasible point nearest to 0 spreads forces over all points of a contact, also over those with wide gaps. Points nearest to
 // ever longer steps along b know the gaps: z becomes the one of least energy, as long as it falls below `energy`. One product
 // each. Returns whether there is one.
-bool FaceNewton::look_for_start(State& state, double energy)
+bool FaceNewton::improve_start(State& state, double energy)
 {
   auto& [z, g, y, gy] = state;
   auto& hessian = problem_.hessian;
@@ -143,7 +144,7 @@ bool FaceNewton::look_for_start(State& state, double energy)
   return found;
 }
 
-Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const Renewal* renewal,
+Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const SlipBoundUpdate* slip_bound_update,
                            const Observer& observer)
 {
   auto& [hessian, linear, equality, set, driven] = problem_;
@@ -189,7 +190,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       start && start->nu.size() == equality.size() ? Eigen::VectorXd(start->nu * (step_length / norm_)) : Eigen::VectorXd();
   bool moved = false;            // y differs from z
   std::optional<Vector> beyond;  // y after a longer step, where bounds follow the solution
-  double faint = renewal ? first_faint_renewed : first_faint;
+  double active_set_tolerance = slip_bound_update ? first_active_set_tolerance_updated : first_active_set_tolerance;
   double first_error = 0, allowed = -1;  // negative: not asked for yet
   bool doubtful = false;                 // a small residual beside a large error
   ContactForces contact(problem_);
@@ -200,15 +201,15 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       trial.assign(*beyond);
     else
       trial.update(-step, gy, 1);
-    if (renewal && result.outer_iterations > 0) renewal->renew(y, true);
+    if (slip_bound_update && result.outer_iterations > 0) slip_bound_update->update(y, true);
     Projection next = projector_(trial, nu);
     // The normal forces that the projection changes change the bounds once more.
-    for (int settling = 0; renewal && result.outer_iterations > 0 && next.found && settling < settlings; ++settling) {
-      renewal->renew(next.point, true);
+    for (int pass = 0; slip_bound_update && result.outer_iterations > 0 && next.found && pass < max_updates; ++pass) {
+      slip_bound_update->update(next.point, true);
       next = projector_(trial, next.nu);
     }
-    for (int retreat = 0; renewal && !next.found && retreat < max_retreats; ++retreat) {
-      renewal->retreat();
+    for (int retreat = 0; slip_bound_update && !next.found && retreat < max_retreats; ++retreat) {
+      slip_bound_update->retreat();
       next = projector_(trial, nu);
     }
     if (!next.found) {  // bounds that leave no feasible point, for a start there was one
@@ -220,8 +221,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     Vector gradient(map);
     evaluate(next.point, gradient);
     double next_energy = energy_of(next.point, gradient);
-    if (!start && !only_face_ && result.outer_iterations == 0 && soft_between(z, g, next.point, gradient) &&
-        look_for_start(state, next_energy)) {
+    if (!start && !unconstrained_ && result.outer_iterations == 0 && soft_between(z, g, next.point, gradient) &&
+        improve_start(state, next_energy)) {
       energy = energy_of(z, g);
       trial.update(1, z, -step, g, 0);
       if (Projection onward = projector_(trial); onward.found) {
@@ -230,9 +231,9 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
         next_energy = energy_of(next.point, gradient);
       }
     }
-    // Where the face was picked badly the minimiser on it is far away: go back towards z until the function falls.
+    // Where the active set was picked badly the minimiser on it is far away: go back towards z until the function falls.
     double part = 1;
-    for (int attempt = 0; !renewal && moved && next_energy > energy + 1e-9 * std::abs(energy) && !hessian.exhausted();
+    for (int attempt = 0; !slip_bound_update && moved && next_energy > energy + 1e-9 * std::abs(energy) && !hessian.exhausted();
          ++attempt) {
       part = attempt < max_retreats_to_z ? part * 0.25 : 0;
       step = part > 0 ? step : safe_length / norm_;
@@ -255,7 +256,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     const Projection natural = projector_(trial, Eigen::VectorXd(nu / step_length));
     trial.update(1, z, -1, natural.point, 0);
     residual = trial.norm2() * norm_;
-    mismatch = renewal ? renewal->renew(z, false) * norm_ / step_length : 0.0;
+    mismatch = slip_bound_update ? slip_bound_update->update(z, false) * norm_ / step_length : 0.0;
     result.nu = natural.nu * norm_;
     ++result.outer_iterations;
     const double worst = std::max(residual, mismatch);
@@ -275,44 +276,45 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
       result.converged = result.error <= (to_come <= at_rest ? 1 : certain) * allowed &&
                          (worst <= Goal::largest_residual * size || believable(result.error, 0, z, result.nu, goal));
     }
-    if (goal.allowed_error && result.converged && goal.settled && preconditioner_) {
+    if (goal.allowed_error && result.converged && goal.contact_converged && preconditioner_) {
       Vector gap(z, Teuchos::Copy), change(map);
       gap.update(-norm_, natural.point, norm_);
       preconditioner_->fix({});
       preconditioner_->apply(gap, change);
       ++preconditionings_;
-      result.converged = goal.settled(z, natural.argument, change);
+      result.converged = goal.contact_converged(z, natural.argument, change);
     }
     if (!result.converged && goal.exact > 0 && std::isfinite(result.error))
       result.converged = result.error <= goal.exact * goal.energy_norm(z, result.nu);
     since_best = worst < 0.9 * best || (doubtful && result.error < 0.9 * best_error) ? 0 : since_best + 1;
     best = std::min(best, worst);
     best_error = std::min(best_error, result.error);
-    if (since_best > 1) faint *= 0.1;  // perhaps it is these that matter
-    if (result.converged || hessian.exhausted() || result.outer_iterations >= max_faces ||
-        since_best >= (renewal ? renewal_patience : patience) || result.safeguards > max_safeguards)
+    if (since_best > 1) active_set_tolerance *= 0.1;  // perhaps it is these that matter
+    if (result.converged || hessian.exhausted() || result.outer_iterations >= max_active_sets ||
+        since_best >= (slip_bound_update ? update_patience : patience) || result.safeguards > max_safeguards)
       break;
 
-    const Face face(projector_, next.argument, beyond ? longer_step * step : step, slip_stiffness * norm_, faint,
-                    renewal != nullptr);
-    if (preconditioner_) preconditioner_->fix(face.fixed());
+    const ActiveSet active_set(projector_, next.argument, beyond ? longer_step * step : step, slip_stiffness * norm_,
+                               active_set_tolerance, slip_bound_update != nullptr);
+    if (preconditioner_) preconditioner_->fix(active_set.fixed());
     // The residual to come down to on this face, if inner_reduction does not end it before.
     double enough = 0;
     if (doubtful)
       enough = inner_reduction * worst;
     else if (!goal.allowed_error)
-      enough = (only_face_ ? 0.5 : 0.1) * goal.residual * size;
+      enough = (unconstrained_ ? 0.5 : 0.1) * goal.residual * size;
     else if (allowed > 0)
       enough = 0.3 * worst * std::min(1.0, allowed / result.error);
-    else if (only_face_)
+    else if (unconstrained_)
       enough = inner_reduction * worst;
-    // Where the last face was picked badly, what others know leads astray: cells of aspect 1000 tell little of each other.
-    const bool trusted = renewal || (part == 1 && since_best == 0);
-    const double weight = held_weight * norm_ / (renewal ? longer_step * step_length : step_length);
+    // Where the last active set was picked badly, what others know leads astray: cells of aspect 1000 tell little of each other.
+    const bool trusted = slip_bound_update || (part == 1 && since_best == 0);
+    const double weight = constraint_weight * norm_ / (slip_bound_update ? longer_step * step_length : step_length);
     const auto watch = [&] { report("inner"); };
-    moved = only_face_ ? descend_alone(face, enough, watch, state) : descend(face, enough, weight, trusted, watch, state);
-    if (renewal) {
-      beyond.emplace(look_beyond(face, state));
+    moved = unconstrained_ ? descend_alone(active_set, enough, watch, state)
+                           : descend(active_set, enough, weight, trusted, watch, state);
+    if (slip_bound_update) {
+      beyond.emplace(long_gradient_step(active_set, state));
       nu.setZero();  // it has gone into that
     }
   }

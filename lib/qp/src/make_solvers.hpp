@@ -12,9 +12,9 @@ std::unique_ptr<Solver> make_direct(const Problem& problem, const Means& means);
 /// SMALSE-M with the radii that discs have, to a goal. Where that is an allowed error, with tolerances that fall until it is
 /// reached. `preconditioner`, which may be null, is for the bound of the error alone. Collective.
 Solution smalse_to_goal(const Problem& problem, std::optional<Solution> start, const Goal& goal,
-                        FacePreconditioner* preconditioner, const Observer& observer);
+                        ActiveSetPreconditioner* preconditioner, const Observer& observer);
 
 /// Face Newton, with SMALSE-M to take over where it crawls. `inverse` preconditions face Newton.
-std::unique_ptr<Solver> face_newton_with(FacePreconditioner* inverse, const Problem& problem, const Means& means);
+std::unique_ptr<Solver> face_newton_with(ActiveSetPreconditioner* inverse, const Problem& problem, const Means& means);
 
 }  // namespace mortise::qp

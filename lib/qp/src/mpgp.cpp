@@ -38,7 +38,7 @@ void mpgp(const Product& hessian, const FeasibleSet& set, Point& point, double& 
   Vector free(map), chopped(map), direction(map), product(map), linear(map);
   const auto split = [&] { set.split(view(std::as_const(x)), view(std::as_const(g)), view(free), view(chopped)); };
   // g = H x - c; c = H x - g of the point that came in is never formed: a full product renews g from the change of x.
-  const auto renew = [&](const Vector& from) {
+  const auto update = [&](const Vector& from) {
     direction.update(1, x, -1, from, 0);
     hessian(direction, product);
     g.update(1, product, 1);
@@ -54,7 +54,7 @@ void mpgp(const Product& hessian, const FeasibleSet& set, Point& point, double& 
     if (chopped_square > gamma * gamma * free_square) {  // proportioning by a gradient projection
       const Vector from(x, Teuchos::Copy);
       gradient_step(set, options.step / norm, g, x);
-      renew(from);
+      update(from);
       continue;
     }
     hessian(direction, product);
@@ -76,7 +76,7 @@ void mpgp(const Product& hessian, const FeasibleSet& set, Point& point, double& 
       split();
       const Vector from(x, Teuchos::Copy);
       gradient_step(set, options.step / norm, free, x);
-      renew(from);
+      update(from);
     }
   }
 }

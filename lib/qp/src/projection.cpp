@@ -15,12 +15,12 @@ constexpr int max_steps = 1000;
 constexpr int max_search = 60;       // of each line search
 constexpr double flat = 0.1;         // part of its first slope at which a line search ends
 constexpr double far = 0.25;         // part of a step below which it was much too long
-constexpr double runaway = 1e10;     // of ||G' nu|| over ||e|| and ||y||, at which C counts as empty
+constexpr double unbounded = 1e10;   // of ||G' nu|| over ||e|| and ||y||, at which C counts as empty
 constexpr double target = 1e-13;     // of the residual
 constexpr double acceptable = 1e-8;  // at which a projection that makes no more progress counts as found
 constexpr double far_away = 1e6;     // times ||e|| and ||y||: larger points are none
 constexpr int max_tries = 10;        // steps that do not halve it
-constexpr double settled = 1e-9;     // at which fewer steps are tried
+constexpr double converged = 1e-9;   // at which fewer steps are tried
 constexpr int max_stalled = 3;
 constexpr int max_repairs = 5;  // with the residual e - G x taken from x itself
 
@@ -45,11 +45,11 @@ SparseMatrix columns_of(const SparseMatrix& g, std::span<const Local> columns)
 }
 
 // I - D of a cone at (t, n); nothing inside of it.
-std::optional<LostBlock> lost_of_cone(const Disc& disc, const Eigen::Vector2d& t, double n)
+std::optional<DowndateBlock> downdate_of_cone(const Disc& disc, const Eigen::Vector2d& t, double n)
 {
   const double length = t.norm(), mu = disc.coefficient;
   if (length <= mu * n) return {};
-  LostBlock block;
+  DowndateBlock block;
   block.index = {disc.index[0], disc.index[1], disc.normal};
   block.matrix(0, 0) = block.matrix(2, 2) = 1;
   if (disc.size() == 2) block.matrix(1, 1) = 1;
@@ -70,7 +70,7 @@ struct Projector::Evaluation {
   Eigen::VectorXd nu;
   Eigen::VectorXd w;  // y - G' nu
   Eigen::VectorXd gradient;
-  double pull = 0;  // ||G' nu||
+  double multiplier_size = 0;  // ||G' nu||
 };
 
 Projector::Projector(const EqualityConstraint& equality, const FeasibleSet& set)
@@ -95,7 +95,7 @@ Projector::Evaluation Projector::evaluate(const Eigen::VectorXd& y, const Eigen:
   const Eigen::VectorXd gram_nu = equality_.gram().selfadjointView<Eigen::Lower>() * nu;
   const Eigen::VectorXd missing = equality_.right_side() - gy;
   result.gradient = missing + gram_nu - sums;
-  result.pull = std::sqrt(std::max(nu.dot(gram_nu), 0.0));
+  result.multiplier_size = std::sqrt(std::max(nu.dot(gram_nu), 0.0));
   result.nu = std::move(nu);
   return result;
 }
@@ -131,9 +131,9 @@ double Projector::search(const Evaluation& now, const Evaluation& full, const Ei
 }
 
 // I - D with the derivative D of P_Omega at w.
-std::vector<LostBlock> Projector::lost(const Eigen::VectorXd& w) const
+std::vector<DowndateBlock> Projector::downdates(const Eigen::VectorXd& w) const
 {
-  std::vector<LostBlock> blocks;
+  std::vector<DowndateBlock> blocks;
   Local next = 0;                   // w is in the order of FeasibleSet::constrained()
   std::map<Local, double> pressed;  // of the normal unknowns of cones
   if (set_.has_cones())
@@ -155,7 +155,7 @@ std::vector<LostBlock> Projector::lost(const Eigen::VectorXd& w) const
     next += disc.size();
     const double distance = y.norm();
     if (set_.is_cone(disc)) {
-      if (auto block = lost_of_cone(disc, y, pressed.at(disc.normal))) blocks.push_back(*block);
+      if (auto block = downdate_of_cone(disc, y, pressed.at(disc.normal))) blocks.push_back(*block);
       continue;
     }
     if (distance <= disc.radius) continue;
@@ -178,13 +178,13 @@ double Projector::least_norm(const Eigen::VectorXd& nu, const Vector& like) cons
   Vector w(like.getMap());
   equality_.add_transpose(-1, nu, w);
   auto values = view(w);
-  double held = 0;
+  double in_discs = 0;
   for (const auto& disc : set_.discs()) {
     if (set_.is_cone(disc) || std::isinf(disc.radius)) continue;
     double square = 0;
     for (int k = 0; k < disc.size(); ++k)
       square += std::pow(std::exchange(values[disc.index[static_cast<std::size_t>(k)]], 0.0), 2);
-    held += disc.radius * std::sqrt(square);
+    in_discs += disc.radius * std::sqrt(square);
   }
   std::vector<Disc> cones;
   for (const auto& disc : set_.discs())
@@ -193,7 +193,7 @@ double Projector::least_norm(const Eigen::VectorXd& nu, const Vector& like) cons
   for (auto& bound : bounds) bound.lower = 0;
   const FeasibleSet directions(std::move(bounds), std::move(cones));
   (set_.has_cones() ? directions.with_cones() : directions).project(values);
-  const double gained = -equality_.right_side().dot(nu) - equality_.communicator().sum(held);
+  const double gained = -equality_.right_side().dot(nu) - equality_.communicator().sum(in_discs);
   return gained > 0 ? gained / std::max(w.norm2(), std::numeric_limits<double>::min()) : 0;
 }
 
@@ -215,8 +215,8 @@ Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
   Evaluation best = now;
   double regularisation = 1e-1, residual = result.residual;
   int stalled = 0;
-  for (int step = 0; step < max_steps && result.residual > target && now.pull < runaway * scale; ++step) {
-    if (!matrix_.factorize(lost(now.w), std::clamp(regularisation * std::min(residual, 1.0), 1e-14, 1.0))) {
+  for (int step = 0; step < max_steps && result.residual > target && now.multiplier_size < unbounded * scale; ++step) {
+    if (!matrix_.factorize(downdates(now.w), std::clamp(regularisation * std::min(residual, 1.0), 1e-14, 1.0))) {
       regularisation *= 10;
       continue;
     }
@@ -240,9 +240,9 @@ Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
       result.residual = residual;
       best = now;
     }
-    if (stalled > (result.residual <= settled ? max_stalled : max_tries) && result.residual <= acceptable) break;
+    if (stalled > (result.residual <= converged ? max_stalled : max_tries) && result.residual <= acceptable) break;
   }
-  if (now.pull < runaway * scale) now = std::move(best);
+  if (now.multiplier_size < unbounded * scale) now = std::move(best);
   // G G' nu - G (P(w) - w) loses, where stiffnesses differ by 1e6, what the kernels of soft bodies need; G P(w) does not.
   result.nu = now.nu;
   for (int repair = 0; repair <= max_repairs; ++repair) {
@@ -256,9 +256,9 @@ Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
     result.nu = now.nu;
     result.residual = residual;
     result.point.assign(point);
-    if (residual <= 1e2 * target || now.pull >= runaway * scale) break;
+    if (residual <= 1e2 * target || now.multiplier_size >= unbounded * scale) break;
     Eigen::VectorXd w = view(result.argument)(constrained_);
-    if (!matrix_.factorize(lost(w), 1e-14)) break;
+    if (!matrix_.factorize(downdates(w), 1e-14)) break;
     now.nu -= matrix_.solve(missing);
   }
   result.argument.assign(y);

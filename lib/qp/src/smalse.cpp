@@ -66,13 +66,13 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
   if (size == 0) size = 1;
 
   Vector constant(map);  // P (A x0 - b) / nrm
-  const auto renew = [&] {
+  const auto update = [&] {
     hessian.apply(feasible.point, constant);
     constant.update(-1, linear, 1);
     equality.project(constant);
     constant.scale(1 / norm);
   };
-  renew();
+  update();
   // A cold start takes gradient projections on {G x = e} intersected with Omega, which cost one product each and, through the
   // multipliers of the last projection, tell how hard the equality constraint pulls.
   for (int step = 0; !start && step < start_steps; ++step) {
@@ -82,7 +82,7 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
     if (!next.found) break;
     nu = next.nu / start_length;
     feasible = std::move(next);
-    renew();
+    update();
   }
   const Vector origin(feasible.point, Teuchos::Copy);
   const FeasibleSet moved = set.shifted(view(origin));

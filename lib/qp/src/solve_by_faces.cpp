@@ -10,7 +10,7 @@ namespace mortise::qp {
 
 namespace {
 
-// Renews radii between two faces.
+// Updates radii between two active sets.
 class FollowedRadii {
  public:
   // Those of the law at x, or those to begin with if there is none.
@@ -19,13 +19,13 @@ class FollowedRadii {
   {
     law_.set.set_radii(now_);
   }
-  Renewal renewal()
+  SlipBoundUpdate slip_bound_update()
   {
-    return {[this](const Vector& x, bool apply) { return renew(x, apply); }, [this] { retreat(); }};
+    return {[this](const Vector& x, bool apply) { return update(x, apply); }, [this] { retreat(); }};
   }
 
  private:
-  double renew(const Vector& x, bool apply)
+  double update(const Vector& x, bool apply)
   {
     auto wanted = law_.radii(&x);
     double square = 0;
@@ -50,7 +50,7 @@ class FollowedRadii {
 
 class FaceSolver : public Solver {
  public:
-  FaceSolver(FacePreconditioner* inverse, const Problem& problem, const Means& means)
+  FaceSolver(ActiveSetPreconditioner* inverse, const Problem& problem, const Means& means)
       : problem_(problem), means_(means), inverse_(inverse), newton_(problem, inverse)
   {
   }
@@ -60,7 +60,7 @@ class FaceSolver : public Solver {
   Solution solve(const std::optional<Solution>& start, const Goal& goal, const Observer& observer) override
   {
     Solution found = newton_.solve(start, goal, nullptr, observer);
-    // Faces that rounding has spoilt (stiffnesses that differ by 1e12) prove nothing; the other algorithm needs none.
+    // Active sets that rounding has spoilt (stiffnesses that differ by 1e12) prove nothing; the other algorithm needs none.
     if (!found.feasible && !found.empty) found = smalse_to_goal(problem_, std::nullopt, goal, means_.preconditioner, observer);
     if (!found.feasible || found.converged || !means_.budget.may_change()) return found;
     // It crawls where bodies are soft and slender: the slower, steadier one.
@@ -84,27 +84,27 @@ class FaceSolver : public Solver {
     return next;
   }
 
-  FacePreconditioner* preconditioner() override { return inverse_; }
+  ActiveSetPreconditioner* preconditioner() override { return inverse_; }
 
  private:
   Solution follow(const SlipLaw& law, const Vector* at, const std::optional<Solution>& start, const Goal& goal,
                   const Observer& observer)
   {
     FollowedRadii radii(law, at, problem_.equality.communicator());
-    const Renewal renewal = radii.renewal();
-    return newton_.solve(start, goal, &renewal, observer);
+    const SlipBoundUpdate slip_bound_update = radii.slip_bound_update();
+    return newton_.solve(start, goal, &slip_bound_update, observer);
   }
 
   const Problem& problem_;
   Means means_;
-  FacePreconditioner* inverse_;
+  ActiveSetPreconditioner* inverse_;
   FaceNewton newton_;
   bool steadier_ = false;  // SMALSE-M has taken over, in these solves
 };
 
 }  // namespace
 
-std::unique_ptr<Solver> face_newton_with(FacePreconditioner* inverse, const Problem& problem, const Means& means)
+std::unique_ptr<Solver> face_newton_with(ActiveSetPreconditioner* inverse, const Problem& problem, const Means& means)
 {
   return std::make_unique<FaceSolver>(inverse, problem, means);
 }

@@ -11,23 +11,26 @@ namespace {
 
 class SmalseSolver : public Solver {
  public:
-  SmalseSolver(const Problem& problem, FacePreconditioner* preconditioner) : problem_(problem), preconditioner_(preconditioner) {}
+  SmalseSolver(const Problem& problem, ActiveSetPreconditioner* preconditioner)
+      : problem_(problem), preconditioner_(preconditioner)
+  {
+  }
 
   Solution solve(const std::optional<Solution>& start, const Goal& goal, const Observer& observer) override
   {
     return smalse_to_goal(problem_, start, goal, preconditioner_, observer);
   }
-  FacePreconditioner* preconditioner() override { return preconditioner_; }
+  ActiveSetPreconditioner* preconditioner() override { return preconditioner_; }
 
  private:
   const Problem& problem_;
-  FacePreconditioner* preconditioner_;
+  ActiveSetPreconditioner* preconditioner_;
 };
 
 }  // namespace
 
 Solution smalse_to_goal(const Problem& problem, std::optional<Solution> start, const Goal& goal,
-                        FacePreconditioner* preconditioner, const Observer& observer)
+                        ActiveSetPreconditioner* preconditioner, const Observer& observer)
 {
   double tolerance = goal.allowed_error ? tolerances::loosest : goal.residual;
   int outer = 0;

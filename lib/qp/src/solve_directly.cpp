@@ -20,7 +20,7 @@ class DirectSolver : public Solver {
     faces_->begin(start, goal, observer);
     if (observer) observer({"direct", 0, problem_.hessian.count()});
     const auto found = matrices_.solve();
-    if (found.settled && goal.allowed_error) goal.exact = rounding_of_direct;
+    if (found.converged && goal.allowed_error) goal.exact = rounding_of_direct;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
     start = std::move(solution);
@@ -34,7 +34,7 @@ class DirectSolver : public Solver {
   {
     return faces_->solve(law, start, goal, observer);
   }
-  FacePreconditioner* preconditioner() override { return matrices_.inverse.get(); }
+  ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
  private:
   const Problem& problem_;

@@ -38,19 +38,19 @@ TEST_P(Coarse, SolvesWhatConstraintsLeave)
     Eigen::MatrixXd d = Eigen::MatrixXd::Identity(unknowns, unknowns);
     for (int i = 0; i < constrained; i += 3) d(i, i) = 0.3;
     std::vector<BlockIndex> blocks;
-    std::vector<LostBlock> lost;
+    std::vector<DowndateBlock> downdates;
     for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) {
       if (map->getGlobalElement(i) >= constrained) continue;
       blocks.push_back({i, -1, -1});
       if (map->getGlobalElement(i) % 3 != 0) continue;
-      lost.emplace_back().index[0] = i;
-      lost.back().matrix(0, 0) = 0.7;
+      downdates.emplace_back().index[0] = i;
+      downdates.back().matrix(0, 0) = 0.7;
     }
     const EqualityConstraint equality(local_columns(g, *map), Eigen::VectorXd::Ones(rows), comm);
     CoarseMatrix matrix(equality, blocks, GetParam());
     EXPECT_EQ(matrix.touched(), constrained == 0 ? 0 : constrained == 7 ? 3 : rows);
     for (int time = 0; time < 2; ++time) {  // nothing of the first stays
-      ASSERT_TRUE(matrix.factorize(lost, 0));
+      ASSERT_TRUE(matrix.factorize(downdates, 0));
       expect_solved(g, d, matrix);
     }
     ASSERT_TRUE(matrix.factorize({}, 0));
@@ -73,17 +73,17 @@ TEST_P(Coarse, BlockJoinsRowsThatAreApart)
   Eigen::MatrixXd d = Eigen::MatrixXd::Identity(unknowns, unknowns);
   d.topLeftCorner(2, 2) -= block;
   std::vector<BlockIndex> blocks;
-  std::vector<LostBlock> lost;
+  std::vector<DowndateBlock> downdates;
   if (const Local i = map->getLocalElement(0); comm.root()) {
     blocks.push_back({i, i + 1, -1});
-    auto& entry = lost.emplace_back();
+    auto& entry = downdates.emplace_back();
     entry.index = {i, i + 1, -1};
     entry.matrix.topLeftCorner<2, 2>() = block;
   }
   const EqualityConstraint equality(local_columns(g, *map), Eigen::VectorXd::Ones(rows), comm);
   CoarseMatrix matrix(equality, blocks, GetParam());
   EXPECT_EQ(matrix.touched(), 3);
-  ASSERT_TRUE(matrix.factorize(lost, 0));
+  ASSERT_TRUE(matrix.factorize(downdates, 0));
   expect_solved(g, d, matrix);
 }
 

@@ -34,7 +34,7 @@ struct Programme {
 // under test.
 double violation(const Programme& p, const CondensedNewton::Point& point)
 {
-  const auto& [x, nu, settled, steps] = point;
+  const auto& [x, nu, converged, steps] = point;
   if (!x.allFinite() || !nu.allFinite()) return std::numeric_limits<double>::infinity();
   const VectorXd gap = p.a * x - p.b + p.g.transpose() * nu;
   const double force = 1e-300 + x.cwiseAbs().maxCoeff(),
@@ -49,15 +49,15 @@ double violation(const Programme& p, const CondensedNewton::Point& point)
   for (const auto& disc : p.set.discs()) {
     const bool follows = disc.coefficient > 0 && disc.normal >= 0 && bounded[static_cast<std::size_t>(disc.normal)];
     const double radius = follows ? disc.coefficient * x[disc.normal] : disc.radius;
-    Vector2d pull = Vector2d::Zero(), slip = Vector2d::Zero();
+    Vector2d tangential = Vector2d::Zero(), slip = Vector2d::Zero();
     for (int k = 0; k < disc.size(); ++k) {
       const Local i = disc.index[static_cast<std::size_t>(k)];
       constrained[static_cast<std::size_t>(i)] = 1;
-      pull[k] = x[i] - disc.centre[static_cast<std::size_t>(k)];
+      tangential[k] = x[i] - disc.centre[static_cast<std::size_t>(k)];
       slip[k] = gap[i] / length;
     }
-    const double room = (radius - pull.norm()) / force;
-    const double against = pull.norm() * slip.norm() + pull.dot(slip);  // 0 if slip is opposite to the force
+    const double room = (radius - tangential.norm()) / force;
+    const double against = tangential.norm() * slip.norm() + tangential.dot(slip);  // 0 if slip is opposite to the force
     worst = std::max({worst, -room, std::min(room, slip.norm()), against / force});
   }
   for (Index i = 0; i < x.size(); ++i)
@@ -96,7 +96,7 @@ class Random {
   std::normal_distribution<double> normal_;
 };
 
-// `points` contact points, each with a normal unknown and `tangents` others, among `free` unknowns without a constraint. The
+// `points` contact nodes, each with a normal unknown and `tangents` others, among `free` unknowns without a constraint. The
 // first `rigid` rows of G meet constraints alone, three more meet everything. Points at which all is pressed and little is pulled
 // are feasible.
 Programme random_programme(int seed, int points, int tangents, int free, int rigid)
@@ -134,7 +134,7 @@ TEST(CondensedNewton, BoundsAloneAtEverySeed)
     for (const auto& [free, rigid] : {std::pair{0, 0}, {0, 2}, {20, 0}, {20, 4}}) {
       const auto p = random_programme(seed, 30, 0, free, rigid);
       const auto point = p.solve();
-      EXPECT_TRUE(point.settled) << seed;
+      EXPECT_TRUE(point.converged) << seed;
       EXPECT_LT(violation(p, point), 1e-9) << seed;
       census.add(p, point.x);
     }
@@ -150,7 +150,7 @@ TEST(CondensedNewton, TrescaDiscsAtEverySeed)
       for (const auto& [free, rigid] : {std::pair{0, 0}, {20, 0}, {20, 4}}) {
         const auto p = random_programme(seed, 20, tangents, free, rigid);
         const auto point = p.solve();
-        EXPECT_TRUE(point.settled) << seed;
+        EXPECT_TRUE(point.converged) << seed;
         EXPECT_LT(violation(p, point), 1e-9) << seed;
         census.add(p, point.x);
       }
@@ -174,7 +174,7 @@ TEST(CondensedNewton, DiscsOfEveryRadiusAndCentre)
     auto p = base;
     p.set = FeasibleSet({base.set.bounds().begin(), base.set.bounds().end()}, discs);
     const auto point = p.solve();
-    EXPECT_TRUE(point.settled);
+    EXPECT_TRUE(point.converged);
     EXPECT_NEAR(from_centre(discs[1], point.x).norm(), 0, 1e-14);
     for (auto& disc : discs) disc.radius = std::min(disc.radius, 1e3);
     p.set = FeasibleSet({base.set.bounds().begin(), base.set.bounds().end()}, discs);
@@ -194,7 +194,7 @@ TEST(CondensedNewton, CoulombConesAtEverySeed)
           p.set.set_coefficients(std::vector<double>(20, coefficient));
           p.a.diagonal().array() += 1;
           const auto point = p.solve();
-          EXPECT_TRUE(point.settled) << seed;
+          EXPECT_TRUE(point.converged) << seed;
           EXPECT_LT(violation(p, point), 1e-9) << seed << " " << coefficient << " " << free << " " << rigid;
           census.add(p, point.x);
         }
@@ -258,7 +258,7 @@ TEST(CondensedNewton, IsTheOneSolutionOfAllGuesses)
       const auto all = brute_force(p);
       ASSERT_EQ(all.size(), 1U) << seed;
       const auto point = p.solve();
-      EXPECT_TRUE(point.settled);
+      EXPECT_TRUE(point.converged);
       EXPECT_LT((point.x - all[0]).norm(), 1e-10 * all[0].norm()) << seed;
     }
   }
@@ -276,7 +276,7 @@ TEST(CondensedNewton, IsAmongAllGuessesOfCoulombsLaw)
       const auto all = brute_force(p);
       several += all.size() > 1;
       const auto point = p.solve();
-      if (point.settled) {
+      if (point.converged) {
         EXPECT_LT(violation(p, point), 1e-9) << seed;
         const auto same = [&](const VectorXd& x) { return (x - point.x).norm() < 1e-8 * x.norm(); };
         EXPECT_TRUE(std::any_of(all.begin(), all.end(), same)) << seed << ", one of " << all.size();
@@ -302,8 +302,8 @@ TEST(CondensedNewton, WhatIsNotSolvableIsNotSettled)
         const auto never = [&](double normal, double tangential) {
           p.e = Vector2d(normal, tangential).head(p.g.rows());
           const auto point = p.solve();
-          EXPECT_FALSE(point.settled) << seed << ": " << tangents << " tangents, coefficient " << coefficient << ", forces "
-                                      << p.e.transpose() << ", violation " << violation(p, point);
+          EXPECT_FALSE(point.converged) << seed << ": " << tangents << " tangents, coefficient " << coefficient << ", forces "
+                                        << p.e.transpose() << ", violation " << violation(p, point);
         };
         never(-1, 0);
         never(-1e-4, 0);
@@ -330,7 +330,7 @@ TEST(CondensedNewton, WithoutConstraintsItIsALinearProblem)
     auto p = random_programme(3, 0, 0, 15, 0);
     if (rigid == 0) p.g = MatrixXd(0, 15), p.e = VectorXd(0);
     const auto point = p.solve();
-    EXPECT_TRUE(point.settled);
+    EXPECT_TRUE(point.converged);
     EXPECT_LT(violation(p, point), 1e-10);
   }
 }
@@ -346,7 +346,7 @@ TEST(CondensedNewton, EverythingMayBeOpen)
       p.g.col(bound.index).setZero();
     }
     const auto point = p.solve();
-    EXPECT_TRUE(point.settled);
+    EXPECT_TRUE(point.converged);
     EXPECT_LT(violation(p, point), 1e-10);
     for (const auto& bound : p.set.bounds()) EXPECT_EQ(point.x[bound.index], 0);
   }
@@ -373,8 +373,8 @@ TEST(CondensedNewton, GoesOnFromAnotherElimination)
                                  p.g.rightCols(left) - p.g.leftCols(gone) * response, p.g.leftCols(gone) * motion, set);
     const auto part =
         newton.solve(p.b.tail(left) - response.transpose() * p.b.head(gone), p.e - motion.transpose() * p.b.head(gone), set);
-    ASSERT_EQ(part.settled, whole.settled) << seed;
-    if (!whole.settled) continue;
+    ASSERT_EQ(part.converged, whole.converged) << seed;
+    if (!whole.converged) continue;
     EXPECT_LT((part.x - whole.x.tail(left)).norm(), 1e-9 * whole.x.norm()) << seed;
     EXPECT_LT((part.nu - whole.nu).norm(), 1e-9 * (1 + whole.nu.norm())) << seed;
   }
@@ -415,7 +415,7 @@ TEST(CondensedNewton, AStringOnAnObstacle)
   p.e = VectorXd(0);
   p.set = FeasibleSet(bounds, {});
   const auto point = p.solve();
-  ASSERT_TRUE(point.settled);
+  ASSERT_TRUE(point.converged);
   EXPECT_LT(violation(p, point), 1e-9);
   const double free = std::sqrt(2 * depth / q);
   for (int i = 0; i < n; ++i) {
@@ -456,7 +456,7 @@ TEST(CondensedNewton, ACylinderOnAHalfPlane)
   p.e = Vector2d(force, push);
   p.set = FeasibleSet(bounds, discs);
   const auto point = p.solve();
-  ASSERT_TRUE(point.settled);
+  ASSERT_TRUE(point.converged);
   EXPECT_LT(violation(p, point), 1e-9);
   const double a = std::sqrt(4 * force * radius / (std::numbers::pi * e)), c = a * std::sqrt(1 - push / (coefficient * force));
   ASSERT_LT(a, 0.45 * width);
@@ -517,7 +517,7 @@ TEST(CondensedNewton, ABeltOnADrum)
         const double taut = std::exp(coefficient * angle), half = coefficient * std::tan(angle / n / 2);
         const auto p = belt(n, angle, coefficient, 10 * taut * angle, compliance);
         const auto point = p.solve();
-        EXPECT_TRUE(point.settled) << "angle " << angle << ", coefficient " << coefficient << ", compliance " << compliance;
+        EXPECT_TRUE(point.converged) << "angle " << angle << ", coefficient " << coefficient << ", compliance " << compliance;
         EXPECT_LT(violation(p, point), 1e-9);
         EXPECT_NEAR(point.x[0] / std::pow((1 + half) / (1 - half), n), 1, 1e-6);
         EXPECT_NEAR(point.x[0] / taut, 1, 0.01);
@@ -525,7 +525,7 @@ TEST(CondensedNewton, ABeltOnADrum)
         // Drawn less, it slips from both ends to a point between.
         const auto less = belt(n, angle, coefficient, 0.2 * taut, compliance);
         const auto partly = less.solve();
-        EXPECT_TRUE(partly.settled) << "angle " << angle << ", coefficient " << coefficient << ", compliance " << compliance;
+        EXPECT_TRUE(partly.converged) << "angle " << angle << ", coefficient " << coefficient << ", compliance " << compliance;
         EXPECT_LT(violation(less, partly), 1e-9);
       }
 }
@@ -536,7 +536,7 @@ TEST(CondensedNewton, MatricesOfSeveralPieces)
   auto p = random_programme(5, 150, 2, 330, 4);
   const CondensedNewton newton = p.condensed();
   const auto point = newton.solve(p.b, p.e, p.set);
-  EXPECT_TRUE(point.settled);
+  EXPECT_TRUE(point.converged);
   EXPECT_LT(violation(p, point), 1e-9);
   const VectorXd r = Random(6).matrix(p.a.rows(), 1);
   EXPECT_LT((p.a * newton.inverse_times(r) - r).norm(), 1e-9 * r.norm());
@@ -557,19 +557,19 @@ TEST(CondensedNewton, EndsIfItIsToldTo)
   const auto p = random_programme(5, 20, 2, 20, 4);
   const CondensedNewton newton = p.condensed();
   const auto status = [](const auto& work) {
-    tell_to_end(SIGTERM);
+    request_stop(SIGTERM);
     auto found = ExitStatus::solved;
     try {
       work();
     } catch (const Error& error) {
       found = error.status();
     }
-    tell_to_end(0);
+    request_stop(0);
     return found;
   };
   EXPECT_EQ(status([&] { newton.solve(p.b, p.e, p.set); }), ExitStatus::machine);
   EXPECT_EQ(status([&] { p.condensed(); }), ExitStatus::machine);
-  EXPECT_TRUE(newton.solve(p.b, p.e, p.set).settled);
+  EXPECT_TRUE(newton.solve(p.b, p.e, p.set).converged);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Face Newton where the radii of discs follow other unknowns, and the face that it then works on.
+// Face Newton where the radii of discs follow other unknowns, and the active set that it then works on.
 #include <gtest/gtest.h>
 
 #include "qp/face_newton.hpp"
@@ -18,13 +18,13 @@ std::vector<double> radii(const FeasibleSet& set, const Vector& x)
 class CoulombRenewal {
  public:
   explicit CoulombRenewal(FeasibleSet& set) : set_(set) {}
-  Renewal renewal()
+  SlipBoundUpdate slip_bound_update()
   {
-    return {[this](const Vector& x, bool apply) { return renew(x, apply); }, [] {}};
+    return {[this](const Vector& x, bool apply) { return update(x, apply); }, [] {}};
   }
 
  private:
-  double renew(const Vector& x, bool apply)
+  double update(const Vector& x, bool apply)
   {
     const auto wanted = radii(set_, x);
     double square = 0;
@@ -38,7 +38,8 @@ class CoulombRenewal {
 // At a solution every tangential unknown lies in the disc that its own normal unknown gives, and the KKT conditions hold there.
 TEST(Coulomb, RadiiBelongToTheSolution)
 {
-  constexpr double coefficient = 0.3;  // faces can take turns for ever with others; lib/friction then goes on by Tresca problems
+  constexpr double coefficient =
+      0.3;  // active sets can take turns for ever with others; lib/friction then goes on by Tresca problems
   RandomProgramme programme;
   auto& set = programme.set;
   Eigen::VectorXd pressed = Eigen::VectorXd::Zero(RandomProgramme::n);  // feasible whatever the coefficient
@@ -47,13 +48,13 @@ TEST(Coulomb, RadiiBelongToTheSolution)
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
   CoulombRenewal law(set);
-  const Renewal renewal = law.renewal();
+  const SlipBoundUpdate slip_bound_update = law.slip_bound_update();
   // Normal and tangential unknowns of bodies have little to do with each other; those of a random matrix have.
   const Eigen::MatrixXd dense = programme.dense + Eigen::MatrixXd::Identity(RandomProgramme::n, RandomProgramme::n);
   const DenseOperator a(dense, programme.map, world());
   Hessian hessian(a, 20000);
   const Problem problem{hessian, programme.b, programme.equality, set};
-  const Solution solution = FaceNewton(problem, nullptr).solve({}, {1e-9, {}}, &renewal, {});
+  const Solution solution = FaceNewton(problem, nullptr).solve({}, {1e-9, {}}, &slip_bound_update, {});
   ASSERT_TRUE(solution.feasible);
   EXPECT_TRUE(solution.converged);
   EXPECT_LT(hessian.count(), 60);
@@ -64,7 +65,7 @@ TEST(Coulomb, RadiiBelongToTheSolution)
 }
 
 // Where a disc slips whose radius follows x[normal], what moves goes along with it: x_t . n = coefficient x[normal].
-TEST(Face, WhatMovesKeepsToTheLawOfFriction)
+TEST(ActiveSet, WhatMovesKeepsToTheLawOfFriction)
 {
   constexpr double coefficient = 0.4;
   RandomProgramme programme;
@@ -72,9 +73,9 @@ TEST(Face, WhatMovesKeepsToTheLawOfFriction)
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   Projector projector(programme.equality, set);
   Vector argument = local_part(10 * programme.random(RandomProgramme::n, 1), programme.map);
-  const Face face(projector, argument, 1, 1, 0, true);
-  Vector moved = local_part(programme.random(RandomProgramme::n, 1), programme.map), held(programme.map);
-  face.project_trial(moved, held);
+  const ActiveSet active_set(projector, argument, 1, 1, 0, true);
+  Vector moved = local_part(programme.random(RandomProgramme::n, 1), programme.map), constrained(programme.map);
+  active_set.project_trial(moved, constrained);
   EXPECT_LT(programme.equality.norm(programme.equality.apply(moved)), 1e-11);
   const auto x = view(std::as_const(moved));
   const auto w = view(std::as_const(argument));
@@ -90,17 +91,17 @@ TEST(Face, WhatMovesKeepsToTheLawOfFriction)
     }
   }
   EXPECT_GE(world().sum(following), 3);
-  held.assign(moved);
-  face.keep_held(held);
-  EXPECT_LT(held.normInf(), 1e-12);
+  constrained.assign(moved);
+  active_set.keep_constrained(constrained);
+  EXPECT_LT(constrained.normInf(), 1e-12);
 
   // What leads off the constraints stays as it is wanted.
   Vector wanted = local_part(programme.random(RandomProgramme::n, 1), programme.map);
-  face.keep_held(wanted);
+  active_set.keep_constrained(wanted);
   EXPECT_GT(wanted.norm2(), 0.1);
-  face.project_trial(moved, wanted);
+  active_set.project_trial(moved, wanted);
   EXPECT_LT(programme.equality.norm(programme.equality.apply(moved)), 1e-11);
-  face.keep_held(moved);
+  active_set.keep_constrained(moved);
   moved.update(-1, wanted, 1);
   EXPECT_LT(moved.normInf(), 1e-12);
 }

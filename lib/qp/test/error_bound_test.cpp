@@ -11,7 +11,7 @@ namespace mortise::qp {
 namespace {
 
 // The inverse of a dense matrix: the energy of a residual is exact, but for what G and constraints take of it.
-class Inverse : public FacePreconditioner {
+class Inverse : public ActiveSetPreconditioner {
  public:
   Inverse(const Eigen::MatrixXd& a, Teuchos::RCP<const Map> map) : inverse_(a.inverse(), map, world()) {}
   void fix(std::span<const Local>) override {}

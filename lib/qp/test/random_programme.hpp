@@ -1,4 +1,4 @@
-// A random quadratic programme with contact points, and what tells whether it is solved.
+// A random quadratic programme with contact nodes, and what tells whether it is solved.
 #pragma once
 
 #include <random>

@@ -13,7 +13,7 @@ namespace mortise::qp {
 namespace {
 
 // The matrices of a random programme, whole on every rank.
-class DenseProgramme : public FacePreconditioner {
+class DenseProgramme : public ActiveSetPreconditioner {
  public:
   explicit DenseProgramme(RandomProgramme& programme) : programme_(programme) {}
   Teuchos::RCP<const Map> getDomainMap() const override { return programme_.map; }
@@ -34,7 +34,7 @@ class DenseProgramme : public FacePreconditioner {
     const CondensedNewton newton(programme_.dense, programme_.g, Eigen::MatrixXd::Zero(programme_.g.rows(), programme_.g.rows()),
                                  set);
     const auto found = newton.solve(gathered(programme_.b, world()), programme_.equality.right_side(), set);
-    return {local_part(found.x, programme_.map), found.nu, found.settled};
+    return {local_part(found.x, programme_.map), found.nu, found.converged};
   }
 
  private:

@@ -24,7 +24,7 @@ class Assembly {
   const partition::Decomposition& decomposition() const { return model_.decomposition(); }
   const partition::NodeDirectory& directory() const { return directory_; }
   const partition::Interface& interface() const { return interface_; }
-  const feti::Floating& floating() const { return floating_; }
+  const feti::SubdomainSystem& system() const { return system_; }
 
  private:
   struct Stiffness {
@@ -37,7 +37,7 @@ class Assembly {
   const model::Model& model_;
   partition::NodeDirectory directory_;
   partition::Interface interface_;
-  feti::Floating floating_;
+  feti::SubdomainSystem system_;
 };
 
 }  // namespace mortise::analysis

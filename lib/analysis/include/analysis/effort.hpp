@@ -17,7 +17,7 @@ struct DirectEffort {
 
 /// From the factors that there are and the laws of nested dissection; nothing is factorized for it. The same on every rank and,
 /// but for rounding, for every number of ranks. Collective.
-DirectEffort effort_of_direct(const partition::Decomposition& decomposition, const feti::Floating& floating,
+DirectEffort effort_of_direct(const partition::Decomposition& decomposition, const feti::SubdomainSystem& system,
                               const constraint::Constraints& constraints, const Communicator& comm);
 
 /// Products with F after which a direct solution is worth more than going on; none where it is out of reach.

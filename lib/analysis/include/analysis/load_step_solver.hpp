@@ -26,7 +26,7 @@ class LoadStepSolver {
   /// The dual problem of `first`. The assembly and the approach outlive it: approach.spent has its products once it is gone.
   /// Throws Error(no_equilibrium), naming the body and its motion, if loads drive a body that nothing holds. Collective.
   LoadStepSolver(const Assembly& assembly, Rows first, Approach& approach, const Context& context);
-  ~LoadStepSolver() { approach_.spent = multiplications(); }
+  ~LoadStepSolver() { approach_.spent = applications(); }
   LoadStepSolver(const LoadStepSolver&) = delete;
   LoadStepSolver& operator=(const LoadStepSolver&) = delete;
 
@@ -38,7 +38,7 @@ class LoadStepSolver {
   /// Products of the approaches before.
   int spent_before() const { return spent_before_; }
   /// Products of all load steps and of the approaches before, also of a load step that threw.
-  int multiplications() const { return before_ + (solver_ ? solver_->multiplications() : 0); }
+  int applications() const { return before_ + (solver_ ? solver_->applications() : 0); }
 
  private:
   std::unique_ptr<feti::DualProblem> make_problem(std::vector<Eigen::VectorXd> load) const;

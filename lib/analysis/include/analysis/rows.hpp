@@ -33,7 +33,7 @@ std::optional<Rows> with_new_bounds(Rows rows, const model::Model& model, const 
                                     const model::LoadState& acts, const std::vector<double>& shortenings,
                                     const Communicator& comm);
 
-/// Slip remembered by one set of rows, for another one of the same contacts, where other components may be held.
+/// Slip remembered by one set of rows, for another one of the same contacts, where other components may be prescribed.
 void carry_slip(const constraint::Contacts& from, constraint::Contacts& to);
 
 }  // namespace mortise::analysis

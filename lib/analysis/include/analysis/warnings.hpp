@@ -17,7 +17,7 @@ class Warnings {
     for (auto& warning : more) add(std::move(warning));
   }
   /// Prints it as well, as it is found: for a run that may not come to its last lines.
-  void tell(Warning warning, Log& log);
+  void report(Warning warning, Log& log);
   const std::vector<Warning>& all() const { return all_; }
 
  private:

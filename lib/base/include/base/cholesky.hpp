@@ -34,11 +34,13 @@ class Cholesky {
 
   /// x = A^-1 b for `columns` right-hand sides, column-major with leading dimension `stride` >= size(). b may be x.
   void solve(const double* b, double* x, int columns, int stride) const;
+  /// A^-1 b, b of size().
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
   /// columns[c] <- A^-1 columns[c], each of size(); many at once are quick after prepare_for_many_solves().
   void solve(std::span<double* const> columns) const;
 
+  /// Rows of A.
   int size() const;
   /// Bytes that the factor takes, foreseen by the analysis.
   std::size_t factor_bytes() const;

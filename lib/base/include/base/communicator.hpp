@@ -14,6 +14,7 @@ namespace mortise {
 /// A group of ranks. A value: copies refer to the same group. Every member function but rank() and size() is collective.
 class Communicator {
  public:
+  /// Refers to `comm`, which outlives it: nothing is duplicated or freed.
   explicit Communicator(MPI_Comm comm = MPI_COMM_WORLD);
 
   int rank() const { return rank_; }
@@ -21,6 +22,7 @@ class Communicator {
   bool root() const { return rank_ == 0; }
   MPI_Comm mpi() const { return comm_; }
 
+  /// Over all ranks, the same result on each. Collective, as is all that follows.
   double sum(double x) const { return reduce(x, MPI_SUM); }
   double min(double x) const { return reduce(x, MPI_MIN); }
   double max(double x) const { return reduce(x, MPI_MAX); }

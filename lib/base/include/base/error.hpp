@@ -21,7 +21,8 @@ enum class ExitStatus {
 /// An error with a message that tells the user what to mend.
 class Error : public std::runtime_error {
  public:
-  enum class Cause { other, memory };  // memory: there was not enough, and what takes less may still do
+  /// memory: there was not enough, and what takes less may still do
+  enum class Cause { other, memory };
   Error(ExitStatus status, const std::string& message, Cause cause = Cause::other)
       : std::runtime_error(message), status_(status), cause_(cause)
   {

@@ -6,16 +6,16 @@
 namespace mortise {
 
 /// This process is to end because of this signal; 0: it is not. May be called in a signal handler.
-void tell_to_end(int signal_number);
+void request_stop(int signal_number);
 
 /// The signal, or 0.
-int told_to_end();
+int stop_requested();
 
 /// Throws Error(machine) if this process has been told to end, and takes back the alarm that would end it. Not collective: for
 /// the pieces of long work that runs within `collectively`.
-void end_if_told();
+void stop_if_requested();
 
 /// The same on all ranks if any of them has been told. One number is summed: cheap, but not free. Collective.
-void end_if_told(const Communicator& comm);
+void stop_if_requested(const Communicator& comm);
 
 }  // namespace mortise

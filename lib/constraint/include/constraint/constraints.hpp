@@ -29,6 +29,7 @@ struct Rows {
   std::vector<Entry> entries;
   std::vector<double> bound;  ///< g of each row
 
+  /// Rows; the entries of the i-th one.
   std::size_t size() const { return bound.size(); }
   std::span<const Entry> operator[](std::size_t i) const
   {
@@ -42,17 +43,17 @@ struct Rows {
   }
 };
 
-/// A component of a node is held at `value` (same unit as the mesh's coordinates).
-struct Held {
+/// A component of a node is prescribed at `value` (same unit as the mesh's coordinates).
+struct PrescribedDof {
   Global node;
   int component;
   double value;
   int support;  ///< index into the deck's supports, for messages and reactions
 };
 
-/// A node is held at `value` along a direction that is no axis: orthogonal to the components that are held there and to its other
-/// inclined directions. Supports that are not orthogonal to each other share it.
-struct Inclined {
+/// A node is prescribed at `value` along a direction that is no axis: orthogonal to the components that are prescribed there and
+/// to its other skew directions. Supports that are not orthogonal to each other share it.
+struct SkewSupport {
   Global node;
   std::array<double, 3> direction;  ///< unit
   double value;
@@ -65,6 +66,8 @@ struct Inclined {
   std::array<Share, 4> shares;
   int share_count;
 
+  /// Adds `part` to what goes to this support. Four are enough: a node has at most three directions, each with a share of
+  /// its own and those of the directions before.
   void add_share(int support, const Point& part)
   {
     int k = 0;
@@ -75,14 +78,14 @@ struct Inclined {
   }
 };
 
-/// A point of a contact surface that carries multipliers: a node of the secondary side, or one side of a kink at that node.
-struct ContactPoint {
+/// A node of the secondary side that carries multipliers, or one side of a kink at that node.
+struct ContactNode {
   int contact;                  ///< index into the deck's contacts
   Global node;                  ///< of the secondary surface
   double area;                  ///< integral of its shape function over the overlap, which turns a multiplier into a traction
   Point normal;                 ///< unit, out of the secondary body
-  std::vector<Point> tangents;  ///< 0, 1 (2D, or one direction is held) or 2 unit vectors, orthogonal to the normal
-  std::size_t row;    ///< its normal row in Contacts::rows; its tangential rows follow, then the next point's normal row
+  std::vector<Point> tangents;  ///< 0, 1 (2D, or one direction is prescribed) or 2 unit vectors, orthogonal to the normal
+  std::size_t row;              ///< its normal row in Contacts::rows; its tangential rows follow, then the next node's normal row
   double weight = 1;  ///< sum of the row's coefficients on the secondary side, above 1 where it stands in for dropped nodes
   double gap = 0;     ///< that the normal row starts with, interference deducted, before any support moves
   Point at = Point::Zero();  ///< its place in the mesh: the node, or where the node was moved to at the primary side's border
@@ -91,25 +94,26 @@ struct ContactPoint {
 
 /// An entry of a contact row that a support holds: it stands in the row's bound instead, and what the row's multiplier pushes
 /// there goes straight into the support.
-struct HeldEntry {
+struct PrescribedEntry {
   std::size_t row;  ///< of Contacts::rows
   int component;
   int support;
   double coefficient;
 };
 
-/// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the point in length units, with the
+/// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the node in length units, with the
 /// coefficient of the secondary node n (normal row) or t (tangential): (u_s - sum_j m_j u_j) . n <= gap. Its multiplier is a
-/// force. Rows have no entries at held components, so they are independent of the supports.
+/// force. Rows have no entries at prescribed components, so they are independent of the supports.
 struct Contacts {
   Rows rows;
-  std::vector<HeldEntry> held;
-  std::vector<ContactPoint> points;
-  std::vector<bool> bonded;  ///< for each point: all its rows are equalities
+  std::vector<PrescribedEntry> prescribed;
+  std::vector<ContactNode> nodes;
+  std::vector<bool> bonded;  ///< for each node: all its rows are equalities
   /// Of each row: the tangential jump at the end of the load step before, from which friction counts. Part of the row's bound.
   /// Empty before the first step ends.
   std::vector<double> slipped;
 
+  /// That of one row, in length units; 0 before the first step ends.
   double slipped_before(std::size_t row) const { return slipped.empty() ? 0.0 : slipped[row]; }
 };
 
@@ -124,21 +128,22 @@ struct Preload {
 /// A preloaded contact. Its two sides jump by s n, n the mean normal out of the secondary body, as if a slice of thickness s were
 /// cut out of the bolt: row . u = g + part s. Where a force F is given s is one more unknown; the energy is stationary in it if
 /// -sum of part * multiplier = F.
-struct Cut {
+struct PretensionSection {
   Preload preload;
   Point normal;
   struct Row {
     std::size_t row;  ///< of Contacts::rows
-    double part;      ///< weight of the point times n . axis of the row
+    double part;      ///< weight of the node times n . axis of the row
   };
   std::vector<Row> rows;  ///< those of this rank
 };
 
+/// All constraints of an assembly, in mesh numbering.
 struct Constraints {
-  std::vector<Held> held;  ///< each pair (node, component) once over all ranks
+  std::vector<PrescribedDof> prescribed;  ///< each pair (node, component) once over all ranks
   Contacts contacts;
-  std::vector<Inclined> inclined = {};  ///< of this rank; each once over all ranks
-  std::vector<Cut> cuts = {};           ///< the same on every rank, but for their rows
+  std::vector<SkewSupport> skew_supports = {};              ///< of this rank; each once over all ranks
+  std::vector<PretensionSection> pretension_sections = {};  ///< the same on every rank, but for their rows
 };
 
 }  // namespace mortise::constraint

@@ -1,4 +1,4 @@
-// Boundaries that are held along their own normals: planes of symmetry at an angle, the cuts of a sector, guides.
+// Boundaries that are prescribed along their own normals: planes of symmetry at an angle, the cuts of a sector, guides.
 #pragma once
 
 #include <span>
@@ -24,12 +24,12 @@ struct NodeNormal {
 std::vector<NodeNormal> node_normals(std::span<const SupportOptions> supports, std::span<const mesh::Surface> surfaces,
                                      const Communicator& comm);
 
-/// Those of `normals` that are parallel to an axis, as held components for hold(); the others stay in `normals`.
-std::vector<Held> take_aligned(std::span<const SupportOptions> supports, std::vector<NodeNormal>& normals);
+/// Those of `normals` that are parallel to an axis, as prescribed components for dirichlet_rows(); the others stay in `normals`.
+std::vector<PrescribedDof> take_axis_aligned(std::span<const SupportOptions> supports, std::vector<NodeNormal>& normals);
 
-/// What `normals` hold besides the components `held` of the same nodes, both on this rank: orthonormal directions. Throws
+/// What `normals` hold besides the components `prescribed` of the same nodes, both on this rank: orthonormal directions. Throws
 /// Error(bad_input) that names both boundaries where they prescribe different displacements. Collective.
-std::vector<Inclined> incline(std::span<const SupportOptions> supports, std::span<const NodeNormal> normals,
-                              std::span<const Held> held, const Communicator& comm);
+std::vector<SkewSupport> skew_support_rows(std::span<const SupportOptions> supports, std::span<const NodeNormal> normals,
+                                           std::span<const PrescribedDof> prescribed, const Communicator& comm);
 
 }  // namespace mortise::constraint

@@ -9,11 +9,11 @@
 
 namespace mortise::constraint {
 
-/// Every held pair (node, component) once over all ranks, on rank node % ranks, ascending. `nodes[i]` are the nodes of this rank
-/// on the boundary of `supports[i]`; copies of a node on several ranks and nodes on several boundaries are fine. Where supports
-/// overlap they must agree: throws Error(bad_input) that names both if they prescribe different values. `aligned`: components
-/// that stand on this rank and are held besides (see take_aligned()). Collective.
-std::vector<Held> hold(std::span<const SupportOptions> supports, std::span<const std::vector<Global>> nodes, int dimension,
-                       const Communicator& comm, std::span<const Held> aligned = {});
+/// Every prescribed pair (node, component) once over all ranks, on rank node % ranks, ascending. `nodes[i]` are the nodes of this
+/// rank on the boundary of `supports[i]`; copies of a node on several ranks and nodes on several boundaries are fine. Where
+/// supports overlap they must agree: throws Error(bad_input) that names both if they prescribe different values. `aligned`:
+/// components that stand on this rank and are prescribed besides (see take_axis_aligned()). Collective.
+std::vector<PrescribedDof> dirichlet_rows(std::span<const SupportOptions> supports, std::span<const std::vector<Global>> nodes,
+                                          int dimension, const Communicator& comm, std::span<const PrescribedDof> aligned = {});
 
 }  // namespace mortise::constraint

@@ -12,10 +12,10 @@
 namespace mortise::contact {
 
 /// The motion of a cyclic pair's primary side; none for other pairs.
-std::optional<mesh::Motion> turn_of(const Options& options);
+std::optional<mesh::Motion> rotation_of(const Options& options);
 
 /// The surface after that motion; itself if there is none.
-mesh::Surface turned(mesh::Surface surface, const Options& options);
+mesh::Surface rotated(mesh::Surface surface, const Options& options);
 
 /// What of options.cyclic does not fit models of this kind, or is no n-th part of a full turn: a message, or "".
 std::string misfit(const mesh::RotationOptions& cyclic, fem::Kinematics kinematics);

@@ -22,6 +22,7 @@ struct CurvedFace {
         slope(s.slope)
   {
   }
+  /// The surface as lib/mesh has it.
   mesh::CurvedSurface surface() const { return {Point(point.data()), Point(axis.data()), radius, slope}; }
 
   Global node = 0;  ///< the face's number, Surface::face_id; named as by_node() wants it
@@ -47,6 +48,7 @@ struct InitialGap {
   /// What the meshes say, smallest and largest, if something else was taken.
   double least_in_mesh = std::numeric_limits<double>::infinity(), largest_in_mesh = -least_in_mesh;
 
+  /// In length units; 0 where nothing overlaps.
   double largest_overlap() const { return smallest < 0 ? -smallest : 0; }
   /// By more than rounding.
   bool overlaps() const { return -smallest > overlapping * touching; }

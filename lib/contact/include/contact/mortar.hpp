@@ -3,9 +3,9 @@
 // The multiplier space is biorthogonal to the secondary side's shape functions, integral psi_i phi_j = delta_ij integral phi_j
 // [Wohlmuth, SIAM J. Numer. Anal. 38 (2000); Popp, Gitterle, Gee, Wall, IJNME 83 (2010)], integrated segment by segment, so that
 // each row speaks of one secondary node and the primary nodes opposite. It is built on the covered part of each face, which keeps
-// constant pressures exact at the border of the overlap. Nodes that can have no multiplier (held along the normal, or hardly
-// covered) leave theirs to the other nodes of the face [in the spirit of Popp et al., SIAM J. Sci. Comput. 35 (2013), boundary
-// modification].
+// constant pressures exact at the border of the overlap. Nodes that can have no multiplier (prescribed along the normal, or
+// hardly covered) leave theirs to the other nodes of the face [in the spirit of Popp et al., SIAM J. Sci. Comput. 35 (2013),
+// boundary modification].
 #pragma once
 
 #include <memory>
@@ -33,13 +33,14 @@ struct Pair {
 /// side, but at least the size of a face. Collective.
 std::vector<double> search_distances(std::span<const Pair> pairs, const Communicator& comm);
 
-/// The contact rows of all pairs; contact c of ContactPoint is pairs[c]. Rows stand on any rank, each once; they do not depend on
-/// the number of ranks, to the last bit. `held` and `inclined` are the supports of this rank. Frictionless pairs have normal rows
-/// only. Throws Error(bad_input) if the cuts of a sector do not lie on each other. In axisymmetry areas and forces are those of
-/// the whole turn. `curved_faces`: those of this rank whose geometry is known; `initial_gaps`: takes that of each pair.
-/// Collective.
-constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::Held> held, fem::Kinematics kinematics,
-                                const Communicator& comm, std::span<const constraint::Inclined> inclined = {},
+/// The contact rows of all pairs; contact c of ContactNode is pairs[c]. Rows stand on any rank, each once; they do not depend on
+/// the number of ranks, to the last bit. `prescribed` and `skew_supports` are the supports of this rank. Frictionless pairs have
+/// normal rows only. Throws Error(bad_input) if the cuts of a sector do not lie on each other. In axisymmetry areas and forces
+/// are those of the whole turn. `curved_faces`: those of this rank whose geometry is known; `initial_gaps`: takes that of each
+/// pair. Collective.
+constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::PrescribedDof> prescribed,
+                                fem::Kinematics kinematics, const Communicator& comm,
+                                std::span<const constraint::SkewSupport> skew_supports = {},
                                 std::span<const CurvedFace> curved_faces = {}, std::vector<InitialGap>* initial_gaps = nullptr);
 
 }  // namespace mortise::contact

@@ -19,16 +19,18 @@ struct Obstacle {
   bool inside = false;  ///< bodies are in the hollow of a cylinder or a sphere
 };
 
-/// The point of the surface next to a place.
-struct Foot {
+/// The point of the surface that is closest to a given one.
+struct ClosestPoint {
   double distance = std::numeric_limits<double>::infinity();  ///< signed, negative inside the obstacle
   Point normal = Point::Zero();                               ///< of the obstacle, unit, towards the bodies
 };
 
-/// The signed distance phi(x) and its gradient; exact for every x but those of the axis or the centre, which have no foot.
-Foot foot(const Obstacle& obstacle, const Point& x);
+/// The signed distance phi(x) and its gradient; exact for every x but those of the axis or the centre, which have no closest
+/// point.
+ClosestPoint closest_point(const Obstacle& obstacle, const Point& x);
 
-/// {plane: {point, normal}}, {cylinder: {point, axis, radius, inside}} or {sphere: {center, radius, inside}}.
+/// {plane: {point, normal}}, {cylinder: {point, axis, radius, inside}} or {sphere: {center, radius, inside}}: read, written, and
+/// as a JSON schema. Errors go to the document.
 void read(Obstacle& obstacle, const YAML::Node& node, const std::string& path, deck::Document& document);
 YAML::Node write(const Obstacle& obstacle);
 nlohmann::ordered_json obstacle_schema();

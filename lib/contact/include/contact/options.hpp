@@ -46,7 +46,8 @@ void describe(deck::Description<PreloadOptions>& d);
 void describe(deck::Description<Options>& d);
 void describe(deck::Description<AutoOptions>& d);
 
-/// The section: the word auto, or a list of entries of both kinds.
+/// The section: the word auto, or a list of entries of both kinds; read, written, and as a JSON schema. Errors go to the
+/// document.
 void read_section(std::vector<Options>& contacts, const YAML::Node& node, const std::string& path, deck::Document& document);
 YAML::Node write_section(const std::vector<Options>& contacts);
 nlohmann::ordered_json section_schema();

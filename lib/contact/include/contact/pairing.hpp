@@ -22,7 +22,7 @@ namespace mortise::contact {
 using Bodies = std::pair<int, int>;
 
 /// Faces of two bodies that face each other, and those round them: one contact. The same on every rank.
-struct Meeting {
+struct ContactCandidate {
   int secondary = 0, primary = 0;                      ///< bodies
   int patch = 0;                                       ///< 1, 2, ... if these bodies meet in several patches; 0: in one
   std::vector<Global> secondary_faces, primary_faces;  ///< Surface::face_id, ascending
@@ -46,10 +46,11 @@ struct Meeting {
 /// The reach is search_distance or, if that is 0, the size of the largest facing face, or a fiftieth of the diagonal of the
 /// smaller body where that is more; bonded sides are tied only where they face each other within the distance above.
 /// `skin` is the outer surface of all bodies, this rank's faces. Collective.
-std::vector<Meeting> find_meetings(const mesh::Surface& skin, int bodies, const std::set<Bodies>& known, const Options& options,
-                                   fem::Kinematics kinematics, const Communicator& comm);
+std::vector<ContactCandidate> find_contact_candidates(const mesh::Surface& skin, int bodies, const std::set<Bodies>& known,
+                                                      const Options& options, fem::Kinematics kinematics,
+                                                      const Communicator& comm);
 
-/// The largest distance that find_meetings() looks over if the deck gives none. Collective.
+/// The largest distance that find_contact_candidates() looks over if the deck gives none. Collective.
 double widest_distance(const mesh::Surface& skin, const Communicator& comm);
 
 }  // namespace mortise::contact

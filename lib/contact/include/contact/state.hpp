@@ -10,12 +10,12 @@ namespace mortise::contact {
 
 enum class Status : int { open = 0, stick = 1, slip = 2 };
 
-/// The state of one contact point.
-struct PointState {
+/// The state of one contact node.
+struct ContactNodeState {
   int contact = 0;
   Global node = 0;
   double area = 0;
-  double cover = 1;                          ///< ContactPoint::cover
+  double cover = 1;                          ///< ContactNode::cover
   double force = 0;                          ///< normal multiplier, >= 0 when pressing (bonded: any sign)
   Point force_on_secondary = Point::Zero();  ///< all multipliers of the point, as the secondary side feels them
   double gap = 0;                            ///< >= 0 up to the solver's tolerance
@@ -24,10 +24,10 @@ struct PointState {
 };
 
 /// One point: `multipliers` are forces (normal, then tangents); `jumps` are row . u (without bounds) in the same order, `bound`
-/// that of the normal row; `limit` the slip bound as a force (infinite: sticks; 0: frictionless). A point counts as open while
-/// its pressure is at most `nothing`, what the solver's tolerance leaves of zero.
-PointState state_of(const constraint::ContactPoint& point, bool bonded, std::span<const double> multipliers,
-                    std::span<const double> jumps, double bound, double limit, double nothing);
+/// that of the normal row; `slip_bound` the slip bound as a force (infinite: sticks; 0: frictionless). A point counts as open
+/// while its pressure is at most `nothing`, what the solver's tolerance leaves of zero.
+ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std::span<const double> multipliers,
+                          std::span<const double> jumps, double bound, double slip_bound, double nothing);
 
 /// Totals of one contact, over all ranks.
 struct Resultant {
@@ -36,7 +36,7 @@ struct Resultant {
   long long open = 0, stick = 0, slip = 0;
 };
 /// Collective.
-std::vector<Resultant> resultants(std::span<const PointState> points, std::size_t contacts, const Communicator& comm);
+std::vector<Resultant> resultants(std::span<const ContactNodeState> points, std::size_t contacts, const Communicator& comm);
 
 /// Nodal fields on this rank's secondary surface of one contact; where two points share a node at a kink, pressures are averaged
 /// by area. A node whose surroundings the primary side hardly covers bears what presses on a strip much narrower than a face: its
@@ -51,7 +51,7 @@ struct SurfaceState {
   std::vector<int> status;
 };
 /// One for each surface. Collective.
-std::vector<SurfaceState> surface_states(std::span<const PointState> points, std::span<const Pair> pairs,
+std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,
                                          const Communicator& comm);
 
 }  // namespace mortise::contact

@@ -16,7 +16,7 @@ struct Element {
   int dimension = 0;
   int nodes = 0;
   std::vector<double> weight;             ///< q
-  std::vector<Eigen::Vector3d> place;     ///< q, in reference coordinates
+  std::vector<Eigen::Vector3d> point;     ///< q, in reference coordinates
   std::vector<Eigen::VectorXd> shape;     ///< q times n
   std::vector<Eigen::MatrixXd> gradient;  ///< q times n x d, by the reference coordinates
   Eigen::MatrixXd extrapolation;  ///< n x q: from integration points to nodes, by least squares in first-order shape functions

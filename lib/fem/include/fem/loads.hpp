@@ -30,6 +30,7 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double dens
 /// of volume and incompatible modes do not see a constant stress.
 void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, double temperature_change,
                    Eigen::VectorXd& f);
+
 /// Of the facets of a boundary in this piece: area (as area()), integral of x, and integral of the outward normal.
 struct Moments {
   double area = 0;

@@ -20,8 +20,8 @@ class Materials {
 
   std::size_t count() const { return materials_.size(); }
   /// Place of the cell's material among all.
-  std::size_t place(std::size_t cell) const { return of_cell_.empty() ? 0 : static_cast<std::size_t>(of_cell_[cell]); }
-  const Material& operator[](std::size_t place) const { return materials_[place]; }
+  std::size_t index(std::size_t cell) const { return of_cell_.empty() ? 0 : static_cast<std::size_t>(of_cell_[cell]); }
+  const Material& operator[](std::size_t index) const { return materials_[index]; }
 
  private:
   std::vector<Material> materials_;

@@ -11,7 +11,7 @@ namespace mortise::fem {
 /// XX YY ZZ XY YZ XZ.
 using Stress = Eigen::Matrix<double, 6, 1>;
 
-/// sqrt(3/2 s:s) of the deviator s.
+/// sqrt(3/2 s:s) of the deviator s, in the unit of the stress.
 double von_mises(const Stress& stress);
 
 /// What one piece knows of the stress.

@@ -18,7 +18,9 @@ SparseMatrix coarse_rows(const JumpOperator& jump, const Clusters& clusters, con
 /// R_c'v_c of every cluster, on every rank: e for v = f. Collective.
 Eigen::VectorXd kernel_coordinates(const Clusters& clusters, const std::vector<Eigen::VectorXd>& v, const Communicator& comm);
 
-/// G with one more row for each cut that is tightened to a force, over the same columns: its parts of the (scaled) contact rows.
-SparseMatrix with_cuts(const SparseMatrix& g, std::span<const constraint::Cut> cuts, const JumpOperator& jump);
+/// G with one more row for each pretension section that is tightened to a force, over the same columns: its parts of the (scaled)
+/// contact rows.
+SparseMatrix with_pretension_rows(const SparseMatrix& g, std::span<const constraint::PretensionSection> pretension_sections,
+                                  const JumpOperator& jump);
 
 }  // namespace mortise::feti

@@ -5,8 +5,8 @@
 //     F = B K^+ B',  d = B K^+ f - c,  G = R'B',  e = R'f,     u = K^+ (f - B' lambda) - R nu,
 //
 // where K^+ and R are those of clusters of subdomains, or of each subdomain alone, nu are the multipliers of G lambda = e [Dostal
-// et al., DD20, section 3]. Each cut that is tightened to a force adds a row to G, sum of part * lambda = -force, and its
-// shortening to nu.
+// et al., DD20, section 3]. Each pretension section that is tightened to a force adds a row to G, sum of part * lambda = -force,
+// and its shortening to nu.
 #pragma once
 
 #include <memory>
@@ -24,14 +24,14 @@
 namespace mortise::feti {
 
 /// Stiffness and kernel of what floats: the clusters of this rank's subdomains, in the order of Decomposition::subdomains.
-struct Floating {
+struct SubdomainSystem {
   Clusters clusters;
   std::vector<std::vector<double>> nodal_stiffness;  ///< as given to the NodeDirectory
   fem::Kinematics kinematics = fem::Kinematics::solid;
 };
 
-/// Where the multipliers of a contact point stand in the dual vector of this rank.
-struct PointRows {
+/// Where the multipliers of a contact node stand in the dual vector of this rank.
+struct NodeRows {
   Local normal = -1;
   int tangents = 0;  ///< at normal + 1 ...
   Local disc = -1;   ///< index into FeasibleSet::discs(), -1 without friction
@@ -40,13 +40,13 @@ struct PointRows {
 /// Heavy: neither copies nor moves, for its parts refer to each other.
 class DualProblem {
  public:
-  /// `load`: f of each subdomain. Looks for free rigid motions and gauges those that nothing loads. `slides`: what surfaces in
-  /// contact feel, apart from facets. Throws Error(no_equilibrium), naming the body and its motion, if a load works on a motion
-  /// that nothing resists. `decomposition` and `floating` outlive it. Collective.
+  /// `load`: f of each subdomain. Looks for free rigid motions and gauges those that nothing loads. `sliding_surfaces`: what
+  /// surfaces in contact feel, apart from facets. Throws Error(no_equilibrium), naming the body and its motion, if a load works
+  /// on a motion that nothing resists. `decomposition` and `system` outlive it. Collective.
   DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
-              const partition::Interface& interface, constraint::Constraints constraints, const Floating& floating,
+              const partition::Interface& interface, constraint::Constraints constraints, const SubdomainSystem& system,
               std::vector<Eigen::VectorXd> load, const Options& options, const Context& context,
-              std::span<const constraint::Slide> slides = {});
+              std::span<const constraint::SlidingSurface> sliding_surfaces = {});
   DualProblem(const DualProblem&) = delete;
   DualProblem& operator=(const DualProblem&) = delete;
   /// d, e and c anew, for the same rows with other bounds and for other loads; everything else stays. Returns false, and changes
@@ -54,25 +54,27 @@ class DualProblem {
   /// Throws Error(no_equilibrium) as the constructor does. Collective.
   bool update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load);
 
+  /// B; F, dual unknowns x dual unknowns; d, one entry for each row of B; G and e; Omega. All distributed as jump().rows().
   const JumpOperator& jump() const { return *jump_; }
   const Operator& hessian() const { return *hessian_; }
-  qp::FacePreconditioner* preconditioner() const { return preconditioner_.get(); }  ///< null if the options want none
+  qp::ActiveSetPreconditioner* preconditioner() const { return preconditioner_.get(); }  ///< null if the options want none
   const Vector& linear() const { return *linear_; }
   const qp::EqualityConstraint& equality() const { return *equality_; }
   qp::FeasibleSet& set() { return set_; }
   const qp::FeasibleSet& set() const { return set_; }
-  const std::vector<PointRows>& points() const { return points_; }  ///< one for each contact point of this rank
+  const std::vector<NodeRows>& node_rows() const { return node_rows_; }  ///< one for each contact node of this rank
   const constraint::Constraints& constraints() const { return constraints_; }
   const std::vector<Eigen::VectorXd>& load() const { return load_; }
   int dimension() const { return decomposition_.catalogue.dimension; }
-  const Clusters& clusters() const { return floating_.clusters; }
+  const Clusters& clusters() const { return system_.clusters; }
   const Communicator& communicator() const { return comm_; }
+  /// Rows of B, and the sum of the kernels' dimensions, over all ranks.
   Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
-  int kernel_dimension() const { return floating_.clusters.kernel_dimension(); }
-  /// The least-norm multipliers that give all cuts their forces and move no body, and have nothing to do with linear(): what else
-  /// drives the problem. Null if no cut is tightened to a force.
-  const Vector* pull() const { return pull_.get(); }
-  /// The shortening of each of constraints().cuts, given or found.
+  int kernel_dimension() const { return system_.clusters.kernel_dimension(); }
+  /// The least-norm multipliers that give all pretension sections their forces and move no body, and have nothing to do with
+  /// linear(): what else drives the problem. Null if no pretension section is tightened to a force.
+  const Vector* pretension_multipliers() const { return pretension_multipliers_.get(); }
+  /// The shortening of each of constraints().pretension_sections, given or found.
   std::vector<double> shortenings(const Eigen::VectorXd& nu) const;
 
   /// The force of each owned row: what it does to the bodies, for multipliers `lambda` of the scaled rows.
@@ -81,40 +83,40 @@ class DualProblem {
   Vector multipliers(const Eigen::VectorXd& forces) const;
   /// row . u of each owned row as it was given, a length. Collective.
   Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
-  /// The force that bounds the tangential one of a contact point, where it is closed: 0 without friction, infinite if it sticks.
+  /// The force that bounds the tangential one of a contact node, where it is closed: 0 without friction, infinite if it sticks.
   double slip_bound(std::size_t point) const;
 
   /// u of every subdomain. Collective.
   std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;
-  /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers run away.
+  /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers are unbounded.
   /// Collective.
-  std::string runaway(const Eigen::VectorXd& nu) const;
+  std::string unbounded_rigid_mode(const Eigen::VectorXd& nu) const;
   /// What the gauges of motions hold against that nothing resists but facets: the sum of their forces on the bodies. Collective.
   Point gauge_force(const Vector& lambda) const;
   /// ||K u + B'lambda + B0'mu - f|| / (||f|| + ||B'lambda||) over all subdomains, B0'mu the forces inside clusters. Collective.
   double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const;
 
  private:
-  void settle_free_motions(const partition::NodeDirectory& directory, const partition::Interface& interface,
-                           std::span<const constraint::Slide> slides, const Context& context);
+  void gauge_rigid_modes(const partition::NodeDirectory& directory, const partition::Interface& interface,
+                         std::span<const constraint::SlidingSurface> sliding_surfaces, const Context& context);
   void make_equality(SparseMatrix g);
-  Eigen::Index tightened() const;  // cuts with a force
+  Eigen::Index tightened() const;  // pretension sections with a force
   void make_set();
   void make_rhs();
   static bool driven(const FreeMotion& motion, double work);
 
   const partition::Decomposition& decomposition_;
   constraint::Constraints constraints_;
-  const Floating& floating_;
+  const SubdomainSystem& system_;
   std::vector<Eigen::VectorXd> load_;
   const Communicator& comm_;
   std::unique_ptr<JumpOperator> jump_;
   std::unique_ptr<DualOperator> hessian_;
   std::unique_ptr<Preconditioner> preconditioner_;
-  std::unique_ptr<Vector> linear_, pull_;
+  std::unique_ptr<Vector> linear_, pretension_multipliers_;
   std::unique_ptr<qp::EqualityConstraint> equality_;
   qp::FeasibleSet set_;
-  std::vector<PointRows> points_;
+  std::vector<NodeRows> node_rows_;
   std::vector<FreeMotion> gauged_;
 };
 

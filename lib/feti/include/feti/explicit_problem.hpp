@@ -6,7 +6,7 @@
 
 namespace mortise::feti {
 
-class HeldElimination;
+class DirichletElimination;
 
 /// Rows of supports along axes that are not worth an elimination. It costs figures where F is large beside what balanced forces
 /// do, as that of a thin plate is: products with F, to which a solution is shown, have the rounding of another factor.
@@ -14,7 +14,7 @@ constexpr Global few_supports = 2000;
 
 /// F and G on rank 0 over the rows that are left when supports along axes are eliminated; of use where these are some thousand.
 /// As an operator it is F^-1, the best of all preconditioners. Heavy: neither copies nor moves.
-class ExplicitProblem : public qp::FacePreconditioner {
+class ExplicitProblem : public qp::ActiveSetPreconditioner {
  public:
   /// If there are more than `few` supports along axes, factorizes each subdomain that has any with them, and solves for the
   /// columns of its inverse times B', as many as its other rows of B. Not for clusters of several subdomains. The problem
@@ -26,10 +26,10 @@ class ExplicitProblem : public qp::FacePreconditioner {
   struct Result {
     Vector x;
     Eigen::VectorXd nu;
-    bool settled = false;
+    bool converged = false;
     int steps = 0;
   };
-  /// The solution with the loads, bounds and given slip bounds that the problem has by now, exact to rounding if `settled`.
+  /// The solution with the loads, bounds and given slip bounds that the problem has by now, exact to rounding if `converged`.
   /// Collective.
   Result solve() const;
 
@@ -45,7 +45,7 @@ class ExplicitProblem : public qp::FacePreconditioner {
   Vector from_root(std::vector<double> all) const;
 
   const DualProblem& problem_;
-  std::unique_ptr<const HeldElimination> held_;
+  std::unique_ptr<const DirichletElimination> elimination_;
   std::unique_ptr<qp::CondensedNewton> newton_;  // rank 0
 };
 

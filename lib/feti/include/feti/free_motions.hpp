@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "constraint/slide.hpp"
+#include "constraint/sliding_surface.hpp"
 #include "feti/coarse_problem.hpp"
 
 namespace mortise::feti {
@@ -30,37 +30,40 @@ struct BodyFrame {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< principal axes of its nodes, as columns
   Point arms = Point::Ones();                          ///< root mean square distance of its nodes from each axis
 };
+/// One for each body of the catalogue. Collective.
 std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition, const Communicator& comm);
 
-/// Part of `coordinates` (kernels of all clusters) that is a rigid motion of the body, by least squares.
+/// Part of `coordinates` (kernels of all clusters) that is a rigid motion of the body, by least squares. Collective.
 RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
                        const BodyFrame& frame, int body, const Eigen::VectorXd& coordinates, const Communicator& comm);
 
 /// A set of bodies that move together; |v| is at most about 1 on each.
 struct FreeMotion {
   std::vector<RigidMotion> motions;
-  double felt = 0;  ///< the largest |row . v| over all rows, 0 for a motion that is exactly free
+  double resistance = 0;  ///< the largest |row . v| over all rows, 0 for a motion that is exactly free
   /// Surfaces in contact slide along themselves: rows feel nothing of it but the facets of the mesh, and `felt` is the root mean
   /// square of what is left without them.
-  bool slideway = false;
+  bool sliding = false;
   double work = 0;  ///< of loads and preloads on it, relative to the sum of the nodal forces and preloads on its bodies
 };
 
 /// Finds them from the support and contact rows of `jump` (G of coarse_rows): body by body, with all other bodies at rest, where
 /// also motions count that let surfaces slide along themselves, whatever their facets resist, and those that are nearly free
-/// (every row feels less than a few per cent of them); then those of several bodies together, which must be exactly free. A cut
-/// that is tightened to a force lets its two sides move towards each other. Collective.
+/// (every row feels less than a few per cent of them); then those of several bodies together, which must be exactly free. A
+/// pretension section that is tightened to a force lets its two sides move towards each other. Collective.
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
-                                          const constraint::Contacts& contacts, std::span<const constraint::Cut> cuts,
-                                          std::span<const constraint::Slide> slides, const std::vector<Eigen::VectorXd>& load,
-                                          const Communicator& comm);
+                                          const constraint::Contacts& contacts,
+                                          std::span<const constraint::PretensionSection> pretension_sections,
+                                          std::span<const constraint::SlidingSurface> sliding_surfaces,
+                                          const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
 
 /// FreeMotion::work of other loads. Collective.
 double work(const FreeMotion& motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,
             const Communicator& comm);
 
-/// The equality row that says that the mean of the motion, weighted with the stiffness of the nodes, is zero.
+/// The equality row that says that the mean of the motion, weighted with the stiffness of the nodes, is zero: D v / ||v||_D,
+/// v the motion at all unknowns, a unit vector in D^-1. Collective.
 SubdomainRow gauge(const FreeMotion& motion, const partition::Decomposition& decomposition,
                    const std::vector<std::vector<double>>& nodal_stiffness, const Communicator& comm);
 

@@ -4,7 +4,7 @@
 // copies q < k and -a (w_1 + .. + w_k) at the copy after them, which makes the rows orthonormal in the inner product of D^-1, D =
 // diag(w). Supports and contacts act on the average of the copies with weights w_q / sum w, and are therefore D^-1-orthogonal to
 // the gluing rows. Each such row is multiplied by a factor `scale` that makes it a unit vector in D^-1 as well (one factor for
-// all rows of a contact point, so that discs stay discs). This keeps the dual operator well conditioned when the stiffness jumps
+// all rows of a contact node, so that discs stay discs). This keeps the dual operator well conditioned when the stiffness jumps
 // by 1e6.
 #pragma once
 
@@ -27,18 +27,18 @@ struct SubdomainRow {
 /// Heavy: moves, does not copy.
 class JumpOperator {
  public:
-  /// `held`, `inclined` and `contacts`: this rank's rows. Owned rows are numbered on each rank: gluing, held (inclined ones
-  /// last), contacts, extra. Collective.
+  /// `prescribed`, `skew_supports` and `contacts`: this rank's rows. Owned rows are numbered on each rank: gluing, Dirichlet
+  /// (skew ones last), contacts, extra. Collective.
   JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
-               const partition::Interface& interface, std::span<const constraint::Held> held,
-               std::span<const constraint::Inclined> inclined, const constraint::Contacts& contacts,
+               const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
+               std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
                std::span<const SubdomainRow> extra, const Communicator& comm);
 
   /// The dual space: each row on one rank.
   Teuchos::RCP<const Map> rows() const { return rows_; }
   /// First owned local index of each kind; kinds are contiguous.
   struct Ranges {
-    Local gluing = 0, held = 0, contacts = 0, extra = 0, end = 0;
+    Local gluing = 0, dirichlet = 0, contacts = 0, extra = 0, end = 0;
   };
   const Ranges& ranges() const { return ranges_; }
   /// Global numbers of the contact rows of all ranks: first, and one past the last.
@@ -56,8 +56,8 @@ class JumpOperator {
   /// c, scaled, of the owned rows: B u = c, B u <= c.
   const Eigen::VectorXd& bound() const { return bound_; }
   /// c anew, of the same rows with other bounds.
-  void renew_bounds(std::span<const constraint::Held> held, std::span<const constraint::Inclined> inclined,
-                    const constraint::Contacts& contacts);
+  void update_rhs(std::span<const constraint::PrescribedDof> prescribed, std::span<const constraint::SkewSupport> skew_supports,
+                  const constraint::Contacts& contacts);
 
   /// f_s = B_s' lambda for each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> apply_transpose(const Vector& lambda) const;

@@ -3,8 +3,8 @@
 //     M = C B D^-1 S D^-1 B' C,   C = (B D^-1 B')^-1,
 //
 // where D is the stiffness of the nodes, so that M F is near the identity (B is orthonormal in D^-1, and C the identity, but for
-// contact rows that share nodes; of these only those that are free on the face at hand count) [Klawonn and Widlund, Comm. Pure
-// Appl. Math. 54 (2001)], and S acts on the nodes of each subdomain that rows of B touch: their block K_bb of the stiffness
+// contact rows that share nodes; of these only those that are free on the active set at hand count) [Klawonn and Widlund, Comm.
+// Pure Appl. Math. 54 (2001)], and S acts on the nodes of each subdomain that rows of B touch: their block K_bb of the stiffness
 // matrix (lumped) or the Schur complement K_bb - K_bi K_ii^-1 K_ib (Dirichlet; free surfaces move like the inside, or thin parts
 // would seem as stiff as with K_bb) [Farhat and Roux, Int. J. Numer. Methods Eng. 32 (1991); Farhat, Mandel and Roux, Comput.
 // Methods Appl. Mech. Eng. 115 (1994)].
@@ -23,7 +23,7 @@ namespace mortise::feti {
 class ContactGram;
 
 /// Refers to `jump`, `subdomains` and `nodal_stiffness`, which outlive it.
-class Preconditioner : public qp::FacePreconditioner {
+class Preconditioner : public qp::ActiveSetPreconditioner {
  public:
   enum class Kind { lumped, dirichlet };
   /// nodal_stiffness[s][n]: D. `factorization`: of K_ii, one of direct_solvers(). Throws as DirectSolver.

@@ -18,6 +18,7 @@ namespace mortise::feti {
 class SubdomainOperator {
  public:
   virtual ~SubdomainOperator() = default;
+  /// Unknowns: dimension * nodes.
   virtual int size() const = 0;
   /// R, size() x dim Ker K, orthonormal columns.
   virtual const Eigen::MatrixXd& kernel() const = 0;
@@ -27,15 +28,16 @@ class SubdomainOperator {
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
   /// The lower triangle of a positive definite matrix whose inverse K^+ is.
   virtual SparseMatrix regularised() const = 0;
-  /// The lower triangle of K, for preconditioners; of a turned copy, that of its original.
+  /// The lower triangle of K, for preconditioners; of a rotated copy, that of its original.
   virtual const SparseMatrix& stiffness() const = 0;
+  /// Bytes of its own factor; 0 for a rotated copy, which uses that of its original.
   virtual std::size_t factor_bytes() const = 0;
 
-  /// What a turned copy is a copy of: K = T K_original T', T a rotation of every node. Itself for others.
+  /// What a rotated copy is a copy of: K = T K_original T', T a rotation of every node. Itself for others.
   virtual const SubdomainOperator& original() const { return *this; }
   /// T' v and T v in place; nothing where there is no T.
-  virtual void turn_back(Eigen::VectorXd&) const {}
-  virtual void turn(Eigen::VectorXd&) const {}
+  virtual void rotate_back(Eigen::VectorXd&) const {}
+  virtual void rotate(Eigen::VectorXd&) const {}
 };
 
 /// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Copies by translation have the same one.
@@ -74,11 +76,11 @@ class ElasticSubdomain : public SubdomainOperator {
   std::unique_ptr<DirectSolver> solver_;
 };
 
-/// A copy of another subdomain, turned by a rotation of space: its vectors are turned back, go through the original's factor and
-/// are turned again.
-class TurnedSubdomain : public SubdomainOperator {
+/// A copy of another subdomain, rotated in space: its vectors are rotated back, go through the original's factor and
+/// are rotated again.
+class RotatedSubdomain : public SubdomainOperator {
  public:
-  TurnedSubdomain(std::shared_ptr<const SubdomainOperator> original, const Eigen::Matrix3d& rotation, int dimension);
+  RotatedSubdomain(std::shared_ptr<const SubdomainOperator> original, const Eigen::Matrix3d& rotation, int dimension);
 
   int size() const override { return original_->size(); }
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
@@ -88,8 +90,8 @@ class TurnedSubdomain : public SubdomainOperator {
   const SparseMatrix& stiffness() const override { return original_->stiffness(); }
   std::size_t factor_bytes() const override { return 0; }
   const SubdomainOperator& original() const override { return *original_; }
-  void turn_back(Eigen::VectorXd& v) const override;
-  void turn(Eigen::VectorXd& v) const override;
+  void rotate_back(Eigen::VectorXd& v) const override;
+  void rotate(Eigen::VectorXd& v) const override;
 
  private:
   std::shared_ptr<const SubdomainOperator> original_;

@@ -1,9 +1,9 @@
-// Friction: where the slip bounds of the contact points come from, and the fixed point that Coulomb's law needs.
+// Friction: where the slip bounds of the contact nodes come from, and the fixed point that Coulomb's law needs.
 //
 // Tresca: the bound of a point is a given traction times its area; one quadratic programme gives the answer. Coulomb: the bound
 // is the coefficient times the point's normal force, which is found by repeating Tresca problems, each solved only as exactly as
 // the bounds are known and started from the one before. A solver that can follow a slip law by itself (qp::SlipLaw) is asked for
-// bounds and forces together first; the fixed point goes on where that does not settle. The first step lets every Coulomb point
+// bounds and forces together first; the fixed point goes on where that does not converge. The first step lets every Coulomb point
 // stick, so that a floating body that is pushed sideways has an equilibrium from the start; a later load step begins with the
 // bounds that the one before ended with.
 #pragma once
@@ -15,8 +15,8 @@
 
 #include "feti/dual_problem.hpp"
 #include "friction/law.hpp"
-#include "friction/open_points.hpp"
 #include "friction/options.hpp"
+#include "friction/unresolved_nodes.hpp"
 #include "qp/options.hpp"
 #include "qp/solver.hpp"
 
@@ -27,9 +27,9 @@ struct Result {
   int steps = 1;      ///< Tresca problems solved
   double change = 0;  ///< relative, of the slip bounds in the last step
   bool converged = false;
-  std::string limit = {};   ///< the key of the deck that ended it before, if one did, and a remark
-  bool gave_up = false;     ///< patience ended, and it might go on
-  int multiplications = 0;  ///< of this load step
+  std::string limit = {};  ///< the key of the deck that ended it before, if one did, and a remark
+  bool gave_up = false;    ///< patience ended, and it might go on
+  int applications = 0;    ///< of this load step
   int preconditionings = 0;
   int outer_iterations = 0;               ///< of all Tresca problems
   std::vector<Undecided> undecided = {};  ///< what the stop left open
@@ -48,7 +48,7 @@ struct Accuracy {
 
 class StateRecord;
 
-/// A sequence of load steps on one dual problem, which may be renewed between them: what was learnt about F stays.
+/// A sequence of load steps on one dual problem, which may get other right-hand sides between them: recycled directions stay.
 class Solver {
  public:
   /// The problem outlives it. laws[c] is that of contact c. `patience`: products after which each solve gives up; it then also
@@ -64,7 +64,7 @@ class Solver {
   /// how. Collective.
   Result solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer);
   /// Of all solves, also of one that threw.
-  int multiplications() const { return hessian_.count(); }
+  int applications() const { return hessian_.count(); }
 
  private:
   struct Run;
@@ -77,7 +77,7 @@ class Solver {
   void admit(Run& run);
   void fixed_point(Run& run);
   void note(const Run& run, const qp::Progress& progress);
-  void tell_what_is_open(Result& result);
+  void report_unresolved_nodes(Result& result);
 
   feti::DualProblem& problem_;
   std::vector<Law> laws_;

@@ -1,4 +1,4 @@
-// Laws of friction: the slip bounds of contact points.
+// Laws of friction: the slip bounds of contact nodes.
 #pragma once
 
 #include <vector>

@@ -24,12 +24,15 @@ class RawFile {
     create,  ///< anew; whatever has the name is removed first
     open     ///< it is there already
   };
+  /// Throws, as all members do.
   RawFile(const std::string& path, Mode mode);
   RawFile(const RawFile&) = delete;
   RawFile& operator=(const RawFile&) = delete;
   ~RawFile();
 
+  /// All `bytes` of `data` from `offset` (bytes) on; the file grows where needed.
   void write(const void* data, std::size_t bytes, std::size_t offset);
+  /// The file has so many bytes from now on; new ones are zero.
   void resize(std::size_t bytes);
   /// Waits for the disk, which may only now say that it is full.
   void sync();

@@ -17,10 +17,11 @@ Catalogue block_catalogue(const Options& options, int dimension);
 /// quadrilaterals are whole grid cells; tetrahedra make six of one, around its diagonal; prisms and triangles two.
 Mesh generate(const Options& options, int dimension, int block, std::array<int, 3> first, std::array<int, 3> last);
 
-/// The numbers of the `block`-th block's first node and cell; those of the block after the last are the totals.
+/// The numbers of a block's first node and cell.
 struct First {
   Global node = 0, cell = 0;
 };
+/// Those of the `block`-th block; of the block after the last they are the totals.
 First first_numbers(const Options& options, int dimension, int block);
 
 /// Grid cells an axis of the `block`-th block; the third is 1 in 2D.

@@ -44,7 +44,9 @@ int node_count(CellType type);         ///< nodes a cell
 int corner_count(CellType type);       ///< nodes of the first-order cell of that shape
 CellType first_order(CellType type);   ///< hex8 for hex27
 std::string_view name(CellType type);  ///< "hex8", as the deck spells it
+/// The type that the deck spells so; nothing if there is none.
 std::optional<CellType> cell_type(std::string_view name);
+/// The faces (2D: edges) of a cell; none of a line.
 const std::vector<Face>& faces(CellType type);
 
 /// For each node after the corners the corners that it lies amid: two for an edge, four for a face, eight for a cell. Ascending.
@@ -58,11 +60,13 @@ struct Cells {
   std::vector<Local> offset{0};
   std::vector<Local> nodes;
 
+  /// Cells; the nodes of the i-th one.
   std::size_t size() const { return type.size(); }
   std::span<const Local> operator[](std::size_t i) const
   {
     return {nodes.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
   }
+  /// One more cell, with node_count(cell_type) nodes.
   void add(CellType cell_type, std::span<const Local> cell_nodes)
   {
     type.push_back(cell_type);

@@ -56,7 +56,7 @@ void describe(deck::Description<RotationOptions>& d);
 void describe(deck::Description<InstanceOptions>& d);
 
 /// A body of the assembly as a copy of a body of the parts.
-struct Placed {
+struct PartInstance {
   int part;                       ///< index into the parts' bodies
   std::optional<Motion> motion;   ///< none: it is the part
   Global node_shift, cell_shift;  ///< to be added to the part's numbers
@@ -65,8 +65,8 @@ struct Placed {
 
 /// The assembly that is made of the parts.
 struct Layout {
-  Catalogue catalogue;         ///< of the assembly: its first boundaries are those of the parts
-  std::vector<Placed> bodies;  ///< for each body of `catalogue`
+  Catalogue catalogue;               ///< of the assembly: its first boundaries are those of the parts
+  std::vector<PartInstance> bodies;  ///< for each body of `catalogue`
 };
 
 /// `instances`: the motions by group. Instance i (from 1) of the group "roller" is the body "roller.i" (parts of it, if the group
@@ -80,6 +80,6 @@ Layout lay_out(Catalogue parts, const std::map<std::string, std::vector<Motion>>
                const std::set<std::pair<int, int>>& on_part);
 
 /// A piece of a part as a piece of the assembly's body number `body`.
-Mesh place(Mesh piece, const Placed& placed, int body);
+Mesh instantiate(Mesh piece, const PartInstance& instance, int body);
 
 }  // namespace mortise::mesh

@@ -27,6 +27,7 @@ class ShapeFunctions {
   Eigen::MatrixXd coefficients_;  // functions x monomials
 };
 
+/// Made once for each type, and shared.
 const ShapeFunctions& shape_functions(CellType type);
 
 }  // namespace mortise::mesh

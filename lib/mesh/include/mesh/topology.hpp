@@ -30,6 +30,7 @@ struct Neighbours {
     return {cells.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
   }
 };
+/// Of all cells of one mesh; the graph that partitions are cut from.
 Neighbours face_neighbours(const Cells& cells);
 
 /// Connected parts of the graph, where cells are connected only if `label` agrees: the part of each cell, numbered in the order

@@ -13,12 +13,13 @@ namespace mortise::model {
 /// Replaces the entry {auto: true} of `contacts`, if there is one, by a contact for each pair of bodies and patch found, and adds
 /// their faces to the decomposition as boundaries `contact.secondary` and `contact.primary`. Returns what was found, in the order
 /// of these contacts. Errors go to the document. Collective.
-std::vector<contact::Meeting> resolve_auto(const Deck& deck, Contacts& contacts, deck::Document& document,
-                                           partition::Decomposition& decomposition, const Context& context);
+std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& contacts, deck::Document& document,
+                                                    partition::Decomposition& decomposition, const Context& context);
 
 /// Lists what was found, or warns if there is nothing; no line if the deck has no such entry. A run lists the first ones, --check
 /// `all`. Collective.
-void print_meetings(const std::vector<contact::Meeting>& meetings, const Deck& deck, const Contacts& contacts,
-                    const partition::Decomposition& decomposition, bool all, const Context& context);
+void print_contact_candidates(const std::vector<contact::ContactCandidate>& candidates, const Deck& deck,
+                              const Contacts& contacts, const partition::Decomposition& decomposition, bool all,
+                              const Context& context);
 
 }  // namespace mortise::model

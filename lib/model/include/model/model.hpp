@@ -63,7 +63,7 @@ class Model {
   Facts facts(const std::string& boundary, const Communicator& comm) const;
   std::vector<contact::Pair> contact_pairs(const LoadState& state) const;
   std::vector<friction::Law> friction_laws() const;
-  /// Of the preloaded contacts. Those that are locked are held at `shortenings`, one for each, of the state before.
+  /// Of the preloaded contacts. Those that are locked are prescribed at `shortenings`, one for each, of the state before.
   std::vector<constraint::Preload> preloads(const LoadState& state, const std::vector<double>& shortenings) const;
 
  private:
@@ -72,7 +72,7 @@ class Model {
     std::vector<bool> on_body;
   };
   Selection select(const std::string& name) const;
-  std::vector<bool> bodies_called(const std::string& name) const;
+  std::vector<bool> bodies_named(const std::string& name) const;
   double radius(const Communicator& comm) const;
   void require_formulations(deck::Document& document) const;
   void require_axis(deck::Document& document, double rounding) const;

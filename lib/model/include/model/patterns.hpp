@@ -14,10 +14,10 @@ bool is_pattern(const std::string& name);
 /// Whether `text` is `pattern` with some text for every `*`.
 bool matches(const std::string& pattern, const std::string& text);
 /// What stands for the only `*` of the pattern, if `text` matches it.
-std::optional<std::string> text_for_star(const std::string& pattern, const std::string& text);
+std::optional<std::string> wildcard_text(const std::string& pattern, const std::string& text);
 
 /// Whether a body is meant by a name: its own, that of its instance or of its group, or a pattern that one of these matches.
-bool is_called(const mesh::Body& body, const std::string& name);
+bool matches_name(const mesh::Body& body, const std::string& name);
 
 /// The contacts of the deck, one with wild cards as one for each match. Of supports and loads every pattern becomes a boundary of
 /// the decomposition that has the pattern's name and all faces of all matches, once each. Patterns are compared with the

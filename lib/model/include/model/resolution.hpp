@@ -11,7 +11,7 @@ namespace mortise::model {
 struct Resolution {
   partition::Decomposition decomposition;  ///< with a boundary for each pattern, and two for each contact that was found
   Contacts contacts;
-  std::vector<contact::Meeting> found;  ///< by `contacts: auto`
+  std::vector<contact::ContactCandidate> found;  ///< by `contacts: auto`
 };
 
 /// Wild cards and `contacts: auto` on the mesh of `decomposition`. Throws Error(bad_input) with all errors of the document, those

@@ -32,7 +32,7 @@ struct LoadState {
   std::string step;                            ///< name of its step; empty if the deck has none
   double time = 1;                             ///< steps done so far; 0.5 half way through the first
   std::vector<double> load, support, contact;  ///< factors; 0 for a load that is off
-  std::vector<bool> held;                      ///< of each support: whether it acts
+  std::vector<bool> acting;                    ///< of each support: whether it acts
   std::vector<bool> locked;                    ///< of each contact: a preloaded bolt keeps the length it has
 };
 

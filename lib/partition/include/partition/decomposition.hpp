@@ -22,9 +22,12 @@ struct Decomposition {
   /// cluster_count() + 1. Without clusters each subdomain is one of its own.
   std::vector<Global> clusters;
 
+  /// Over all ranks.
   Global subdomain_count() const { return first.back(); }
   Global cluster_count() const { return static_cast<Global>(clusters.size()) - 1; }
+  /// Whether some cluster has several subdomains.
   bool clustered() const { return cluster_count() < subdomain_count(); }
+  /// The rank that owns a subdomain.
   int rank_of(Global subdomain) const;
 };
 

@@ -24,8 +24,7 @@ class NodeDirectory {
   /// Collective.
   NodeDirectory(const Decomposition& decomposition, const std::vector<std::vector<double>>& weight, const Communicator& comm);
 
-  /// The copies of each of `nodes`, ascending by subdomain; empty for a node that has no entry. The result for nodes[i] is
-  /// copies[offset[i]] .. copies[offset[i+1]]. Collective.
+  /// Copies of several nodes, in compressed rows: those of the i-th node are copies[offset[i] .. offset[i+1]).
   struct Found {
     std::vector<std::size_t> offset;
     std::vector<Copy> copies;
@@ -34,6 +33,7 @@ class NodeDirectory {
       return std::span(copies).subspan(offset[i], offset[i + 1] - offset[i]);
     }
   };
+  /// The copies of each of `nodes`, ascending by subdomain; none for a node that has no entry. Collective.
   Found find(std::span<const Global> nodes, const Communicator& comm) const;
   /// surface_nodes() of this rank's s-th subdomain.
   const std::vector<Local>& surface(std::size_t s) const { return surface_[s]; }
@@ -52,7 +52,7 @@ struct Interface {
   std::vector<std::vector<Local>> nodes;     ///< for each local subdomain, ascending
   std::vector<NodeDirectory::Found> copies;  ///< for each local subdomain, for each of its `nodes`
 };
-/// Collective.
+/// Of all subdomains of this rank. Collective.
 Interface find_interface(const Decomposition& decomposition, const NodeDirectory& directory, const Communicator& comm);
 
 /// Adds up the rows of the copies of a node: afterwards every copy of a node has in its row the sum over all copies. The sum is

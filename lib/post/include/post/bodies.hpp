@@ -16,6 +16,7 @@ struct Found {
   double value = -std::numeric_limits<double>::infinity();
   Point at = Point::Zero();
 
+  /// Keeps the larger of the two.
   void take(double other, const Point& place)
   {
     if (other > value) *this = {other, place};

@@ -9,12 +9,12 @@
 namespace mortise::post {
 
 struct ContactResults {
-  std::vector<contact::PointState> points;      ///< of this rank's contact points
-  std::vector<contact::Resultant> resultants;   ///< of each contact
-  std::vector<contact::SurfaceState> surfaces;  ///< of each contact, its secondary side on this rank
-  std::vector<double> tensions;                 ///< of each contact: the largest tension, force over area at one point
-  double penetration = 0;                       ///< the largest, a length; bonded contacts aside
-  double work_of_gaps = 0;                      ///< sum of |gap * normal force|, which is zero in contact
+  std::vector<contact::ContactNodeState> points;  ///< of this rank's contact nodes
+  std::vector<contact::Resultant> resultants;     ///< of each contact
+  std::vector<contact::SurfaceState> surfaces;    ///< of each contact, its secondary side on this rank
+  std::vector<double> tensions;                   ///< of each contact: the largest tension, force over area at one point
+  double penetration = 0;                         ///< the largest, a length; bonded contacts aside
+  double work_of_gaps = 0;                        ///< sum of |gap * normal force|, which is zero in contact
 };
 
 /// At the multipliers lambda of rows and nu of kernels, `displacement` of each subdomain. Collective.

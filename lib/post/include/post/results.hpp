@@ -16,7 +16,7 @@ struct Results {
   ContactResults contact;
   std::vector<std::array<double, 3>> reactions;  ///< of each support
   Balance balance;
-  std::vector<double> shortenings;  ///< of each cut, given or found
+  std::vector<double> shortenings;  ///< of each pretension section, given or found
   Residuals residuals;
   double algebraic_error = 0;  ///< of the solver, relative, in the energy norm; NaN: not estimated
   MeshError mesh_error;
@@ -26,7 +26,7 @@ struct Results {
 /// A solved equilibrium. `displacement`: of each subdomain; `tolerance`: the deck's, 0 where it is auto.
 struct Equilibrium {
   const feti::DualProblem& problem;
-  const feti::Floating& floating;
+  const feti::SubdomainSystem& system;
   std::span<const contact::Pair> pairs;
   const friction::Result& solved;
   const std::vector<Eigen::VectorXd>& displacement;

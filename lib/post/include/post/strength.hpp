@@ -19,7 +19,8 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
                                      const Communicator& comm);
 
 /// The largest tension, force over area at one point, of each contact; 0 where none pulls. Collective.
-std::vector<double> largest_tensions(std::span<const contact::PointState> points, std::size_t contacts, const Communicator& comm);
+std::vector<double> largest_tensions(std::span<const contact::ContactNodeState> points, std::size_t contacts,
+                                     const Communicator& comm);
 
 /// What a support does, and what it lies on.
 struct SupportLoad {

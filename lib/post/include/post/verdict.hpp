@@ -34,6 +34,7 @@ struct Evidence : Residuals {
   Drift drift;
 };
 
+/// What a run may say of itself.
 struct Verdict {
   ExitStatus status = ExitStatus::solved;
   std::string headline;  ///< "Solved." or what it is instead

@@ -1,4 +1,4 @@
-// G D G', the matrix of the coarse problem on a face of Omega or at a point of a projection: D is the identity but for the
+// G D G', the matrix of the coarse problem on an active set of Omega or at a point of a projection: D is the identity but for the
 // unknowns with constraints.
 #pragma once
 
@@ -13,8 +13,8 @@ namespace mortise::qp {
 /// The unknowns of one constraint: one, two or three (others are -1).
 using BlockIndex = std::array<Local, 3>;
 
-/// One symmetric block of I - D: what a constraint takes away from its unknowns.
-struct LostBlock {
+/// One symmetric block of I - D, by which an active constraint downdates G G'.
+struct DowndateBlock {
   BlockIndex index{-1, -1, -1};
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
 };
@@ -23,13 +23,13 @@ struct LostBlock {
 /// factorization is that of a small dense Schur complement; with many the whole is factorized sparsely. Every rank holds it.
 class CoarseMatrix {
  public:
-  /// `blocks`: all that may be lost on this rank; parts of a block may. `equality` outlives it. Collective.
+  /// `blocks`: all that may be downdated on this rank; parts of a block may. `equality` outlives it. Collective.
   /// Above `largest_dense` touched rows, and where the sparse factor is the smaller one, it does not go by the Schur complement.
   CoarseMatrix(const EqualityConstraint& equality, std::span<const BlockIndex> blocks, int largest_dense = 2000);
 
   /// Factorizes G D G' + `regularisation` diag(G G') over the touched rows. Returns false if that is not positive definite.
-  /// `lost`: the blocks of this rank. Collective.
-  [[nodiscard]] bool factorize(std::span<const LostBlock> lost, double regularisation);
+  /// `downdates`: the blocks of this rank. Collective.
+  [[nodiscard]] bool factorize(std::span<const DowndateBlock> downdates, double regularisation);
   /// Of the matrix that was factorized last.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
 
@@ -37,12 +37,12 @@ class CoarseMatrix {
 
  private:
   void eliminate();
-  Eigen::VectorXd taken(std::span<const LostBlock> lost) const;
+  Eigen::VectorXd downdate(std::span<const DowndateBlock> downdates) const;
 
   const EqualityConstraint& equality_;
   SparseMatrix changing_;              // where G D G' may differ from G G': the pattern counts
   std::vector<int> touched_, others_;  // rows of G
-  std::vector<int> place_;             // of each row among `touched_`, -1 for the others
+  std::vector<int> position_;          // of each row among `touched_`, -1 for the others
   bool dense_ = true;
   SparseMatrix whole_, matrix_;       // sparse: G G' with room for what changes, and what is factorized
   std::vector<int> in_whole_;         // sparse: of each entry of changing_, where it stands in these

@@ -8,9 +8,9 @@
 // Stadler and Wohlmuth, SIAM J. Sci. Comput. 30 (2008)]: guess the state of every constraint, solve the linear problem that is
 // left, guess again. Radii of discs with a coefficient follow their normal unknown: Coulomb's law is solved as a whole.
 //
-// Guesses can take turns for ever, where friction passes forces on from point to point. So if they do not settle at once, contact
-// becomes soft first, W + a D with the compliance D of each unknown alone, and hardens again: a soft contact is settled in three
-// steps from anywhere, and each next one in as many from there.
+// Guesses can take turns for ever, where friction passes forces on from point to point. So if they do not converge at once,
+// contact becomes soft first, W + a D with the compliance D of each unknown alone, and hardens again: a soft contact has
+// converged in three steps from anywhere, and each next one in as many from there.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -25,7 +25,7 @@ struct ConstraintStates;
 /// What is left when unknowns without a constraint are eliminated.
 struct CondensedMatrices {
   Eigen::MatrixXd w, h, c;
-  Eigen::VectorXd own;  ///< compliance of each unknown if all others are held: 1 / (W^-1)_ii
+  Eigen::VectorXd own;  ///< compliance of each unknown if all others are fixed: 1 / (W^-1)_ii
 };
 
 /// On one rank alone. Heavy: moves, does not copy.
@@ -37,9 +37,9 @@ class CondensedNewton {
   CondensedNewton(Eigen::MatrixXd a, Eigen::MatrixXd g, Eigen::MatrixXd c, const FeasibleSet& set);
 
   struct Point {
-    Eigen::VectorXd x, nu;  ///< A x - b + G'nu in the normal cone of -Omega, G x - C_0 nu = e
-    bool settled = false;   ///< to rounding; else the last guess
-    int steps = 0;          ///< linear problems solved
+    Eigen::VectorXd x, nu;   ///< A x - b + G'nu in the normal cone of -Omega, G x - C_0 nu = e
+    bool converged = false;  ///< to rounding; else the last guess
+    int steps = 0;           ///< linear problems solved
   };
   /// For the linear term b and the right-hand side e.
   Point solve(const Eigen::VectorXd& b, const Eigen::VectorXd& e, const FeasibleSet& set) const;
@@ -47,7 +47,7 @@ class CondensedNewton {
   Eigen::VectorXd inverse_times(const Eigen::VectorXd& r) const;
 
  private:
-  static bool settle(const CondensedProgramme& programme, ConstraintStates& states, Point& point);
+  static bool iterate(const CondensedProgramme& programme, ConstraintStates& states, Point& point);
   static bool harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
 
   std::vector<Local> constrained_, others_;  // unknowns

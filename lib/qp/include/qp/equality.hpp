@@ -21,10 +21,12 @@ class EqualityConstraint {
   /// rows of G are linearly dependent. Collective.
   EqualityConstraint(SparseMatrix g, Eigen::VectorXd e, const Communicator& comm);
 
+  /// Rows of G; e, whole on every rank.
   int size() const { return static_cast<int>(e_.size()); }
   const Eigen::VectorXd& right_side() const { return e_; }
   /// A new e for the same G, the same on every rank.
   void set_right_side(Eigen::VectorXd e) { e_ = std::move(e); }
+  /// The columns of G that belong to this rank's entries of x.
   const SparseMatrix& local() const { return g_; }
   const SparseMatrix& gram() const { return gram_; }  ///< lower triangle of G G', on every rank
   const Communicator& communicator() const { return comm_; }

@@ -13,10 +13,10 @@ namespace mortise::qp {
 /// with the radii that they have. Without a preconditioner r'r / norm, which is an estimate from below. Fixes other unknowns of
 /// the preconditioner. Collective.
 double error_bound(const Problem& problem, const Vector& x, const Projection& natural, double norm,
-                   FacePreconditioner* preconditioner);
+                   ActiveSetPreconditioner* preconditioner);
 
 /// The same of a solution whose `gradient` and `hessian_norm` are set. Collective.
-double error_bound(const Problem& problem, const Solution& solution, FacePreconditioner* preconditioner);
+double error_bound(const Problem& problem, const Solution& solution, ActiveSetPreconditioner* preconditioner);
 
 /// The square root of what rounding may make of energies: errors below it are none. Collective.
 double rounding_of_error(const Problem& problem, double norm);

@@ -28,9 +28,11 @@ struct Disc {
   Local normal = -1;       ///< Coulomb friction: the unknown that the radius follows,
   double coefficient = 0;  ///< radius = coefficient * x[normal], from one set of radii to the next
 
+  /// Unknowns: 1 or 2.
   int size() const { return index[1] < 0 ? 1 : 2; }
 };
 
+/// Omega over the unknowns of this rank. A value.
 class FeasibleSet {
  public:
   FeasibleSet() = default;
@@ -76,6 +78,7 @@ class FeasibleSet {
   struct Active {
     long long bounds = 0, discs = 0;
   };
+  /// Of this rank, at x in Omega.
   Active active(const Eigen::Ref<const Eigen::VectorXd>& x) const;
 
  private:

@@ -17,6 +17,7 @@ namespace mortise::qp {
 /// Products with the Hessian, counted: the figure by which solvers are compared.
 class Hessian {
  public:
+  /// `a` outlives it; `limit`: applications after which it is exhausted.
   explicit Hessian(const Operator& a, int limit) : a_(&a), limit_(limit) {}
   /// y = A x. Collective.
   void apply(const Vector& x, Vector& y)
@@ -24,6 +25,7 @@ class Hessian {
     ++count_;
     a_->apply(x, y);
   }
+  /// Applications so far, and whether the limit is reached; both the same on all ranks. It goes on to apply beyond the limit.
   int count() const { return count_; }
   bool exhausted() const { return count_ >= limit_; }
   void set_limit(int limit) { limit_ = limit; }
@@ -35,8 +37,8 @@ class Hessian {
   int count_ = 0;
 };
 
-/// An approximation of A^-1, symmetric positive semidefinite, that may adapt to the face it serves.
-class FacePreconditioner : public Operator {
+/// An approximation of A^-1, symmetric positive semidefinite, that may adapt to the active set it serves.
+class ActiveSetPreconditioner : public Operator {
  public:
   /// From now on the unknowns `fixed` of this rank are 0 in what it is applied to, and in what is used of the result. Collective.
   virtual void fix(std::span<const Local> fixed) = 0;
@@ -66,9 +68,9 @@ double relative_size(const Problem& problem, double tolerance);
 
 /// Where a solver stands, for the history and the progress line.
 struct Progress {
-  std::string what;  ///< norm, inner or outer: what has just been done; of face Newton, outer steps change the face
+  std::string what;  ///< norm, inner or outer: what has just been done; of face Newton, outer steps change the active set
   int outer = 0;
-  int multiplications = 0;
+  int applications = 0;
   double projected_gradient = 0;  ///< relative
   double equality = 0;            ///< relative; of face Newton, what the slip bounds would change
   double precision = 0;           ///< M of SMALSE-M

@@ -9,8 +9,8 @@ namespace mortise::qp {
 struct Projection {
   Vector point;         ///< in Omega; G point = e to rounding if `found`
   Vector argument;      ///< w = y - G' nu, of which `point` is the projection onto Omega: it tells the active constraints
-  Eigen::VectorXd nu;   ///< multiplier of G x = e, the same on every rank; if C is empty a direction along which it runs away
-  bool found = false;   ///< false: C is empty, or so nearly that the iteration did not settle
+  Eigen::VectorXd nu;   ///< multiplier of G x = e, the same on every rank; if C is empty a direction along which it is unbounded
+  bool found = false;   ///< false: C is empty, or so nearly that the iteration did not converge
   bool empty = false;   ///< not found, and nu proves it: points of C would be a million times larger than e and y
   double residual = 0;  ///< ||G point - e|| relative to ||e|| and ||y||, as EqualityConstraint::norm measures it
 };
@@ -41,7 +41,7 @@ class Projector {
   struct Evaluation;
   Evaluation evaluate(const Eigen::VectorXd& y, const Eigen::VectorXd& gy, Eigen::VectorXd nu, const FeasibleSet& set) const;
   double search(const Evaluation& now, const Evaluation& full, const Eigen::VectorXd& direction, const FeasibleSet& set) const;
-  std::vector<LostBlock> lost(const Eigen::VectorXd& w) const;
+  std::vector<DowndateBlock> downdates(const Eigen::VectorXd& w) const;
   double least_norm(const Eigen::VectorXd& nu, const Vector& like) const;
 
   const EqualityConstraint& equality_;

@@ -25,7 +25,7 @@ struct Goal {
   /// With an allowed error, whether the point x, which a solution differs from by about `change`, will do; asked where the error
   /// would. `argument` is that of the natural projection: how far it lies from the border of a constraint's half-line or disc
   /// tells how firmly its state is decided. Collective.
-  std::function<bool(const Vector& x, const Vector& argument, const Vector& change)> settled = {};
+  std::function<bool(const Vector& x, const Vector& argument, const Vector& change)> contact_converged = {};
   /// The size of what is solved for, in the norm of the error (that of A, as Solution::error). Asked for where a residual is
   /// small, since a small residual alone says little where A is badly conditioned; if absent, it is believed. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> energy_norm = {};

@@ -32,9 +32,9 @@ struct ExplicitProgramme {
   struct Point {
     Vector x;
     Eigen::VectorXd nu;
-    bool settled = false;  ///< exact to rounding; else the last guess
+    bool converged = false;  ///< exact to rounding; else the last guess
   };
-  std::shared_ptr<FacePreconditioner> inverse;  ///< A^-1
+  std::shared_ptr<ActiveSetPreconditioner> inverse;  ///< A^-1
   /// Solves with the linear term, right-hand side and set that the programme has by now; radii of discs with a coefficient follow
   /// their normal unknown. Collective.
   std::function<Point()> solve;
@@ -42,13 +42,13 @@ struct ExplicitProgramme {
 
 /// What a solver may use beside the problem.
 struct Means {
-  Budget& budget;                                ///< of products; it decides whether another algorithm may take over
-  FacePreconditioner* preconditioner = nullptr;  ///< if there is one
+  Budget& budget;                                     ///< of products; it decides whether another algorithm may take over
+  ActiveSetPreconditioner* preconditioner = nullptr;  ///< if there is one
   /// Makes the matrices of a direct solution, for the solver that needs them. Collective.
   std::function<ExplicitProgramme()> make_explicit = {};
 };
 
-/// Solves a sequence of similar problems, one after the other; what was learnt about A stays. Refers to the problem and its
+/// Solves a sequence of similar problems, one after the other; recycled directions stay. Refers to the problem and its
 /// means, which outlive it. A solution tells why it ended: converged; not feasible, proven or not; else the products ran out, or
 /// nothing became better.
 class Solver {
@@ -68,7 +68,7 @@ class Solver {
     return {};
   }
   /// The best approximation of A^-1 that it has; may be null.
-  virtual FacePreconditioner* preconditioner() = 0;
+  virtual ActiveSetPreconditioner* preconditioner() = 0;
 };
 
 /// One row of the table.

@@ -1,4 +1,4 @@
-#include "contact/slides.hpp"
+#include "contact/sliding_surfaces.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace mortise::contact {
 
 namespace {
 
-using constraint::Slide;
+using constraint::SlidingSurface;
 constexpr double kink = 0.77;  // cosine of the angle from which two faces at a node are an edge, as in patches.cpp
 
 struct Key {
@@ -88,7 +88,7 @@ struct Touch {
 std::vector<Touch> touches(const constraint::Contacts& contacts)
 {
   std::map<std::tuple<Global, int, int>, Point> sums;
-  for (const auto& point : contacts.points) {
+  for (const auto& point : contacts.nodes) {
     Global before = -1;
     for (const auto& entry : contacts.rows[point.row]) {
       const double sign = entry.coefficient * point.normal[entry.component];
@@ -194,7 +194,7 @@ std::vector<double> tilts(const std::vector<Face>& faces, bool solid, const Comm
 }
 
 // n . v of the six motions.
-Eigen::Matrix<double, 6, 1> normal_speed(const Slide& slide, const Point& x, const Point& normal)
+Eigen::Matrix<double, 6, 1> normal_speed(const SlidingSurface& slide, const Point& x, const Point& normal)
 {
   Eigen::Matrix<double, 6, 1> result;
   result << normal, (x - slide.centre).cross(normal) / slide.length;
@@ -202,7 +202,7 @@ Eigen::Matrix<double, 6, 1> normal_speed(const Slide& slide, const Point& x, con
 }
 
 // Sum of |v|^2 over the three axes as a form: of w x r it is |w|^2 |r|^2 - (w . r)^2.
-Slide::Form speed(const Slide& slide, const Point& x)
+SlidingSurface::Form speed(const SlidingSurface& slide, const Point& x)
 {
   const Point r = (x - slide.centre) / slide.length;
   Eigen::Matrix<double, 3, 6> v;
@@ -216,7 +216,7 @@ Slide::Form speed(const Slide& slide, const Point& x)
 constexpr int terms = 10;
 using Terms = Eigen::Matrix<double, terms, 1>;
 
-Terms polynomials(const Slide& slide, const Point& x)
+Terms polynomials(const SlidingSurface& slide, const Point& x)
 {
   const Point r = (x - slide.centre) / slide.length;
   Terms result;
@@ -230,7 +230,7 @@ constexpr double enough_faces = 20;
 struct Sums {
   Eigen::Matrix<double, terms, terms> gram = Eigen::Matrix<double, terms, terms>::Zero();
   Eigen::Matrix<double, terms, 6> mixed = Eigen::Matrix<double, terms, 6>::Zero();
-  Slide::Form whole = Slide::Form::Zero(), speed = Slide::Form::Zero();
+  SlidingSurface::Form whole = SlidingSurface::Form::Zero(), speed = SlidingSurface::Form::Zero();
 };
 static_assert(sizeof(Sums) == sizeof(double) * (100 + 60 + 72));
 
@@ -250,8 +250,8 @@ std::vector<Key> all_keys(const std::vector<Face>& faces, const Communicator& co
 
 }  // namespace
 
-std::vector<Slide> slides(std::span<const Pair> pairs, const constraint::Contacts& contacts, fem::Kinematics kinematics,
-                          const Communicator& comm)
+std::vector<SlidingSurface> sliding_surfaces(std::span<const Pair> pairs, const constraint::Contacts& contacts,
+                                             fem::Kinematics kinematics, const Communicator& comm)
 {
   const auto faces = touched(pairs, contacts, kinematics, comm);
   const auto tilt = tilts(faces, kinematics == fem::Kinematics::solid, comm);
@@ -274,10 +274,10 @@ std::vector<Slide> slides(std::span<const Pair> pairs, const constraint::Contact
     }
   }
   comm.sum_in_place({&extents.data()->area, extents.size() * 7});
-  std::vector<Slide> result;
+  std::vector<SlidingSurface> result;
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const auto& e = extents[k];
-    Slide slide;
+    SlidingSurface slide;
     slide.contact = keys[k].contact;
     slide.secondary = keys[k].side == 1;
     slide.body = keys[k].body;

@@ -1,4 +1,4 @@
-// The face of Omega that a projection has picked, and the linear algebra on it.
+// The active set that a projection has picked, and the linear algebra on the face of Omega that it leaves.
 //
 // Free are all unknowns without a constraint, those of a bound or a disc that the argument w lies inside of, and along a disc
 // that slips (||w - centre|| > radius) the tangent alone. Where w is outside a disc by r - radius after a gradient step of length
@@ -10,23 +10,26 @@
 
 namespace mortise::qp {
 
-class Face {
+/// Which constraints are active at a point, and the projectors onto what they leave free. Refers to the projector, which outlives
+/// it.
+class ActiveSet {
  public:
-  /// The face at `argument`, that of a projection by `projector`, after a gradient step of length `step`; `stiffness`, a tenth of
-  /// ||P A P||, is what curvatures are measured against. Distances from bounds below `faint` times the largest one count as none:
-  /// bodies that touch without force, like the idle rollers of a bearing, are projected to next to nothing, and where that is
-  /// free the face can pull at them. `coupled`: radii follow the discs' normal unknowns; then
-  /// what moves is T x, and what is felt of a gradient is what x feels, so that the face is not symmetric. Factorizes the coarse
+  /// The active set at `argument`, that of a projection by `projector`, after a gradient step of length `step`; `stiffness`, a
+  /// tenth of ||P A P||, is what curvatures are measured against. Distances from bounds below `active_set_tolerance` times the
+  /// largest one count as none: bodies that touch without force, like the idle rollers of a bearing, are projected to next to
+  /// nothing, and where that is free they could be given tension. `coupled`: radii follow the discs' normal unknowns; then what
+  /// moves is T x, and what is felt of a gradient is what x feels, so that the active set is not symmetric. Factorizes the coarse
   /// matrices, and is of use until somebody else does. Collective.
-  Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint, bool coupled = false);
+  ActiveSet(Projector& projector, const Vector& argument, double step, double stiffness, double active_set_tolerance,
+            bool coupled = false);
 
-  /// x becomes its free part, without held unknowns and with the tangents alone of discs that slip.
+  /// x becomes its free part, without constrained unknowns and with the tangents alone of discs that slip.
   void keep_free(Vector& x) const { restrict(x, 0); }
   /// x becomes x - T d, d its free part: how far it leads off the constraints. T d = d + coefficient d[normal] n at discs that
   /// slip in the direction n and follow a normal unknown.
-  void keep_held(Vector& x) const;
-  /// x becomes T d + held with G x = 0, d nearly its free part; `held` as keep_held() leaves it. Collective.
-  void project_trial(Vector& x, const Vector& held) const;
+  void keep_constrained(Vector& x) const;
+  /// x becomes T d + constrained with G x = 0, d nearly its free part; `constrained` as keep_constrained() leaves it. Collective.
+  void project_trial(Vector& x, const Vector& constrained) const;
 
   /// y += Sigma x.
   void add_curvature(const Vector& x, Vector& y) const;

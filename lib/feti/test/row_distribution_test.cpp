@@ -1,5 +1,5 @@
 // Two blocks of eight subdomains each, on top of each other: rows that stand on the ranks in turn find their subdomains.
-#include "feti/placement.hpp"
+#include "feti/row_distribution.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,9 +60,9 @@ struct Blocks {
 
   bool mine(std::size_t i) const { return static_cast<int>(i) % comm.size() == comm.rank(); }
 
-  std::vector<constraint::Held> held() const
+  std::vector<constraint::PrescribedDof> prescribed() const
   {
-    std::vector<constraint::Held> result;
+    std::vector<constraint::PrescribedDof> result;
     const auto nodes = nodes_of("lower.zmin");
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (int c = 0; c < 2; ++c)
@@ -70,9 +70,9 @@ struct Blocks {
     return result;
   }
 
-  std::vector<constraint::Inclined> inclined() const
+  std::vector<constraint::SkewSupport> skew_supports() const
   {
-    std::vector<constraint::Inclined> result;
+    std::vector<constraint::SkewSupport> result;
     const auto nodes = nodes_of("upper.xmin");
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (const double x : {0.6, -0.6})
@@ -80,8 +80,8 @@ struct Blocks {
     return result;
   }
 
-  // Node i of the upper block on node i of the lower one, with none, one or two tangents, and held entries that say whose they
-  // are.
+  // Node i of the upper block on node i of the lower one, with none, one or two tangents, and prescribed entries that say whose
+  // they are.
   constraint::Contacts contacts() const
   {
     constraint::Contacts contacts;
@@ -90,18 +90,18 @@ struct Blocks {
     for (std::size_t i = 0; i < above.size(); ++i) {
       if (!mine(i)) continue;
       const auto number = static_cast<double>(above[i]);
-      contacts.points.push_back({static_cast<int>(i % 2),
-                                 above[i],
-                                 1 + number,
-                                 Point(0, 0, -1),
-                                 {tangents.begin(), tangents.begin() + static_cast<std::ptrdiff_t>(i % 3)},
-                                 contacts.rows.size(),
-                                 2 + number,
-                                 3 + number,
-                                 Point(number, 0, 1)});
+      contacts.nodes.push_back({static_cast<int>(i % 2),
+                                above[i],
+                                1 + number,
+                                Point(0, 0, -1),
+                                {tangents.begin(), tangents.begin() + static_cast<std::ptrdiff_t>(i % 3)},
+                                contacts.rows.size(),
+                                2 + number,
+                                3 + number,
+                                Point(number, 0, 1)});
       contacts.bonded.push_back(i % 2 == 1);
       for (std::size_t r = 0; r <= i % 3; ++r) {
-        contacts.held.push_back({contacts.rows.size(), static_cast<int>(r), static_cast<int>(above[i]), number});
+        contacts.prescribed.push_back({contacts.rows.size(), static_cast<int>(r), static_cast<int>(above[i]), number});
         contacts.rows.entries.push_back({above[i], 2, 1.0});
         contacts.rows.entries.push_back({below[i], 2, -1.0});
         if (r > 0) contacts.rows.entries.push_back({below[i], 0, number});
@@ -112,58 +112,61 @@ struct Blocks {
   }
 };
 
-TEST(Placement, TheOwnerOfARowHoldsACopy)
+TEST(RowDistribution, TheOwnerOfARowHoldsACopy)
 {
   const Blocks blocks;
   const auto& [comm, decomposition, directory] = std::tie(blocks.comm, blocks.decomposition, *blocks.directory);
-  const auto held = place(blocks.held(), decomposition, directory, comm);
-  const auto inclined = place(blocks.inclined(), decomposition, directory, comm);
-  const auto contacts = place(blocks.contacts(), decomposition, directory, comm);
-  const JumpOperator jump(decomposition, directory, blocks.interface, held, inclined, contacts, {}, comm);
-  EXPECT_EQ(comm.sum(static_cast<long long>(held.size())), 2 * 25);
-  EXPECT_EQ(comm.sum(static_cast<long long>(inclined.size())), 2 * 25);
+  const auto prescribed = distribute_rows(blocks.prescribed(), decomposition, directory, comm);
+  const auto skew_supports = distribute_rows(blocks.skew_supports(), decomposition, directory, comm);
+  const auto contacts = distribute_rows(blocks.contacts(), decomposition, directory, comm);
+  const JumpOperator jump(decomposition, directory, blocks.interface, prescribed, skew_supports, contacts, {}, comm);
+  EXPECT_EQ(comm.sum(static_cast<long long>(prescribed.size())), 2 * 25);
+  EXPECT_EQ(comm.sum(static_cast<long long>(skew_supports.size())), 2 * 25);
   for (const Global row : jump.rows()->getNodeElementList()) EXPECT_TRUE(jump.touched_rows()->isNodeGlobalElement(row));
 }
 
-TEST(Placement, RowsOfANodeStandWithItsLowestSubdomain)
+TEST(RowDistribution, RowsOfANodeStandWithItsLowestSubdomain)
 {
   const Blocks blocks;
   const auto& comm = blocks.comm;
   std::vector<Global> nodes;
-  for (const auto& h : place(blocks.held(), blocks.decomposition, *blocks.directory, comm)) nodes.push_back(h.node);
-  for (const auto& i : place(blocks.inclined(), blocks.decomposition, *blocks.directory, comm)) nodes.push_back(i.node);
-  for (const auto& p : place(blocks.contacts(), blocks.decomposition, *blocks.directory, comm).points) nodes.push_back(p.node);
+  for (const auto& h : distribute_rows(blocks.prescribed(), blocks.decomposition, *blocks.directory, comm))
+    nodes.push_back(h.node);
+  for (const auto& i : distribute_rows(blocks.skew_supports(), blocks.decomposition, *blocks.directory, comm))
+    nodes.push_back(i.node);
+  for (const auto& p : distribute_rows(blocks.contacts(), blocks.decomposition, *blocks.directory, comm).nodes)
+    nodes.push_back(p.node);
   const auto copies = blocks.directory->find(nodes, comm);
   for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_EQ(blocks.decomposition.rank_of(copies[i][0].subdomain), comm.rank());
 }
 
-TEST(Placement, SupportsAreAscendingAndKeepTheOrderAtANode)
+TEST(RowDistribution, SupportsAreAscendingAndKeepTheOrderAtANode)
 {
   const Blocks blocks;
-  const auto held = place(blocks.held(), blocks.decomposition, *blocks.directory, blocks.comm);
-  EXPECT_TRUE(std::is_sorted(held.begin(), held.end(), [](const auto& a, const auto& b) {
+  const auto prescribed = distribute_rows(blocks.prescribed(), blocks.decomposition, *blocks.directory, blocks.comm);
+  EXPECT_TRUE(std::is_sorted(prescribed.begin(), prescribed.end(), [](const auto& a, const auto& b) {
     return std::tie(a.node, a.component) < std::tie(b.node, b.component);
   }));
-  for (const auto& h : held) EXPECT_EQ(h.value, 0.5 * h.component);
-  const auto inclined = place(blocks.inclined(), blocks.decomposition, *blocks.directory, blocks.comm);
-  ASSERT_EQ(inclined.size() % 2, 0U);
-  for (std::size_t i = 0; i < inclined.size(); i += 2) {
-    EXPECT_EQ(inclined[i].node, inclined[i + 1].node);
-    EXPECT_EQ(inclined[i].value, 0.6);
-    EXPECT_EQ(inclined[i + 1].value, -0.6);
+  for (const auto& h : prescribed) EXPECT_EQ(h.value, 0.5 * h.component);
+  const auto skew_supports = distribute_rows(blocks.skew_supports(), blocks.decomposition, *blocks.directory, blocks.comm);
+  ASSERT_EQ(skew_supports.size() % 2, 0U);
+  for (std::size_t i = 0; i < skew_supports.size(); i += 2) {
+    EXPECT_EQ(skew_supports[i].node, skew_supports[i + 1].node);
+    EXPECT_EQ(skew_supports[i].value, 0.6);
+    EXPECT_EQ(skew_supports[i + 1].value, -0.6);
   }
 }
 
-TEST(Placement, ContactPointsKeepTheirRows)
+TEST(RowDistribution, ContactPointsKeepTheirRows)
 {
   const Blocks blocks;
-  const auto contacts = place(blocks.contacts(), blocks.decomposition, *blocks.directory, blocks.comm);
-  EXPECT_EQ(blocks.comm.sum(static_cast<long long>(contacts.points.size())), 25);
-  EXPECT_EQ(contacts.bonded.size(), contacts.points.size());
-  EXPECT_EQ(contacts.held.size(), contacts.rows.size());
+  const auto contacts = distribute_rows(blocks.contacts(), blocks.decomposition, *blocks.directory, blocks.comm);
+  EXPECT_EQ(blocks.comm.sum(static_cast<long long>(contacts.nodes.size())), 25);
+  EXPECT_EQ(contacts.bonded.size(), contacts.nodes.size());
+  EXPECT_EQ(contacts.prescribed.size(), contacts.rows.size());
   std::size_t rows = 0;
-  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
-    const auto& point = contacts.points[i];
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
+    const auto& point = contacts.nodes[i];
     const auto number = static_cast<double>(point.node);
     EXPECT_EQ(point.row, rows);
     EXPECT_EQ(contacts.bonded[i], point.contact == 1);
@@ -181,9 +184,9 @@ TEST(Placement, ContactPointsKeepTheirRows)
       if (r > 0) {
         EXPECT_EQ(row[2].coefficient, number);
       }
-      EXPECT_EQ(contacts.held[rows].row, rows);
-      EXPECT_EQ(contacts.held[rows].component, static_cast<int>(r));
-      EXPECT_EQ(contacts.held[rows].support, static_cast<int>(point.node));
+      EXPECT_EQ(contacts.prescribed[rows].row, rows);
+      EXPECT_EQ(contacts.prescribed[rows].component, static_cast<int>(r));
+      EXPECT_EQ(contacts.prescribed[rows].support, static_cast<int>(point.node));
     }
     const std::vector<Point> tangents{Point(0.6, 0.8, 0), Point(0.8, -0.6, 0)};
     for (std::size_t t = 0; t < point.tangents.size(); ++t) EXPECT_EQ(point.tangents[t], tangents[t]);

@@ -1,4 +1,4 @@
-#include "open_points.hpp"
+#include "unresolved_nodes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,20 +12,20 @@ namespace mortise::friction {
 
 namespace {
 
-constexpr double faint = 1e-8;    // over the largest multiplier
-constexpr double edge = 1e-6;     // within so much of its radius a point slips
-constexpr double nothing = 1e-4;  // change of a pressure over the largest of the contact that decides nothing
-constexpr double idle = 1e-3;     // largest pressure of a contact over that of all, below which it only touches
-constexpr double narrow = 0.35;   // cover of points that have a force but no pressure of their own
-constexpr double at_rest = 0.05;  // change of a pressure over the largest of the contact that is still to come
-constexpr double across = 0.7;    // cosine of the cone that one looks through for a neighbour
-constexpr double beside = 0.3;    // cosine up to which a direction leads to another side
+constexpr double active_set_tolerance = 1e-8;  // over the largest multiplier
+constexpr double edge = 1e-6;                  // within so much of its radius a point slips
+constexpr double nothing = 1e-4;               // change of a pressure over the largest of the contact that decides nothing
+constexpr double idle = 1e-3;                  // largest pressure of a contact over that of all, below which it only touches
+constexpr double narrow = 0.35;                // cover of points that have a force but no pressure of their own
+constexpr double at_rest = 0.05;               // change of a pressure over the largest of the contact that is still to come
+constexpr double across = 0.7;                 // cosine of the cone that one looks through for a neighbour
+constexpr double beside = 0.3;                 // cosine up to which a direction leads to another side
 constexpr long probes = 64;
 
 int contact_count(const feti::DualProblem& problem)
 {
   int count = 0;
-  for (const auto& point : problem.constraints().contacts.points) count = std::max(count, point.contact + 1);
+  for (const auto& point : problem.constraints().contacts.nodes) count = std::max(count, point.contact + 1);
   return static_cast<int>(problem.communicator().max(static_cast<long long>(count)));
 }
 
@@ -36,11 +36,11 @@ class Pressures {
   {
     const auto& comm = problem.communicator();
     const auto value = view(x);
-    const auto& points = problem.constraints().contacts.points;
+    const auto& points = problem.constraints().contacts.nodes;
     largest.assign(static_cast<std::size_t>(contact_count(problem)), 0.0);
     for (std::size_t i = 0; i < points.size(); ++i) {
       auto& most = largest[static_cast<std::size_t>(points[i].contact)];
-      most = std::max(most, of(i, value[problem.points()[i].normal]));
+      most = std::max(most, of(i, value[problem.node_rows()[i].normal]));
     }
     for (auto& pressure : largest) all = std::max(all, pressure = comm.max(pressure));
   }
@@ -48,9 +48,9 @@ class Pressures {
   double of(std::size_t i, double multiplier) const
   {
     const auto& contacts = problem_.constraints().contacts;
-    const auto& point = contacts.points[i];
+    const auto& point = contacts.nodes[i];
     if (contacts.bonded[i] || point.cover < narrow || !(point.area > 0)) return 0;
-    return problem_.jump().force(problem_.points()[i].normal, multiplier) / point.area;
+    return problem_.jump().force(problem_.node_rows()[i].normal, multiplier) / point.area;
   }
 
   std::vector<double> largest;  // of each contact
@@ -61,7 +61,7 @@ class Pressures {
 };
 
 // Length of the tangential part of a point.
-double tangential(const feti::PointRows& rows, const Eigen::Ref<const Eigen::VectorXd>& values)
+double tangential(const feti::NodeRows& rows, const Eigen::Ref<const Eigen::VectorXd>& values)
 {
   return rows.tangents > 0 ? values.segment(rows.normal + 1, rows.tangents).norm() : 0.0;
 }
@@ -70,7 +70,7 @@ double tangential(const feti::PointRows& rows, const Eigen::Ref<const Eigen::Vec
 int band(const feti::DualProblem& problem, int contact, const std::vector<bool>& open)
 {
   const auto& comm = problem.communicator();
-  const auto& points = problem.constraints().contacts.points;
+  const auto& points = problem.constraints().contacts.nodes;
   struct Sent {
     double x, y, z, open;
   };
@@ -86,7 +86,7 @@ int band(const feti::DualProblem& problem, int contact, const std::vector<bool>&
 std::vector<Undecided::Band> bands(const feti::DualProblem& problem, std::size_t contacts, const std::vector<bool>& open)
 {
   const auto& comm = problem.communicator();
-  const auto& points = problem.constraints().contacts.points;
+  const auto& points = problem.constraints().contacts.nodes;
   std::vector<double> counts(contacts, 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) counts[static_cast<std::size_t>(points[i].contact)] += open[i];
   comm.sum_in_place(counts);
@@ -97,14 +97,14 @@ std::vector<Undecided::Band> bands(const feti::DualProblem& problem, std::size_t
 }
 
 // The place of the point with the largest value on any rank; `value` < 0 where there is none.
-Point place_of_largest(const feti::DualProblem& problem, std::size_t point, double value)
+Point position_of_largest(const feti::DualProblem& problem, std::size_t point, double value)
 {
   const auto& comm = problem.communicator();
   const double largest = comm.max(value);
   const auto winner = comm.min(static_cast<long long>(value == largest ? comm.rank() : comm.size()));
   std::array<double, 3> at{0, 0, 0};
   if (winner == comm.rank() && value >= 0) {
-    const Point& p = problem.constraints().contacts.points[point].at;
+    const Point& p = problem.constraints().contacts.nodes[point].at;
     at = {p[0], p[1], p[2]};
   }
   comm.sum_in_place(at);
@@ -115,7 +115,7 @@ Point place_of_largest(const feti::DualProblem& problem, std::size_t point, doub
 std::optional<Stuck> worst_points(const feti::DualProblem& problem, int contact, const std::vector<double>& value, double least)
 {
   const auto& comm = problem.communicator();
-  const auto& points = problem.constraints().contacts.points;
+  const auto& points = problem.constraints().contacts.nodes;
   long long count = 0;
   std::size_t worst = 0;
   double largest = -1;
@@ -132,38 +132,38 @@ std::optional<Stuck> worst_points(const feti::DualProblem& problem, int contact,
   Stuck result;
   result.contact = contact;
   result.points = count;
-  result.place = place_of_largest(problem, worst, largest);
+  result.place = position_of_largest(problem, worst, largest);
   result.turns = static_cast<int>(comm.max(largest));
   return result;
 }
 
 }  // namespace
 
-std::vector<PointState> states_at(const feti::DualProblem& problem, const Vector& x)
+std::vector<ContactStatus> states_at(const feti::DualProblem& problem, const Vector& x)
 {
-  const double least = faint * x.normInf();
+  const double least = active_set_tolerance * x.normInf();
   const auto value = view(x);
   const auto& bonded = problem.constraints().contacts.bonded;
-  std::vector<PointState> states;
+  std::vector<ContactStatus> states;
   for (std::size_t i = 0; i < bonded.size(); ++i) {
-    const auto& rows = problem.points()[i];
+    const auto& rows = problem.node_rows()[i];
     if (bonded[i]) {
-      states.push_back(PointState::sticks);
+      states.push_back(ContactStatus::sticks);
     } else if (!(value[rows.normal] > least)) {
-      states.push_back(PointState::open);
+      states.push_back(ContactStatus::open);
     } else if (rows.disc < 0) {
-      states.push_back(PointState::closed);
+      states.push_back(ContactStatus::closed);
     } else {
       const auto& disc = problem.set().discs()[static_cast<std::size_t>(rows.disc)];
       const bool slips = qp::from_centre(disc, value).norm() >= (1 - edge) * disc.radius;
-      states.push_back(slips ? PointState::slips : PointState::sticks);
+      states.push_back(slips ? ContactStatus::slips : ContactStatus::sticks);
     }
   }
   return states;
 }
 
-std::optional<Foretold> foretell(const feti::DualProblem& problem, const qp::Solution& solution,
-                                 qp::FacePreconditioner& preconditioner)
+std::optional<PredictedSolution> predict(const feti::DualProblem& problem, const qp::Solution& solution,
+                                         qp::ActiveSetPreconditioner& preconditioner)
 {
   const double norm = solution.hessian_norm;
   if (!(norm > 0)) return {};
@@ -172,20 +172,20 @@ std::optional<Foretold> foretell(const feti::DualProblem& problem, const qp::Sol
   const qp::Projection natural = qp::project(gap, problem.equality(), problem.set());
   if (!natural.found) return {};
   gap.update(norm, solution.x, -norm, natural.point, 0);
-  Foretold result{natural.argument, Vector(gap.getMap())};
+  PredictedSolution result{natural.argument, Vector(gap.getMap())};
   preconditioner.fix({});
   preconditioner.apply(gap, result.change);
   return result;
 }
 
-std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector& x, const Foretold& foretold)
+std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector& x, const PredictedSolution& predicted)
 {
-  const auto& points = problem.constraints().contacts.points;
+  const auto& points = problem.constraints().contacts.nodes;
   const Pressures pressures(problem, x);
-  const auto change = view(foretold.change), argument = view(foretold.argument);
+  const auto change = view(predicted.change), argument = view(predicted.argument);
   std::vector<bool> rim(points.size(), false), edge_of_stick(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& rows = problem.points()[i];
+    const auto& rows = problem.node_rows()[i];
     const double largest = pressures.largest[static_cast<std::size_t>(points[i].contact)];
     if (largest < idle * pressures.all) continue;
     const double off = std::abs(change[rows.normal]), at = argument[rows.normal];
@@ -204,16 +204,17 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector&
   return result;
 }
 
-std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& record, const Vector& x, const Foretold* foretold)
+std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& record, const Vector& x,
+                         const PredictedSolution* predicted)
 {
   std::vector<Stuck> result;
   const int contacts = contact_count(problem);
-  const auto turns = record.turns();
-  const auto count = problem.constraints().contacts.points.size();
+  const auto changes = record.changes();
+  const auto count = problem.constraints().contacts.nodes.size();
   std::vector<double> contact(count, 0.0), friction(count, 0.0);
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    contact[i] = turns[i].contact;
-    friction[i] = turns[i].friction;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    contact[i] = changes[i].contact;
+    friction[i] = changes[i].friction;
   }
   for (const double least : {2.0, 1.0}) {
     for (int c = 0; c < contacts; ++c)
@@ -225,13 +226,13 @@ std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& re
         }
     if (!result.empty()) return result;
   }
-  if (!foretold) return result;
+  if (!predicted) return result;
   const Pressures pressures(problem, x);
-  const auto change = view(foretold->change);
+  const auto change = view(predicted->change);
   std::vector<double> parts(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& rows = problem.points()[i];
-    const double largest = pressures.largest[static_cast<std::size_t>(problem.constraints().contacts.points[i].contact)];
+    const auto& rows = problem.node_rows()[i];
+    const double largest = pressures.largest[static_cast<std::size_t>(problem.constraints().contacts.nodes[i].contact)];
     const double moved = std::hypot(change[rows.normal], tangential(rows, change));
     if (largest >= idle * pressures.all && largest > 0) parts[i] = pressures.of(i, moved) / largest;
   }

@@ -1,4 +1,4 @@
-#include "constraint/preload.hpp"
+#include "constraint/pretension.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ constexpr double least_mean = 0.5;
 Point direction(const Contacts& contacts, const Preload& preload, bool axisymmetric, const Communicator& comm)
 {
   std::vector<double> sums(4, 0.0);  // area times normal, area
-  for (const auto& point : contacts.points) {
+  for (const auto& point : contacts.nodes) {
     if (point.contact != preload.contact) continue;
     for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)] += point.area * point.normal[c];
     sums[3] += point.area;
@@ -38,21 +38,21 @@ Point direction(const Contacts& contacts, const Preload& preload, bool axisymmet
 
 }  // namespace
 
-std::vector<Cut> find_cuts(const Contacts& contacts, std::span<const Preload> preloads, bool axisymmetric,
-                           const Communicator& comm)
+std::vector<PretensionSection> find_pretension_sections(const Contacts& contacts, std::span<const Preload> preloads,
+                                                        bool axisymmetric, const Communicator& comm)
 {
-  std::vector<Cut> cuts;
+  std::vector<PretensionSection> pretension_sections;
   for (const auto& preload : preloads) {
-    Cut cut{preload, direction(contacts, preload, axisymmetric, comm), {}};
-    for (const auto& point : contacts.points) {
+    PretensionSection section{preload, direction(contacts, preload, axisymmetric, comm), {}};
+    for (const auto& point : contacts.nodes) {
       if (point.contact != preload.contact) continue;
-      cut.rows.push_back({point.row, point.weight * cut.normal.dot(point.normal)});
+      section.rows.push_back({point.row, point.weight * section.normal.dot(point.normal)});
       for (std::size_t t = 0; t < point.tangents.size(); ++t)
-        cut.rows.push_back({point.row + 1 + t, point.weight * cut.normal.dot(point.tangents[t])});
+        section.rows.push_back({point.row + 1 + t, point.weight * section.normal.dot(point.tangents[t])});
     }
-    cuts.push_back(std::move(cut));
+    pretension_sections.push_back(std::move(section));
   }
-  return cuts;
+  return pretension_sections;
 }
 
 }  // namespace mortise::constraint

@@ -1,4 +1,4 @@
-#include "constraint/renewal.hpp"
+#include "constraint/right_hand_sides.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,17 +7,17 @@
 namespace mortise::constraint {
 namespace {
 
-// A point on every rank: a normal row with a held entry of coefficient -0.5 along x, and one tangential row.
+// A point on every rank: a normal row with a prescribed entry of coefficient -0.5 along x, and one tangential row.
 Contacts sample()
 {
   Contacts contacts;
-  contacts.points.push_back({0, 7, 1.0, Point(1, 0, 0), {Point(0, 1, 0)}, 0, 1.0, 0.25, Point::Zero()});
+  contacts.nodes.push_back({0, 7, 1.0, Point(1, 0, 0), {Point(0, 1, 0)}, 0, 1.0, 0.25, Point::Zero()});
   contacts.bonded.push_back(false);
   contacts.rows.entries = {{7, 0, 1.0}};
   contacts.rows.close(0.25 + 0.5 * 0.1);
   contacts.rows.entries.push_back({7, 1, 1.0});
   contacts.rows.close(0);
-  contacts.held = {{0, 0, 0, -0.5}};
+  contacts.prescribed = {{0, 0, 0, -0.5}};
   return contacts;
 }
 
@@ -26,39 +26,39 @@ std::vector<SupportOptions> support(std::optional<double> x)
   return {{"wall", {x, std::nullopt, std::nullopt}}};
 }
 
-TEST(Renewal, SupportsThatMoveShiftBounds)
+TEST(RightHandSides, SupportsThatMoveShiftBounds)
 {
   const Communicator comm;
   const std::vector<std::vector<Global>> nodes{{0, 1, 2, 3}};
-  Constraints constraints{hold(support(0.1), nodes, 3, comm), sample()};
-  EXPECT_TRUE(move_supports(constraints, hold(support(0.3), nodes, 3, comm), support(0.3), support(0.1), comm));
+  Constraints constraints{dirichlet_rows(support(0.1), nodes, 3, comm), sample()};
+  EXPECT_TRUE(update_rhs(constraints, dirichlet_rows(support(0.3), nodes, 3, comm), support(0.3), support(0.1), comm));
   EXPECT_NEAR(constraints.contacts.rows.bound[0], 0.25 + 0.5 * 0.3, 1e-15);
-  for (const auto& held : constraints.held) EXPECT_EQ(held.value, 0.3);
+  for (const auto& prescribed : constraints.prescribed) EXPECT_EQ(prescribed.value, 0.3);
 }
 
-TEST(Renewal, OtherHeldComponentsAreOtherRows)
+TEST(RightHandSides, OtherPrescribedComponentsAreOtherRows)
 {
   const Communicator comm;
   const std::vector<std::vector<Global>> nodes{{0, 1, 2, 3}};
-  Constraints constraints{hold(support(0.1), nodes, 3, comm), sample()};
+  Constraints constraints{dirichlet_rows(support(0.1), nodes, 3, comm), sample()};
   EXPECT_FALSE(
-      move_supports(constraints, hold(support(std::nullopt), nodes, 3, comm), support(std::nullopt), support(0.1), comm));
+      update_rhs(constraints, dirichlet_rows(support(std::nullopt), nodes, 3, comm), support(std::nullopt), support(0.1), comm));
   EXPECT_NEAR(constraints.contacts.rows.bound[0], 0.25 + 0.5 * 0.1, 1e-15);
-  EXPECT_EQ(comm.sum(static_cast<long long>(constraints.held.size())), 4);
+  EXPECT_EQ(comm.sum(static_cast<long long>(constraints.prescribed.size())), 4);
 }
 
-TEST(Renewal, InterferenceClosesGaps)
+TEST(RightHandSides, InterferenceClosesGaps)
 {
   auto contacts = sample();
-  contacts.points[0].weight = 2;
+  contacts.nodes[0].weight = 2;
   add_interference(contacts, 1, 0.1);
-  EXPECT_EQ(contacts.points[0].gap, 0.25);
+  EXPECT_EQ(contacts.nodes[0].gap, 0.25);
   add_interference(contacts, 0, 0.1);
-  EXPECT_NEAR(contacts.points[0].gap, 0.05, 1e-15);
+  EXPECT_NEAR(contacts.nodes[0].gap, 0.05, 1e-15);
   EXPECT_NEAR(contacts.rows.bound[0], 0.3 - 0.2, 1e-15);
 }
 
-TEST(Renewal, SlipCountsFromTheStepBefore)
+TEST(RightHandSides, SlipCountsFromTheStepBefore)
 {
   auto contacts = sample();
   contacts.rows.bound[1] = 0.5;  // what a moving support contributes
@@ -71,7 +71,7 @@ TEST(Renewal, SlipCountsFromTheStepBefore)
   EXPECT_NEAR(contacts.slipped_before(1), 0.1, 1e-15);
 }
 
-TEST(Renewal, BondedPointsKeepTheirPlace)
+TEST(RightHandSides, BondedNodesStayTied)
 {
   auto contacts = sample();
   contacts.bonded[0] = true;

@@ -8,37 +8,37 @@
 #include <span>
 #include <vector>
 
-#include "constraint/slide.hpp"
+#include "constraint/sliding_surface.hpp"
 #include "unit_motions.hpp"
 
 namespace mortise::feti {
 
 /// What the surfaces in contact of bodies that move as one, and those that they touch, say of their motions, amplitudes of the
 /// first body's.
-class Slideways {
+class SlidingModes {
  public:
-  Slideways(const std::vector<int>& bodies, const BodyFrame& frame, fem::Kinematics kinematics,
-            std::span<const constraint::Slide> slides)
+  SlidingModes(const std::vector<int>& bodies, const BodyFrame& frame, fem::Kinematics kinematics,
+               std::span<const constraint::SlidingSurface> sliding_surfaces)
   {
     const auto moves = [&](int body) { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); };
     std::map<int, bool> inside, outside;  // contacts that have a side on the bodies, and on others or on obstacles
     std::map<int, int> sides;
-    for (const auto& slide : slides) {
-      (moves(slide.body) ? inside : outside)[slide.contact] = true;
-      sides[slide.contact] |= slide.secondary ? 1 : 2;
+    for (const auto& surface : sliding_surfaces) {
+      (moves(surface.body) ? inside : outside)[surface.contact] = true;
+      sides[surface.contact] |= surface.secondary ? 1 : 2;
     }
-    for (const auto& slide : slides) {
-      const bool obstacle = sides[slide.contact] != 3;
-      if (!inside.contains(slide.contact) || (!obstacle && !outside.contains(slide.contact))) continue;
+    for (const auto& surface : sliding_surfaces) {
+      const bool obstacle = sides[surface.contact] != 3;
+      if (!inside.contains(surface.contact) || (!obstacle && !outside.contains(surface.contact))) continue;
       const int modes = fem::rigid_motion_count(kinematics);
       Eigen::MatrixXd there(6, modes);  // the body's unit motions at the slide's centre
       for (int k = 0; k < modes; ++k) {
         const auto motion = unit_motion(bodies.front(), frame, k, kinematics);
-        there.col(k) << motion.at(slide.centre), motion.rotation * slide.length;
+        there.col(k) << motion.at(surface.centre), motion.rotation * surface.length;
       }
-      auto& side = moves(slide.body) ? own_[slide.contact] : other_[slide.contact];
-      side.push_back({there.transpose() * slide.whole * there, there.transpose() * slide.smooth * there,
-                      there.transpose() * slide.speed * there, slide.tilt});
+      auto& side = moves(surface.body) ? own_[surface.contact] : other_[surface.contact];
+      side.push_back({there.transpose() * surface.whole * there, there.transpose() * surface.smooth * there,
+                      there.transpose() * surface.speed * there, surface.tilt});
     }
   }
 
@@ -64,7 +64,8 @@ class Slideways {
       }
     }
     // What a plane says of a motion is exact, what a cylinder says of it is not: the least felt ones first.
-    std::stable_sort(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) { return felt(a) < felt(b); });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](const auto& a, const auto& b) { return resistance(a) < resistance(b); });
     for (const auto& v : candidates) {
       const Eigen::VectorXd rest = v - found * (found.transpose() * v);
       if (rest.norm() < 0.1) continue;  // known by the other side
@@ -75,7 +76,7 @@ class Slideways {
   }
 
   // The root mean square of what the surfaces feel of a motion, facets left out.
-  double felt(const Eigen::VectorXd& v) const
+  double resistance(const Eigen::VectorXd& v) const
   {
     double result = 0;
     for (const auto& [contact, parts] : own_) {

@@ -1,5 +1,5 @@
 // What facets make of cylinders and cones, and which motions let them slide along themselves.
-#include "contact/slides.hpp"
+#include "contact/sliding_surfaces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace mortise::contact {
 namespace {
 
 // A disturbed mesh of triangles round a cone: radius 10 at z = 0, growing by `slope`; 10 high.
-constraint::Slide cone(double slope, int round, const Communicator& comm)
+constraint::SlidingSurface cone(double slope, int round, const Communicator& comm)
 {
   Pair pair;
   pair.options.obstacle = Obstacle{};
@@ -24,12 +24,12 @@ constraint::Slide cone(double slope, int round, const Communicator& comm)
       },
       comm);
   constraint::Contacts contacts;  // supports hold all nodes of the other side: all faces count
-  const auto found = slides({&pair, 1}, contacts, fem::Kinematics::solid, comm);
+  const auto found = sliding_surfaces({&pair, 1}, contacts, fem::Kinematics::solid, comm);
   EXPECT_EQ(found.size(), 1U);
   return found.front();
 }
 
-double root(const constraint::Slide::Form& form, const Eigen::Matrix<double, 6, 1>& motion)
+double root(const constraint::SlidingSurface::Form& form, const Eigen::Matrix<double, 6, 1>& motion)
 {
   return std::sqrt(motion.dot(form * motion));
 }
@@ -39,7 +39,7 @@ Eigen::Matrix<double, 6, 1> along_axis()
   return Eigen::Matrix<double, 6, 1>::Unit(2);
 }
 // About the axis of the cylinder, which does not pass through the centre of a part of it.
-Eigen::Matrix<double, 6, 1> about_axis(const constraint::Slide& slide)
+Eigen::Matrix<double, 6, 1> about_axis(const constraint::SlidingSurface& slide)
 {
   Eigen::Matrix<double, 6, 1> result;
   result << Point(0, 0, 1).cross(slide.centre) / slide.length, 0, 0, 1;
@@ -81,7 +81,7 @@ TEST(Slides, teeth_stand_in_the_whole)
         return Point(r * std::cos(x), r * std::sin(x), z);
       },
       comm);
-  const auto slide = slides({&pair, 1}, {}, fem::Kinematics::solid, comm).front();
+  const auto slide = sliding_surfaces({&pair, 1}, {}, fem::Kinematics::solid, comm).front();
   const auto spin = about_axis(slide);
   EXPECT_LT(root(slide.smooth, spin), 0.05 * root(slide.whole, spin));
   EXPECT_GT(root(slide.whole, spin), 2 * std::sqrt(slide.tilt) * root(slide.speed, spin));

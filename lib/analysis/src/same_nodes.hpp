@@ -1,4 +1,4 @@
-// Points of contacts that stay the same while other components of their nodes are held.
+// Points of contacts that stay the same while other components of their nodes are prescribed.
 #pragma once
 
 #include <map>
@@ -9,14 +9,14 @@
 namespace mortise::analysis {
 
 /// By what does not change: contact, node, and its place among the points of that node.
-using PointKey = std::tuple<int, Global, int>;
+using NodeKey = std::tuple<int, Global, int>;
 
-/// Where each point stands among `contacts.points`.
-inline std::map<PointKey, std::size_t> index(const constraint::Contacts& contacts)
+/// Where each point stands among `contacts.nodes`.
+inline std::map<NodeKey, std::size_t> index(const constraint::Contacts& contacts)
 {
-  std::map<PointKey, std::size_t> result;
-  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
-    PointKey key{contacts.points[i].contact, contacts.points[i].node, 0};
+  std::map<NodeKey, std::size_t> result;
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
+    NodeKey key{contacts.nodes[i].contact, contacts.nodes[i].node, 0};
     while (!result.emplace(key, i).second) ++std::get<2>(key);
   }
   return result;
@@ -24,7 +24,7 @@ inline std::map<PointKey, std::size_t> index(const constraint::Contacts& contact
 
 /// A vector in the tangent plane of one point, from its entries along that point's tangents, to entries along those of another.
 template <class From, class To>
-void turn(const constraint::ContactPoint& from, const constraint::ContactPoint& to, const From& entry, const To& take)
+void change_tangents(const constraint::ContactNode& from, const constraint::ContactNode& to, const From& entry, const To& take)
 {
   Point v = Point::Zero();
   for (std::size_t t = 0; t < from.tangents.size(); ++t) v += entry(t) * from.tangents[t];

@@ -9,7 +9,7 @@ namespace mortise::constraint {
 
 /// One side of a contact on one body. A rigid motion is (t, w): the velocity is t + w x (x - centre) / length. Matrices are
 /// quadratic forms in (t, w), mean values over the faces:
-struct Slide {
+struct SlidingSurface {
   using Form = Eigen::Matrix<double, 6, 6>;
   int contact = 0;  ///< index into the deck's contacts
   bool secondary = true;

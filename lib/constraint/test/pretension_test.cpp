@@ -1,4 +1,4 @@
-#include "constraint/preload.hpp"
+#include "constraint/pretension.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@ namespace {
 Contacts sample()
 {
   Contacts contacts;
-  contacts.points.push_back({0, 5, 7, Point(1, 0, 0), {}, 0});
-  contacts.points.push_back({1, 6, 2, Point(0.6, 0, 0.8), {Point(0.8, 0, -0.6), Point(0, 1, 0)}, 1, 1.5});
-  contacts.points.push_back({1, 7, 2, Point(-0.6, 0, 0.8), {}, 4});
+  contacts.nodes.push_back({0, 5, 7, Point(1, 0, 0), {}, 0});
+  contacts.nodes.push_back({1, 6, 2, Point(0.6, 0, 0.8), {Point(0.8, 0, -0.6), Point(0, 1, 0)}, 1, 1.5});
+  contacts.nodes.push_back({1, 7, 2, Point(-0.6, 0, 0.8), {}, 4});
   for (int r = 0; r < 5; ++r) contacts.rows.close(0);
   contacts.bonded.assign(3, true);
   return contacts;
@@ -23,29 +23,30 @@ Contacts sample()
 TEST(Cuts, ARowsPartIsWhatItSeesOfTheMeanNormal)
 {
   const Communicator comm;
-  const auto cuts = find_cuts(sample(), std::vector<Preload>{{1, "bolt", 3.0}}, false, comm);
-  ASSERT_EQ(cuts.size(), 1U);
-  EXPECT_LT((cuts[0].normal - Point(0, 0, 1)).norm(), 1e-14);
-  ASSERT_EQ(cuts[0].rows.size(), 4U);
+  const auto pretension_sections = find_pretension_sections(sample(), std::vector<Preload>{{1, "bolt", 3.0}}, false, comm);
+  ASSERT_EQ(pretension_sections.size(), 1U);
+  EXPECT_LT((pretension_sections[0].normal - Point(0, 0, 1)).norm(), 1e-14);
+  ASSERT_EQ(pretension_sections[0].rows.size(), 4U);
   const std::vector<double> parts{1.5 * 0.8, -1.5 * 0.6, 0, 0.8};
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(cuts[0].rows[i].row, i + 1);
-    EXPECT_NEAR(cuts[0].rows[i].part, parts[i], 1e-14);
+    EXPECT_EQ(pretension_sections[0].rows[i].row, i + 1);
+    EXPECT_NEAR(pretension_sections[0].rows[i].part, parts[i], 1e-14);
   }
 }
 
 TEST(Cuts, InAxisymmetryTheDirectionIsTheAxis)
 {
   Contacts contacts = sample();
-  contacts.points[0].normal = Point(0.8, -0.6, 0);
-  const auto cuts = find_cuts(contacts, std::vector<Preload>{{0, "bolt", 3.0}}, true, Communicator());
-  EXPECT_LT((cuts[0].normal - Point(0, -1, 0)).norm(), 1e-14);
+  contacts.nodes[0].normal = Point(0.8, -0.6, 0);
+  const auto pretension_sections =
+      find_pretension_sections(contacts, std::vector<Preload>{{0, "bolt", 3.0}}, true, Communicator());
+  EXPECT_LT((pretension_sections[0].normal - Point(0, -1, 0)).norm(), 1e-14);
 }
 
 void expect_error(Contacts contacts, int contact, const std::string& text)
 {
   try {
-    find_cuts(contacts, std::vector<Preload>{{contact, "bolt", 3.0}}, false, Communicator());
+    find_pretension_sections(contacts, std::vector<Preload>{{contact, "bolt", 3.0}}, false, Communicator());
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::bad_input);
@@ -57,7 +58,7 @@ TEST(Cuts, NeedADirection)
 {
   expect_error(sample(), 2, "the two sides of its cut do not meet");
   Contacts closed = sample();
-  closed.points[2].normal = -closed.points[1].normal;
+  closed.nodes[2].normal = -closed.nodes[1].normal;
   expect_error(closed, 1, "the normals of its cut point all ways");
 }
 

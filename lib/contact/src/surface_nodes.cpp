@@ -1,4 +1,4 @@
-#include "places.hpp"
+#include "surface_nodes.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -21,14 +21,14 @@ Point corner_normal(const FaceGeometry& face, std::size_t k)
   return next.cross(last) / (next.squaredNorm() * last.squaredNorm());
 }
 
-// An edge from place to place and how many faces have it. Every edge stands there both ways.
+// An edge from surface node to surface node and how many faces have it. Every edge stands there both ways.
 struct Edge {
   Local from, to;
   int count;
 };
 
 // Ascending.
-std::vector<Edge> edges_of(const Side& side, const Places& places)
+std::vector<Edge> edges_of(const Side& side, const SurfaceNodes& surface_nodes)
 {
   std::vector<std::pair<Local, Local>> all;
   all.reserve(2 * side.facets.nodes.size());
@@ -36,7 +36,7 @@ std::vector<Edge> edges_of(const Side& side, const Places& places)
     const auto begin = static_cast<std::size_t>(side.facets.offset[f]), n = side.facets[f].size();
     for (std::size_t k = 0; k < n; ++k) {
       if (n == 2 && k == 1) continue;
-      const Local a = places.of_corner[begin + k], b = places.of_corner[begin + (k + 1) % n];
+      const Local a = surface_nodes.of_corner[begin + k], b = surface_nodes.of_corner[begin + (k + 1) % n];
       all.emplace_back(a, b);
       all.emplace_back(b, a);
     }
@@ -51,29 +51,29 @@ std::vector<Edge> edges_of(const Side& side, const Places& places)
 }
 
 // Where the border goes on nearly straight, its two edges turning by less than 45 degrees, its direction; 0 elsewhere.
-std::vector<Point> directions_of_border(const Side& side, const Places& places, const std::vector<Edge>& edges)
+std::vector<Point> directions_of_border(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<Edge>& edges)
 {
-  std::vector<Few<Point, 2>> along(places.all.size());
-  std::vector<int> ends(places.all.size(), 0);
-  const auto at = [&](Local place) -> const Point& {
-    return side.points[static_cast<std::size_t>(places.all[static_cast<std::size_t>(place)].node)];
+  std::vector<Few<Point, 2>> along(surface_nodes.all.size());
+  std::vector<int> ends(surface_nodes.all.size(), 0);
+  const auto at = [&](Local surface_node) -> const Point& {
+    return side.points[static_cast<std::size_t>(surface_nodes.all[static_cast<std::size_t>(surface_node)].node)];
   };
   for (const auto& [from, to, count] : edges)
     if (count == 1 && ++ends[static_cast<std::size_t>(from)] <= 2)
       along[static_cast<std::size_t>(from)].push_back((at(to) - at(from)).normalized());
-  std::vector<Point> result(places.all.size(), Point::Zero());
+  std::vector<Point> result(surface_nodes.all.size(), Point::Zero());
   for (std::size_t p = 0; p < ends.size(); ++p)
     if (ends[p] == 2 && along[p][0].dot(along[p][1]) < -0.7) result[p] = (along[p][0] - along[p][1]).normalized();
   return result;
 }
 
-// Corrects the normals of places on a border; see find_places().
-void continue_curvature(const Side& side, Places& places)
+// Corrects the normals of surface nodes on a border; see find_surface_nodes().
+void continue_curvature(const Side& side, SurfaceNodes& surface_nodes)
 {
-  const auto edges = edges_of(side, places);
+  const auto edges = edges_of(side, surface_nodes);
   const bool plane = side.facets.size() > 0 && side.facets.type[0] == mesh::CellType::line2;
-  std::vector<int> degree(places.all.size(), 0);
-  std::vector<bool> border(places.all.size(), false);
+  std::vector<int> degree(surface_nodes.all.size(), 0);
+  std::vector<bool> border(surface_nodes.all.size(), false);
   for (const auto& edge : edges) {
     ++degree[static_cast<std::size_t>(edge.from)];
     if (!plane && edge.count == 1) border[static_cast<std::size_t>(edge.from)] = true;
@@ -82,8 +82,9 @@ void continue_curvature(const Side& side, Places& places)
     for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
 
   // First from edges that lead inside; then corners, whose normal is wrong both ways, from all their neighbours. On a surface one
-  // cell wide all places are on the border: there those between two faces have the normal that the ends continue.
-  const auto direction = plane ? std::vector<Point>(border.size(), Point::Zero()) : directions_of_border(side, places, edges);
+  // cell wide all surface nodes are on the border: there those between two faces have the normal that the ends continue.
+  const auto direction =
+      plane ? std::vector<Point>(border.size(), Point::Zero()) : directions_of_border(side, surface_nodes, edges);
   const auto smooth = [&](std::size_t p) { return !direction[p].isZero(0); };
   std::vector<bool> known(border.size());
   for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];
@@ -99,26 +100,28 @@ void continue_curvature(const Side& side, Places& places)
       for (const auto& edge : outer) {
         const auto a = static_cast<std::size_t>(edge.from), b = static_cast<std::size_t>(edge.to);
         if (known[a] || !leads(b, a)) continue;
-        auto& place = places.all[a];
-        const Place& inner = places.all[b];
+        auto& surface_node = surface_nodes.all[a];
+        const SurfaceNode& inner = surface_nodes.all[b];
         const Point along =
-            (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(place.node)]).normalized();
+            (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(surface_node.node)])
+                .normalized();
         // Across the border: along it the faces on both sides have said what there is to say.
         const Point across = (along - along.dot(direction[a]) * direction[a]).normalized();
         const double part = across.dot(along);
         if (part < 0.1) continue;
-        place.normal = (place.normal - (place.normal.dot(along) + inner.normal.dot(along)) / part * across).normalized();
+        surface_node.normal =
+            (surface_node.normal - (surface_node.normal.dot(along) + inner.normal.dot(along)) / part * across).normalized();
         reached[a] = true;
       }
     known = reached;
   }
 }
 
-// The normals of the places at the corners of a facet.
-Few<Point, 4> corner_normals(const Side& side, const Places& places, std::size_t facet)
+// The normals of the surface nodes at the corners of a facet.
+Few<Point, 4> corner_normals(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
 {
   Few<Point, 4> normals;
-  for (std::size_t k = 0; k < side.facets[facet].size(); ++k) normals.push_back(places.normal(side, facet, k));
+  for (std::size_t k = 0; k < side.facets[facet].size(); ++k) normals.push_back(surface_nodes.normal(side, facet, k));
   return normals;
 }
 
@@ -132,8 +135,8 @@ Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals) : n_(face
   }
 }
 
-Bulge::Bulge(const Side& side, const Places& places, std::size_t facet)
-    : Bulge(side.geometry(facet), corner_normals(side, places, facet))
+Bulge::Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
+    : Bulge(side.geometry(facet), corner_normals(side, surface_nodes, facet))
 {
 }
 
@@ -153,7 +156,7 @@ double Bulge::operator()(const Eigen::Vector4d& shape) const
   return result;
 }
 
-Places find_places(const Side& side)
+SurfaceNodes find_surface_nodes(const Side& side)
 {
   // The corners of facets round each node, in the order of the facets, and the normal and its weight there.
   const std::size_t nodes = side.points.size(), count = side.facets.nodes.size();
@@ -174,8 +177,8 @@ Places find_places(const Side& side)
     }
   }
 
-  Places places;
-  places.of_corner.resize(count);
+  SurfaceNodes surface_nodes;
+  surface_nodes.of_corner.resize(count);
   std::vector<std::size_t> group;
   for (std::size_t n = 0; n < nodes; ++n) {
     const std::span corners(round.data() + offset[n], offset[n + 1] - offset[n]);
@@ -196,19 +199,19 @@ Places find_places(const Side& side)
       for (std::size_t a = 0; a < corners.size(); ++a) {
         if (group[a] != g) continue;
         normal += weighted[corners[a]];
-        places.of_corner[corners[a]] = static_cast<Local>(places.all.size());
+        surface_nodes.of_corner[corners[a]] = static_cast<Local>(surface_nodes.all.size());
       }
-      if (normal.squaredNorm() > 0) places.all.push_back({static_cast<Local>(n), normal.normalized()});
+      if (normal.squaredNorm() > 0) surface_nodes.all.push_back({static_cast<Local>(n), normal.normalized()});
     }
   }
-  continue_curvature(side, places);
-  places.of_node.resize(side.faces.nodes.size());
+  continue_curvature(side, surface_nodes);
+  surface_nodes.of_node.resize(side.faces.nodes.size());
   for (std::size_t f = 0; f < side.facets.size(); ++f)
     for (std::size_t k = 0; k < side.facets[f].size(); ++k)
-      places
+      surface_nodes
           .of_node[static_cast<std::size_t>(side.faces.offset[static_cast<std::size_t>(side.face_of[f])] + side.corners[f][k])] =
-          places.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k];
-  return places;
+          surface_nodes.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k];
+  return surface_nodes;
 }
 
 }  // namespace mortise::contact

@@ -1,4 +1,4 @@
-#include "contact_settled.hpp"
+#include "contact_converged.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@ constexpr double part_of_row = 0.1;  // that may be open: a tenth of a cell at t
 
 }  // namespace
 
-bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change)
+bool contact_converged(const feti::DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change)
 {
   const auto& comm = problem.communicator();
-  const auto& points = problem.constraints().contacts.points;
+  const auto& points = problem.constraints().contacts.nodes;
   const auto& bonded = problem.constraints().contacts.bonded;
   const auto value = view(x), differs = view(change), firmly = view(argument);
   int contacts = 0;
@@ -31,7 +31,7 @@ bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Ve
   std::vector<double> largest(count, 0.0), moved(count, 0.0), pressed(count, 0.0), undecided(count, 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (bonded[i]) continue;
-    const auto& rows = problem.points()[i];
+    const auto& rows = problem.node_rows()[i];
     const auto c = static_cast<std::size_t>(points[i].contact);
     const double force = value[rows.normal], off = differs[rows.normal];
     pressed[c] += force > 0;
@@ -47,7 +47,7 @@ bool contact_settled(const feti::DualProblem& problem, const Vector& x, const Ve
     for (auto& v : *values) v = comm.max(v);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (bonded[i] || points[i].cover < narrow || !(points[i].area > 0)) continue;
-    const auto normal = problem.points()[i].normal;
+    const auto normal = problem.node_rows()[i].normal;
     const auto c = static_cast<std::size_t>(points[i].contact);
     const double off = std::abs(differs[normal]), pressure = problem.jump().force(normal, off) / points[i].area;
     undecided[c] += off >= std::abs(firmly[normal]) && pressure > nothing * largest[c];

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "constraint/slide.hpp"
+#include "constraint/sliding_surface.hpp"
 #include "contact/mortar.hpp"
 
 namespace mortise::contact {
@@ -16,7 +16,7 @@ namespace mortise::contact {
 /// For each contact that is not bonded or cyclic and each body on each of its sides, from the faces that its rows push on (all
 /// faces where supports hold every node of them). Ordered by contact, side (primary first) and body; the same on every rank.
 /// Collective.
-std::vector<constraint::Slide> slides(std::span<const Pair> pairs, const constraint::Contacts& contacts,
-                                      fem::Kinematics kinematics, const Communicator& comm);
+std::vector<constraint::SlidingSurface> sliding_surfaces(std::span<const Pair> pairs, const constraint::Contacts& contacts,
+                                                         fem::Kinematics kinematics, const Communicator& comm);
 
 }  // namespace mortise::contact

@@ -1,5 +1,5 @@
 // What a solve leaves open: the record of states, how wide a band of open points is.
-#include "../src/open_points.hpp"
+#include "../src/unresolved_nodes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace mortise::friction {
 namespace {
 
-using enum PointState;
+using enum ContactStatus;
 
 TEST(StateRecord, CountsTurnsOfContactAndFrictionApart)
 {
@@ -18,24 +18,24 @@ TEST(StateRecord, CountsTurnsOfContactAndFrictionApart)
   EXPECT_EQ(record.note({closed, closed, slips, open}), 3);
   EXPECT_EQ(record.note({open, closed, sticks, sticks}), 3);
   EXPECT_EQ(record.note({open, closed, slips, slips}), 2);
-  const auto turns = record.turns();
-  ASSERT_EQ(turns.size(), 4U);
+  const auto changes = record.changes();
+  ASSERT_EQ(changes.size(), 4U);
   EXPECT_EQ(record.steps(), 3);
-  EXPECT_EQ(turns[0].contact, 2);
-  EXPECT_EQ(turns[1].contact + turns[1].friction, 0);
-  EXPECT_EQ(turns[2].friction, 3);
-  EXPECT_EQ(turns[2].contact, 0);
-  EXPECT_EQ(turns[3].contact, 2);  // slips, open, sticks
-  EXPECT_EQ(turns[3].friction, 1);
+  EXPECT_EQ(changes[0].contact, 2);
+  EXPECT_EQ(changes[1].contact + changes[1].friction, 0);
+  EXPECT_EQ(changes[2].friction, 3);
+  EXPECT_EQ(changes[2].contact, 0);
+  EXPECT_EQ(changes[3].contact, 2);  // slips, open, sticks
+  EXPECT_EQ(changes[3].friction, 1);
 }
 
 TEST(StateRecord, ForgetsWhatIsLongAgo)
 {
   StateRecord record;
   for (const auto state : {open, closed, open, closed}) record.note({state});
-  EXPECT_EQ(record.turns()[0].contact, 3);
+  EXPECT_EQ(record.changes()[0].contact, 3);
   for (int i = 0; i < StateRecord::kept; ++i) EXPECT_EQ(record.note({closed}), 0);
-  EXPECT_EQ(record.turns()[0].contact, 0);
+  EXPECT_EQ(record.changes()[0].contact, 0);
   EXPECT_EQ(record.steps(), StateRecord::kept);
   record.note({closed, open});  // other points
   EXPECT_EQ(record.steps(), 0);

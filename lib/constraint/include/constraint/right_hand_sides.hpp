@@ -9,10 +9,11 @@
 
 namespace mortise::constraint {
 
-/// Takes over what supports prescribe now. `held`, as of hold(), and `supports` belong to the new state, `before` to that which
-/// the constraints were made for. Returns false, and changes nothing, if other components are held than before. Collective.
-bool move_supports(Constraints& constraints, std::vector<Held> held, std::span<const SupportOptions> supports,
-                   std::span<const SupportOptions> before, const Communicator& comm);
+/// Takes over what supports prescribe now. `prescribed`, as of dirichlet_rows(), and `supports` belong to the new state, `before`
+/// to that which the constraints were made for. Returns false, and changes nothing, if other components are prescribed than
+/// before. Collective.
+bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed, std::span<const SupportOptions> supports,
+                std::span<const SupportOptions> before, const Communicator& comm);
 
 /// Adds `overlap` to the interference of one contact.
 void add_interference(Contacts& contacts, int contact, double overlap);

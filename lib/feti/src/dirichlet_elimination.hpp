@@ -1,5 +1,6 @@
 // Supports in the dual problem as a matrix. A row that holds one unknown of one subdomain, with the coefficient beta, is
-// eliminated before F is formed: with K the matrix whose inverse K^+ is, h the unknowns so held, f the others and X = K_ff^-1,
+// eliminated before F is formed: with K the matrix whose inverse K^+ is, h the unknowns so prescribed, f the others and X =
+// K_ff^-1,
 //
 //     W = F_cc - F_ch F_hh^-1 F_hc = B_cf X B_cf',   H = G_c - G_h F_hh^-1 F_hc = G_c - (B_c Y)',
 //     C = G_h F_hh^-1 G_h' = R_h'(K Y)_h,            Y_h = R_h,  Y_f = -X K_fh R_h,
@@ -15,15 +16,15 @@
 
 namespace mortise::feti {
 
-/// A subdomain with some of its unknowns held. Heavy: moves, does not copy.
-class HeldSubdomain {
+/// A subdomain with some of its unknowns prescribed. Heavy: moves, does not copy.
+class ConstrainedSubdomain {
  public:
-  /// Factorizes K_ff, with an identity in place of K_hh, unless `held` is empty: then the subdomain's own factor serves, and it
-  /// outlives this. Throws Error(bad_input) if K_ff is not positive definite, and Error(machine) if memory runs out.
-  HeldSubdomain(const SubdomainOperator& subdomain, std::vector<Local> held, int block);
+  /// Factorizes K_ff, with an identity in place of K_hh, unless `prescribed` is empty: then the subdomain's own factor serves,
+  /// and it outlives this. Throws Error(bad_input) if K_ff is not positive definite, and Error(machine) if memory runs out.
+  ConstrainedSubdomain(const SubdomainOperator& subdomain, std::vector<Local> prescribed, int block);
 
-  const std::vector<Local>& held() const { return held_; }
-  /// columns[c], of all unknowns, <- X columns[c]_f, zero at held ones.
+  const std::vector<Local>& prescribed() const { return prescribed_; }
+  /// columns[c], of all unknowns, <- X columns[c]_f, zero at prescribed ones.
   void apply_inverse(std::span<double* const> columns) const;
   /// u with u_h = `values` and (K u)_f = `forces`_f.
   Eigen::VectorXd displacement(const Eigen::VectorXd& values, Eigen::VectorXd forces) const;
@@ -32,17 +33,17 @@ class HeldSubdomain {
 
  private:
   const SubdomainOperator& subdomain_;
-  std::vector<Local> held_;
+  std::vector<Local> prescribed_;
   SparseMatrix k_;
   std::unique_ptr<Cholesky> factor_;
 };
 
-/// All rows that can be eliminated: supports along an axis, at unknowns that no other subdomain has, of nodes with no inclined
+/// All rows that can be eliminated: supports along an axis, at unknowns that no other subdomain has, of nodes with no skew
 /// support; none if there are no more than `few`. What is left is over the others.
-class HeldElimination {
+class DirichletElimination {
  public:
-  /// The problem outlives it. Throws as HeldSubdomain does. Collective.
-  HeldElimination(const DualProblem& problem, Global few);
+  /// The problem outlives it. Throws as ConstrainedSubdomain does. Collective.
+  DirichletElimination(const DualProblem& problem, Global few);
 
   /// Rows that are left, over all ranks, and their numbers: of each owned row, and of each row of jump().touched_rows(); -1 for
   /// an eliminated one.
@@ -67,16 +68,16 @@ class HeldElimination {
 
  private:
   void choose(Global few);
-  Eigen::VectorXd at_held(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const;
+  Eigen::VectorXd at_prescribed(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const;
 
   const DualProblem& problem_;
-  struct HeldRow {
+  struct PrescribedRow {
     Local row;  // of the overlapping map
     Local unknown;
     double coefficient;
   };
-  std::vector<std::vector<HeldRow>> rows_;  // of each subdomain
-  std::vector<HeldSubdomain> subdomains_;
+  std::vector<std::vector<PrescribedRow>> rows_;  // of each subdomain
+  std::vector<ConstrainedSubdomain> subdomains_;
   Global count_ = 0;
   std::vector<Global> number_, touched_number_;
 };

@@ -1,18 +1,19 @@
-#include "constraint/renewal.hpp"
+#include "constraint/right_hand_sides.hpp"
 
 #include <algorithm>
 
 namespace mortise::constraint {
 
-bool move_supports(Constraints& constraints, std::vector<Held> held, std::span<const SupportOptions> supports,
-                   std::span<const SupportOptions> before, const Communicator& comm)
+bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed, std::span<const SupportOptions> supports,
+                std::span<const SupportOptions> before, const Communicator& comm)
 {
-  const bool same = std::equal(held.begin(), held.end(), constraints.held.begin(), constraints.held.end(),
-                               [](const Held& a, const Held& b) { return a.node == b.node && a.component == b.component; });
+  const bool same =
+      std::equal(prescribed.begin(), prescribed.end(), constraints.prescribed.begin(), constraints.prescribed.end(),
+                 [](const PrescribedDof& a, const PrescribedDof& b) { return a.node == b.node && a.component == b.component; });
   if (comm.min(static_cast<long long>(same)) == 0) return false;
-  constraints.held = std::move(held);
+  constraints.prescribed = std::move(prescribed);
   auto& contacts = constraints.contacts;
-  for (const auto& entry : contacts.held) {
+  for (const auto& entry : contacts.prescribed) {
     const auto support = static_cast<std::size_t>(entry.support), c = static_cast<std::size_t>(entry.component);
     contacts.rows.bound[entry.row] -=
         entry.coefficient * (supports[support].displacement[c].value_or(0) - before[support].displacement[c].value_or(0));
@@ -22,7 +23,7 @@ bool move_supports(Constraints& constraints, std::vector<Held> held, std::span<c
 
 void add_interference(Contacts& contacts, int contact, double overlap)
 {
-  for (auto& point : contacts.points) {
+  for (auto& point : contacts.nodes) {
     if (point.contact != contact) continue;
     point.gap -= point.weight * overlap;
     contacts.rows.bound[point.row] -= point.weight * overlap;
@@ -32,9 +33,9 @@ void add_interference(Contacts& contacts, int contact, double overlap)
 void remember_slip(Contacts& contacts, std::span<const double> jumps)
 {
   contacts.slipped.resize(contacts.rows.size(), 0.0);
-  for (std::size_t i = 0; i < contacts.points.size(); ++i) {
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     if (contacts.bonded[i]) continue;
-    for (std::size_t r = contacts.points[i].row + 1; r <= contacts.points[i].row + contacts.points[i].tangents.size(); ++r) {
+    for (std::size_t r = contacts.nodes[i].row + 1; r <= contacts.nodes[i].row + contacts.nodes[i].tangents.size(); ++r) {
       contacts.slipped[r] += jumps[r] - contacts.rows.bound[r];
       contacts.rows.bound[r] = jumps[r];
     }

@@ -1,4 +1,4 @@
-#include "held_elimination.hpp"
+#include "dirichlet_elimination.hpp"
 
 #include <algorithm>
 
@@ -11,26 +11,27 @@ namespace {
 
 constexpr Eigen::Index columns_at_once = 64;
 
-// K with the rows and columns of `held` replaced by those of an identity.
-SparseMatrix with_identity(const SparseMatrix& k, const std::vector<Local>& held)
+// K with the rows and columns of `prescribed` replaced by those of an identity.
+SparseMatrix with_identity(const SparseMatrix& k, const std::vector<Local>& prescribed)
 {
   std::vector<char> taken(static_cast<std::size_t>(k.cols()), 0);
-  for (const Local u : held) taken[static_cast<std::size_t>(u)] = 1;
+  for (const Local u : prescribed) taken[static_cast<std::size_t>(u)] = 1;
   SparseMatrix result = k;
   result.prune([&](Eigen::Index i, Eigen::Index j, double) {
     return i == j || (taken[static_cast<std::size_t>(i)] == 0 && taken[static_cast<std::size_t>(j)] == 0);
   });
-  for (const Local u : held) result.coeffRef(u, u) = 1;
+  for (const Local u : prescribed) result.coeffRef(u, u) = 1;
   return result;
 }
 
 // B_cf X B_cf' over the rows `kept` of a block.
-Eigen::MatrixXd compliance(const JumpOperator::Block& block, const std::vector<std::size_t>& kept, const HeldSubdomain& subdomain)
+Eigen::MatrixXd compliance(const JumpOperator::Block& block, const std::vector<std::size_t>& kept,
+                           const ConstrainedSubdomain& subdomain)
 {
   const auto count = static_cast<Eigen::Index>(kept.size());
   Eigen::MatrixXd result(count, count);
   for (Eigen::Index begin = 0; begin < count; begin += columns_at_once) {
-    end_if_told();
+    stop_if_requested();
     const auto columns = std::min(columns_at_once, count - begin);
     Eigen::MatrixXd u = Eigen::MatrixXd::Zero(block.size, columns);
     std::vector<double*> column;
@@ -52,63 +53,63 @@ Eigen::MatrixXd compliance(const JumpOperator::Block& block, const std::vector<s
 
 }  // namespace
 
-HeldSubdomain::HeldSubdomain(const SubdomainOperator& subdomain, std::vector<Local> held, int block)
-    : subdomain_(subdomain), held_(std::move(held))
+ConstrainedSubdomain::ConstrainedSubdomain(const SubdomainOperator& subdomain, std::vector<Local> prescribed, int block)
+    : subdomain_(subdomain), prescribed_(std::move(prescribed))
 {
-  if (held_.empty()) return;
+  if (prescribed_.empty()) return;
   k_ = subdomain.regularised();
-  const SparseMatrix alone = with_identity(k_, held_);
+  const SparseMatrix alone = with_identity(k_, prescribed_);
   factor_ = std::make_unique<Cholesky>(alone, block);
   if (!factor_->factorize(alone))
     throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain is not positive definite");
   factor_->prepare_for_many_solves();
 }
 
-void HeldSubdomain::apply_inverse(std::span<double* const> columns) const
+void ConstrainedSubdomain::apply_inverse(std::span<double* const> columns) const
 {
   if (!factor_) return subdomain_.apply_inverse(columns);
   for (double* column : columns)
-    for (const Local u : held_) column[u] = 0;
+    for (const Local u : prescribed_) column[u] = 0;
   factor_->solve(columns);
 }
 
-Eigen::VectorXd HeldSubdomain::displacement(const Eigen::VectorXd& values, Eigen::VectorXd forces) const
+Eigen::VectorXd ConstrainedSubdomain::displacement(const Eigen::VectorXd& values, Eigen::VectorXd forces) const
 {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(forces.size());
-  u(held_) = values;
+  u(prescribed_) = values;
   forces -= k_.selfadjointView<Eigen::Lower>() * u;
   double* const column = forces.data();
   apply_inverse({&column, 1});
-  forces(held_) = values;
+  forces(prescribed_) = values;
   return forces;
 }
 
-Eigen::VectorXd HeldSubdomain::reactions(const Eigen::VectorXd& u) const
+Eigen::VectorXd ConstrainedSubdomain::reactions(const Eigen::VectorXd& u) const
 {
   const Eigen::VectorXd all = k_.selfadjointView<Eigen::Lower>() * u;
-  return all(held_);
+  return all(prescribed_);
 }
 
-HeldElimination::HeldElimination(const DualProblem& problem, Global few) : problem_(problem)
+DirichletElimination::DirichletElimination(const DualProblem& problem, Global few) : problem_(problem)
 {
   choose(few);
   collectively(problem.communicator(), [&] {
     for (std::size_t s = 0; s < rows_.size(); ++s) {
-      end_if_told();
-      std::vector<Local> held;
-      for (const auto& row : rows_[s]) held.push_back(row.unknown);
-      subdomains_.emplace_back(*problem.clusters().subdomains()[s], std::move(held), problem.dimension());
+      stop_if_requested();
+      std::vector<Local> prescribed;
+      for (const auto& row : rows_[s]) prescribed.push_back(row.unknown);
+      subdomains_.emplace_back(*problem.clusters().subdomains()[s], std::move(prescribed), problem.dimension());
     }
   });
 }
 
-void HeldElimination::choose(Global few)
+void DirichletElimination::choose(Global few)
 {
   const auto& jump = problem_.jump();
   const auto& import = jump.import();
   const auto& ranges = jump.ranges();
   // Kinds of rows; an inclined one holds several unknowns, copies of one included, a single one just one.
-  constexpr double other = 0, inclined = 1, single = 2;
+  constexpr double other = 0, skew = 1, single = 2;
   Vector entries(jump.rows()), touched(jump.touched_rows());
   {
     auto count = view(touched);
@@ -120,7 +121,7 @@ void HeldElimination::choose(Global few)
   {
     auto kind = view(entries);
     for (Local i = 0; i < ranges.end; ++i)
-      kind[i] = i < ranges.held || i >= ranges.contacts ? other : kind[i] == 1 ? single : inclined;
+      kind[i] = i < ranges.dirichlet || i >= ranges.contacts ? other : kind[i] == 1 ? single : skew;
   }
   touched.doImport(entries, import, Tpetra::INSERT);
 
@@ -130,7 +131,7 @@ void HeldElimination::choose(Global few)
     const auto kind = view(std::as_const(touched));
     std::vector<char> taken(static_cast<std::size_t>(block.size), 0);
     for (std::size_t r = 0; r < block.row.size(); ++r)
-      if (kind[block.row[r]] == inclined)
+      if (kind[block.row[r]] == skew)
         for (auto i = block.offset[r]; i < block.offset[r + 1]; ++i)
           std::fill_n(taken.begin() + block.unknown[i] / dimension * dimension, dimension, 1);
     auto& rows = rows_.emplace_back();
@@ -164,7 +165,7 @@ void HeldElimination::choose(Global few)
   for (const double n : view(std::as_const(touched))) touched_number_.push_back(static_cast<Global>(n));
 }
 
-HeldElimination::Part HeldElimination::part(std::size_t subdomain) const
+DirichletElimination::Part DirichletElimination::part(std::size_t subdomain) const
 {
   const auto& block = problem_.jump().blocks()[subdomain];
   const auto& body = subdomains_[subdomain];
@@ -177,14 +178,14 @@ HeldElimination::Part HeldElimination::part(std::size_t subdomain) const
     }
   result.w = compliance(block, kept, body);
   result.first = problem_.clusters().first(subdomain);
-  if (body.held().empty()) return result;
+  if (body.prescribed().empty()) return result;
   const auto& kernel = problem_.clusters().subdomains()[subdomain]->kernel();
   result.h = Eigen::MatrixXd::Zero(kernel.cols(), static_cast<Eigen::Index>(kept.size()));
   result.c.resize(kernel.cols(), kernel.cols());
   for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
-    const Eigen::VectorXd held = kernel(body.held(), k);
-    const auto y = body.displacement(held, Eigen::VectorXd::Zero(block.size));
-    result.c.row(k) = body.reactions(y).transpose() * kernel(body.held(), Eigen::all);
+    const Eigen::VectorXd prescribed = kernel(body.prescribed(), k);
+    const auto y = body.displacement(prescribed, Eigen::VectorXd::Zero(block.size));
+    result.c.row(k) = body.reactions(y).transpose() * kernel(body.prescribed(), Eigen::all);
     for (std::size_t r = 0; r < kept.size(); ++r)
       for (auto i = block.offset[kept[r]]; i < block.offset[kept[r] + 1]; ++i)
         result.h(k, static_cast<Eigen::Index>(r)) -= block.coefficient[i] * y[block.unknown[i]];
@@ -194,7 +195,7 @@ HeldElimination::Part HeldElimination::part(std::size_t subdomain) const
 }
 
 // d_h / beta of a subdomain's eliminated rows.
-Eigen::VectorXd HeldElimination::at_held(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const
+Eigen::VectorXd DirichletElimination::at_prescribed(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const
 {
   Eigen::VectorXd values(static_cast<Eigen::Index>(rows_[subdomain].size()));
   auto value = values.begin();
@@ -202,7 +203,7 @@ Eigen::VectorXd HeldElimination::at_held(std::size_t subdomain, const Eigen::Ref
   return values;
 }
 
-Vector HeldElimination::reduce(const Vector& d, Eigen::VectorXd& e) const
+Vector DirichletElimination::reduce(const Vector& d, Eigen::VectorXd& e) const
 {
   const auto& jump = problem_.jump();
   Vector touched(jump.touched_rows());
@@ -215,9 +216,9 @@ Vector HeldElimination::reduce(const Vector& d, Eigen::VectorXd& e) const
       const auto& kernel = problem_.clusters().subdomains()[s]->kernel();
       u.emplace_back(Eigen::VectorXd::Zero(jump.blocks()[s].size));
       if (rows_[s].empty()) continue;
-      u[s] = body.displacement(at_held(s, view(std::as_const(touched))), std::move(u[s]));
+      u[s] = body.displacement(at_prescribed(s, view(std::as_const(touched))), std::move(u[s]));
       taken.segment(problem_.clusters().first(s), kernel.cols()) +=
-          kernel(body.held(), Eigen::all).transpose() * body.reactions(u[s]);
+          kernel(body.prescribed(), Eigen::all).transpose() * body.reactions(u[s]);
     }
   });
   problem_.communicator().sum_in_place({taken.data(), static_cast<std::size_t>(taken.size())});
@@ -230,7 +231,7 @@ Vector HeldElimination::reduce(const Vector& d, Eigen::VectorXd& e) const
   return result;
 }
 
-void HeldElimination::complete(const Vector& d, const Eigen::VectorXd& nu, Vector& x) const
+void DirichletElimination::complete(const Vector& d, const Eigen::VectorXd& nu, Vector& x) const
 {
   const auto& jump = problem_.jump();
   for (std::size_t i = 0; i < number_.size(); ++i)
@@ -243,9 +244,10 @@ void HeldElimination::complete(const Vector& d, const Eigen::VectorXd& nu, Vecto
       if (rows_[s].empty()) continue;
       const auto& body = subdomains_[s];
       const auto& kernel = problem_.clusters().subdomains()[s]->kernel();
-      Eigen::VectorXd values = at_held(s, view(std::as_const(touched)));
-      if (nu.size() > 0) values -= kernel(body.held(), Eigen::all) * nu.segment(problem_.clusters().first(s), kernel.cols());
-      const Eigen::VectorXd left = body.reactions(body.displacement(values, forces[s])) - forces[s](body.held());
+      Eigen::VectorXd values = at_prescribed(s, view(std::as_const(touched)));
+      if (nu.size() > 0)
+        values -= kernel(body.prescribed(), Eigen::all) * nu.segment(problem_.clusters().first(s), kernel.cols());
+      const Eigen::VectorXd left = body.reactions(body.displacement(values, forces[s])) - forces[s](body.prescribed());
       for (std::size_t r = 0; r < rows_[s].size(); ++r)
         view(found)[rows_[s][r].row] = left[static_cast<Eigen::Index>(r)] / rows_[s][r].coefficient;
     }

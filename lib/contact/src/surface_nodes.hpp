@@ -5,17 +5,17 @@
 
 namespace mortise::contact {
 
-/// A place that may carry a multiplier: a node and the faces on one side of a kink there.
-struct Place {
+/// A surface node that may carry a multiplier: a node and the faces on one side of a kink there.
+struct SurfaceNode {
   Local node;
   Point normal;  ///< unit; exact where the faces inscribe a sphere or cylinder [weights of Max, J. Graph. Tools 4 (1999)]
 };
 
-/// The places of a side, and the place that each corner of a facet (at facets.offset[f] + corner) and each node of a face (at
-/// faces.offset[f] + node) belongs to. Facets round a node belong together if a chain of them turns by less than about 40 degrees
-/// from one to the next.
-struct Places {
-  std::vector<Place> all;
+/// The surface nodes of a side, and the surface node that each corner of a facet (at facets.offset[f] + corner) and each node of
+/// a face (at faces.offset[f] + node) belongs to. Facets round a node belong together if a chain of them turns by less than about
+/// 40 degrees from one to the next.
+struct SurfaceNodes {
+  std::vector<SurfaceNode> all;
   std::vector<Local> of_corner, of_node;
 
   /// At a corner of a facet.
@@ -27,7 +27,7 @@ struct Places {
 
 /// At the border of a surface, where faces lie on one side only, normals continue the curvature of the edges that lead inside: an
 /// arc has opposite slopes at its ends.
-Places find_places(const Side& side);
+SurfaceNodes find_surface_nodes(const Side& side);
 
 /// How far the smooth surface through the nodes stands out of a face (positive outwards) at reference shape values `shape`: the
 /// quadratic that bulges by (x_j - x_i).(n_j - n_i) / 8 at the middle of edge ij. It makes the gaps between facetted cylinders
@@ -35,7 +35,7 @@ Places find_places(const Side& side);
 class Bulge {
  public:
   Bulge(const FaceGeometry& face, std::span<const Point> normals);
-  Bulge(const Side& side, const Places& places, std::size_t facet);
+  Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet);
   double operator()(const Eigen::Vector4d& shape) const;
 
  private:

@@ -1,4 +1,4 @@
-#include "feti/placement.hpp"
+#include "feti/row_distribution.hpp"
 
 #include <algorithm>
 #include <array>
@@ -52,8 +52,8 @@ Point point(const Vector3& v)
   return {v[0], v[1], v[2]};
 }
 
-// A contact point on its way.
-struct SentPoint {
+// A contact node on its way.
+struct SentNode {
   int contact, tangent_count;
   bool bonded;
   Global node;
@@ -67,9 +67,9 @@ struct SentRow {
   std::size_t entries;
 };
 
-SentPoint pack(const constraint::ContactPoint& from, bool bonded)
+SentNode pack(const constraint::ContactNode& from, bool bonded)
 {
-  SentPoint to{};
+  SentNode to{};
   to.contact = from.contact;
   to.tangent_count = static_cast<int>(from.tangents.size());
   to.bonded = bonded;
@@ -84,77 +84,78 @@ SentPoint pack(const constraint::ContactPoint& from, bool bonded)
   return to;
 }
 
-constraint::ContactPoint unpack(const SentPoint& from, std::size_t row)
+constraint::ContactNode unpack(const SentNode& from, std::size_t row)
 {
-  constraint::ContactPoint to{from.contact, from.node,   from.area, point(from.normal), {},
-                              row,          from.weight, from.gap,  point(from.at),     from.cover};
+  constraint::ContactNode to{from.contact, from.node,   from.area, point(from.normal), {},
+                             row,          from.weight, from.gap,  point(from.at),     from.cover};
   for (int t = 0; t < from.tangent_count; ++t) to.tangents.push_back(point(from.tangents[static_cast<std::size_t>(t)]));
   return to;
 }
 
 }  // namespace
 
-std::vector<constraint::Held> place(std::span<const constraint::Held> held, const partition::Decomposition& decomposition,
-                                    const partition::NodeDirectory& directory, const Communicator& comm)
+std::vector<constraint::PrescribedDof> distribute_rows(std::span<const constraint::PrescribedDof> prescribed,
+                                                       const partition::Decomposition& decomposition,
+                                                       const partition::NodeDirectory& directory, const Communicator& comm)
 {
-  auto result = deliver(held, decomposition, directory, comm);
-  std::sort(result.begin(), result.end(), [](const constraint::Held& a, const constraint::Held& b) {
+  auto result = deliver(prescribed, decomposition, directory, comm);
+  std::sort(result.begin(), result.end(), [](const constraint::PrescribedDof& a, const constraint::PrescribedDof& b) {
     return std::tie(a.node, a.component) < std::tie(b.node, b.component);
   });
   return result;
 }
 
-std::vector<constraint::Inclined> place(std::span<const constraint::Inclined> inclined,
-                                        const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
-                                        const Communicator& comm)
+std::vector<constraint::SkewSupport> distribute_rows(std::span<const constraint::SkewSupport> skew_supports,
+                                                     const partition::Decomposition& decomposition,
+                                                     const partition::NodeDirectory& directory, const Communicator& comm)
 {
-  auto result = deliver(inclined, decomposition, directory, comm);
+  auto result = deliver(skew_supports, decomposition, directory, comm);
   std::stable_sort(result.begin(), result.end(),
-                   [](const constraint::Inclined& a, const constraint::Inclined& b) { return a.node < b.node; });
+                   [](const constraint::SkewSupport& a, const constraint::SkewSupport& b) { return a.node < b.node; });
   return result;
 }
 
-constraint::Contacts place(const constraint::Contacts& contacts, const partition::Decomposition& decomposition,
-                           const partition::NodeDirectory& directory, const Communicator& comm)
+constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const partition::Decomposition& decomposition,
+                                     const partition::NodeDirectory& directory, const Communicator& comm)
 {
   const auto size = static_cast<std::size_t>(comm.size());
-  const auto ranks = ranks_of(std::span(contacts.points), decomposition, directory, comm);
-  ByRank<SentPoint> points(size);
+  const auto ranks = ranks_of(std::span(contacts.nodes), decomposition, directory, comm);
+  ByRank<SentNode> points(size);
   ByRank<SentRow> rows(size);
   ByRank<constraint::Entry> entries(size);
-  ByRank<constraint::HeldEntry> held(size);  // their rows are counted among those that go to the same rank
-  std::vector<std::pair<std::size_t, std::size_t>> place_of(contacts.rows.size());  // rank, row among those that go there
+  ByRank<constraint::PrescribedEntry> prescribed(size);  // their rows are counted among those that go to the same rank
+  std::vector<std::pair<std::size_t, std::size_t>> position_of(contacts.rows.size());  // rank, row among those that go there
   for (std::size_t i = 0; i < ranks.size(); ++i) {
-    const auto& p = contacts.points[i];
+    const auto& p = contacts.nodes[i];
     const auto to = ranks[i];
     points[to].push_back(pack(p, contacts.bonded[i]));
     for (std::size_t r = p.row; r <= p.row + p.tangents.size(); ++r) {
       const auto row = contacts.rows[r];
-      place_of[r] = {to, rows[to].size()};
+      position_of[r] = {to, rows[to].size()};
       rows[to].push_back({contacts.rows.bound[r], row.size()});
       entries[to].insert(entries[to].end(), row.begin(), row.end());
     }
   }
-  for (auto entry : contacts.held) {
-    const auto [to, row] = place_of[entry.row];
+  for (auto entry : contacts.prescribed) {
+    const auto [to, row] = position_of[entry.row];
     entry.row = row;
-    held[to].push_back(entry);
+    prescribed[to].push_back(entry);
   }
 
   const auto points_in = comm.exchange(points);
   const auto rows_in = comm.exchange(rows);
   const auto entries_in = comm.exchange(entries);
-  const auto held_in = comm.exchange(held);
+  const auto prescribed_in = comm.exchange(prescribed);
   constraint::Contacts result;
   for (std::size_t from = 0; from < size; ++from) {
-    for (auto entry : held_in[from]) {
+    for (auto entry : prescribed_in[from]) {
       entry.row += result.rows.size();
-      result.held.push_back(entry);
+      result.prescribed.push_back(entry);
     }
     auto row = rows_in[from].begin();
     auto entry = entries_in[from].begin();
     for (const auto& p : points_in[from]) {
-      result.points.push_back(unpack(p, result.rows.size()));
+      result.nodes.push_back(unpack(p, result.rows.size()));
       result.bonded.push_back(p.bonded);
       for (int r = 0; r <= p.tangent_count; ++r, ++row) {
         const auto end = entry + static_cast<std::ptrdiff_t>(row->entries);

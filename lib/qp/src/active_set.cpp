@@ -1,4 +1,4 @@
-#include "qp/face.hpp"
+#include "qp/active_set.hpp"
 
 #include <cmath>
 #include <limits>
@@ -29,21 +29,22 @@ double largest_radius(const FeasibleSet& set, const Communicator& comm)
 }
 
 // Rows of G that no free direction feels make the matrix singular; a trace of G G' does no harm, for sweeps are repeated.
-void factorize(CoarseMatrix& matrix, const std::vector<LostBlock>& lost)
+void factorize(CoarseMatrix& matrix, const std::vector<DowndateBlock>& downdates)
 {
-  for (double regularisation = 1e-13; !matrix.factorize(lost, regularisation); regularisation *= 100)
+  for (double regularisation = 1e-13; !matrix.factorize(downdates, regularisation); regularisation *= 100)
     if (regularisation > 1e-3) throw Error(ExitStatus::not_converged, "the coarse matrix of a face cannot be factorized");
 }
 
 }  // namespace
 
-Face::Face(Projector& projector, const Vector& argument, double step, double stiffness, double faint, bool coupled)
+ActiveSet::ActiveSet(Projector& projector, const Vector& argument, double step, double stiffness, double active_set_tolerance,
+                     bool coupled)
     : equality_(projector.equality()), matrix_(projector.matrix()), trial_matrix_(&matrix_)
 {
   const auto& set = projector.set();
   const auto w = view(argument);
-  std::vector<LostBlock> lost;
-  const double nothing = faint * largest_distance(set, w, equality_.communicator());
+  std::vector<DowndateBlock> downdates;
+  const double nothing = active_set_tolerance * largest_distance(set, w, equality_.communicator());
   for (const auto& bound : set.bounds())
     if (w[bound.index] <= bound.lower + nothing) {
       fixed_.push_back(bound.index);
@@ -67,31 +68,31 @@ Face::Face(Projector& projector, const Vector& argument, double step, double sti
     slips_.push_back({disc.index, Eigen::Vector2d(-y[1], y[0]) / r, curvature, std::sqrt(stiffness / (stiffness + curvature))});
   }
   for (const Local i : fixed_) {
-    auto& block = lost.emplace_back();
+    auto& block = downdates.emplace_back();
     block.index[0] = i;
     block.matrix(0, 0) = 1;
   }
   for (const auto& slip : slips_) {
-    auto& block = lost.emplace_back();
+    auto& block = downdates.emplace_back();
     block.index = {slip.index[0], slip.index[1], -1};
     block.matrix.topLeftCorner<2, 2>() =
         Eigen::Matrix2d::Identity() - slip.weight * slip.weight * slip.tangent * slip.tangent.transpose();
   }
-  factorize(matrix_, lost);
+  factorize(matrix_, downdates);
   if (!coupled || equality_.communicator().sum(static_cast<long long>(couplings_.size())) == 0) return;
   // I - T w^2 T': what I - w^2 Pi takes away, less the rest of (1, c)(1, c)'.
   for (const auto& coupling : couplings_) {
     const Eigen::Vector3d e(coupling.direction[0], 1, coupling.direction[1]);
-    auto& block = lost.emplace_back();
+    auto& block = downdates.emplace_back();
     block.index = {coupling.index[0], coupling.normal, coupling.index[1]};
     block.matrix = -e * e.transpose();
     block.matrix(1, 1) = 0;
   }
   trial_matrix_ = &projector.trial_matrix();
-  factorize(*trial_matrix_, lost);
+  factorize(*trial_matrix_, downdates);
 }
 
-void Face::restrict(Vector& x, int power) const
+void ActiveSet::restrict(Vector& x, int power) const
 {
   auto values = view(x);
   for (const Local i : fixed_) values[i] = 0;
@@ -103,7 +104,7 @@ void Face::restrict(Vector& x, int power) const
   }
 }
 
-Vector Face::reduce(Vector& x) const
+Vector ActiveSet::reduce(Vector& x) const
 {
   Vector part(x, Teuchos::Copy);
   for (int repeat = 0; repeat < 2 && equality_.size() > 0; ++repeat) {
@@ -117,7 +118,7 @@ Vector Face::reduce(Vector& x) const
   return part;
 }
 
-void Face::extend(Vector& x) const
+void ActiveSet::extend(Vector& x) const
 {
   auto values = view(x);
   for (const auto& coupling : couplings_)
@@ -126,7 +127,7 @@ void Face::extend(Vector& x) const
         values[coupling.index[k]] += coupling.direction[static_cast<Eigen::Index>(k)] * values[coupling.normal];
 }
 
-void Face::extend_transpose(Vector& x) const
+void ActiveSet::extend_transpose(Vector& x) const
 {
   auto values = view(x);
   for (const auto& coupling : couplings_)
@@ -135,7 +136,7 @@ void Face::extend_transpose(Vector& x) const
         values[coupling.normal] += coupling.direction[static_cast<Eigen::Index>(k)] * values[coupling.index[k]];
 }
 
-void Face::keep_held(Vector& x) const
+void ActiveSet::keep_constrained(Vector& x) const
 {
   Vector moved(x, Teuchos::Copy);
   restrict(moved, 0);
@@ -143,11 +144,11 @@ void Face::keep_held(Vector& x) const
   x.update(-1, moved, 1);
 }
 
-void Face::project_trial(Vector& x, const Vector& held) const
+void ActiveSet::project_trial(Vector& x, const Vector& constrained) const
 {
   restrict(x, 0);
   extend(x);
-  x.update(1, held, 1);
+  x.update(1, constrained, 1);
   if (equality_.size() == 0) return;
   Vector part(x.getMap());
   for (int repeat = 0; repeat < 2; ++repeat) {
@@ -161,12 +162,12 @@ void Face::project_trial(Vector& x, const Vector& held) const
   }
 }
 
-void Face::scale(Vector& x) const
+void ActiveSet::scale(Vector& x) const
 {
   restrict(x, 1);
 }
 
-void Face::add_curvature(const Vector& x, Vector& y) const
+void ActiveSet::add_curvature(const Vector& x, Vector& y) const
 {
   const auto in = view(x);
   auto out = view(y);
@@ -177,7 +178,7 @@ void Face::add_curvature(const Vector& x, Vector& y) const
   }
 }
 
-void Face::sweep(Vector& x, bool direction, int sweeps) const
+void ActiveSet::sweep(Vector& x, bool direction, int sweeps) const
 {
   restrict(x, 0);
   if (equality_.size() == 0) return;

@@ -1,4 +1,4 @@
-#include "bonds.hpp"
+#include "cluster_constraints.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -79,7 +79,7 @@ std::map<Global, std::vector<Common>> common_nodes(const partition::Decompositio
   return result;
 }
 
-// Weighted rigid motions of some nodes, (dimension * nodes) x at most 6, as bond() says.
+// Weighted rigid motions of some nodes, (dimension * nodes) x at most 6, as cluster_constraints() says.
 Eigen::MatrixXd averages(const std::vector<Common>& nodes, const std::vector<Point>& points, fem::Kinematics kinematics)
 {
   std::vector<Point> at;
@@ -103,13 +103,14 @@ Eigen::MatrixXd averages(const std::vector<Common>& nodes, const std::vector<Poi
 
 }  // namespace
 
-std::vector<Bond> bond(const partition::Decomposition& decomposition, const partition::Interface& interface,
-                       const std::vector<std::vector<double>>& weight, fem::Kinematics kinematics, std::size_t first,
-                       std::size_t end)
+std::vector<ClusterConstraint> cluster_constraints(const partition::Decomposition& decomposition,
+                                                   const partition::Interface& interface,
+                                                   const std::vector<std::vector<double>>& weight, fem::Kinematics kinematics,
+                                                   std::size_t first, std::size_t end)
 {
   const int dimension = fem::dimension(kinematics);
   const auto& subdomains = decomposition.subdomains;
-  std::vector<Bond> bonds(end - first);
+  std::vector<ClusterConstraint> constraints(end - first);
   std::vector<std::vector<Eigen::Triplet<double>>> entries(end - first);
   int next = 0;
   for (std::size_t s = first; s < end; ++s)
@@ -122,38 +123,39 @@ std::vector<Bond> bond(const partition::Decomposition& decomposition, const part
           if (std::abs(rows(i, k)) <= least) continue;
           const auto& node = nodes[static_cast<std::size_t>(i / dimension)];
           const auto component = static_cast<int>(i % dimension);
-          entries[a].emplace_back(node.a * dimension + component, static_cast<int>(bonds[a].row.size()), rows(i, k));
-          entries[b].emplace_back(node.b * dimension + component, static_cast<int>(bonds[b].row.size()), -rows(i, k));
+          entries[a].emplace_back(node.a * dimension + component, static_cast<int>(constraints[a].row.size()), rows(i, k));
+          entries[b].emplace_back(node.b * dimension + component, static_cast<int>(constraints[b].row.size()), -rows(i, k));
         }
-        bonds[a].row.push_back(next);
-        bonds[b].row.push_back(next);
+        constraints[a].row.push_back(next);
+        constraints[b].row.push_back(next);
       }
     }
-  for (std::size_t i = 0; i < bonds.size(); ++i) {
-    bonds[i].columns.resize(static_cast<Eigen::Index>(subdomains[first + i].mesh.node_count()) * dimension,
-                            static_cast<Eigen::Index>(bonds[i].row.size()));
-    bonds[i].columns.setFromTriplets(entries[i].begin(), entries[i].end());
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    constraints[i].columns.resize(static_cast<Eigen::Index>(subdomains[first + i].mesh.node_count()) * dimension,
+                                  static_cast<Eigen::Index>(constraints[i].row.size()));
+    constraints[i].columns.setFromTriplets(entries[i].begin(), entries[i].end());
   }
-  return bonds;
+  return constraints;
 }
 
-int drop_dependent(std::vector<Bond>& bonds, const std::vector<std::vector<double>>& weight, int dimension, std::size_t first)
+int drop_dependent(std::vector<ClusterConstraint>& constraints, const std::vector<std::vector<double>>& weight, int dimension,
+                   std::size_t first)
 {
   int count = 0;
-  for (const auto& bond : bonds)
-    if (!bond.row.empty()) count = std::max(count, bond.row.back() + 1);
+  for (const auto& constraint : constraints)
+    if (!constraint.row.empty()) count = std::max(count, constraint.row.back() + 1);
   // B0 D^-1 B0' = L diag(d) L': d is the square of each row's distance from those before it, in the order of elimination.
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t i = 0; i < bonds.size(); ++i) {
-    SparseMatrix scaled = bonds[i].columns;
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    SparseMatrix scaled = constraints[i].columns;
     for (int r = 0; r < scaled.outerSize(); ++r)
       for (SparseMatrix::InnerIterator it(scaled, r); it; ++it)
         it.valueRef() /= weight[first + i][static_cast<std::size_t>(it.row() / dimension)];
-    const SparseMatrix gram = bonds[i].columns.transpose() * scaled;
+    const SparseMatrix gram = constraints[i].columns.transpose() * scaled;
     for (int c = 0; c < gram.outerSize(); ++c)
       for (SparseMatrix::InnerIterator it(gram, c); it; ++it)
-        entries.emplace_back(bonds[i].row[static_cast<std::size_t>(it.row())], bonds[i].row[static_cast<std::size_t>(c)],
-                             it.value());
+        entries.emplace_back(constraints[i].row[static_cast<std::size_t>(it.row())],
+                             constraints[i].row[static_cast<std::size_t>(c)], it.value());
   }
   for (int r = 0; r < count; ++r) entries.emplace_back(r, r, trace);
   SparseMatrix gram(count, count);
@@ -165,18 +167,18 @@ int drop_dependent(std::vector<Bond>& bonds, const std::vector<std::vector<doubl
   for (int r = 0; r < count; ++r)
     if (square[r] > dependent) number[static_cast<std::size_t>(r)] = left++;
   if (left == count) return count;
-  for (auto& bond : bonds) {
+  for (auto& constraint : constraints) {
     std::vector<Eigen::Triplet<double>> kept;
     std::vector<int> row;
-    for (std::size_t r = 0; r < bond.row.size(); ++r) {
-      if (number[static_cast<std::size_t>(bond.row[r])] < 0) continue;
-      for (SparseMatrix::InnerIterator it(bond.columns, static_cast<int>(r)); it; ++it)
+    for (std::size_t r = 0; r < constraint.row.size(); ++r) {
+      if (number[static_cast<std::size_t>(constraint.row[r])] < 0) continue;
+      for (SparseMatrix::InnerIterator it(constraint.columns, static_cast<int>(r)); it; ++it)
         kept.emplace_back(static_cast<int>(it.row()), static_cast<int>(row.size()), it.value());
-      row.push_back(number[static_cast<std::size_t>(bond.row[r])]);
+      row.push_back(number[static_cast<std::size_t>(constraint.row[r])]);
     }
-    SparseMatrix columns(bond.columns.rows(), static_cast<Eigen::Index>(row.size()));
+    SparseMatrix columns(constraint.columns.rows(), static_cast<Eigen::Index>(row.size()));
     columns.setFromTriplets(kept.begin(), kept.end());
-    bond = {std::move(columns), std::move(row)};
+    constraint = {std::move(columns), std::move(row)};
   }
   return left;
 }

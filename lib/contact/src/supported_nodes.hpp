@@ -1,0 +1,52 @@
+// What supports hold at the nodes of a side, and what they leave free there.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "constraint/constraints.hpp"
+
+namespace mortise::contact {
+
+/// The supports of all ranks, those of a node on rank node % ranks.
+class SupportDirectory {
+ public:
+  /// `prescribed` and `skew_supports` of this rank. Collective.
+  SupportDirectory(std::span<const constraint::PrescribedDof> prescribed, std::span<const constraint::SkewSupport> skew_supports,
+                   const Communicator& comm);
+
+ private:
+  friend class SupportedNodes;
+  std::vector<constraint::PrescribedDof> prescribed_;
+  std::vector<constraint::SkewSupport> skew_supports_;
+};
+
+/// The supports at the nodes of a side.
+class SupportedNodes {
+ public:
+  /// `nodes` are those that this rank asks about. Collective.
+  SupportedNodes(const SupportDirectory& directory, const std::vector<Global>& nodes, const Communicator& comm);
+
+  /// Null where the component is free.
+  const constraint::PrescribedDof* find(Global node, int component) const;
+  /// The directions that are prescribed there and are no axes.
+  std::span<const constraint::SkewSupport> skew_supports(Global node) const;
+
+ private:
+  std::vector<constraint::PrescribedDof> prescribed_;
+  std::vector<constraint::SkewSupport> skew_supports_;
+};
+
+Point along(const constraint::SkewSupport& skew_supports);
+
+/// The frame of a surface node: the tangents that supports leave free; nothing if the normal itself is prescribed.
+struct Directions {
+  bool free_normal = true;
+  std::vector<Point> tangents;
+};
+Directions directions(const Point& normal, const std::array<bool, 3>& prescribed,
+                      std::span<const constraint::SkewSupport> skew_supports, int dimension);
+
+}  // namespace mortise::contact

@@ -1,0 +1,14 @@
+// Whether an unfinished solution knows its contacts.
+#pragma once
+
+#include "feti/dual_problem.hpp"
+
+namespace mortise::friction {
+
+/// Whether contact has converged at the multipliers x, from which those of the solution differ by about `change`: pressures and
+/// tractions of every contact are known to 5 % of its largest pressure, and of its points at most a tenth of a row around what
+/// presses do not know whether they do: those whose `argument`, see Goal::contact_converged, is nearer to 0 than `change`.
+/// Collective.
+bool contact_converged(const feti::DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change);
+
+}  // namespace mortise::friction
