@@ -79,11 +79,13 @@ TEST(Solvers, EachSolvesWithGivenRadii)
     EXPECT_LT(programme.equality.norm(programme.equality.apply(solution.x) - programme.equality.right_side()), 1e-10)
         << kind.name;
     EXPECT_LT(kkt(solution, programme.problem), 1e-7) << kind.name;
-    const auto active = programme.set.active(view(solution.x));
-    EXPECT_GE(world().sum(active.bounds), 3) << kind.name;
-    EXPECT_GE(world().sum(active.discs), 3) << kind.name;
     const Eigen::VectorXd x = gathered(solution.x, world());
-    if (first.size() == 0) first = x;
+    if (first.size() == 0) {
+      first = x;
+      const auto active = programme.set.active(view(solution.x));  // the programme is worth solving
+      EXPECT_GE(world().sum(active.bounds), 3) << kind.name;
+      EXPECT_GE(world().sum(active.discs), 3) << kind.name;
+    }
     EXPECT_LT((x - first).norm(), 1e-7 * first.norm()) << kind.name;
   }
 }
