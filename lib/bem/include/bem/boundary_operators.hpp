@@ -1,0 +1,50 @@
+// The boundary integral operators of linear elasticity on the surface of one body, by Galerkin's method with displacements u that
+// are linear on each panel and continuous, and tractions t that are constant on each panel.
+//
+// With Kelvin's solution U(d) = (1 + nu) / (8 pi E (1 - nu)) ((3 - 4 nu) I / r + d d' / r^3), d = x - y, r = |d|, and T its traction
+// in y,
+//
+//     V t = II U t,   K u = II T u,   D = the hypersingular operator;   inside a body without body forces
+//     V t = (M / 2 + K) u,   f = D u + (M / 2 + K)' t
+//
+// for the nodal forces f. All of them come from the kernels 1 / (4 pi r) and d d' / (4 pi r^3) and from the double layer of
+// Laplace's equation, by Stokes' theorem with the tangential derivatives M_ij = n_j d_i - n_i d_j, which are constant on a panel:
+//
+//     K u = K_L u - V_L (M u) + 2 mu V (M u),
+//     <D u, v> = mu II (sum_k (c_k u) . (c_k v) + sum_ij (c_i v_i c_j u_j - c_i v_j c_j u_i ...)) / (4 pi r) + ...
+//
+// [Kupradze, Three-dimensional problems of elasticity, 1979; Han, Numer. Math. 68 (1994)].
+#pragma once
+
+#include <Eigen/Core>
+
+#include "bem/panels.hpp"
+#include "fem/options.hpp"
+
+namespace mortise::bem {
+
+/// The kernels' double integrals over all pairs of panels. m panels, n nodes.
+struct LayerIntegrals {
+  Eigen::MatrixXd single;        ///< m x m, 1 / (4 pi r)
+  Eigen::MatrixXd kelvin;        ///< 3 m x 3 m, U; unknown 3 * panel + component
+  Eigen::MatrixXd double_layer;  ///< m x n, n_y . d / (4 pi r^3), linear in y
+};
+/// `accuracy` of the quadrature, relative to the entries of neighbours.
+LayerIntegrals integrate_layers(const Panels& panels, const fem::Material& material, double accuracy);
+
+/// The kernel U alone: the operator V.
+Eigen::MatrixXd single_layer(const Panels& panels, const fem::Material& material, double accuracy);
+
+struct BoundaryOperators {
+  Eigen::MatrixXd v;  ///< V, 3 m x 3 m
+  Eigen::MatrixXd k;  ///< M / 2 + K, 3 m x 3 n
+  Eigen::MatrixXd d;  ///< D, 3 n x 3 n
+};
+BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& material, double accuracy);
+
+/// Integrals of each node's function over each panel, times u: M u, 3 m.
+Eigen::VectorXd mass(const Panels& panels, const Eigen::VectorXd& u);
+/// Nodal forces of tractions that are constant on each panel: M't, 3 n.
+Eigen::VectorXd nodal_forces(const Panels& panels, const Eigen::VectorXd& t);
+
+}  // namespace mortise::bem

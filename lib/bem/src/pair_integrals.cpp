@@ -1,0 +1,355 @@
+#include "pair_integrals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "rules.hpp"
+
+namespace mortise::bem {
+
+namespace {
+
+constexpr int far_rules = 4;         // the symmetric rules, for pairs of whole panels
+constexpr int deepest = 12;          // halvings of a panel that is close to another one
+constexpr std::size_t lanes = 8;     // pairs that are integrated side by side
+constexpr int fewest_in_corners = 3, most_in_corners = 16;  // points a coordinate of the integrals with common corners
+
+// A triangle by its corners, and these by the area coordinates of the panel that it is a part of.
+struct Part {
+  std::array<Point, 3> corner;
+  std::array<std::array<double, 3>, 3> at;
+  Point centre;
+  double radius, area;
+};
+
+using Weights = std::array<double, 3>;
+
+Weights blend(const Part& part, const Weights& w)
+{
+  Weights result{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t c = 0; c < 3; ++c) result[c] += w[k] * part.at[k][c];
+  return result;
+}
+
+Part make_part(const std::array<Point, 3>& corner, const std::array<std::array<double, 3>, 3>& at, double area)
+{
+  Part part{corner, at, (corner[0] + corner[1] + corner[2]) / 3, 0, area};
+  for (const auto& p : corner) part.radius = std::max(part.radius, (p - part.centre).norm());
+  return part;
+}
+
+Part whole(const Panels& panels, std::size_t p)
+{
+  return make_part({panels.corner(p, 0), panels.corner(p, 1), panels.corner(p, 2)}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                   panels.area[p]);
+}
+
+// The two halves across the longest edge.
+std::array<Part, 2> halves(const Part& part)
+{
+  std::size_t k = 0;
+  double longest = 0;
+  for (std::size_t e = 0; e < 3; ++e)
+    if (const double length = (part.corner[(e + 1) % 3] - part.corner[e]).squaredNorm(); length > longest) {
+      longest = length;
+      k = e;
+    }
+  const std::size_t a = k, b = (k + 1) % 3;
+  const Point middle = (part.corner[a] + part.corner[b]) / 2;
+  std::array<double, 3> at{};
+  for (std::size_t c = 0; c < 3; ++c) at[c] = (part.at[a][c] + part.at[b][c]) / 2;
+  auto first = part.corner, second = part.corner;
+  auto first_at = part.at, second_at = part.at;
+  first[b] = second[a] = middle;
+  first_at[b] = second_at[a] = at;
+  return {make_part(first, first_at, part.area / 2), make_part(second, second_at, part.area / 2)};
+}
+
+// Adds what one pair of points gives.
+void add(const Point& x, const Point& y, const Point& nx, const Point& ny, double weight, const Weights& at_x, const Weights& at_y,
+         PairIntegrals& sum)
+{
+  const Point d = x - y;
+  const double inverse = 1 / d.norm(), g = weight * inverse, g3 = g * inverse * inverse;
+  sum.single += g;
+  sum.tensor[0] += g3 * d[0] * d[0];
+  sum.tensor[1] += g3 * d[1] * d[1];
+  sum.tensor[2] += g3 * d[2] * d[2];
+  sum.tensor[3] += g3 * d[0] * d[1];
+  sum.tensor[4] += g3 * d[1] * d[2];
+  sum.tensor[5] += g3 * d[0] * d[2];
+  const double to_y = g3 * ny.dot(d), to_x = -g3 * nx.dot(d);
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum.double_y[k] += to_y * at_y[k];
+    sum.double_x[k] += to_x * at_x[k];
+  }
+}
+
+PairIntegrals scaled(PairIntegrals sum, double factor)
+{
+  sum.single *= factor;
+  for (auto& v : sum.tensor) v *= factor;
+  for (auto& v : sum.double_x) v *= factor;
+  for (auto& v : sum.double_y) v *= factor;
+  return sum;
+}
+
+// Errors of the rules, relative to those of the nearest pairs, for panels whose sizes are t times the distance of their centres:
+// below factor * t^power for t < 1 (measured on triangles of all directions).
+struct Error {
+  double factor;
+  int power;
+};
+constexpr std::array<Error, triangle_rules> errors{{{5e-3, 3}, {5e-4, 5}, {2e-5, 7}, {1e-5, 9}, {3e-7, 11}, {5e-8, 13}, {1e-8, 15}}};
+
+// The largest t for which each rule is as good as `accuracy`.
+std::array<double, triangle_rules> largest_ratios(double accuracy)
+{
+  std::array<double, triangle_rules> result;
+  for (std::size_t r = 0; r < result.size(); ++r) result[r] = std::min(1.0, std::pow(accuracy / errors[r].factor, 1.0 / errors[r].power));
+  return result;
+}
+
+}  // namespace
+
+PairQuadrature::PairQuadrature(const Panels& panels, double accuracy) : panels_(panels), accuracy_(accuracy), largest_(largest_ratios(accuracy))
+{
+  const auto size = panels.corners.size();
+  for (std::size_t p = 0; p < size; ++p) {
+    const Part part = whole(panels, p);
+    centre_.push_back(part.centre);
+    radius_.push_back(part.radius);
+  }
+  for (int r = 0; r < far_rules; ++r) {
+    const auto& rule = triangle_rule(r);
+    auto& points = points_.emplace_back(3 * rule.size() * size);
+    for (std::size_t p = 0; p < size; ++p)
+      for (std::size_t q = 0; q < rule.size(); ++q) {
+        Point x = Point::Zero();
+        for (int k = 0; k < 3; ++k) x += rule[q].at[static_cast<std::size_t>(k)] * panels.corner(p, k);
+        for (std::size_t c = 0; c < 3; ++c) points[(3 * q + c) * size + p] = x[static_cast<int>(c)];
+      }
+  }
+}
+
+// Several pairs (x, y) side by side, all with one rule.
+struct PairQuadrature::Far {
+  using Lane = std::array<double, lanes>;
+
+  static void integrate(const PairQuadrature& all, std::size_t x, std::span<const std::size_t> others, int index, PairIntegrals* const* results)
+  {
+    const Panels& panels = all.panels_;
+    const auto& rule = triangle_rule(index);
+    const auto& points = all.points_[static_cast<std::size_t>(index)];
+    const std::size_t size = panels.corners.size();
+    Lane n0{}, n1{}, n2{}, offset{};
+    std::array<std::array<Lane, 3>, 16> y;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const std::size_t p = others[std::min(l, others.size() - 1)];
+      const Point& n = panels.normal[p];
+      n0[l] = n[0];
+      n1[l] = n[1];
+      n2[l] = n[2];
+      offset[l] = n.dot(all.centre_[p]);
+      for (std::size_t q = 0; q < rule.size(); ++q)
+        for (std::size_t c = 0; c < 3; ++c) y[q][c][l] = points[(3 * q + c) * size + p];
+    }
+    const Point& nx = panels.normal[x];
+    const double offset_x = nx.dot(all.centre_[x]);
+    Lane single{};
+    std::array<Lane, 6> tensor{};
+    std::array<Lane, 3> double_x{}, double_y{};
+    for (std::size_t a = 0; a < rule.size(); ++a) {
+      const double x0 = points[3 * a * size + x], x1 = points[(3 * a + 1) * size + x], x2 = points[(3 * a + 2) * size + x];
+      Lane height, from_x{};
+      for (std::size_t l = 0; l < lanes; ++l) height[l] = n0[l] * x0 + n1[l] * x1 + n2[l] * x2 - offset[l];
+      for (std::size_t b = 0; b < rule.size(); ++b) {
+        const double w = rule[a].weight * rule[b].weight;
+        const auto& [y0, y1, y2] = y[b];
+        const auto [p0, p1, p2] = rule[b].at;
+        for (std::size_t l = 0; l < lanes; ++l) {
+          const double d0 = x0 - y0[l], d1 = x1 - y1[l], d2 = x2 - y2[l];
+          const double inverse = 1 / std::sqrt(d0 * d0 + d1 * d1 + d2 * d2), g = w * inverse, g3 = g * inverse * inverse;
+          single[l] += g;
+          const double e0 = g3 * d0, e1 = g3 * d1;
+          tensor[0][l] += e0 * d0;
+          tensor[1][l] += e1 * d1;
+          tensor[2][l] += g3 * d2 * d2;
+          tensor[3][l] += e0 * d1;
+          tensor[4][l] += e1 * d2;
+          tensor[5][l] += e0 * d2;
+          const double to_y = g3 * height[l];
+          double_y[0][l] += to_y * p0;
+          double_y[1][l] += to_y * p1;
+          double_y[2][l] += to_y * p2;
+          from_x[l] += g3 * (nx[0] * y0[l] + nx[1] * y1[l] + nx[2] * y2[l] - offset_x);
+        }
+      }
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t l = 0; l < lanes; ++l) double_x[k][l] += from_x[l] * rule[a].at[k];
+    }
+    for (std::size_t l = 0; l < others.size(); ++l) {
+      PairIntegrals sum{single[l], {}, {}, {}};
+      for (std::size_t k = 0; k < 6; ++k) sum.tensor[k] = tensor[k][l];
+      for (std::size_t k = 0; k < 3; ++k) {
+        sum.double_x[k] = double_x[k][l];
+        sum.double_y[k] = double_y[k][l];
+      }
+      *results[l] = scaled(sum, panels.area[x] * panels.area[others[l]] / (4 * std::numbers::pi));
+    }
+  }
+};
+
+void PairQuadrature::integrate(std::size_t x, std::span<const std::size_t> others, std::span<PairIntegrals> results) const
+{
+  std::array<std::vector<std::size_t>, far_rules> panels;
+  std::array<std::vector<PairIntegrals*>, far_rules> places;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const std::size_t y = others[i];
+    const double size = radius_[x] + radius_[y], ratio = size / (centre_[x] - centre_[y]).norm();
+    std::size_t rule = 0;
+    while (rule < far_rules && !(ratio < largest_[rule])) ++rule;
+    if (rule == far_rules) {
+      results[i] = close(x, y);
+      continue;
+    }
+    panels[rule].push_back(y);
+    places[rule].push_back(&results[i]);
+    if (panels[rule].size() == lanes) {
+      Far::integrate(*this, x, panels[rule], static_cast<int>(rule), places[rule].data());
+      panels[rule].clear();
+      places[rule].clear();
+    }
+  }
+  for (std::size_t r = 0; r < far_rules; ++r)
+    if (!panels[r].empty()) Far::integrate(*this, x, panels[r], static_cast<int>(r), places[r].data());
+}
+
+PairIntegrals PairQuadrature::close(std::size_t x, std::size_t y) const
+{
+  // Common corners first, the others after them.
+  std::array<int, 3> of_x{}, of_y{};
+  int common = 0;
+  const auto &cx = panels_.corners[x], &cy = panels_.corners[y];
+  std::array<bool, 3> used_x{}, used_y{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      if (cx[i] == cy[j]) {
+        of_x[static_cast<std::size_t>(common)] = static_cast<int>(i);
+        of_y[static_cast<std::size_t>(common++)] = static_cast<int>(j);
+        used_x[i] = used_y[j] = true;
+      }
+  for (std::size_t i = 0, at_x = static_cast<std::size_t>(common), at_y = at_x; i < 3; ++i) {
+    if (!used_x[i]) of_x[at_x++] = static_cast<int>(i);
+    if (!used_y[i]) of_y[at_y++] = static_cast<int>(i);
+  }
+  const double scale = panels_.area[x] * panels_.area[y] / (4 * std::numbers::pi);
+  if (common > 0) return scaled(touching(x, y, of_x, of_y, common), scale);
+
+  PairIntegrals sum;
+  const Point &nx = panels_.normal[x], &ny = panels_.normal[y];
+  const auto recurse = [&](const auto& self, const Part& a, const Part& b, int depth) -> void {
+    const double ratio = (a.radius + b.radius) / (a.centre - b.centre).norm();
+    int index = 0;
+    while (index < triangle_rules && !(ratio < largest_[static_cast<std::size_t>(index)])) ++index;
+    if (index == triangle_rules) {
+      if (depth < deepest) {
+        const bool first = a.radius >= b.radius;
+        for (const auto& half : halves(first ? a : b)) first ? self(self, half, b, depth + 1) : self(self, a, half, depth + 1);
+        return;
+      }
+      index = triangle_rules - 1;
+    }
+    const auto& rule = triangle_rule(index);
+    std::vector<std::pair<Point, Weights>> points_b;
+    for (const auto& q : rule)
+      points_b.emplace_back(q.at[0] * b.corner[0] + q.at[1] * b.corner[1] + q.at[2] * b.corner[2], blend(b, q.at));
+    const double weight = a.area / panels_.area[x] * b.area / panels_.area[y];
+    for (const auto& q : rule) {
+      const Point at = q.at[0] * a.corner[0] + q.at[1] * a.corner[1] + q.at[2] * a.corner[2];
+      const Weights at_x = blend(a, q.at);
+      for (std::size_t j = 0; j < rule.size(); ++j)
+        add(at, points_b[j].first, nx, ny, weight * q.weight * rule[j].weight, at_x, points_b[j].second, sum);
+    }
+  };
+  recurse(recurse, whole(panels_, x), whole(panels_, y), 0);
+  return scaled(sum, scale);
+}
+
+// Sauter and Schwab's coordinates: a corner of each panel is (0, 0), the common ones come first, then (1, 0), then (1, 1). In them
+// the integrands are products of powers of xi (and of the first eta where an edge is common), for which two points are exact, with
+// smooth functions of the others.
+PairIntegrals PairQuadrature::touching(std::size_t x, std::size_t y, const std::array<int, 3>& of_x, const std::array<int, 3>& of_y, int common) const
+{
+  struct At {
+    double first, second;
+  };
+  PairIntegrals sum;
+  const Point &nx = panels_.normal[x], &ny = panels_.normal[y];
+  std::array<Point, 3> px, py;
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    px[k] = panels_.corner(x, of_x[k]);
+    py[k] = panels_.corner(y, of_y[k]);
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    longest = std::max({longest, (px[k] - px[(k + 1) % 3]).squaredNorm(), (py[k] - py[(k + 1) % 3]).squaredNorm()});
+  const auto put = [&](const At& a, const At& b, double weight) {
+    const Weights wx{1 - a.first, a.first - a.second, a.second}, wy{1 - b.first, b.first - b.second, b.second};
+    Weights at_x{}, at_y{};
+    Point p = Point::Zero(), q = Point::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      p += wx[k] * px[k];
+      q += wy[k] * py[k];
+      at_x[static_cast<std::size_t>(of_x[k])] = wx[k];
+      at_y[static_cast<std::size_t>(of_y[k])] = wy[k];
+    }
+    add(p, q, nx, ny, 4 * weight, at_x, at_y, sum);
+  };
+  // Slender triangles make the functions of the other coordinates steep.
+  const double slender = std::sqrt(longest / std::min(panels_.area[x], panels_.area[y]) / 2.5);
+  const int n = std::clamp(static_cast<int>(std::ceil((0.3 - std::log10(accuracy_)) * std::sqrt(slender))), fewest_in_corners,
+                           most_in_corners);
+  const auto &fine = gauss(n), &exact = gauss(2);
+  for (const auto& [xi, w0] : exact) {
+    if (common == 3) {
+      for (const auto& [e1, w1] : exact)
+        for (const auto& [e2, w2] : exact)
+          for (const auto& [e3, w3] : fine) {
+            const double w = w0 * w1 * w2 * w3 * xi * xi * xi * e1 * e1 * e2;
+            const auto both = [&](const At& a, const At& b) {
+              put(a, b, w);
+              put(b, a, w);
+            };
+            both({xi, xi * (1 - e1 + e1 * e2)}, {xi * (1 - e1 * e2 * e3), xi * (1 - e1)});
+            both({xi, xi * e1 * (1 - e2 + e2 * e3)}, {xi * (1 - e1 * e2), xi * e1 * (1 - e2)});
+            both({xi * (1 - e1 * e2 * e3), xi * e1 * (1 - e2 * e3)}, {xi, xi * e1 * (1 - e2)});
+          }
+    } else if (common == 2) {
+      for (const auto& [e1, w1] : exact)
+        for (const auto& [e2, w2] : fine)
+          for (const auto& [e3, w3] : fine) {
+            const double w = w0 * w1 * w2 * w3 * xi * xi * xi * e1 * e1;
+            put({xi, xi * e1 * e3}, {xi * (1 - e1 * e2), xi * e1 * (1 - e2)}, w);
+            put({xi, xi * e1}, {xi * (1 - e1 * e2 * e3), xi * e1 * e2 * (1 - e3)}, w * e2);
+            put({xi * (1 - e1 * e2), xi * e1 * (1 - e2)}, {xi, xi * e1 * e2 * e3}, w * e2);
+            put({xi * (1 - e1 * e2 * e3), xi * e1 * e2 * (1 - e3)}, {xi, xi * e1}, w * e2);
+            put({xi * (1 - e1 * e2 * e3), xi * e1 * (1 - e2 * e3)}, {xi, xi * e1 * e2}, w * e2);
+          }
+    } else {
+      for (const auto& [e1, w1] : fine)
+        for (const auto& [e2, w2] : fine)
+          for (const auto& [e3, w3] : fine) {
+            const double w = w0 * w1 * w2 * w3 * xi * xi * xi * e2;
+            put({xi, xi * e1}, {xi * e2, xi * e2 * e3}, w);
+            put({xi * e2, xi * e2 * e3}, {xi, xi * e1}, w);
+          }
+    }
+  }
+  if (common == 3) sum.double_x = sum.double_y = {};  // d lies in the plane
+  return sum;
+}
+
+}  // namespace mortise::bem
