@@ -1,7 +1,10 @@
 #include "analysis/assembly.hpp"
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
+#include "bem/particular_solution.hpp"
 #include "fem/stiffness.hpp"
+#include "feti/dense_subdomain.hpp"
 #include "model/indefinite.hpp"
 
 namespace mortise::analysis {
@@ -10,7 +13,8 @@ namespace {
 
 // Factorizes every subdomain that is not a copy of an earlier one.
 feti::Subdomains factorize(const model::Model& model, const std::vector<partition::CopyOf>& copies,
-                           std::vector<SparseMatrix> stiffness)
+                           std::vector<SparseMatrix> stiffness,
+                           const std::vector<std::shared_ptr<const feti::SubdomainOperator>>& dense)
 {
   const auto& deck = model.deck();
   const auto& decomposition = model.decomposition();
@@ -20,6 +24,10 @@ feti::Subdomains factorize(const model::Model& model, const std::vector<partitio
     if (original != s) {
       const auto& shared = subdomains[original];
       subdomains.push_back(rotation ? std::make_shared<feti::RotatedSubdomain>(shared, *rotation, deck.dimension()) : shared);
+      continue;
+    }
+    if (dense[s]) {
+      subdomains.push_back(dense[s]);
       continue;
     }
     const auto& subdomain = decomposition.subdomains[s];
@@ -49,27 +57,64 @@ Assembly::Stiffness Assembly::assemble(const model::Model& model, const std::vec
 {
   const auto scope = context.timers.scope("assembly");
   Stiffness stiffness;
-  collectively(context.comm, [&] { stiffness.matrices = model.stiffness(copies); });
-  for (std::size_t s = 0; s < copies.size(); ++s)
-    stiffness.of_nodes.push_back(copies[s].original == s ? feti::nodal_stiffness(stiffness.matrices[s], model.deck().dimension())
-                                                         : stiffness.of_nodes[copies[s].original]);
+  const int dimension = model.deck().dimension();
+  stiffness.matrices.resize(copies.size());
+  stiffness.dense.resize(copies.size());
+  collectively(context.comm, [&] {
+    for (std::size_t s = 0; s < copies.size(); ++s) {
+      stop_if_requested();
+      if (copies[s].original != s) {
+        stiffness.of_nodes.push_back(stiffness.of_nodes[copies[s].original]);
+        continue;
+      }
+      const auto& subdomain = model.decomposition().subdomains[s];
+      Eigen::VectorXd diagonal;
+      if (subdomain.skin) {
+        stiffness.dense[s] = std::make_shared<feti::DenseSubdomain>(
+            model.steklov_poincare(subdomain), fem::rigid_motions(subdomain.mesh.points, model.deck().kinematics),
+            subdomain.mesh.points, dimension);
+        diagonal = stiffness.dense[s]->diagonal();
+      } else {
+        stiffness.matrices[s] = model.stiffness(subdomain);
+        diagonal = stiffness.matrices[s].diagonal();
+      }
+      stiffness.of_nodes.push_back(feti::nodal_stiffness(diagonal, dimension));
+    }
+  });
   return stiffness;
 }
 
 Assembly::Assembly(const model::Model& model, const std::vector<partition::CopyOf>& copies, Stiffness stiffness,
                    const Context& context)
     : model_(model),
+      copies_(copies),
       directory_(model.decomposition(), stiffness.of_nodes, context.comm),
       interface_(partition::find_interface(model.decomposition(), directory_, context.comm))
 {
   const auto kinematics = model.deck().kinematics;
   const auto scope = context.timers.scope("factorization");
   collectively(context.comm, [&] {
-    system_.clusters = feti::Clusters(model.decomposition(), interface_, factorize(model, copies, std::move(stiffness.matrices)),
-                                      stiffness.of_nodes, kinematics);
+    system_.clusters =
+        feti::Clusters(model.decomposition(), interface_,
+                       factorize(model, copies, std::move(stiffness.matrices), stiffness.dense), stiffness.of_nodes, kinematics);
   });
   system_.nodal_stiffness = std::move(stiffness.of_nodes);
   system_.kinematics = kinematics;
+}
+
+std::vector<Eigen::VectorXd> Assembly::loads(const model::LoadState& state, const Communicator& comm) const
+{
+  auto f = model_.loads(state, comm);
+  const auto constitution = model_.constitution(state);
+  for (std::size_t s = 0; s < f.size(); ++s) {
+    const auto& subdomain = decomposition().subdomains[s];
+    if (!subdomain.skin) continue;
+    const bem::ParticularSolution particular(constitution[s], subdomain.mesh.points.front());
+    if (particular.is_zero()) continue;
+    const auto panels = bem::make_panels(subdomain.mesh);
+    f[s] += system_.clusters.subdomains()[s]->apply(particular.displacement(panels)) - particular.nodal_forces(panels);
+  }
+  return f;
 }
 
 }  // namespace mortise::analysis

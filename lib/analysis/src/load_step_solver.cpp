@@ -51,8 +51,13 @@ qp::Solution carry_multipliers(const feti::DualProblem& from, const qp::Solution
 
 post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem::Constitution> constitution)
 {
-  return {assembly.decomposition(), assembly.interface(), assembly.deck().kinematics, constitution,
-          assembly.model().most_materials()};
+  return {assembly.decomposition(),
+          assembly.interface(),
+          assembly.deck().kinematics,
+          constitution,
+          assembly.model().most_materials(),
+          assembly.copies(),
+          assembly.system().clusters.subdomains()};
 }
 
 }  // namespace
@@ -65,7 +70,7 @@ LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach& a
   {
     const auto scope = context.timers.scope("assembly");
     rows_ = std::make_shared<const Rows>(place(std::move(first), model, assembly.directory(), {}, context.comm));
-    load = model.loads(rows_->acts, context.comm);
+    load = assembly.loads(rows_->acts, context.comm);
   }
   const auto scope = context.timers.scope("solve");
   problem_ = make_problem(std::move(load));
@@ -100,7 +105,7 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   std::vector<Eigen::VectorXd> load;
   {
     const auto scope = context_.timers.scope("assembly");
-    load = model.loads(acts, comm);
+    load = assembly_.loads(acts, comm);
   }
   const auto scope = context_.timers.scope("solve");
   Rows rows = *from.rows;

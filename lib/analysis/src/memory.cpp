@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "fem/stiffness.hpp"
-#include "feti/subdomain_operator.hpp"
+#include "feti/dense_subdomain.hpp"
 
 namespace mortise::analysis {
 
@@ -18,7 +18,8 @@ constexpr double bytes_an_unknown = 450;         // mesh, fields, vectors of the
 constexpr double bytes_a_multiplier = 1000;      // vectors of the dual space, most of them recycled directions; B, G
 constexpr double dirichlet_part = 0.8;           // of a factor: the preconditioner's own
 constexpr double constraints_of_subdomain = 45;  // averages that join a subdomain to others of its cluster, each a vector of it
-constexpr double margin = 0.9;                   // of what is available
+constexpr double numbers_of_boundary_operators = 16;  // V, K, D and what they are made of, for each pair of unknowns at nodes
+constexpr double margin = 0.9;                        // of what is available
 
 // Sum over the ranks that share this rank's memory. Collective.
 double sum_on_machine(double x, const Communicator& comm)
@@ -46,27 +47,37 @@ Memory foresee_memory(const model::Model& model, const std::vector<partition::Co
     return static_cast<double>(decomposition.subdomains[s].mesh.node_count()) * dimension;
   };
   double all = 0, surfaces = 0, scaled = 0, matrices = 0;
-  std::size_t largest = 0;
+  double dense = 0, making = 0;  // bytes of boundary elements, kept and for a moment
+  constexpr auto none = static_cast<std::size_t>(-1);
+  std::size_t largest = none;
   for (std::size_t s = 0; s < copies.size(); ++s) {
     all += unknowns(s);
     surfaces += 2 * dimension * std::pow(unknowns(s) / dimension, 1 - 1.0 / dimension) * dimension;
     if (copies[s].original != s) continue;
-    if (unknowns(s) > unknowns(largest)) largest = s;
+    if (decomposition.subdomains[s].skin) {
+      dense += static_cast<double>(feti::DenseSubdomain::foreseen_bytes(static_cast<std::size_t>(unknowns(s))));
+      making = std::max(making, sizeof(double) * numbers_of_boundary_operators * unknowns(s) * unknowns(s));
+      continue;
+    }
+    if (largest == none || unknowns(s) > unknowns(largest)) largest = s;
     scaled += of_nested_dissection(unknowns(s), dimension);
     matrices += unknowns(s);
   }
   double factors = 0, held = bytes_an_unknown * all + 0.5 * bytes_a_multiplier * surfaces;
   collectively(comm, [&] {
-    if (copies.empty()) return;
+    factors = dense;
+    held += dense + making;
+    if (largest == none) return;
     const auto& subdomain = decomposition.subdomains[largest];
     const auto lower = model.stiffness(subdomain);
     const auto bytes = static_cast<double>(feti::ElasticSubdomain::foreseen_factor_bytes(
         lower, fem::rigid_motions(subdomain.mesh.points, deck.kinematics), subdomain.mesh.points, dimension));
     const double once = scaled / of_nested_dissection(unknowns(largest), dimension);
-    factors = bytes * once * (deck.solver.subdomains.preconditioner == "dirichlet" ? 1 + dirichlet_part : 1.0);
+    const double sparse = bytes * once * (deck.solver.subdomains.preconditioner == "dirichlet" ? 1 + dirichlet_part : 1.0);
     // While the largest is factorized there are two copies of it.
     if (decomposition.clustered()) held += constraints_of_subdomain * sizeof(double) * matrices;
-    held += factors + bytes + 12.0 * static_cast<double>(lower.nonZeros()) * matrices / unknowns(largest);
+    factors += sparse;
+    held += sparse + bytes + 12.0 * static_cast<double>(lower.nonZeros()) * matrices / unknowns(largest);
   });
   Memory memory;
   memory.factors = comm.sum(factors);

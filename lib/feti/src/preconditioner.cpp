@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
-#include "base/submatrix.hpp"
 #include "contact_gram.hpp"
 
 namespace mortise::feti {
@@ -52,7 +50,7 @@ std::vector<std::pair<Nodes, std::vector<std::size_t>>> by_interface(const JumpO
 double relaxed_energy(const SubdomainOperator& subdomain, const std::vector<bool>& fixed, Eigen::VectorXd u)
 {
   if (u.isZero(0)) return 0;
-  const Eigen::VectorXd diagonal = subdomain.stiffness().diagonal();
+  const Eigen::VectorXd diagonal = subdomain.diagonal();
   const auto release = [&](Eigen::VectorXd v) {
     for (Eigen::Index i = 0; i < v.size(); ++i)
       if (fixed[static_cast<std::size_t>(i)]) v[i] = 0;
@@ -93,7 +91,6 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
   const int dimension = dimension_;
   for (auto& [nodes, members] : by_interface(jump, subdomains, dimension)) {
     const std::size_t s = members.front();
-    const SparseMatrix& stiffness = subdomains[s]->original().stiffness();
     Surface surface;
     for (const Local node : nodes)
       for (int c = 0; c < dimension; ++c) surface.unknowns.push_back(dimension * node + c);
@@ -102,16 +99,7 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
     for (int i = 0; i < size; ++i)
       surface.weight[i] =
           1 / nodal_stiffness[s][static_cast<std::size_t>(surface.unknowns[static_cast<std::size_t>(i)] / dimension)];
-    surface.lower = submatrix(stiffness, surface.unknowns, surface.unknowns, true);
-    if (kind == Kind::dirichlet) {
-      std::vector<int> all(static_cast<std::size_t>(stiffness.rows())), inside;
-      std::iota(all.begin(), all.end(), 0);
-      std::set_difference(all.begin(), all.end(), surface.unknowns.begin(), surface.unknowns.end(), std::back_inserter(inside));
-      if (!inside.empty()) {
-        surface.interior = std::make_unique<DirectSolver>(factorization, submatrix(stiffness, inside, inside, true), dimension);
-        surface.coupling = submatrix(stiffness, inside, surface.unknowns, false);
-      }
-    }
+    surface.stiffness = subdomains[s]->original().interface_stiffness(surface.unknowns, kind == Kind::dirichlet, factorization);
     groups_.push_back({std::move(surface), std::move(members)});
   }
 }
@@ -165,14 +153,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
           subdomains_[s]->rotate_back(forces[s]);
           u.col(static_cast<Eigen::Index>(c)) = forces[s](surface.unknowns).cwiseProduct(surface.weight);
         }
-        Eigen::MatrixXd f = surface.lower.selfadjointView<Eigen::Lower>() * u;
-        if (surface.interior) {
-          Eigen::MatrixXd inner = surface.coupling * u;
-          std::vector<double*> columns;
-          for (Eigen::Index c = 0; c < inner.cols(); ++c) columns.push_back(inner.col(c).data());
-          surface.interior->solve(columns);
-          f -= surface.coupling.transpose() * inner;
-        }
+        const Eigen::MatrixXd f = surface.stiffness->apply(u);
         for (std::size_t c = 0; c < count; ++c) {
           const std::size_t s = members[first + c];
           forces[s].setZero();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/submatrix.hpp"
+
 namespace mortise::feti {
 
 namespace {
@@ -104,23 +106,20 @@ std::vector<Local> fixing_nodes(std::span<const Point> points, const Eigen::Matr
   return quality(kernel, best, dimension) < 1e-6 ? all : best;  // so few nodes, or so flat, that only all of them will do
 }
 
-std::vector<double> nodal_stiffness(const SparseMatrix& lower, int dimension)
+std::vector<double> nodal_stiffness(const Eigen::VectorXd& diagonal, int dimension)
 {
-  const Eigen::VectorXd diagonal = lower.diagonal();
   std::vector<double> result(static_cast<std::size_t>(diagonal.size() / dimension));
   for (std::size_t n = 0; n < result.size(); ++n)
     result[n] = diagonal.segment(static_cast<Eigen::Index>(n) * dimension, dimension).mean();
   return result;
 }
 
-namespace {
-
-// r N, lower triangle.
-SparseMatrix fixing(const SparseMatrix& lower, const Eigen::MatrixXd& kernel, std::span<const Point> points, int dimension)
+SparseMatrix fixing_term(const Eigen::VectorXd& diagonal, const Eigen::MatrixXd& kernel, std::span<const Point> points,
+                         int dimension)
 {
   const auto nodes = fixing_nodes(points, kernel, dimension);
   const Eigen::MatrixXd rows = rows_of(kernel, nodes, dimension);
-  const double r = lower.diagonal().mean();
+  const double r = diagonal.mean();
   const Eigen::MatrixXd dense = r * rows * (rows.transpose() * rows).ldlt().solve(rows.transpose());
   std::vector<Eigen::Triplet<double>> triplets;
   const auto unknown = [&](Eigen::Index i) {
@@ -128,18 +127,55 @@ SparseMatrix fixing(const SparseMatrix& lower, const Eigen::MatrixXd& kernel, st
   };
   for (Eigen::Index i = 0; i < dense.rows(); ++i)
     for (Eigen::Index j = 0; j <= i; ++j) triplets.emplace_back(unknown(i), unknown(j), dense(i, j));
-  SparseMatrix result(lower.rows(), lower.cols());
+  SparseMatrix result(diagonal.size(), diagonal.size());
   result.setFromTriplets(triplets.begin(), triplets.end());
   return result;
 }
+
+namespace {
+
+// Of a sparse K: K_bb, and what condenses the inside, if that is asked for.
+class SparseInterface : public InterfaceStiffness {
+ public:
+  SparseInterface(const SparseMatrix& stiffness, const std::vector<int>& unknowns, bool condensed,
+                  const std::string& factorization, int dimension)
+      : lower_(submatrix(stiffness, unknowns, unknowns, true))
+  {
+    if (!condensed) return;
+    std::vector<int> all(static_cast<std::size_t>(stiffness.rows())), inside;
+    std::iota(all.begin(), all.end(), 0);
+    std::set_difference(all.begin(), all.end(), unknowns.begin(), unknowns.end(), std::back_inserter(inside));
+    if (inside.empty()) return;
+    interior_ = std::make_unique<DirectSolver>(factorization, submatrix(stiffness, inside, inside, true), dimension);
+    coupling_ = submatrix(stiffness, inside, unknowns, false);
+  }
+
+  Eigen::MatrixXd apply(const Eigen::MatrixXd& u) const override
+  {
+    Eigen::MatrixXd f = lower_.selfadjointView<Eigen::Lower>() * u;
+    if (!interior_) return f;
+    Eigen::MatrixXd inner = coupling_ * u;
+    std::vector<double*> columns;
+    for (Eigen::Index c = 0; c < inner.cols(); ++c) columns.push_back(inner.col(c).data());
+    interior_->solve(columns);
+    f -= coupling_.transpose() * inner;
+    return f;
+  }
+
+ private:
+  SparseMatrix lower_;     // K_bb
+  SparseMatrix coupling_;  // K_ib
+  std::unique_ptr<DirectSolver> interior_;
+};
 
 }  // namespace
 
 ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
                                    const std::string& factorization)
     : stiffness_(std::move(lower)),
-      fixing_(fixing(stiffness_, kernel, points, dimension)),
+      fixing_(fixing_term(stiffness_.diagonal(), kernel, points, dimension)),
       kernel_(std::move(kernel)),
+      dimension_(dimension),
       solver_(std::make_unique<DirectSolver>(factorization, stiffness_ + fixing_, dimension))
 {
 }
@@ -147,7 +183,13 @@ ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, s
 std::size_t ElasticSubdomain::foreseen_factor_bytes(const SparseMatrix& lower, const Eigen::MatrixXd& kernel,
                                                     std::span<const Point> points, int dimension)
 {
-  return Cholesky(lower + fixing(lower, kernel, points, dimension), dimension).factor_bytes();
+  return Cholesky(lower + fixing_term(lower.diagonal(), kernel, points, dimension), dimension).factor_bytes();
+}
+
+std::unique_ptr<const InterfaceStiffness> ElasticSubdomain::interface_stiffness(const std::vector<int>& unknowns, bool condensed,
+                                                                                const std::string& factorization) const
+{
+  return std::make_unique<SparseInterface>(stiffness_, unknowns, condensed, factorization, dimension_);
 }
 
 RotatedSubdomain::RotatedSubdomain(std::shared_ptr<const SubdomainOperator> original, const Eigen::Matrix3d& rotation,

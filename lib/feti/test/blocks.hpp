@@ -54,7 +54,7 @@ struct Blocks {
       if (rotated)
         for (auto& point : original.points) point = rotated->transpose() * point;
       auto stiffness = fem::stiffness(original, fem::Material{young(static_cast<int>(s.id)), 0.3, 0, 0}, fem::Kinematics::solid);
-      system.nodal_stiffness.push_back(nodal_stiffness(stiffness, 3));
+      system.nodal_stiffness.push_back(nodal_stiffness(stiffness.diagonal(), 3));
       load.emplace_back(Eigen::VectorXd::Zero(stiffness.cols()));
       subdomains.push_back(std::make_shared<ElasticSubdomain>(
           std::move(stiffness), fem::rigid_motions(original.points, fem::Kinematics::solid), original.points, 3, "cholmod"));

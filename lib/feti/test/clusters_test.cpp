@@ -47,7 +47,7 @@ struct Block {
     Subdomains subdomains;
     for (const auto& s : decomposition.subdomains) {
       const auto k = fem::stiffness(s.mesh, fem::Material{s.id % 3 == 2 ? 1e3 : 1.0, 0.3, 0, 0}, setting.kinematics);
-      weight.push_back(nodal_stiffness(k, dimension));
+      weight.push_back(nodal_stiffness(k.diagonal(), dimension));
       subdomains.push_back(std::make_shared<ElasticSubdomain>(k, fem::rigid_motions(s.mesh.points, setting.kinematics),
                                                               s.mesh.points, dimension, "cholmod"));
     }
@@ -124,7 +124,7 @@ TEST_P(Answers, KernelsAreRigidMotionsOfClusters)
     gram.middleRows(clusters.first(s), clusters.modes()) += kernel.transpose() * kernel;
     work.segment(clusters.first(s), clusters.modes()) += clusters.coordinates(s, inner[s]);
     for (Eigen::Index k = 0; k < kernel.cols(); ++k)
-      EXPECT_LT(clusters.subdomains()[s]->apply(kernel.col(k)).norm(), 1e-10 * clusters.subdomains()[s]->stiffness().norm());
+      EXPECT_LT(clusters.subdomains()[s]->apply(kernel.col(k)).norm(), 1e-10 * clusters.subdomains()[s]->diagonal().norm());
   }
   EXPECT_LE(work.norm(), 1e-10 * norm(inner));
   for (std::size_t s = 0; s < inner.size(); ++s)

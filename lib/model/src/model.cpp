@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "bem/steklov_poincare.hpp"
 #include "contact/cyclic.hpp"
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
@@ -92,11 +93,23 @@ double Model::temperature_change(const partition::Subdomain& subdomain, const Lo
   return warmer;
 }
 
+Point Model::acceleration(const partition::Subdomain& subdomain, const LoadState& state) const
+{
+  Point sum = Point::Zero();
+  for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
+    const auto& load = deck_.loads[i];
+    if (load.acceleration && bodies_named(load.body)[static_cast<std::size_t>(subdomain.body)])
+      sum += state.load[i] * point(*load.acceleration);
+  }
+  return sum;
+}
+
 std::vector<fem::Constitution> Model::constitution(const LoadState& state) const
 {
   std::vector<fem::Constitution> result;
   for (const auto& subdomain : decomposition_.subdomains)
-    result.push_back({materials(subdomain), formulation(subdomain), temperature_change(subdomain, state)});
+    result.push_back(
+        {materials(subdomain), formulation(subdomain), temperature_change(subdomain, state), acceleration(subdomain, state)});
   return result;
 }
 
@@ -211,14 +224,14 @@ SparseMatrix Model::stiffness(const partition::Subdomain& subdomain) const
   }
 }
 
-std::vector<SparseMatrix> Model::stiffness(const std::vector<partition::CopyOf>& copies) const
+Eigen::MatrixXd Model::steklov_poincare(const partition::Subdomain& subdomain) const
 {
-  std::vector<SparseMatrix> result(copies.size());
-  for (std::size_t s = 0; s < copies.size(); ++s) {
-    if (copies[s].original != s) continue;
-    result[s] = stiffness(decomposition_.subdomains[s]);
+  try {
+    return bem::steklov_poincare(bem::make_panels(subdomain.mesh), materials(subdomain)[0]);
+  } catch (const Error& error) {
+    const auto& body = decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];
+    throw Error(error.status(), fmt::format("body \"{}\": {}", body.name, error.what()));
   }
-  return result;
 }
 
 std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communicator& comm) const
@@ -229,7 +242,7 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
     f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
   for (std::size_t s = 0; s < f.size(); ++s) {
     const auto& subdomain = decomposition_.subdomains[s];
-    if (const double warmer = temperature_change(subdomain, state); warmer != 0)
+    if (const double warmer = temperature_change(subdomain, state); warmer != 0 && !subdomain.skin)
       fem::add_expansion(subdomain.mesh, materials(subdomain), deck_.kinematics, warmer, f[s]);
   }
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
@@ -239,7 +252,8 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
     if (load.acceleration) {
       const auto on_body = bodies_named(load.body);
       for (std::size_t s = 0; s < f.size(); ++s)
-        if (const auto& subdomain = decomposition_.subdomains[s]; on_body[static_cast<std::size_t>(subdomain.body)])
+        if (const auto& subdomain = decomposition_.subdomains[s];
+            on_body[static_cast<std::size_t>(subdomain.body)] && !subdomain.skin)
           fem::add_acceleration(subdomain.mesh, deck_.kinematics, materials(subdomain), factor * point(*load.acceleration), f[s]);
       continue;
     }

@@ -2,11 +2,14 @@
 
 #include <cmath>
 
+#include "boundary_stress.hpp"
 #include "fem/stress.hpp"
 
 namespace mortise::post {
 
 namespace {
+
+constexpr double assumed_error = 0.01;  // of boundary elements, of their part of the solution, in the energy norm
 
 // Stresses averaged at the nodes of each body, material by material, and what they differ by from those of the cells.
 struct Recovered {
@@ -25,7 +28,11 @@ Point centre(const mesh::Mesh& mesh, std::size_t cell)
   return sum / static_cast<double>(mesh.cells[cell].size());
 }
 
-Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
+// Whether the stresses of boundary elements are recovered, or their errors assumed.
+enum class Boundary { recovered, assumed };
+
+Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm,
+                  Boundary way)
 {
   const auto& subdomains = bodies.decomposition.subdomains;
   const auto blocks = bodies.blocks;
@@ -33,8 +40,25 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
   Recovered result;
   result.worst_cell.resize(body_count);
   result.body_error.resize(body_count, 0.0);
+  std::vector<BoundaryStress> boundary;
+  if (way == Boundary::recovered) boundary = boundary_stresses(bodies, displacement);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& own = bodies.constitution[s];
+    if (subdomains[s].skin) {
+      const double energy = boundary_energy(bodies, s, displacement[s]);
+      result.strain_energy += energy;
+      if (way == Boundary::assumed) {
+        result.squared_error += assumed_error * assumed_error * 2 * energy;
+        result.nodal.emplace_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(subdomains[s].mesh.node_count()),
+                                                        7 * static_cast<Eigen::Index>(blocks)));
+        result.cell_von_mises.emplace_back();
+        continue;
+      }
+      result.nodal.push_back(boundary[s].nodal_sums);
+      auto& von_mises = result.cell_von_mises.emplace_back(boundary[s].stress.rows());
+      for (Eigen::Index p = 0; p < von_mises.size(); ++p) von_mises[p] = fem::von_mises(boundary[s].stress.row(p).transpose());
+      continue;
+    }
     auto field = fem::stresses(subdomains[s].mesh, own.materials, bodies.kinematics, displacement[s], own.formulation,
                                own.temperature_change, blocks);
     result.strain_energy += field.strain_energy;
@@ -43,6 +67,7 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
   }
   partition::sum_over_copies(bodies.decomposition, bodies.interface, result.nodal, comm);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    if (subdomains[s].skin && way == Boundary::assumed) continue;
     const auto& sums = result.nodal[s];
     Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(sums.rows(), 6 * static_cast<Eigen::Index>(blocks));
     for (Eigen::Index n = 0; n < sums.rows(); ++n)
@@ -51,8 +76,9 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
     const auto& mesh = subdomains[s].mesh;
     const auto body = static_cast<std::size_t>(subdomains[s].body);
     const auto& own = bodies.constitution[s];
-    const auto errors = fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], stress, own.formulation,
-                                            own.temperature_change);
+    const auto errors = subdomains[s].skin ? boundary_errors(bodies, s, boundary[s], stress)
+                                           : fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], stress,
+                                                                 own.formulation, own.temperature_change);
     result.squared_error += errors.sum();
     result.body_error[body] += errors.sum();
     for (Eigen::Index c = 0; c < errors.size(); ++c)
@@ -81,7 +107,7 @@ Eigen::MatrixXd governing(const Eigen::MatrixXd& stress)
 StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
                            const Communicator& comm)
 {
-  auto recovered = recover(bodies, displacement, comm);
+  auto recovered = recover(bodies, displacement, comm, Boundary::recovered);
   const auto& subdomains = bodies.decomposition.subdomains;
   StressField field;
   for (const auto& stress : recovered.nodal) field.nodal.push_back(governing(stress));
@@ -114,7 +140,7 @@ StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen:
 
 EnergyNorms energy_norms(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
-  const auto recovered = recover(bodies, displacement, comm);
+  const auto recovered = recover(bodies, displacement, comm, Boundary::assumed);
   return {std::sqrt(recovered.squared_error), std::sqrt(2 * recovered.strain_energy)};
 }
 

@@ -25,16 +25,22 @@ class Assembly {
   const partition::NodeDirectory& directory() const { return directory_; }
   const partition::Interface& interface() const { return interface_; }
   const feti::SubdomainSystem& system() const { return system_; }
+  /// For each subdomain of this rank the first one that it is a copy of.
+  const std::vector<partition::CopyOf>& copies() const { return copies_; }
+  /// Nodal forces of every subdomain. Collective.
+  std::vector<Eigen::VectorXd> loads(const model::LoadState& state, const Communicator& comm) const;
 
  private:
   struct Stiffness {
-    std::vector<SparseMatrix> matrices;         // of the subdomains that are no copies
+    std::vector<SparseMatrix> matrices;  // of the subdomains that are no copies; of boundary elements empty, and:
+    std::vector<std::shared_ptr<const feti::SubdomainOperator>> dense;
     std::vector<std::vector<double>> of_nodes;  // of all
   };
   Assembly(const model::Model& model, const std::vector<partition::CopyOf>& copies, Stiffness stiffness, const Context& context);
   static Stiffness assemble(const model::Model& model, const std::vector<partition::CopyOf>& copies, const Context& context);
 
   const model::Model& model_;
+  std::vector<partition::CopyOf> copies_;
   partition::NodeDirectory directory_;
   partition::Interface interface_;
   feti::SubdomainSystem system_;

@@ -11,6 +11,7 @@ struct Constitution {
   Materials materials;
   Formulation formulation = Formulation::standard;
   double temperature_change = 0;  ///< degrees
+  Point acceleration = Point::Zero();
 };
 
 }  // namespace mortise::fem

@@ -46,10 +46,8 @@ class Preconditioner : public qp::ActiveSetPreconditioner {
  private:
   struct Surface {
     std::vector<int> unknowns;
-    Eigen::VectorXd weight;  // 1 / D
-    SparseMatrix lower;      // K_bb
-    SparseMatrix coupling;   // K_ib, for Dirichlet
-    std::unique_ptr<DirectSolver> interior;
+    Eigen::VectorXd weight;                               // 1 / D
+    std::unique_ptr<const InterfaceStiffness> stiffness;  // S
   };
   const JumpOperator& jump_;
   const std::vector<std::vector<double>>& nodal_stiffness_;

@@ -1,5 +1,5 @@
-// What the dual problem needs of a floating subdomain, whatever discretizes it: finite elements here, boundary elements may
-// follow.
+// What the dual problem needs of a floating subdomain, whatever discretizes it: finite elements here, boundary elements in
+// dense_subdomain.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,6 +13,14 @@
 #include "feti/direct_solver.hpp"
 
 namespace mortise::feti {
+
+/// What preconditioners need of a subdomain: a symmetric operator on some of its unknowns.
+class InterfaceStiffness {
+ public:
+  virtual ~InterfaceStiffness() = default;
+  /// Forces of displacements u of those unknowns: (unknowns) x columns.
+  virtual Eigen::MatrixXd apply(const Eigen::MatrixXd& u) const = 0;
+};
 
 /// The symmetric positive semidefinite operator K of one subdomain with `size()` unknowns.
 class SubdomainOperator {
@@ -28,8 +36,12 @@ class SubdomainOperator {
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
   /// The lower triangle of a positive definite matrix whose inverse K^+ is.
   virtual SparseMatrix regularised() const = 0;
-  /// The lower triangle of K, for preconditioners; of a rotated copy, that of its original.
-  virtual const SparseMatrix& stiffness() const = 0;
+  /// Of K; of a rotated copy, that of its original.
+  virtual Eigen::VectorXd diagonal() const = 0;
+  /// On the unknowns b (ascending, whole nodes): K_bb, or, if `condensed`, its Schur complement K_bb - K_bi K_ii^-1 K_ib, with
+  /// K_ii factorized by one of direct_solvers(). Refers to this. Of a rotated copy, that of its original. Throws as DirectSolver.
+  virtual std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
+                                                                        const std::string& factorization) const = 0;
   /// Bytes of its own factor; 0 for a rotated copy, which uses that of its original.
   virtual std::size_t factor_bytes() const = 0;
 
@@ -66,13 +78,18 @@ class ElasticSubdomain : public SubdomainOperator {
   void apply_inverse(std::span<double* const> columns) const override { solver_->solve(columns); }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override { return stiffness_.selfadjointView<Eigen::Lower>() * u; }
   SparseMatrix regularised() const override { return stiffness_ + fixing_; }
-  const SparseMatrix& stiffness() const override { return stiffness_; }
+  Eigen::VectorXd diagonal() const override { return stiffness_.diagonal(); }
+  std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
+                                                                const std::string& factorization) const override;
+  /// The lower triangle of K.
+  const SparseMatrix& stiffness() const { return stiffness_; }
   std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
 
  private:
   SparseMatrix stiffness_;
   SparseMatrix fixing_;  // r N, lower triangle
   Eigen::MatrixXd kernel_;
+  int dimension_;
   std::unique_ptr<DirectSolver> solver_;
 };
 
@@ -87,7 +104,12 @@ class RotatedSubdomain : public SubdomainOperator {
   void apply_inverse(std::span<double* const> columns) const override;
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
   SparseMatrix regularised() const override;
-  const SparseMatrix& stiffness() const override { return original_->stiffness(); }
+  Eigen::VectorXd diagonal() const override { return original_->diagonal(); }
+  std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
+                                                                const std::string& factorization) const override
+  {
+    return original_->interface_stiffness(unknowns, condensed, factorization);
+  }
   std::size_t factor_bytes() const override { return 0; }
   const SubdomainOperator& original() const override { return *original_; }
   void rotate_back(Eigen::VectorXd& v) const override;
@@ -102,7 +124,12 @@ class RotatedSubdomain : public SubdomainOperator {
 /// A few nodes, spread over the subdomain, whose rows of the kernel have full column rank with a good condition.
 std::vector<Local> fixing_nodes(std::span<const Point> points, const Eigen::MatrixXd& kernel, int dimension);
 
-/// trace(K_nn) / dimension of each node: the stiffness by which the copies of a node share what acts on it.
-std::vector<double> nodal_stiffness(const SparseMatrix& lower, int dimension);
+/// r N of ElasticSubdomain, its lower triangle, from the diagonal of K.
+SparseMatrix fixing_term(const Eigen::VectorXd& diagonal, const Eigen::MatrixXd& kernel, std::span<const Point> points,
+                         int dimension);
+
+/// trace(K_nn) / dimension of each node, from the diagonal of K: the stiffness by which the copies of a node share what acts on
+/// it.
+std::vector<double> nodal_stiffness(const Eigen::VectorXd& diagonal, int dimension);
 
 }  // namespace mortise::feti

@@ -35,15 +35,17 @@ class Model {
   void require_fit(deck::Document& document, const Communicator& comm) const;
   /// Degrees, the sum of all loads on its body.
   double temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const;
-  /// Materials, formulation and temperature change of every subdomain of this rank.
+  /// The sum of all accelerations of its body.
+  Point acceleration(const partition::Subdomain& subdomain, const LoadState& state) const;
+  /// Materials, formulation, temperature change and acceleration of every subdomain of this rank.
   std::vector<fem::Constitution> constitution(const LoadState& state) const;
   /// For each subdomain the first one of this rank with the same shape and material.
   std::vector<partition::CopyOf> congruent() const;
   /// Stiffness of a subdomain: its lower triangle. Errors name the body.
   SparseMatrix stiffness(const partition::Subdomain& subdomain) const;
-  /// Stiffness of every subdomain that is no copy: its lower triangle. The others get an empty matrix.
-  std::vector<SparseMatrix> stiffness(const std::vector<partition::CopyOf>& copies) const;
-  /// Consistent loads of every subdomain. Collective.
+  /// Of a subdomain of boundary elements: its Steklov-Poincare operator. Errors name the body.
+  Eigen::MatrixXd steklov_poincare(const partition::Subdomain& subdomain) const;
+  /// Consistent loads of every subdomain; of boundary elements those on the surface alone. Collective.
   std::vector<Eigen::VectorXd> loads(const LoadState& state, const Communicator& comm) const;
   /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways. Those that do not act hold nothing.
   std::vector<constraint::SupportOptions> supports(const LoadState& state) const;

@@ -9,9 +9,10 @@
 namespace mortise::partition {
 
 struct Subdomain {
-  Global id = 0;    ///< over all ranks and bodies
-  int body = 0;     ///< index into Catalogue::bodies
-  mesh::Mesh mesh;  ///< its own cells, nodes and boundary facets; nodes on its border are copied in the neighbours
+  Global id = 0;      ///< over all ranks and bodies
+  int body = 0;       ///< index into Catalogue::bodies
+  mesh::Mesh mesh;    ///< its own cells, nodes and boundary facets; nodes on its border are copied in the neighbours
+  bool skin = false;  ///< known by its surface alone: its cells are panels, of type tri3 in space (line2 in a plane)
 };
 
 struct Decomposition {

@@ -3,6 +3,8 @@
 // Recovered stresses sigma* are averaged at the nodes of each body, material by material; the error of the finite element
 // stresses sigma_h in the energy norm is estimated by || sigma* - sigma_h || [Zienkiewicz and Zhu, Int. J. Numer. Methods Eng. 24
 // (1987)].
+//
+// Of boundary elements stresses are known at the surface, panel by panel, and averaged in the same way.
 #pragma once
 
 #include <span>
@@ -10,6 +12,8 @@
 
 #include "base/communicator.hpp"
 #include "fem/constitution.hpp"
+#include "feti/subdomain_operator.hpp"
+#include "partition/congruence.hpp"
 #include "partition/node_directory.hpp"
 #include "post/bodies.hpp"
 
@@ -22,6 +26,9 @@ struct ElasticBodies {
   fem::Kinematics kinematics;
   std::span<const fem::Constitution> constitution;
   std::size_t blocks = 1;
+  /// What subdomains of boundary elements need as well: what each is a copy of, and the operators.
+  std::span<const partition::CopyOf> copies = {};
+  std::span<const std::shared_ptr<const feti::SubdomainOperator>> operators = {};
 };
 
 /// Fields of each subdomain of this rank, in the deck's unit of stress, and sums over all ranks.
@@ -43,7 +50,8 @@ struct StressField {
 StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
                            const Communicator& comm);
 
-/// In the energy norm: the estimated error of the mesh, and the size of the solution.
+/// In the energy norm: the estimated error of the mesh, and the size of the solution. That of boundary elements is not estimated
+/// here, where it would cost much, but taken for a hundredth of their part of the solution.
 struct EnergyNorms {
   double error = 0, solution = 0;
 };

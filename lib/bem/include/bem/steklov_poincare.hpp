@@ -1,0 +1,28 @@
+// What a body's surface knows of its inside: forces and tractions from displacements.
+//
+//     S = D + (M/2 + K)' V^-1 (M/2 + K),   t = V^-1 (M/2 + K) u
+//
+// [Steinbach, Numerical Approximation Methods for Elliptic Boundary Value Problems, Springer 2008, section 12.3]. Quadrature is
+// made exact for fields that are linear in space, with tractions T n of a constant stress: K gets (V T - K U) (U'U)^-1 U' more
+// for the twelve of them, U and T, and D a symmetric term such that S U = M'T. So rigid motions have no forces but by rounding.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "bem/panels.hpp"
+#include "fem/options.hpp"
+
+namespace mortise::bem {
+
+/// Of the quadrature, as far as fields are not linear.
+inline constexpr double usual_accuracy = 1e-4;
+
+/// S, 3 n x 3 n, symmetric, unknown 3 * node + component. Takes about 31 m n doubles of memory for a moment (m panels, n nodes).
+/// Throws Error(bad_input) where V is not positive definite, which is a matter of panels that cut each other.
+Eigen::MatrixXd steklov_poincare(const Panels& panels, const fem::Material& material, double accuracy = usual_accuracy);
+
+/// t, 3 m x columns, of displacements u, 3 n x columns: unknown 3 * panel + component. Costs about a third of S.
+Eigen::MatrixXd tractions(const Panels& panels, const fem::Material& material, const Eigen::MatrixXd& u,
+                          double accuracy = usual_accuracy);
+
+}  // namespace mortise::bem

@@ -1,0 +1,110 @@
+#include "bem/steklov_poincare.hpp"
+
+#include <Eigen/Cholesky>
+#include <Teuchos_BLAS.hpp>
+#include <Teuchos_LAPACK.hpp>
+
+#include "base/error.hpp"
+#include "bem/boundary_operators.hpp"
+
+namespace mortise::bem {
+
+namespace {
+
+// U, 3 n x 12, and T, 3 m x 12: displacements that are linear in space, and their tractions.
+struct LinearFields {
+  Eigen::MatrixXd u, t;
+};
+
+LinearFields linear_fields(const Panels& panels, const fem::Material& material)
+{
+  const double mu = material.young_modulus / (2 * (1 + material.poisson_ratio));
+  const double lambda = 2 * mu * material.poisson_ratio / (1 - 2 * material.poisson_ratio);
+  Point low = panels.points.front(), high = low;
+  for (const auto& p : panels.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const Point centre = (low + high) / 2, size = high - low;
+  LinearFields fields{Eigen::MatrixXd(3 * panels.node_count(), 12), Eigen::MatrixXd::Zero(3 * panels.size(), 12)};
+  for (int c = 0; c < 3; ++c) fields.u.col(c) = linear_field(panels, Point::Unit(c), Eigen::Matrix3d::Zero(), centre);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+      gradient(i, j) = 1 / size[j];
+      const Eigen::Matrix3d stress =
+          mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
+      const int column = 3 + 3 * i + j;
+      fields.u.col(column) = linear_field(panels, Point::Zero(), gradient, centre);
+      for (std::size_t p = 0; p < panels.corners.size(); ++p)
+        fields.t.col(column).segment<3>(3 * static_cast<Eigen::Index>(p)) = stress * panels.normal[p];
+    }
+  return fields;
+}
+
+// V and K, with which linear fields are exact.
+void correct(const LinearFields& fields, const Eigen::MatrixXd& v, Eigen::MatrixXd& k)
+{
+  const auto gram = (fields.u.transpose() * fields.u).eval().ldlt();
+  k.noalias() += (v * fields.t - k * fields.u) * gram.solve(fields.u.transpose());
+}
+
+// D likewise, after K: D U = M'T - K'T.
+void correct(const LinearFields& fields, const Panels& panels, const Eigen::MatrixXd& k, Eigen::MatrixXd& d)
+{
+  const auto gram = (fields.u.transpose() * fields.u).eval().ldlt();
+  const Eigen::MatrixXd dual = gram.solve(fields.u.transpose());
+  Eigen::MatrixXd lacking = -k.transpose() * fields.t - d * fields.u;
+  for (Eigen::Index c = 0; c < lacking.cols(); ++c) lacking.col(c) += nodal_forces(panels, fields.t.col(c));
+  const Eigen::MatrixXd both = fields.u.transpose() * lacking;
+  const Eigen::MatrixXd half = lacking * dual;
+  d += half + half.transpose();
+  d.noalias() -= dual.transpose() * ((both + both.transpose()) / 2) * dual;
+}
+
+// V = L L', in the lower triangle.
+void factorize(Eigen::MatrixXd& v)
+{
+  int info = 0;
+  const auto size = static_cast<int>(v.rows());
+  Teuchos::LAPACK<int, double>().POTRF('L', size, v.data(), size, &info);
+  if (info != 0)
+    throw Error(ExitStatus::bad_input,
+                "the single layer of the surface is not positive definite: do faces of it cut each other?");
+}
+
+void solve_lower(const Eigen::MatrixXd& lower, Teuchos::ETransp transposed, Eigen::MatrixXd& b)
+{
+  const auto size = static_cast<int>(lower.rows());
+  Teuchos::BLAS<int, double>().TRSM(Teuchos::LEFT_SIDE, Teuchos::LOWER_TRI, transposed, Teuchos::NON_UNIT_DIAG, size,
+                                    static_cast<int>(b.cols()), 1.0, lower.data(), size, b.data(), size);
+}
+
+}  // namespace
+
+Eigen::MatrixXd steklov_poincare(const Panels& panels, const fem::Material& material, double accuracy)
+{
+  auto [v, k, d] = boundary_operators(panels, material, accuracy);
+  const auto fields = linear_fields(panels, material);
+  correct(fields, v, k);
+  correct(fields, panels, k, d);
+  factorize(v);
+  solve_lower(v, Teuchos::NO_TRANS, k);
+  const auto n = static_cast<int>(d.rows()), m = static_cast<int>(k.rows());
+  Teuchos::BLAS<int, double>().SYRK(Teuchos::LOWER_TRI, Teuchos::TRANS, n, m, 1.0, k.data(), m, 1.0, d.data(), n);
+  d.triangularView<Eigen::StrictlyUpper>() = d.transpose();
+  return std::move(d);
+}
+
+Eigen::MatrixXd tractions(const Panels& panels, const fem::Material& material, const Eigen::MatrixXd& u, double accuracy)
+{
+  auto [v, k, d] = boundary_operators(panels, material, accuracy);
+  correct(linear_fields(panels, material), v, k);
+  Eigen::MatrixXd t = k * u;
+  factorize(v);
+  solve_lower(v, Teuchos::NO_TRANS, t);
+  solve_lower(v, Teuchos::TRANS, t);
+  return t;
+}
+
+}  // namespace mortise::bem

@@ -1,0 +1,134 @@
+#include "bem/boundary_operators.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "shapes.hpp"
+
+namespace mortise::bem {
+namespace {
+
+const fem::Material steel{2.0, 0.3, 0, 0};
+constexpr double mu = 2.0 / 2.6, lambda = 2 * mu * 0.3 / 0.4;
+
+// Integral of 1 / (4 pi r) over all pairs of points of a square of side 1 [Durand, Electrostatique, 1964: 4 (asinh 1 - (sqrt 2 -
+// 1) / 3)].
+double square_with_itself()
+{
+  return (std::asinh(1.0) - (std::sqrt(2.0) - 1) / 3) / std::numbers::pi;
+}
+
+// Pairs of panels of the face z = 0 of a cube: the panel itself, common edges and corners, and none in common.
+TEST(LayerIntegrals, SquareWithItself)
+{
+  for (const int cells : {1, 2, 4})
+    for (const double accuracy : {1e-4, 1e-8}) {
+      const auto panels = box({cells, cells, cells}, Point(1, 1, 1));
+      const auto layers = integrate_layers(panels, steel, accuracy);
+      double single = 0;
+      Eigen::Matrix3d kelvin = Eigen::Matrix3d::Zero();
+      for (Eigen::Index p = 0; p < panels.size(); ++p)
+        for (Eigen::Index q = 0; q < panels.size(); ++q)
+          if (panels.normal[static_cast<std::size_t>(p)][2] < -0.5 && panels.normal[static_cast<std::size_t>(q)][2] < -0.5) {
+            single += layers.single(p, q);
+            kelvin += layers.kelvin.block<3, 3>(3 * p, 3 * q);
+          }
+      EXPECT_NEAR(single, square_with_itself(), 2 * accuracy * square_with_itself()) << cells;
+      // d d' / r^3: half of 1 / r in the directions of the plane, by symmetry.
+      const double factor = 1.3 / (2 * 2.0 * 0.7);
+      const Eigen::Matrix3d exact =
+          factor * square_with_itself() * Eigen::Vector3d(3 - 4 * 0.3 + 0.5, 3 - 4 * 0.3 + 0.5, 3 - 4 * 0.3).asDiagonal();
+      EXPECT_LT((kelvin - exact).norm(), 2 * accuracy * exact.norm()) << cells;
+    }
+}
+
+// Seen from a point of the surface, the surface fills half of all directions.
+TEST(LayerIntegrals, DoubleLayerOfAConstantIsMinusOneHalf)
+{
+  for (const auto& panels : {box({3, 2, 1}, Point(1, 2, 0.3)), tetrahedron(), sphere(1), box({10, 10, 1}, Point(1, 1, 0.05))})
+    for (const double accuracy : {1e-3, 1e-5}) {
+      const Eigen::VectorXd sums = integrate_layers(panels, steel, accuracy).double_layer.rowwise().sum();
+      for (Eigen::Index p = 0; p < panels.size(); ++p)
+        EXPECT_NEAR(sums[p] / panels.area[static_cast<std::size_t>(p)], -0.5, 3 * accuracy) << panels.size();
+    }
+}
+
+// The better the quadrature, the better are linear fields: V t = (M / 2 + K) u and D u + (M / 2 + K)' t = M't.
+TEST(BoundaryOperators, LinearFieldsAreExactButForTheQuadrature)
+{
+  Eigen::Matrix3d gradient;
+  gradient << 0.3, 0.2, -0.5, 0.7, -0.4, 0.1, 0.25, 0.9, 0.6;
+  const Eigen::Matrix3d stress = mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
+  for (const auto& panels : {box({2, 3, 2}, Point(1, 1.5, 0.8)), tetrahedron(), sphere(2), box({6, 6, 1}, Point(1, 1, 0.05))}) {
+    const auto u = linear_field(panels, Point(0.1, 0.2, 0.3), gradient, Point(0.3, 0.4, 0.1));
+    Eigen::VectorXd t(3 * panels.size());
+    for (Eigen::Index p = 0; p < panels.size(); ++p) t.segment<3>(3 * p) = stress * panels.normal[static_cast<std::size_t>(p)];
+    for (const double accuracy : {1e-3, 1e-5, 1e-7}) {
+      const auto [v, k, d] = boundary_operators(panels, steel, accuracy);
+      const Eigen::VectorXd forces = nodal_forces(panels, t);
+      EXPECT_LT((v * t - k * u).norm(), 10 * accuracy * (v * t).norm()) << panels.size() << ' ' << accuracy;
+      EXPECT_LT((d * u + k.transpose() * t - forces).norm(), 10 * accuracy * forces.norm()) << panels.size() << ' ' << accuracy;
+      EXPECT_LT((d - d.transpose()).norm(), 1e-13 * d.norm());
+      EXPECT_LT((v - v.transpose()).norm(), 1e-14 * v.norm());
+    }
+  }
+}
+
+// Of spherical harmonics Y_l on the unit sphere: V_L Y_l = Y_l / (2 l + 1), K_L Y_l = -Y_l / (2 (2 l + 1)).
+TEST(LayerIntegrals, EigenvaluesOfTheSphere)
+{
+  std::array<std::vector<double>, 3> single, twofold;
+  for (const int levels : {2, 3}) {
+    const auto panels = sphere(levels);
+    const auto layers = integrate_layers(panels, steel, 1e-6);
+    for (int l = 0; l < 3; ++l) {
+      const auto harmonic = [&](const Point& x) { return l == 0 ? 1.0 : l == 1 ? x[2] : x[0] * x[1]; };
+      Eigen::VectorXd on_panels(panels.size()), weighted(panels.size()), at_nodes(panels.node_count());
+      for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+        const auto row = static_cast<Eigen::Index>(p);
+        on_panels[row] = harmonic((panels.corner(p, 0) + panels.corner(p, 1) + panels.corner(p, 2)).normalized());
+        weighted[row] = panels.area[p] * on_panels[row];
+      }
+      for (Eigen::Index n = 0; n < at_nodes.size(); ++n) at_nodes[n] = harmonic(panels.points[static_cast<std::size_t>(n)]);
+      const double norm = on_panels.dot(weighted);
+      const double v = on_panels.dot(layers.single * on_panels) / norm, k = on_panels.dot(layers.double_layer * at_nodes) / norm;
+      single[static_cast<std::size_t>(l)].push_back(std::abs(v * (2 * l + 1) - 1));
+      twofold[static_cast<std::size_t>(l)].push_back(std::abs(-2 * k * (2 * l + 1) - 1));
+    }
+  }
+  for (std::size_t l = 0; l < 3; ++l) {
+    EXPECT_LT(single[l][1], 0.02) << l;
+    EXPECT_LT(single[l][1], 0.3 * single[l][0]) << l;  // h^2
+    if (l == 0) continue;                              // exact
+    EXPECT_LT(twofold[l][1], 0.03) << l;
+    EXPECT_LT(twofold[l][1], 0.3 * twofold[l][0]) << l;
+  }
+}
+
+// A layer of tractions n on the unit sphere in space moves it by n / (3 (lambda + 2 mu)), one of e_z x n by e_z x n / (3 mu):
+// inside and outside such fields fit, u and u / r^3, and sigma n jumps by the layer.
+TEST(LayerIntegrals, ElasticLayersOnTheSphere)
+{
+  for (const bool radial : {true, false}) {
+    std::vector<double> error;
+    for (const int levels : {2, 3}) {
+      const auto panels = sphere(levels);
+      const auto v = single_layer(panels, steel, 1e-6);
+      Eigen::VectorXd t(3 * panels.size());
+      double norm = 0;
+      for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+        const Point n = panels.normal[p], layer = radial ? n : Point::UnitZ().cross(n);
+        t.segment<3>(3 * static_cast<Eigen::Index>(p)) = layer;
+        norm += panels.area[p] * layer.squaredNorm();
+      }
+      error.push_back(std::abs(t.dot(v * t) / norm * 3 * (radial ? lambda + 2 * mu : mu) - 1));
+    }
+    EXPECT_LT(error[1], 0.02) << radial;
+    EXPECT_LT(error[1], 0.3 * error[0]) << radial;
+  }
+}
+
+}  // namespace
+}  // namespace mortise::bem

@@ -1,0 +1,159 @@
+#include "bem/steklov_poincare.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "base/error.hpp"
+#include "bem/boundary_operators.hpp"
+#include "bem/particular_solution.hpp"
+#include "bem/surface_stress.hpp"
+#include "shapes.hpp"
+
+namespace mortise::bem {
+namespace {
+
+fem::Material material(double nu)
+{
+  return {2.0, nu, 1.5, 1e-2};
+}
+
+Eigen::Matrix3d stress_of(const Eigen::Matrix3d& gradient, double nu)
+{
+  const double mu = 1 / (1 + nu), lambda = 2 * mu * nu / (1 - 2 * nu);
+  return mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
+}
+
+std::vector<Panels> shapes()
+{
+  return {box({3, 3, 3}, Point(1, 1, 1)), tetrahedron(), sphere(1), box({8, 8, 1}, Point(1, 1, 0.05))};
+}
+
+TEST(SteklovPoincare, ConstantStressIsExact)
+{
+  Eigen::Matrix3d gradient;
+  gradient << 0.3, 0.2, -0.5, 0.7, -0.4, 0.1, 0.25, 0.9, 0.6;
+  for (const double nu : {0.0, 0.3, 0.49})
+    for (const auto& panels : shapes()) {
+      const auto u = linear_field(panels, Point(3, -2, 1), gradient, Point(0.3, 0.4, 0.1));
+      const Eigen::Matrix3d stress = stress_of(gradient, nu);
+      Eigen::VectorXd t(3 * panels.size());
+      for (Eigen::Index p = 0; p < panels.size(); ++p) t.segment<3>(3 * p) = stress * panels.normal[static_cast<std::size_t>(p)];
+      const auto forces = nodal_forces(panels, t);
+      const Eigen::VectorXd found = steklov_poincare(panels, material(nu)) * u;
+      EXPECT_LT((found - forces).norm(), 1e-11 * forces.norm()) << nu << ' ' << panels.size();
+      const Eigen::VectorXd traction = tractions(panels, material(nu), u);
+      EXPECT_LT((traction - t).norm(), 1e-11 * t.norm()) << nu << ' ' << panels.size();
+      const auto stresses = panel_stresses(panels, material(nu), u, traction);
+      for (Eigen::Index p = 0; p < panels.size(); ++p) {
+        const auto s = stresses.row(p);
+        Eigen::Matrix3d tensor;
+        tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+        EXPECT_LT((tensor - stress).norm(), 1e-10 * stress.norm());
+      }
+    }
+}
+
+TEST(SteklovPoincare, SemidefiniteWithSixZeroEigenvalues)
+{
+  for (const double nu : {0.0, 0.3, 0.49})
+    for (const auto& panels : shapes()) {
+      const auto s = steklov_poincare(panels, material(nu));
+      EXPECT_EQ((s - s.transpose()).norm(), 0);
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(s, Eigen::EigenvaluesOnly);
+      const auto& values = solver.eigenvalues();
+      const double largest = values[values.size() - 1];
+      for (int i = 0; i < 6; ++i) EXPECT_LT(std::abs(values[i]), 1e-13 * largest) << panels.size();
+      EXPECT_GT(values[6], 1e-6 * largest) << panels.size();
+    }
+}
+
+// A beam of length 1 bent by u = (x z, -nu y z, -(x^2 + nu (z^2 - y^2)) / 2) R about its middle axis: stress E R z along it.
+TEST(SteklovPoincare, BendingConverges)
+{
+  const double nu = 0.3;
+  std::vector<double> energy, traction;
+  for (const int cells : {4, 8}) {
+    const auto panels = box({cells, cells, cells}, Point(1, 1, 1));
+    Eigen::VectorXd u(3 * panels.node_count()), t = Eigen::VectorXd::Zero(3 * panels.size());
+    for (Eigen::Index n = 0; n < panels.node_count(); ++n) {
+      const Point x = panels.points[static_cast<std::size_t>(n)] - Point(0.5, 0.5, 0.5);
+      u.segment<3>(3 * n) = Point(x[0] * x[2], -nu * x[1] * x[2], -(x[0] * x[0] + nu * (x[2] * x[2] - x[1] * x[1])) / 2);
+    }
+    double norm = 0;
+    for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+      const double z = (panels.corner(p, 0) + panels.corner(p, 1) + panels.corner(p, 2))[2] / 3 - 0.5;
+      t[3 * static_cast<Eigen::Index>(p)] = 2.0 * z * panels.normal[p][0];
+      norm += panels.area[p] * t.segment<3>(3 * static_cast<Eigen::Index>(p)).squaredNorm();
+    }
+    energy.push_back(std::abs(u.dot(steklov_poincare(panels, material(nu)) * u) / (2.0 / 12) - 1));
+    const Eigen::VectorXd difference = tractions(panels, material(nu), u) - t;
+    double sum = 0;
+    for (std::size_t p = 0; p < panels.corners.size(); ++p)
+      sum += panels.area[p] * difference.segment<3>(3 * static_cast<Eigen::Index>(p)).squaredNorm();
+    traction.push_back(std::sqrt(sum / norm));
+  }
+  EXPECT_LT(energy[1], 0.03);
+  EXPECT_LT(energy[1], 0.35 * energy[0]);
+  EXPECT_LT(traction[1], 0.2);
+  EXPECT_LT(traction[1], 0.65 * traction[0]);
+}
+
+TEST(SteklovPoincare, RejectsSurfacesThatAreNone)
+{
+  const auto cube = box({2, 2, 2}, Point(1, 1, 1));
+  auto open = cube.corners;
+  open.pop_back();
+  EXPECT_THROW(make_panels(cube.points, open), Error);
+  auto turned = cube.corners;
+  std::swap(turned[3][1], turned[3][2]);
+  EXPECT_THROW(make_panels(cube.points, turned), Error);
+  auto inward = cube.corners;
+  for (auto& c : inward) std::swap(c[1], c[2]);
+  EXPECT_THROW(make_panels(cube.points, inward), Error);
+  auto flat = cube;
+  flat.points[0] = flat.points[1];
+  EXPECT_THROW(make_panels(flat.points, flat.corners), Error);
+}
+
+// A bar that hangs from its top under its weight: sigma_zz = rho g z. And a body that is warmed: no stress.
+TEST(ParticularSolution, WeightAndWarmth)
+{
+  const double nu = 0.3;
+  fem::Constitution constitution{material(nu)};
+  constitution.acceleration = Point(0, 0, -4);
+  constitution.temperature_change = 25;
+  const auto panels = box({2, 2, 4}, Point(1, 1, 3));
+  const Point centre(0.2, 0.7, 0.1);
+  const ParticularSolution particular(constitution, centre);
+  // Divergence of its stress, by differences, is exact for a linear one.
+  const double h = 0.5, density = 1.5;
+  Point divergence = Point::Zero();
+  const std::array<std::array<int, 3>, 3> place{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
+  for (int j = 0; j < 3; ++j) {
+    const fem::Stress difference = (particular.stress(h * Point::Unit(j)) - particular.stress(Point::Zero())) / h;
+    for (std::size_t i = 0; i < 3; ++i) divergence[static_cast<int>(i)] += difference[place[i][static_cast<std::size_t>(j)]];
+  }
+  EXPECT_LT((divergence + density * constitution.acceleration).norm(), 1e-12);
+  // Forces on the surface balance the weight.
+  Point sum = Point::Zero();
+  const auto f = particular.nodal_forces(panels);
+  for (Eigen::Index n = 0; n < panels.node_count(); ++n) sum += f.segment<3>(3 * n);
+  EXPECT_LT((sum + density * 3.0 * constitution.acceleration).norm(), 1e-12);
+  // Its stress belongs to its displacement, less the free expansion, by Hooke's law.
+  const Point at(0.4, 0.9, 1.7);
+  Eigen::Matrix3d gradient;
+  for (int j = 0; j < 3; ++j)
+    gradient.col(j) =
+        (particular.displacement(at + 1e-3 * Point::Unit(j)) - particular.displacement(at - 1e-3 * Point::Unit(j))) / 2e-3;
+  const Eigen::Matrix3d stress = stress_of(gradient - 0.25 * Eigen::Matrix3d::Identity(), nu);
+  const auto own = particular.stress(at);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(own[place[i][j]], stress(static_cast<int>(i), static_cast<int>(j)), 1e-9);
+  // Energy: b^2 (z - c)^2 / (2 (lambda + 2 mu)) over the box.
+  const double mu = 1 / (1 + nu), constrained = 2 * mu * nu / (1 - 2 * nu) + 2 * mu;
+  EXPECT_NEAR(particular.strain_energy(panels), 36 / (2 * constrained) * (std::pow(2.9, 3) + std::pow(0.1, 3)) / 3, 1e-10);
+}
+
+}  // namespace
+}  // namespace mortise::bem

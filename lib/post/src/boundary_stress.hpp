@@ -1,0 +1,26 @@
+// Stresses of subdomains of boundary elements: at their surfaces, from displacements and the tractions that belong to them.
+#pragma once
+
+#include "post/stress_recovery.hpp"
+
+namespace mortise::post {
+
+/// As fem::StressField, of one subdomain: its cells are panels.
+struct BoundaryStress {
+  Eigen::MatrixXd nodal_sums;  ///< nodes x 7 blocks, weighted with the panels' areas
+  Eigen::MatrixXd stress;      ///< panels x 6
+  Eigen::MatrixXd traction;    ///< panels x 3
+};
+
+/// Of every subdomain of this rank; empty where it is made of finite elements. Copies are solved together.
+std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement);
+
+/// Energy of the elastic strain of a subdomain of boundary elements.
+double boundary_energy(const ElasticBodies& bodies, std::size_t subdomain, const Eigen::VectorXd& displacement);
+
+/// For each panel an estimate of its part of the squared error in the energy norm: h / (2 mu) |s* n - t|^2 area, where s*
+/// is the recovered stress, nodes x 6, and h the panel's size.
+Eigen::VectorXd boundary_errors(const ElasticBodies& bodies, std::size_t subdomain, const BoundaryStress& found,
+                                const Eigen::MatrixXd& recovered);
+
+}  // namespace mortise::post
