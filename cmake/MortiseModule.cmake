@@ -26,6 +26,7 @@ endif()
 # Headers of others that most files read, parsed once: Tpetra's alone took 7 of some 12 seconds a file. Two sets, so that a module without
 # distributed vectors still does not see Trilinos. Off with -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON, as in the presets debug and
 # sanitize: what compiles there names all that it includes.
+# The preset release also compiles the files of a target in batches (CMAKE_UNITY_BUILD), see docs/building.md.
 function(mortise_headers name)
   cmake_parse_arguments(arg "" "" "LINKS;HEADERS" ${ARGN})
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
