@@ -26,6 +26,7 @@ endif()
 # Headers of others that most files read, parsed once: Tpetra's alone took 7 of some 12 seconds a file. Two sets, so that a module without
 # distributed vectors still does not see Trilinos. Off with -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON, as in the presets debug and
 # sanitize: what compiles there names all that it includes.
+# The preset release also compiles the files of a target in batches (CMAKE_UNITY_BUILD), see docs/building.md.
 function(mortise_headers name)
   cmake_parse_arguments(arg "" "" "LINKS;HEADERS" ${ARGN})
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
@@ -84,11 +85,16 @@ function(mortise_module name)
   endif()
 endfunction()
 
-# A GoogleTest program with a main that starts and ends MPI; on several ranks a test fails if it failed on any.
+# The main of all test programs, which starts and ends MPI; on several ranks a test fails if it failed on any.
+if(MORTISE_TESTS)
+  add_library(mortise_test_main STATIC ${CMAKE_CURRENT_LIST_DIR}/test_main.cpp)
+  target_link_libraries(mortise_test_main PUBLIC GTest::gtest MPI::MPI_CXX PRIVATE mortise_options)
+endif()
+
 function(mortise_test_program target module)
   list(TRANSFORM ARGN PREPEND test/ OUTPUT_VARIABLE sources)
-  add_executable(${target} ${sources} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/test_main.cpp)
-  target_link_libraries(${target} PRIVATE ${module} base GTest::gtest mortise_options)
+  add_executable(${target} ${sources})
+  target_link_libraries(${target} PRIVATE mortise_test_main ${module} base mortise_options)
   mortise_precompiled(${target} ${module})
   target_compile_definitions(${target} PRIVATE MORTISE_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 endfunction()

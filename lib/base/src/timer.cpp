@@ -41,7 +41,7 @@ long long peak_memory()
 namespace {
 
 // The number after `key` in a file of lines "key number"; infinite if there is none.
-double number_in(const char* path, const std::string& key)
+double kilobytes_in(const char* path, const std::string& key)
 {
   std::ifstream file(path);
   std::string word;
@@ -63,14 +63,14 @@ double left_of(int resource, const std::string& key)
   rlimit limit{};
   if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
     return std::numeric_limits<double>::infinity();
-  return static_cast<double>(limit.rlim_cur) - 1024 * number_in("/proc/self/status", key);
+  return static_cast<double>(limit.rlim_cur) - 1024 * kilobytes_in("/proc/self/status", key);
 }
 
 }  // namespace
 
 double available_memory()
 {
-  double result = 1024 * number_in("/proc/meminfo", "MemAvailable:");
+  double result = 1024 * kilobytes_in("/proc/meminfo", "MemAvailable:");
   result = std::min(result, memory_left_by_groups(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"));
   result = std::min({result, left_of(RLIMIT_AS, "VmSize:"), left_of(RLIMIT_DATA, "VmData:")});
   return std::max(result, 0.0);

@@ -9,7 +9,7 @@ namespace {
 
 // Points of contact 1 on every rank, two with tilted normals whose mean is z, one on an axis of its own; contact 0 looks
 // elsewhere.
-Contacts sample()
+Contacts tilted_points()
 {
   Contacts contacts;
   contacts.nodes.push_back({0, 5, 7, Point(1, 0, 0), {}, 0});
@@ -23,7 +23,7 @@ Contacts sample()
 TEST(Cuts, ARowsPartIsWhatItSeesOfTheMeanNormal)
 {
   const Communicator comm;
-  const auto pretension_sections = find_pretension_sections(sample(), std::vector<Preload>{{1, "bolt", 3.0}}, false, comm);
+  const auto pretension_sections = find_pretension_sections(tilted_points(), std::vector<Preload>{{1, "bolt", 3.0}}, false, comm);
   ASSERT_EQ(pretension_sections.size(), 1U);
   EXPECT_LT((pretension_sections[0].normal - Point(0, 0, 1)).norm(), 1e-14);
   ASSERT_EQ(pretension_sections[0].rows.size(), 4U);
@@ -36,7 +36,7 @@ TEST(Cuts, ARowsPartIsWhatItSeesOfTheMeanNormal)
 
 TEST(Cuts, InAxisymmetryTheDirectionIsTheAxis)
 {
-  Contacts contacts = sample();
+  Contacts contacts = tilted_points();
   contacts.nodes[0].normal = Point(0.8, -0.6, 0);
   const auto pretension_sections =
       find_pretension_sections(contacts, std::vector<Preload>{{0, "bolt", 3.0}}, true, Communicator());
@@ -56,8 +56,8 @@ void expect_error(Contacts contacts, int contact, const std::string& text)
 
 TEST(Cuts, NeedADirection)
 {
-  expect_error(sample(), 2, "the two sides of its cut do not meet");
-  Contacts closed = sample();
+  expect_error(tilted_points(), 2, "the two sides of its cut do not meet");
+  Contacts closed = tilted_points();
   closed.nodes[2].normal = -closed.nodes[1].normal;
   expect_error(closed, 1, "the normals of its cut point all ways");
 }

@@ -8,7 +8,7 @@ namespace mortise::constraint {
 namespace {
 
 // A point on every rank: a normal row with a prescribed entry of coefficient -0.5 along x, and one tangential row.
-Contacts sample()
+Contacts one_point()
 {
   Contacts contacts;
   contacts.nodes.push_back({0, 7, 1.0, Point(1, 0, 0), {Point(0, 1, 0)}, 0, 1.0, 0.25, Point::Zero()});
@@ -30,7 +30,7 @@ TEST(RightHandSides, SupportsThatMoveShiftBounds)
 {
   const Communicator comm;
   const std::vector<std::vector<Global>> nodes{{0, 1, 2, 3}};
-  Constraints constraints{dirichlet_rows(support(0.1), nodes, 3, comm), sample()};
+  Constraints constraints{dirichlet_rows(support(0.1), nodes, 3, comm), one_point()};
   EXPECT_TRUE(update_rhs(constraints, dirichlet_rows(support(0.3), nodes, 3, comm), support(0.3), support(0.1), comm));
   EXPECT_NEAR(constraints.contacts.rows.bound[0], 0.25 + 0.5 * 0.3, 1e-15);
   for (const auto& prescribed : constraints.prescribed) EXPECT_EQ(prescribed.value, 0.3);
@@ -40,7 +40,7 @@ TEST(RightHandSides, OtherPrescribedComponentsAreOtherRows)
 {
   const Communicator comm;
   const std::vector<std::vector<Global>> nodes{{0, 1, 2, 3}};
-  Constraints constraints{dirichlet_rows(support(0.1), nodes, 3, comm), sample()};
+  Constraints constraints{dirichlet_rows(support(0.1), nodes, 3, comm), one_point()};
   EXPECT_FALSE(
       update_rhs(constraints, dirichlet_rows(support(std::nullopt), nodes, 3, comm), support(std::nullopt), support(0.1), comm));
   EXPECT_NEAR(constraints.contacts.rows.bound[0], 0.25 + 0.5 * 0.1, 1e-15);
@@ -49,7 +49,7 @@ TEST(RightHandSides, OtherPrescribedComponentsAreOtherRows)
 
 TEST(RightHandSides, InterferenceClosesGaps)
 {
-  auto contacts = sample();
+  auto contacts = one_point();
   contacts.nodes[0].weight = 2;
   add_interference(contacts, 1, 0.1);
   EXPECT_EQ(contacts.nodes[0].gap, 0.25);
@@ -60,7 +60,7 @@ TEST(RightHandSides, InterferenceClosesGaps)
 
 TEST(RightHandSides, SlipCountsFromTheStepBefore)
 {
-  auto contacts = sample();
+  auto contacts = one_point();
   contacts.rows.bound[1] = 0.5;  // what a moving support contributes
   EXPECT_EQ(contacts.slipped_before(1), 0);
   remember_slip(contacts, std::vector<double>{9.0, 0.7});
@@ -73,7 +73,7 @@ TEST(RightHandSides, SlipCountsFromTheStepBefore)
 
 TEST(RightHandSides, BondedNodesStayTied)
 {
-  auto contacts = sample();
+  auto contacts = one_point();
   contacts.bonded[0] = true;
   remember_slip(contacts, std::vector<double>{0.3, 0.7});
   EXPECT_EQ(contacts.slipped_before(1), 0);

@@ -9,8 +9,6 @@ namespace mortise::contact {
 
 namespace {
 
-// Parts of a face below this are slits between faces that do not quite meet.
-constexpr double slit = 1e-4;
 // Corners of the hull that cut off less than this part of it are none.
 constexpr double blunt = 1e-3;
 // Points nearer to others than this, in units of the covered part, add nothing.
@@ -19,7 +17,7 @@ constexpr double apart = 0.3;
 constexpr double least_part = 1e-4;
 // In units of the covered part: triangles of less area have no inside, and points are on a circle to this.
 constexpr double flat_triangle = 1e-9, round = 1e-9;
-constexpr double rounding = 1e-9;
+constexpr double rounding_of_place = 1e-9;
 
 double triangle(const Plane& a, const Plane& b, const Plane& c)
 {
@@ -36,7 +34,7 @@ double in_circle(const Plane& a, const Plane& b, const Plane& c, const Plane& d)
 }
 
 // Which edges of a face its nodes lie on: bit e for the edge from corner e to the next.
-unsigned edges_of(mesh::CellType type, std::size_t node)
+unsigned edges_at_node(mesh::CellType type, std::size_t node)
 {
   const auto corners = static_cast<std::size_t>(mesh::corner_count(type));
   if (node < corners) return 1U << node | 1U << (node + corners - 1) % corners;
@@ -89,7 +87,7 @@ void CoveredBasis::take_nodes()
 {
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     for (const auto& part : parts_)
-      if ((nearest_in(part.polygon, nodes_[k]) - nodes_[k]).norm() < rounding * length_) {
+      if ((nearest_in(part.polygon, nodes_[k]) - nodes_[k]).norm() < rounding_of_place * length_) {
         facet_[k] = part.facet;
         break;
       }
@@ -144,7 +142,7 @@ void CoveredBasis::take_corners()
   for (const auto& part : parts_)
     for (const auto& p : part.polygon) reached |= edges_at(type_, nodes_, p, 1e-6 * length_);
   const auto cost = [&](const Corner& corner, std::size_t k) {
-    const unsigned own = edges_of(type_, k), at = edges_at(type_, nodes_, corner.at, 1e-6 * length_);
+    const unsigned own = edges_at_node(type_, k), at = edges_at(type_, nodes_, corner.at, 1e-6 * length_);
     const double distance = (corner.at - nodes_[k]).squaredNorm() / (length_ * length_);
     return distance + (own & reached & ~at ? 100 : 0) + (at & ~own ? 10 : 0);
   };
@@ -217,7 +215,7 @@ FaceShape CoveredBasis::operator()(const Plane& x) const
   double count = 0;
   for (const auto& t : triangles_) {
     const Eigen::Vector3d values = t.inverse * at;
-    if (values.minCoeff() < least_outside - rounding) continue;
+    if (values.minCoeff() < least_outside - rounding_of_place) continue;
     for (std::size_t i = 0; i < 3; ++i) result[static_cast<Eigen::Index>(t.nodes[i])] += values[static_cast<Eigen::Index>(i)];
     ++count;
   }

@@ -8,6 +8,9 @@
 
 namespace mortise::contact {
 
+/// Parts of a face or a facet below this are slits between faces that do not quite meet.
+inline constexpr double slit = 1e-4;
+
 /// The part of a facet that a primary facet covers: convex and counter-clockwise in the plane of the face.
 struct CoveredPart {
   Local facet;

@@ -14,7 +14,7 @@ namespace mortise::contact {
 namespace {
 
 // Boxes that a rank tells the others of its part of a surface.
-constexpr std::size_t most_boxes = 64;
+constexpr std::size_t most_boxes_of_rank = 64;
 struct Extent {
   std::array<double, 3> low, high;
   double face = 0;
@@ -56,12 +56,12 @@ double diagonal(const Extent& extent)
 }
 
 // Boxes round the parts of a surface, of all ranks. Collective.
-Tree parts_of(const std::vector<Box>& boxes, const Communicator& comm)
+Tree tree_of_ranks(const std::vector<Box>& boxes, const Communicator& comm)
 {
   std::vector<int> order(boxes.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<std::array<double, 6>> sent;
-  halve(boxes, order, std::max<std::size_t>(4, 2 * boxes.size() / most_boxes), [&](const Box& box, std::span<const int>) {
+  halve(boxes, order, std::max<std::size_t>(4, 2 * boxes.size() / most_boxes_of_rank), [&](const Box& box, std::span<const int>) {
     sent.push_back({box.min()[0], box.min()[1], box.min()[2], box.max()[0], box.max()[1], box.max()[2]});
   });
   std::vector<Box> all;
@@ -160,7 +160,7 @@ mesh::Surface near_secondary(const Pair& pair, const PairSize& size, const Commu
 {
   if (!pair.primary) return pair.secondary;
   const double margin = slack * rings * std::max(size.secondary_face, size.primary_face);
-  return select(pair.secondary, boxes_of_faces(pair.secondary), parts_of(boxes_of_faces(*pair.primary), comm),
+  return select(pair.secondary, boxes_of_faces(pair.secondary), tree_of_ranks(boxes_of_faces(*pair.primary), comm),
                 size.reach + margin);
 }
 

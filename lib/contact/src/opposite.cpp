@@ -9,7 +9,7 @@ namespace mortise::contact {
 namespace {
 
 // Curvature below this part of 1 / size of a facet is rounding.
-constexpr double flat = 1e-8;
+constexpr double least_curvature = 1e-8;
 // How far a line may pass the border of a face that it meets continued, in shape functions.
 constexpr double beyond_border = 1;
 
@@ -146,8 +146,8 @@ Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
     other += opposite.hit.shape[static_cast<Eigen::Index>(k)] * primary_nodes_.normal(primary_, opposite.facet, k);
   length = geometry.size();
   other.normalize();
-  const double own = curvature_[p] + flat / length;
-  const double others = curvature_of(primary_, primary_nodes_, opposite.facet) + flat / length;
+  const double own = curvature_[p] + least_curvature / length;
+  const double others = curvature_of(primary_, primary_nodes_, opposite.facet) + least_curvature / length;
   return (others * normal - own * other).normalized();
 }
 

@@ -11,7 +11,7 @@ using mesh::CellType;
 
 namespace {
 
-constexpr double negligible = 1e-10;  // part of the face's area below which an overlap is rounding
+constexpr double negligible_overlap = 1e-10;  // part of the face's area below which an overlap is rounding
 
 // Part of `subject` inside the convex, counter-clockwise `clip` [Sutherland and Hodgman].
 Polygon clip_polygon(Polygon subject, const Few<Plane, 4>& clip)
@@ -37,7 +37,7 @@ bool parallelogram(const FaceGeometry& face)
 }
 
 // Whether two facets lie in parallel planes, as in patch tests. Between curved surfaces exact integrals of facets are no gain.
-bool flat(const FaceGeometry& a, const FaceGeometry& b)
+bool parallel_planes(const FaceGeometry& a, const FaceGeometry& b)
 {
   const Point normal = a.normal();
   const auto planar = [&](const FaceGeometry& face) {
@@ -50,7 +50,7 @@ bool flat(const FaceGeometry& a, const FaceGeometry& b)
 // Products of bilinear functions are polynomials in the plane where the faces are parallelograms.
 Integrand integrand(const FaceGeometry& secondary, const FaceGeometry& primary, bool second_order)
 {
-  const bool polynomial = (parallelogram(secondary) && parallelogram(primary)) || !flat(secondary, primary);
+  const bool polynomial = (parallelogram(secondary) && parallelogram(primary)) || !parallel_planes(secondary, primary);
   return !polynomial ? Integrand::rational : second_order ? Integrand::second_order : Integrand::first_order;
 }
 
@@ -122,7 +122,7 @@ bool overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double 
   if (secondary.type == CellType::line2) {
     const double begin = std::max(std::min(own[0][0], own[1][0]), std::min(other[0][0], other[1][0]));
     const double end = std::min(std::max(own[0][0], own[1][0]), std::max(other[0][0], other[1][0]));
-    if (end - begin <= negligible * secondary.area()) return false;
+    if (end - begin <= negligible_overlap * secondary.area()) return false;
     sample(begin, end, result.samples);
     result.common = {Plane(begin, 0), Plane(end, 0)};
     middle[0] = 0.5 * (begin + end);
@@ -131,7 +131,7 @@ bool overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double 
     for (std::size_t i = other.size(); i > 0; --i) subject.push_back(other[i - 1]);
     if (area_of(subject) < 0) return false;
     const auto common = clip_polygon(subject, own);
-    if (common.size() < 3 || area_of(common) <= negligible * secondary.area()) return false;
+    if (common.size() < 3 || area_of(common) <= negligible_overlap * secondary.area()) return false;
     sample(common, integrand(secondary, primary, second_order), result.samples);
     for (const auto& p : common) middle += p / static_cast<double>(common.size());
     result.common = common;

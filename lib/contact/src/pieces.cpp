@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "covered_basis.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -40,11 +42,9 @@ std::array<Eigen::MatrixXd, mesh::cell_types> table(const Make& make)
   return result;
 }
 
-// Parts of a facet below this are slits between faces that do not quite meet.
-constexpr double slit = 1e-4;
 // Points of a facet closer to dependence than this span no basis, and what a function sees below this part of the facet's cover
 // is next to nothing.
-constexpr double least_rcond = 1e-6, least_part = 0.02;
+constexpr double least_rcond = 1e-6, least_seen_part = 0.02;
 
 double size_of(const Polygon& polygon)
 {
@@ -104,7 +104,7 @@ void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<P
   if (factor.rcond() < least_rcond) return keep_shape_functions(piece);
   const SmallMatrix change = factor.inverse().transpose();
   const FaceShape covered = change * piece.covered;
-  if (covered.minCoeff() < least_part * covered.sum()) return keep_shape_functions(piece);
+  if (covered.minCoeff() < least_seen_part * covered.sum()) return keep_shape_functions(piece);
   piece.points.leftCols(r) = points;
   piece.covered = covered;
   piece.mass = SmallMatrix(change * piece.mass);

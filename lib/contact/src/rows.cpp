@@ -8,7 +8,7 @@ namespace mortise::contact {
 
 namespace {
 
-constexpr double negligible = 1e-12;  // of a coefficient
+constexpr double negligible_coefficient = 1e-12;  // of a coefficient
 
 }  // namespace
 
@@ -16,7 +16,7 @@ const std::vector<RowWriter::Coefficient>& RowWriter::coefficients(std::span<con
 {
   coefficients_.clear();
   for (const auto& term : terms) {
-    if (!(std::abs(term.value) > negligible * d)) continue;
+    if (!(std::abs(term.value) > negligible_coefficient * d)) continue;
     const Global node = node_of(term);
     const auto& supports = term.on_primary ? primary_supports_ : supports_;
     Point rest = axis_of(term, axis);
@@ -47,7 +47,7 @@ void RowWriter::merge()
       coefficients_[end++] = c;
   }
   coefficients_.resize(end);
-  std::erase_if(coefficients_, [](const Coefficient& c) { return std::abs(c.value) < negligible; });
+  std::erase_if(coefficients_, [](const Coefficient& c) { return std::abs(c.value) < negligible_coefficient; });
 }
 
 bool RowWriter::moves(std::span<const Term> terms, double d, const Point& axis)

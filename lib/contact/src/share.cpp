@@ -4,6 +4,8 @@
 #include <array>
 #include <numeric>
 
+#include "skin.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -14,30 +16,25 @@ constexpr long long parts_of_share = 32;
 constexpr double rings_of_integrals = 2;
 
 // Some faces of a rank, which lie together.
-struct Part {
+struct FacesOfRank {
   std::array<double, 6> box;
   long long faces;
   int rank;  // that has them
 };
 
-Box box_of(const Part& part)
+Box box_of(const FacesOfRank& part)
 {
   return Box(Point(part.box[0], part.box[1], part.box[2]), Point(part.box[3], part.box[4], part.box[5]));
 }
 
-Box grown(const Box& box, double margin)
-{
-  return Box(box.min() - Point::Constant(margin), box.max() + Point::Constant(margin));
-}
-
 // Gives the parts `order` to the ranks from `first` to before `last`, by their faces.
-void deal_out(const std::vector<Part>& parts, std::span<int> order, int first, int last, std::vector<int>& owner)
+void deal_out(const std::vector<FacesOfRank>& parts, std::span<int> order, int first, int last, std::vector<int>& owner)
 {
   if (last - first == 1 || order.empty()) {
     for (const int i : order) owner[static_cast<std::size_t>(i)] = first;
     return;
   }
-  const auto part = [&](int i) -> const Part& { return parts[static_cast<std::size_t>(i)]; };
+  const auto part = [&](int i) -> const FacesOfRank& { return parts[static_cast<std::size_t>(i)]; };
   Box all;
   long long faces = 0;
   for (const int i : order) {
@@ -59,7 +56,7 @@ void deal_out(const std::vector<Part>& parts, std::span<int> order, int first, i
 
 // The shares of all ranks, and which of this rank's faces are in which.
 struct Shares {
-  std::vector<Part> parts;
+  std::vector<FacesOfRank> parts;
   std::vector<int> owner;    // of each part
   std::vector<int> of_face;  // of each face of this rank
 };
@@ -71,7 +68,7 @@ Shares deal_out(const std::vector<Box>& boxes, const Communicator& comm)
   const auto most = std::max<long long>(4, total / (parts_of_share * comm.size()));
   std::vector<int> order(boxes.size());
   std::iota(order.begin(), order.end(), 0);
-  std::vector<Part> mine;
+  std::vector<FacesOfRank> mine;
   std::vector<std::vector<int>> members;
   halve(boxes, order, static_cast<std::size_t>(most), [&](const Box& box, std::span<const int> some) {
     mine.push_back({{box.min()[0], box.min()[1], box.min()[2], box.max()[0], box.max()[1], box.max()[2]},

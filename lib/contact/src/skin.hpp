@@ -12,7 +12,7 @@ namespace mortise::contact {
 
 /// Part of the smaller face's size that a gap may have where the deck gives no distance.
 inline constexpr double part_of_face = 0.5;
-/// Cosine of the angle from which neighbouring faces make a kink, as in find_surface_nodes().
+/// Cosine of the angle from which neighbouring faces make a kink; find_surface_nodes() takes it too.
 inline constexpr double kink = 0.766;
 /// Lengths below this part of a face's size are rounding.
 inline constexpr double rounding = 1e-6;

@@ -16,7 +16,7 @@ namespace mortise::contact {
 namespace {
 
 using constraint::SlidingSurface;
-constexpr double kink = 0.77;  // cosine of the angle from which two faces at a node are an edge, as in patches.cpp
+constexpr double edge_cosine = 0.77;  // cosine of the angle from which two faces at a node are an edge, as in patches.cpp
 
 struct Key {
   int contact, side, body;  // side 1 is the secondary one
@@ -24,7 +24,7 @@ struct Key {
 };
 
 // A face of this rank that counts.
-struct Face {
+struct TouchedFace {
   Key key;
   const mesh::Surface* surface;
   std::size_t face;
@@ -45,7 +45,7 @@ Point normal_of(const Eigen::MatrixXd& gradient, const mesh::Surface& surface, s
   return {tangents(1, 0), -tangents(0, 0), 0};
 }
 
-At at_point(const Face& face, fem::Kinematics kinematics, const Eigen::VectorXd& shape, const Eigen::MatrixXd& gradient,
+At at_point(const TouchedFace& face, fem::Kinematics kinematics, const Eigen::VectorXd& shape, const Eigen::MatrixXd& gradient,
             double weight)
 {
   const auto& surface = *face.surface;
@@ -59,7 +59,7 @@ At at_point(const Face& face, fem::Kinematics kinematics, const Eigen::VectorXd&
 }
 
 // Exact for squares of linear fields: the one point of a triangle's stiffness sees nothing of what turns about it.
-std::vector<At> quadrature(const Face& face, fem::Kinematics kinematics)
+std::vector<At> quadrature(const TouchedFace& face, fem::Kinematics kinematics)
 {
   const auto type = face.surface->faces.type[face.face];
   const fem::Element& element = fem::element(type);
@@ -105,8 +105,8 @@ std::vector<Touch> touches(const constraint::Contacts& contacts)
 }
 
 // The faces that have a node in a row of their contact and look where it pushes: not the end of a pin whose skin is in a hole.
-std::vector<Face> touched(std::span<const Pair> pairs, const constraint::Contacts& contacts, fem::Kinematics kinematics,
-                          const Communicator& comm)
+std::vector<TouchedFace> touched(std::span<const Pair> pairs, const constraint::Contacts& contacts, fem::Kinematics kinematics,
+                                 const Communicator& comm)
 {
   const auto mine = touches(contacts);
   std::vector<Global> nodes;
@@ -130,7 +130,7 @@ std::vector<Face> touched(std::span<const Pair> pairs, const constraint::Contact
       return sum.dot(normal) > 0.5 * sum.norm();
     });
   };
-  std::vector<Face> result;
+  std::vector<TouchedFace> result;
   for (std::size_t c = 0; c < pairs.size(); ++c)
     for (const int side : {0, 1}) {
       if (pairs[c].options.law == Law::bonded || pairs[c].options.cyclic || (side == 0 && !pairs[c].primary)) continue;
@@ -147,7 +147,7 @@ std::vector<Face> touched(std::span<const Pair> pairs, const constraint::Contact
 }
 
 // Of each face the mean squared angle between it and the mean of the faces at its nodes.
-std::vector<double> tilts(const std::vector<Face>& faces, bool solid, const Communicator& comm)
+std::vector<double> tilts(const std::vector<TouchedFace>& faces, bool solid, const Communicator& comm)
 {
   struct Normal {
     Global node;
@@ -185,7 +185,8 @@ std::vector<double> tilts(const std::vector<Face>& faces, bool solid, const Comm
       auto at =
           std::lower_bound(around.begin(), around.end(), own->node, [](const Normal& a, Global node) { return a.node < node; });
       for (; at != around.end() && at->node == own->node; ++at)
-        if (at->contact == own->contact && at->side == own->side && at->vector().dot(own->vector()) > kink) mean += at->vector();
+        if (at->contact == own->contact && at->side == own->side && at->vector().dot(own->vector()) > edge_cosine)
+          mean += at->vector();
       sum += (own->vector() - mean.normalized()).squaredNorm();
     }
     result.push_back(sum / static_cast<double>(count));
@@ -234,7 +235,7 @@ struct Sums {
 };
 static_assert(sizeof(Sums) == sizeof(double) * (100 + 60 + 72));
 
-std::vector<Key> all_keys(const std::vector<Face>& faces, const Communicator& comm)
+std::vector<Key> all_keys(const std::vector<TouchedFace>& faces, const Communicator& comm)
 {
   std::vector<Key> keys;
   for (const auto& face : faces) keys.push_back(face.key);

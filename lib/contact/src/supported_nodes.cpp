@@ -10,7 +10,7 @@ namespace mortise::contact {
 
 namespace {
 
-bool before(const constraint::PrescribedDof& a, const constraint::PrescribedDof& b)
+bool by_dof(const constraint::PrescribedDof& a, const constraint::PrescribedDof& b)
 {
   return std::tie(a.node, a.component) < std::tie(b.node, b.component);
 }
@@ -29,13 +29,13 @@ SupportedNodes::SupportedNodes(const SupportDirectory& directory, const std::vec
   const auto asked = ask(nodes, comm);
   prescribed_ = answer(directory.prescribed_, asked, comm);
   skew_supports_ = answer(directory.skew_supports_, asked, comm);
-  std::sort(prescribed_.begin(), prescribed_.end(), before);
+  std::sort(prescribed_.begin(), prescribed_.end(), by_dof);
 }
 
 const constraint::PrescribedDof* SupportedNodes::find(Global node, int component) const
 {
   const constraint::PrescribedDof wanted{node, component, 0, 0};
-  const auto found = std::lower_bound(prescribed_.begin(), prescribed_.end(), wanted, before);
+  const auto found = std::lower_bound(prescribed_.begin(), prescribed_.end(), wanted, by_dof);
   return found != prescribed_.end() && found->node == node && found->component == component ? &*found : nullptr;
 }
 

@@ -6,11 +6,11 @@
 #include <iterator>
 #include <numeric>
 
+#include "skin.hpp"
+
 namespace mortise::contact {
 
 namespace {
-
-constexpr double kink = 0.766;  // cosine of the angle from which neighbouring faces make a kink
 
 // Nelson Max's weight times normal at corner k of a face.
 Point corner_normal(const FaceGeometry& face, std::size_t k)

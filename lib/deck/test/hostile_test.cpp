@@ -38,7 +38,7 @@ Tree read_tree(const std::string& text, const std::vector<std::string>& settings
   return tree;
 }
 
-std::string complaints(const std::string& text, const std::vector<std::string>& settings = {})
+std::string complaints_of_tree(const std::string& text, const std::vector<std::string>& settings = {})
 {
   try {
     read_tree(text, settings);
@@ -51,7 +51,7 @@ std::string complaints(const std::string& text, const std::vector<std::string>& 
 
 void expect_complaint(const std::string& text, const std::string& expected)
 {
-  EXPECT_EQ(complaints(text).substr(0, expected.size()), expected);
+  EXPECT_EQ(complaints_of_tree(text).substr(0, expected.size()), expected);
 }
 
 std::string repeated(const std::string& text, int times)
@@ -93,7 +93,7 @@ TEST(Hostile, Depth)
     expect_complaint("height: " + repeated("{a: ", depth) + repeated("}", depth), "tree.yaml:1: height");
     expect_complaint(repeated("- ", depth) + "1", "tree.yaml:1: ");
   }
-  EXPECT_EQ(complaints(repeated("{children: [", 20) + "{height: 3}" + repeated("]}", 20)), "");
+  EXPECT_EQ(complaints_of_tree(repeated("{children: [", 20) + "{height: 3}" + repeated("]}", 20)), "");
 }
 
 TEST(Hostile, SharedBranchesAreFine)
@@ -129,7 +129,7 @@ TEST(Hostile, CharactersThatAreNoText)
   expect_complaint("height: 3\n\x04\nage: 1\n", "tree.yaml:2: character 1 of this line is no text (code 0x04)");
   expect_complaint(std::string("height: 3\nage: 1\0 2\n", 19), "tree.yaml:2: character 7 of this line is no text (code 0x00)");
   expect_complaint("height: \xc3\x28\n", "tree.yaml:1: this line is not UTF-8");
-  EXPECT_EQ(complaints("\xef\xbb\xbfheight: 3\r\nage: 2\r\n"), "");  // as some editors save it
+  EXPECT_EQ(complaints_of_tree("\xef\xbb\xbfheight: 3\r\nage: 2\r\n"), "");  // as some editors save it
 }
 
 TEST(Hostile, EscapesThatAreNoText)
@@ -158,20 +158,21 @@ TEST(Hostile, LongTextsAreShortened)
                    "tree.yaml:1: height: expected a number, found \"" + repeated("\xc3\xa4", 40) + "...\" (2000 characters)");
   std::string text;
   for (int i = 0; i < 500; ++i) text += "key" + std::to_string(i) + ": 1\n";
-  EXPECT_TRUE(complaints(text).ends_with("\nand 400 more"));
+  EXPECT_TRUE(complaints_of_tree(text).ends_with("\nand 400 more"));
 }
 
 TEST(Hostile, SettingsWithoutAKey)
 {
   for (const char* path : {".", "..", ".height", "height.", "children..height"})
-    EXPECT_EQ(complaints("height: 1\n", {std::string(path) + "=1"}),
+    EXPECT_EQ(complaints_of_tree("height: 1\n", {std::string(path) + "=1"}),
               std::string("--set ") + path + ": a key of this path is empty; expected key.path=value, as solver.tolerance=1e-6");
   for (const char* path : {"[0]", "children[", "children[]", "children[-1]", "children[1", "children[99999999999]"})
-    EXPECT_EQ(complaints("height: 1\n", {std::string(path) + "=1"}),
+    EXPECT_EQ(complaints_of_tree("height: 1\n", {std::string(path) + "=1"}),
               std::string("--set ") + path + ": expected a key and an index such as loads[0]");
-  EXPECT_EQ(complaints("height: 1\n", {"age=\xff"}),
+  EXPECT_EQ(complaints_of_tree("height: 1\n", {"age=\xff"}),
             "--set: a setting is not UTF-8, or has characters that are no text; type it anew");
-  EXPECT_EQ(complaints("height: 1\n", {"children=&x [*x]"}).rfind("--set children=&x [*x]: the alias stands within", 0), 0U);
+  EXPECT_EQ(complaints_of_tree("height: 1\n", {"children=&x [*x]"}).rfind("--set children=&x [*x]: the alias stands within", 0),
+            0U);
 }
 
 }  // namespace

@@ -11,10 +11,10 @@ namespace mortise::feti {
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a row's largest entry, below which others count as 0, in all copies alike
-constexpr double no_rank = 1e-10;   // of a motion's square, when those before it are taken out
-constexpr double dependent = 1e-8;  // square of a row's distance from the rows before it
-constexpr double trace = 1e-13;     // on the diagonal, so that dependent rows do not spoil those after them by rounding
+constexpr double rounding_of_entry = 1e-12;  // of a row's largest entry, below which others count as 0, in all copies alike
+constexpr double no_rank = 1e-10;            // of a motion's square, when those before it are taken out
+constexpr double dependent = 1e-8;           // square of a row's distance from the rows before it
+constexpr double trace = 1e-13;              // on the diagonal, so that dependent rows do not spoil those after them by rounding
 
 // A node that two subdomains have in common: its number in both, and its weight.
 struct Common {
@@ -118,7 +118,7 @@ std::vector<ClusterConstraint> cluster_constraints(const partition::Decompositio
       const std::size_t a = s - first, b = static_cast<std::size_t>(other - subdomains[first].id);
       const Eigen::MatrixXd rows = averages(nodes, subdomains[s].mesh.points, kinematics);
       for (Eigen::Index k = 0; k < rows.cols(); ++k, ++next) {
-        const double least = rounding * rows.col(k).cwiseAbs().maxCoeff();
+        const double least = rounding_of_entry * rows.col(k).cwiseAbs().maxCoeff();
         for (Eigen::Index i = 0; i < rows.rows(); ++i) {
           if (std::abs(rows(i, k)) <= least) continue;
           const auto& node = nodes[static_cast<std::size_t>(i / dimension)];

@@ -11,8 +11,8 @@ namespace mortise::feti {
 
 namespace {
 
-constexpr std::size_t columns_at_once = 64;  // clusters that go through one factor together
-constexpr double same = 1e-8;                // of the entries of B0, by which those of copies may differ
+constexpr std::size_t clusters_at_once = 64;  // clusters that go through one factor together
+constexpr double same = 1e-8;                 // of the entries of B0, by which those of copies may differ
 
 bool agree(const SparseMatrix& a, const SparseMatrix& b)
 {
@@ -210,8 +210,8 @@ template <class Take>
 void Clusters::balance(const std::vector<Eigen::VectorXd>& f, const Take& take) const
 {
   for (const auto& [shape, clusters] : groups_)
-    for (std::size_t begin = 0; begin < clusters.size(); begin += columns_at_once) {
-      const auto count = std::min(columns_at_once, clusters.size() - begin);
+    for (std::size_t begin = 0; begin < clusters.size(); begin += clusters_at_once) {
+      const auto count = std::min(clusters_at_once, clusters.size() - begin);
       const auto columns = static_cast<Eigen::Index>(count);
       Eigen::MatrixXd right = Eigen::MatrixXd::Zero(shape->rows, columns), moved(shape->kernels, columns);
       Eigen::MatrixXd own;

@@ -5,7 +5,7 @@ namespace mortise::feti {
 namespace {
 
 // What is left of a row's part of G when its subdomains take from each other, as gluing inside a cluster does, is rounding.
-constexpr double rounding = 1e-10;
+constexpr double rounding_of_row = 1e-10;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ SparseMatrix coarse_rows(const JumpOperator& jump, const Clusters& clusters, con
     for (Eigen::Index r = 0; r < count; ++r) {
       const Local row = rows[static_cast<std::size_t>(r)];
       place[static_cast<std::size_t>(row)] = -1;
-      if (sum.col(r).norm() < rounding * size[r]) continue;
+      if (sum.col(r).norm() < rounding_of_row * size[r]) continue;
       part.values.col(static_cast<Eigen::Index>(part.row.size())) = sum.col(r);
       part.row.push_back(row);
     }

@@ -12,7 +12,7 @@
 namespace mortise::feti {
 namespace {
 
-struct Blocks {
+struct CutBlocks {
   Communicator comm;
   Timers timers;
   Log log{comm, nullptr};
@@ -21,7 +21,7 @@ struct Blocks {
   std::unique_ptr<partition::NodeDirectory> directory;
   partition::Interface interface;
 
-  Blocks()
+  CutBlocks()
   {
     mesh::Options mesh;
     mesh.blocks["lower"] = {{0, 0, 0}, {1, 1, 1}, {4, 4, 4}, "hex8"};
@@ -114,7 +114,7 @@ struct Blocks {
 
 TEST(RowDistribution, TheOwnerOfARowHoldsACopy)
 {
-  const Blocks blocks;
+  const CutBlocks blocks;
   const auto& [comm, decomposition, directory] = std::tie(blocks.comm, blocks.decomposition, *blocks.directory);
   const auto prescribed = distribute_rows(blocks.prescribed(), decomposition, directory, comm);
   const auto skew_supports = distribute_rows(blocks.skew_supports(), decomposition, directory, comm);
@@ -127,7 +127,7 @@ TEST(RowDistribution, TheOwnerOfARowHoldsACopy)
 
 TEST(RowDistribution, RowsOfANodeStandWithItsLowestSubdomain)
 {
-  const Blocks blocks;
+  const CutBlocks blocks;
   const auto& comm = blocks.comm;
   std::vector<Global> nodes;
   for (const auto& h : distribute_rows(blocks.prescribed(), blocks.decomposition, *blocks.directory, comm))
@@ -142,7 +142,7 @@ TEST(RowDistribution, RowsOfANodeStandWithItsLowestSubdomain)
 
 TEST(RowDistribution, SupportsAreAscendingAndKeepTheOrderAtANode)
 {
-  const Blocks blocks;
+  const CutBlocks blocks;
   const auto prescribed = distribute_rows(blocks.prescribed(), blocks.decomposition, *blocks.directory, blocks.comm);
   EXPECT_TRUE(std::is_sorted(prescribed.begin(), prescribed.end(), [](const auto& a, const auto& b) {
     return std::tie(a.node, a.component) < std::tie(b.node, b.component);
@@ -159,7 +159,7 @@ TEST(RowDistribution, SupportsAreAscendingAndKeepTheOrderAtANode)
 
 TEST(RowDistribution, ContactPointsKeepTheirRows)
 {
-  const Blocks blocks;
+  const CutBlocks blocks;
   const auto contacts = distribute_rows(blocks.contacts(), blocks.decomposition, *blocks.directory, blocks.comm);
   EXPECT_EQ(blocks.comm.sum(static_cast<long long>(contacts.nodes.size())), 25);
   EXPECT_EQ(contacts.bonded.size(), contacts.nodes.size());

@@ -14,9 +14,6 @@ namespace {
 
 constexpr double active_set_tolerance = 1e-8;  // over the largest multiplier
 constexpr double edge = 1e-6;                  // within so much of its radius a point slips
-constexpr double nothing = 1e-4;               // change of a pressure over the largest of the contact that decides nothing
-constexpr double idle = 1e-3;                  // largest pressure of a contact over that of all, below which it only touches
-constexpr double narrow = 0.35;                // cover of points that have a force but no pressure of their own
 constexpr double at_rest = 0.05;               // change of a pressure over the largest of the contact that is still to come
 constexpr double across = 0.7;                 // cosine of the cone that one looks through for a neighbour
 constexpr double beside = 0.3;                 // cosine up to which a direction leads to another side
@@ -49,7 +46,7 @@ class Pressures {
   {
     const auto& contacts = problem_.constraints().contacts;
     const auto& point = contacts.nodes[i];
-    if (contacts.bonded[i] || point.cover < narrow || !(point.area > 0)) return 0;
+    if (contacts.bonded[i] || point.cover < narrow_cover || !(point.area > 0)) return 0;
     return problem_.jump().force(problem_.node_rows()[i].normal, multiplier) / point.area;
   }
 
@@ -187,14 +184,14 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector&
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& rows = problem.node_rows()[i];
     const double largest = pressures.largest[static_cast<std::size_t>(points[i].contact)];
-    if (largest < idle * pressures.all) continue;
+    if (largest < idle_pressure * pressures.all) continue;
     const double off = std::abs(change[rows.normal]), at = argument[rows.normal];
-    rim[i] = pressures.of(i, off) > nothing * largest && off >= std::abs(at);
+    rim[i] = pressures.of(i, off) > negligible_change * largest && off >= std::abs(at);
     if (rows.disc < 0 || rim[i] || at <= 0) continue;
     const auto& disc = problem.set().discs()[static_cast<std::size_t>(rows.disc)];
     const double moved = tangential(rows, change) + disc.coefficient * off;
-    edge_of_stick[i] =
-        pressures.of(i, moved) > nothing * largest && moved >= std::abs(qp::from_centre(disc, argument).norm() - disc.radius);
+    edge_of_stick[i] = pressures.of(i, moved) > negligible_change * largest &&
+                       moved >= std::abs(qp::from_centre(disc, argument).norm() - disc.radius);
   }
   const auto rims = bands(problem, pressures.largest.size(), rim);
   const auto edges = bands(problem, pressures.largest.size(), edge_of_stick);
@@ -234,7 +231,7 @@ std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& re
     const auto& rows = problem.node_rows()[i];
     const double largest = pressures.largest[static_cast<std::size_t>(problem.constraints().contacts.nodes[i].contact)];
     const double moved = std::hypot(change[rows.normal], tangential(rows, change));
-    if (largest >= idle * pressures.all && largest > 0) parts[i] = pressures.of(i, moved) / largest;
+    if (largest >= idle_pressure * pressures.all && largest > 0) parts[i] = pressures.of(i, moved) / largest;
   }
   for (int c = 0; c < contacts; ++c)
     if (auto found = worst_points(problem, c, parts, at_rest)) {

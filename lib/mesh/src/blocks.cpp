@@ -83,14 +83,15 @@ Global cells_of(const Index& grid, CellType type)
 }
 
 // Nodes of a grid cell relative to its lowest corner, in hex8's order; the first four are quad4's.
-constexpr std::array<Index, 8> corners{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+constexpr std::array<Index, 8> hex_corners{
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
 // Places of a piece's nodes in the fine grid, from the lowest corner of the grid cell.
 std::vector<Index> places_of(CellType type, const std::vector<int>& piece)
 {
   std::vector<Index> places;
   for (const int corner : piece) {
-    const auto& at = corners[static_cast<std::size_t>(corner)];
+    const auto& at = hex_corners[static_cast<std::size_t>(corner)];
     places.push_back({2 * at[0], 2 * at[1], 2 * at[2]});
   }
   for (const auto& amid : middles(type)) {

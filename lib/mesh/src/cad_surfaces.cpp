@@ -15,10 +15,10 @@ namespace mortise::mesh {
 
 namespace {
 
-constexpr int places_along = 6;      // of a face, each way
-constexpr double exactly = 1e-7;     // of the radius: the places fit
-constexpr double nearly = 1e-4;      // of the radius: the nodes do; edges are curves of their own
-constexpr double almost_flat = 1e4;  // radius over the size of the face
+constexpr int places_along = 6;             // of a face, each way
+constexpr double exactly = 1e-7;            // of the radius: the places fit
+constexpr double nearly_on_surface = 1e-4;  // of the radius: the nodes do; edges are curves of their own
+constexpr double almost_flat = 1e4;         // radius over the size of the face
 
 // Points of the face in its parameters, well inside, and what gmsh says there.
 struct Samples {
@@ -159,7 +159,7 @@ void mark_curved_surfaces(int dimension)
   gmsh::model::getEntities(faces, dimension - 1);
   std::map<std::string, std::vector<int>> named;
   for (const auto& [dim, tag] : faces)
-    if (const auto shape = shape_of(dim, tag); shape && fits(*shape, nodes_on(dim, tag), nearly))
+    if (const auto shape = shape_of(dim, tag); shape && fits(*shape, nodes_on(dim, tag), nearly_on_surface))
       named[name_of(*shape)].push_back(tag);
   for (const auto& [name, tags] : named)
     gmsh::model::setPhysicalName(dimension - 1, gmsh::model::addPhysicalGroup(dimension - 1, tags), name);

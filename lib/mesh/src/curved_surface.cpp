@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view beginning = "@curved:";
 constexpr std::size_t digits = 16;
 
-constexpr double nearly = 1e-6;  // of the smaller radius
+constexpr double nearly_same = 1e-6;  // of the smaller radius
 
 }  // namespace
 
@@ -30,13 +30,13 @@ double CurvedSurface::distance(const Point& x) const
 
 bool same(const CurvedSurface& a, const CurvedSurface& b)
 {
-  const double allowed = nearly * std::min(a.radius, b.radius);
+  const double allowed = nearly_same * std::min(a.radius, b.radius);
   if (a.axis.isZero(0) != b.axis.isZero(0)) return false;
   const Point apart = b.point - a.point;
   if (a.axis.isZero(0)) return apart.norm() <= allowed && std::abs(a.radius - b.radius) <= allowed;
-  if (a.axis.cross(b.axis).norm() > nearly) return false;
+  if (a.axis.cross(b.axis).norm() > nearly_same) return false;
   const double along = apart.dot(a.axis), sign = a.axis.dot(b.axis) > 0 ? 1 : -1;
-  return (apart - along * a.axis).norm() <= allowed && std::abs(a.slope - sign * b.slope) <= nearly &&
+  return (apart - along * a.axis).norm() <= allowed && std::abs(a.slope - sign * b.slope) <= nearly_same &&
          std::abs(a.radius + a.slope * along - b.radius) <= allowed;
 }
 

@@ -72,7 +72,7 @@ void for_each_element(const std::string& file, int dimension, int entity, const 
 }
 
 // The nodes of the file under local numbers.
-struct Nodes {
+struct NumberedNodes {
   std::unordered_map<std::size_t, Local> local;
   std::vector<Point> points;
 
@@ -84,7 +84,7 @@ struct Nodes {
   }
 };
 
-Nodes read_nodes(const Options& options, int dimension)
+NumberedNodes read_nodes(const Options& options, int dimension)
 {
   std::vector<std::size_t> tags;
   std::vector<double> coordinates, parameters;
@@ -93,7 +93,7 @@ Nodes read_nodes(const Options& options, int dimension)
   std::vector<std::size_t> order(tags.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tags[a] < tags[b]; });
-  Nodes nodes;
+  NumberedNodes nodes;
   for (const std::size_t i : order) {
     nodes.local.emplace(tags[i], static_cast<Local>(nodes.points.size()));
     const Point x(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
@@ -105,7 +105,7 @@ Nodes read_nodes(const Options& options, int dimension)
   return nodes;
 }
 
-void read_cells(const Options& options, int dimension, const std::vector<Group>& bodies, const Nodes& nodes, RawMesh& raw)
+void read_cells(const Options& options, int dimension, const std::vector<Group>& bodies, const NumberedNodes& nodes, RawMesh& raw)
 {
   if (bodies.empty() && is_cad(kind_of(options.file)))
     fail(options.file, fmt::format("holds no {}", dimension == 3 ? "solid: its surfaces enclose no volume that is a body"
@@ -140,7 +140,7 @@ void read_cells(const Options& options, int dimension, const std::vector<Group>&
 }
 
 // The faces of an entity.
-void add_faces(const Options& options, int dimension, int entity, const Nodes& nodes, RawMesh::Boundary& boundary)
+void add_faces(const Options& options, int dimension, int entity, const NumberedNodes& nodes, RawMesh::Boundary& boundary)
 {
   for_each_element(options.file, dimension, entity, [&](CellType type, std::size_t tag, std::span<const std::size_t> tags) {
     std::vector<Local> corners;
@@ -151,7 +151,8 @@ void add_faces(const Options& options, int dimension, int entity, const Nodes& n
 }
 
 // Every face of every solid of a CAD file: solid.face.1, solid.face.2, ..; in plane models every edge of every face.
-void add_cad_faces(const Options& options, int dimension, const std::vector<Group>& bodies, const Nodes& nodes, RawMesh& raw)
+void add_cad_faces(const Options& options, int dimension, const std::vector<Group>& bodies, const NumberedNodes& nodes,
+                   RawMesh& raw)
 {
   for (const auto& body : bodies)
     for (std::size_t i = 0; i < body.entities.size(); ++i) {
@@ -174,7 +175,7 @@ void add_cad_faces(const Options& options, int dimension, const std::vector<Grou
 RawMesh take_from_gmsh(const Options& options, int dimension)
 {
   const auto bodies = groups(dimension);
-  Nodes nodes = read_nodes(options, dimension);
+  NumberedNodes nodes = read_nodes(options, dimension);
   RawMesh raw;
   for (const auto& body : bodies) raw.volumes.push_back(body.name);
   read_cells(options, dimension, bodies, nodes, raw);

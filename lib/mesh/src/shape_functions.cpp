@@ -10,7 +10,7 @@ namespace {
 using Exponents = std::array<int, 3>;
 
 // The corners of the reference cells.
-std::vector<Eigen::Vector3d> corners(CellType first_order)
+std::vector<Eigen::Vector3d> reference_corners(CellType first_order)
 {
   switch (first_order) {
     case CellType::line2:
@@ -79,7 +79,7 @@ double monomial(const Exponents& e, const Eigen::Vector3d& x)
 
 }  // namespace
 
-ShapeFunctions::ShapeFunctions(CellType type) : dimension_(dimension(type)), nodes_(corners(first_order(type)))
+ShapeFunctions::ShapeFunctions(CellType type) : dimension_(dimension(type)), nodes_(reference_corners(first_order(type)))
 {
   for (const auto& amid : middles(type)) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();

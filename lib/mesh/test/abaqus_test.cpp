@@ -8,16 +8,12 @@
 
 #include "base/error.hpp"
 #include "mesh/read.hpp"
+#include "scratch.hpp"
 
 namespace mortise::mesh {
 namespace {
 
-std::string path(const std::string& name)
-{
-  const auto directory = std::filesystem::temp_directory_path() / ("mortise_abaqus_test_" + std::to_string(getpid()));
-  std::filesystem::create_directories(directory);
-  return (directory / name).string();
-}
+using test::path;
 
 Assembly read_text(const std::string& text, int dimension = 3)
 {

@@ -12,16 +12,12 @@
 #include "base/error.hpp"
 #include "mesh/curved_surface.hpp"
 #include "mesh/read.hpp"
+#include "scratch.hpp"
 
 namespace mortise::mesh {
 namespace {
 
-std::string path(const std::string& name)
-{
-  const auto directory = std::filesystem::temp_directory_path() / ("mortise_cad_test_" + std::to_string(getpid()));
-  std::filesystem::create_directories(directory);
-  return (directory / name).string();
-}
+using test::path;
 
 // Makes shapes and writes them.
 template <class Make>

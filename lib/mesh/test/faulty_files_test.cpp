@@ -11,16 +11,12 @@
 #include "mesh/blocks.hpp"
 #include "mesh/extent.hpp"
 #include "mesh/read.hpp"
+#include "scratch.hpp"
 
 namespace mortise::mesh {
 namespace {
 
-std::string path(const std::string& name)
-{
-  const auto directory = std::filesystem::temp_directory_path() / ("mortise_faulty_test_" + std::to_string(getpid()));
-  std::filesystem::create_directories(directory);
-  return (directory / name).string();
-}
+using test::path;
 
 std::string write(const std::string& name, const std::string& text)
 {

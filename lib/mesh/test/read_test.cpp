@@ -9,16 +9,12 @@
 
 #include "base/error.hpp"
 #include "mesh/shape_functions.hpp"
+#include "scratch.hpp"
 
 namespace mortise::mesh {
 namespace {
 
-std::string path(const std::string& name)
-{
-  const auto directory = std::filesystem::temp_directory_path() / ("mortise_read_test_" + std::to_string(getpid()));
-  std::filesystem::create_directories(directory);
-  return (directory / name).string();
-}
+using test::path;
 
 std::string geo(const std::string& name, const std::string& text)
 {

@@ -76,8 +76,8 @@ double without_rounding(double gap, double reach)
 }
 
 // Adds a boundary of the outer faces with these numbers (of outer_surface()) for each of the lists.
-void define(const std::vector<std::pair<std::string, const std::vector<Global>*>>& boundaries,
-            partition::Decomposition& decomposition)
+void define_boundaries(const std::vector<std::pair<std::string, const std::vector<Global>*>>& boundaries,
+                       partition::Decomposition& decomposition)
 {
   auto& names = decomposition.catalogue.boundaries;
   std::vector<std::pair<Global, int>> members;  // face, boundary
@@ -129,7 +129,7 @@ std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& 
     boundaries.emplace_back(contact.secondary, &candidate.secondary_faces);
     boundaries.emplace_back(contact.primary, &candidate.primary_faces);
   }
-  define(boundaries, decomposition);
+  define_boundaries(boundaries, decomposition);
 
   const auto at = static_cast<std::ptrdiff_t>(place);
   const std::size_t own = contacts.entry[place];

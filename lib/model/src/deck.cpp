@@ -50,7 +50,7 @@ nlohmann::ordered_json dimension_schema(const deck::Limits& limits)
   return {{"enum", names}};
 }
 
-std::vector<std::string> names_of(const auto& map)
+std::vector<std::string> keys_of(const auto& map)
 {
   std::vector<std::string> names;
   for (const auto& [name, value] : map) names.push_back(name);
@@ -62,8 +62,8 @@ void check_bodies(const Deck& deck, deck::Document& document)
 {
   const auto check_material = [&](const std::string& material, const std::string& path) {
     if (!material.empty() && !deck.materials.contains(material))
-      document.error(
-          path, fmt::format("there is no material \"{}\"{}", material, deck::suggestion(material, names_of(deck.materials))));
+      document.error(path,
+                     fmt::format("there is no material \"{}\"{}", material, deck::suggestion(material, keys_of(deck.materials))));
   };
   for (const auto& [name, body] : deck.bodies) {
     check_material(body.material, "bodies." + name + ".material");
@@ -114,7 +114,7 @@ void check_decomposition(const Deck& deck, deck::Document& document)
   for (const auto& [name, counts] : deck.decomposition.counts)
     if (!deck.mesh.blocks.contains(name))
       document.error("decomposition.counts." + name,
-                     "there is no such block" + deck::suggestion(name, names_of(deck.mesh.blocks)));
+                     "there is no such block" + deck::suggestion(name, keys_of(deck.mesh.blocks)));
 }
 
 void check_vectors(const Deck& deck, deck::Document& document)

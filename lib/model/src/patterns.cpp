@@ -90,7 +90,7 @@ void report_no_match(const std::string& pattern, const std::string& path, const 
 }
 
 // A new boundary with all faces of `places`, once each.
-void define(const std::string& name, const std::vector<Place>& places, partition::Decomposition& decomposition)
+void define_boundary(const std::string& name, const std::vector<Place>& places, partition::Decomposition& decomposition)
 {
   const auto index = static_cast<int>(decomposition.catalogue.boundaries.size());
   decomposition.catalogue.boundaries.push_back(name);
@@ -214,7 +214,7 @@ Contacts resolve_patterns(const Deck& deck, deck::Document& document, partition:
     if (!is_pattern(name) || !defined.insert(name).second) return;
     const auto places = places_for(name, known);
     if (places.empty()) report_no_match(name, path, known, document);
-    define(name, places, decomposition);
+    define_boundary(name, places, decomposition);
   };
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
     resolve(deck.supports[i].boundary, fmt::format("supports[{}].boundary", i));

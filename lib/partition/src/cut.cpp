@@ -68,7 +68,7 @@ void join_islands(const mesh::Neighbours& graph, std::vector<int>& label)
   }
 }
 
-std::vector<int> cut(const mesh::Neighbours& graph, std::vector<idx_t> weight, int parts)
+std::vector<int> cut_graph(const mesh::Neighbours& graph, std::vector<idx_t> weight, int parts)
 {
   auto label = metis(graph, std::move(weight), parts);
   join_islands(graph, label);
@@ -79,7 +79,7 @@ std::vector<int> cut(const mesh::Neighbours& graph, std::vector<idx_t> weight, i
 
 std::vector<int> cut(const mesh::Cells& cells, int parts)
 {
-  return cut(mesh::face_neighbours(cells), {}, parts);
+  return cut_graph(mesh::face_neighbours(cells), {}, parts);
 }
 
 std::vector<int> cluster(const mesh::Cells& cells, const std::vector<int>& subdomain, int size)
@@ -100,7 +100,7 @@ std::vector<int> cluster(const mesh::Cells& cells, const std::vector<int>& subdo
     }
     graph.offset.push_back(static_cast<Local>(graph.cells.size()));
   }
-  return cut(graph, std::move(weight), std::max(1, (count + size / 2) / size));
+  return cut_graph(graph, std::move(weight), std::max(1, (count + size / 2) / size));
 }
 
 }  // namespace mortise::partition

@@ -9,8 +9,8 @@ namespace mortise::post {
 
 namespace {
 
-constexpr double strength = 0.01;      // of Young's modulus
-constexpr double rounding = 1 + 1e-6;  // a pressure of just that is none too large
+constexpr double strength = 0.01;           // of Young's modulus
+constexpr double with_rounding = 1 + 1e-6;  // a pressure of just that is none too large
 constexpr double large_error = 0.25;
 constexpr double large_push = 1e-3;
 
@@ -52,7 +52,7 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const double limit = strength * modulus[c];
-    if (soft[c] < 0 || !(peaks[c].value > rounding * limit)) continue;
+    if (soft[c] < 0 || !(peaks[c].value > with_rounding * limit)) continue;
     const auto& body = bodies[static_cast<std::size_t>(soft[c])];
     Warning w{
         "large_pressure",
@@ -89,7 +89,7 @@ std::vector<Warning> strained_supports(const std::vector<SupportLoad>& supports,
   for (const auto& s : supports) {
     const double force = std::hypot(s.force[0], s.force[1], s.force[2]);
     const double limit = strength * s.young_modulus;
-    if (!(force > 1e-6 * forces) || force <= rounding * limit * s.area) continue;
+    if (!(force > 1e-6 * forces) || force <= with_rounding * limit * s.area) continue;
     const double stress = s.area > 0 ? force / s.area : std::numeric_limits<double>::infinity();
     Warning w{
         "strained_support",

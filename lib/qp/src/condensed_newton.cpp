@@ -9,17 +9,17 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr int max_steps = 15;         // of guesses at one softness
-constexpr int max_turns = 3;          // of the slip at a point; then it sticks before it turns
-constexpr double converged = 1e-10;   // residual over x
-constexpr double flutter = 1e-12;     // the same below which guesses differ by rounding
-constexpr double stalled = 0.5;       // of the residual before: what rounding has left of it,
-constexpr double rounding = 1e-6;     // over x, which is no more than this, or than so many times
-constexpr double roundings = 1e4;     // what rounding makes of W x
-constexpr double softest = 0.1;       // of what a point gives way together with all others
-constexpr double hardest = 1e-4;      // softness that is as good as none
-constexpr double stride = 0.1;        // from one softness to the next
-constexpr double least_stride = 0.8;  // as slow as it gets
+constexpr int max_guesses = 15;             // at one softness
+constexpr int max_turns = 3;                // of the slip at a point; then it sticks before it turns
+constexpr double settled_residual = 1e-10;  // residual over x
+constexpr double flutter = 1e-12;           // the same below which guesses differ by rounding
+constexpr double stalled = 0.5;             // of the residual before: what rounding has left of it,
+constexpr double rounded_residual = 1e-6;   // over x, which is no more than this, or than so many times
+constexpr double roundings = 1e4;           // what rounding makes of W x
+constexpr double softest = 0.1;             // of what a point gives way together with all others
+constexpr double hardest = 1e-4;            // softness that is as good as none
+constexpr double stride = 0.1;              // from one softness to the next
+constexpr double least_stride = 0.8;        // as slow as it gets
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -77,7 +77,7 @@ bool CondensedNewton::iterate(const CondensedProgramme& programme, ConstraintSta
 {
   std::vector<int> turns(states.kind.size(), 0);
   double before = 0;
-  for (int step = 0; step < max_steps; ++step) {
+  for (int step = 0; step < max_guesses; ++step) {
     stop_if_requested();
     programme.solve(states, point.x, point.nu);
     ++point.steps;
@@ -85,9 +85,9 @@ bool CondensedNewton::iterate(const CondensedProgramme& programme, ConstraintSta
     auto next = programme.states(point.x, point.nu);
     const int changes = compare(states, next, turns);
     states = std::move(next);
-    const bool small =
-        residual <= converged * size ||
-        (residual > stalled * before && (residual <= rounding * size || residual <= roundings * programme.rounding(point.x)));
+    const bool small = residual <= settled_residual * size ||
+                       (residual > stalled * before &&
+                        (residual <= rounded_residual * size || residual <= roundings * programme.rounding(point.x)));
     if (step > 0 && small && (changes == 0 || residual <= flutter * size)) return true;
     before = residual;
   }

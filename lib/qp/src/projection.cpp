@@ -12,15 +12,15 @@ namespace mortise::qp {
 namespace {
 
 constexpr int max_steps = 1000;
-constexpr int max_search = 60;       // of each line search
-constexpr double flat = 0.1;         // part of its first slope at which a line search ends
-constexpr double far = 0.25;         // part of a step below which it was much too long
-constexpr double unbounded = 1e10;   // of ||G' nu|| over ||e|| and ||y||, at which C counts as empty
-constexpr double target = 1e-13;     // of the residual
-constexpr double acceptable = 1e-8;  // at which a projection that makes no more progress counts as found
-constexpr double far_away = 1e6;     // times ||e|| and ||y||: larger points are none
-constexpr int max_tries = 10;        // steps that do not halve it
-constexpr double converged = 1e-9;   // at which fewer steps are tried
+constexpr int max_search = 60;        // of each line search
+constexpr double flat = 0.1;          // part of its first slope at which a line search ends
+constexpr double far = 0.25;          // part of a step below which it was much too long
+constexpr double unbounded = 1e10;    // of ||G' nu|| over ||e|| and ||y||, at which C counts as empty
+constexpr double target = 1e-13;      // of the residual
+constexpr double acceptable = 1e-8;   // at which a projection that makes no more progress counts as found
+constexpr double far_away = 1e6;      // times ||e|| and ||y||: larger points are none
+constexpr int max_tries = 10;         // steps that do not halve it
+constexpr double near_enough = 1e-9;  // at which fewer steps are tried
 constexpr int max_stalled = 3;
 constexpr int max_repairs = 5;  // with the residual e - G x taken from x itself
 
@@ -240,7 +240,7 @@ Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
       result.residual = residual;
       best = now;
     }
-    if (stalled > (result.residual <= converged ? max_stalled : max_tries) && result.residual <= acceptable) break;
+    if (stalled > (result.residual <= near_enough ? max_stalled : max_tries) && result.residual <= acceptable) break;
   }
   if (now.multiplier_size < unbounded * scale) now = std::move(best);
   // G G' nu - G (P(w) - w) loses, where stiffnesses differ by 1e6, what the kernels of soft bodies need; G P(w) does not.

@@ -20,7 +20,7 @@ Eigen::MatrixXd second_difference(int n)
 }
 
 // Both algorithms under one name.
-using Solver = Solution (*)(const Problem&, const std::optional<Solution>& start, double tolerance);
+using Algorithm = Solution (*)(const Problem&, const std::optional<Solution>& start, double tolerance);
 
 Solution by_smalse(const Problem& problem, const std::optional<Solution>& start, double tolerance)
 {
@@ -32,7 +32,7 @@ Solution by_face_newton(const Problem& problem, const std::optional<Solution>& s
   return FaceNewton(problem, nullptr).solve(start, {tolerance, {}}, nullptr, {});
 }
 
-class Obstacle : public testing::TestWithParam<Solver> {};
+class Obstacle : public testing::TestWithParam<Algorithm> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, Obstacle, testing::Values(by_smalse, by_face_newton));
 
 TEST_P(Obstacle, StringIsSolvedToItsKktConditions)
