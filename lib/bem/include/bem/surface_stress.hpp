@@ -1,0 +1,31 @@
+// Stresses on the surface of a body from its displacements and tractions.
+//
+// On a panel the tangential derivatives of u, which is linear there, and the traction t = sigma n give the whole gradient of u by
+// Hooke's law: with P = I - n n' and the surface gradient g = (grad u) P,
+//
+//     d u / d n = P (t / mu - g'n) + n (t . n - lambda tr g) / (lambda + 2 mu).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "bem/panels.hpp"
+#include "fem/options.hpp"
+#include "fem/stress.hpp"
+
+namespace mortise::bem {
+
+/// XX YY ZZ XY YZ XZ of a symmetric tensor.
+fem::Stress components(const Eigen::Matrix3d& tensor);
+
+/// Stress tensor of the gradient d u_i / d x_j.
+Eigen::Matrix3d hooke(const fem::Material& material, const Eigen::Matrix3d& gradient);
+
+/// d u_i / d x_j on a panel, inside the body, of displacements u (3 n) and tractions t (3 m).
+Eigen::Matrix3d panel_gradient(const Panels& panels, const fem::Material& material, std::size_t panel, const Eigen::VectorXd& u,
+                               const Eigen::VectorXd& t);
+
+/// On each panel, m x 6. Of first order in the size of the panels.
+Eigen::MatrixXd panel_stresses(const Panels& panels, const fem::Material& material, const Eigen::VectorXd& u,
+                               const Eigen::VectorXd& t);
+
+}  // namespace mortise::bem

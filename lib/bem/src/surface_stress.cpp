@@ -1,0 +1,51 @@
+#include "bem/surface_stress.hpp"
+
+namespace mortise::bem {
+
+namespace {
+
+struct Lame {
+  double mu, lambda;
+};
+Lame lame(const fem::Material& material)
+{
+  const double nu = material.poisson_ratio, mu = material.young_modulus / (2 * (1 + nu));
+  return {mu, 2 * mu * nu / (1 - 2 * nu)};
+}
+
+}  // namespace
+
+fem::Stress components(const Eigen::Matrix3d& s)
+{
+  return (fem::Stress() << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)).finished();
+}
+
+Eigen::Matrix3d hooke(const fem::Material& material, const Eigen::Matrix3d& gradient)
+{
+  const auto [mu, lambda] = lame(material);
+  return mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
+}
+
+Eigen::Matrix3d panel_gradient(const Panels& panels, const fem::Material& material, std::size_t panel, const Eigen::VectorXd& u,
+                               const Eigen::VectorXd& t)
+{
+  const auto [mu, lambda] = lame(material);
+  const Point &n = panels.normal[panel], force = t.segment<3>(3 * static_cast<Eigen::Index>(panel));
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k)
+    gradient += u.segment<3>(3 * panels.corners[panel][static_cast<std::size_t>(k)]) * panels.gradient(panel, k).transpose();
+  const Point tangential = force / mu - gradient.transpose() * n;
+  const double normal = (force.dot(n) - lambda * gradient.trace()) / (lambda + 2 * mu);
+  return gradient + (tangential - n.dot(tangential) * n + normal * n) * n.transpose();
+}
+
+Eigen::MatrixXd panel_stresses(const Panels& panels, const fem::Material& material, const Eigen::VectorXd& u,
+                               const Eigen::VectorXd& t)
+{
+  Eigen::MatrixXd result(panels.size(), 6);
+  for (Eigen::Index p = 0; p < panels.size(); ++p)
+    result.row(p) = components(hooke(material, panel_gradient(panels, material, static_cast<std::size_t>(p), u, t)));
+  return result;
+}
+
+}  // namespace mortise::bem
