@@ -2,32 +2,55 @@
 
 namespace mortise::bem {
 
+namespace {
+
+struct Lame {
+  double mu, lambda;
+};
+Lame lame(const fem::Material& material)
+{
+  const double nu = material.poisson_ratio, mu = material.young_modulus / (2 * (1 + nu));
+  return {mu, 2 * mu * nu / (1 - 2 * nu)};
+}
+
+}  // namespace
+
+fem::Stress components(const Eigen::Matrix3d& s)
+{
+  return (fem::Stress() << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)).finished();
+}
+
 Point traction(const fem::Stress& s, const Point& n)
 {
   return {s[0] * n[0] + s[3] * n[1] + s[5] * n[2], s[3] * n[0] + s[1] * n[1] + s[4] * n[2],
           s[5] * n[0] + s[4] * n[1] + s[2] * n[2]};
 }
 
+Eigen::Matrix3d hooke(const fem::Material& material, const Eigen::Matrix3d& gradient)
+{
+  const auto [mu, lambda] = lame(material);
+  return mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
+}
+
+Eigen::Matrix3d panel_gradient(const Panels& panels, const fem::Material& material, std::size_t panel, const Eigen::VectorXd& u,
+                               const Eigen::VectorXd& t)
+{
+  const auto [mu, lambda] = lame(material);
+  const Point &n = panels.normal[panel], force = t.segment<3>(3 * static_cast<Eigen::Index>(panel));
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k)
+    gradient += u.segment<3>(3 * panels.corners[panel][static_cast<std::size_t>(k)]) * panels.gradient(panel, k).transpose();
+  const Point tangential = force / mu - gradient.transpose() * n;
+  const double normal = (force.dot(n) - lambda * gradient.trace()) / (lambda + 2 * mu);
+  return gradient + (tangential - n.dot(tangential) * n + normal * n) * n.transpose();
+}
+
 Eigen::MatrixXd panel_stresses(const Panels& panels, const fem::Material& material, const Eigen::VectorXd& u,
                                const Eigen::VectorXd& t)
 {
-  const double mu = material.young_modulus / (2 * (1 + material.poisson_ratio));
-  const double lambda = 2 * mu * material.poisson_ratio / (1 - 2 * material.poisson_ratio);
   Eigen::MatrixXd result(panels.size(), 6);
-  for (std::size_t p = 0; p < panels.corners.size(); ++p) {
-    const auto row = static_cast<Eigen::Index>(p);
-    const Point& n = panels.normal[p];
-    const Point traction = t.segment<3>(3 * row);
-    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-    for (int k = 0; k < 3; ++k)
-      gradient += u.segment<3>(3 * panels.corners[p][static_cast<std::size_t>(k)]) * panels.gradient(p, k).transpose();
-    const double normal = traction.dot(n);
-    const Point along = (traction - normal * n) / mu - gradient.transpose() * n;
-    const Point across = along + (normal - lambda * gradient.trace()) / (lambda + 2 * mu) * n;
-    gradient += across * n.transpose();
-    const Eigen::Matrix3d s = mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
-    result.row(row) << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
-  }
+  for (Eigen::Index p = 0; p < panels.size(); ++p)
+    result.row(p) = components(hooke(material, panel_gradient(panels, material, static_cast<std::size_t>(p), u, t)));
   return result;
 }
 

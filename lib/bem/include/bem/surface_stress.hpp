@@ -1,4 +1,9 @@
-// The stress at the surface, from displacements and tractions there.
+// Stresses on the surface of a body from its displacements and tractions.
+//
+// On a panel the tangential derivatives of u, which is linear there, and the traction t = sigma n give the whole gradient of u by
+// Hooke's law: with P = I - n n' and the surface gradient g = (grad u) P,
+//
+//     d u / d n = P (t / mu - g'n) + n (t . n - lambda tr g) / (lambda + 2 mu).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,12 +14,20 @@
 
 namespace mortise::bem {
 
+/// XX YY ZZ XY YZ XZ of a symmetric tensor.
+fem::Stress components(const Eigen::Matrix3d& tensor);
+
 /// sigma n.
 Point traction(const fem::Stress& stress, const Point& normal);
 
-/// Stress of each panel, m x 6 (XX YY ZZ XY YZ XZ), of displacements u, 3 n, and tractions t, 3 m: the gradient of u along the
-/// panel, and across it the derivative a with sigma n = t,
-///     (lambda + 2 mu) a.n = t.n - lambda div_s u,   a - (a.n) n = (t - (t.n) n) / mu - (grad_s u)' n.
+/// Stress tensor of the gradient d u_i / d x_j.
+Eigen::Matrix3d hooke(const fem::Material& material, const Eigen::Matrix3d& gradient);
+
+/// d u_i / d x_j on a panel, inside the body, of displacements u (3 n) and tractions t (3 m).
+Eigen::Matrix3d panel_gradient(const Panels& panels, const fem::Material& material, std::size_t panel, const Eigen::VectorXd& u,
+                               const Eigen::VectorXd& t);
+
+/// On each panel, m x 6. Of first order in the size of the panels.
 Eigen::MatrixXd panel_stresses(const Panels& panels, const fem::Material& material, const Eigen::VectorXd& u,
                                const Eigen::VectorXd& t);
 

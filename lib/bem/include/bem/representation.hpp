@@ -1,0 +1,87 @@
+// Displacements and stresses inside a body from those of its surface: Somigliana's identity
+//
+//     u(x) = I U t - I T u,     sigma(x) = Hooke's law of its gradient       (body without body forces; boundary_operators.hpp)
+//
+// with u linear and t constant on each panel. By Stokes' theorem, as for K, with m = M u and d = x - y
+//
+//     u(x)      = I U (t - 2 mu m) + I m / (4 pi r) - I n.d u / (4 pi r^3)
+//     d_i u(x)  = I d_i U (t - 2 mu m) - I d_i m / (4 pi r^3) - I ((n.d) d_i u - n_i (d.grad) u) / (4 pi r^3):
+//
+// nothing is more singular than 1 / r^2, and t, m and the surface gradient of u are constant on a panel. Far panels are
+// integrated by rules, near ones in closed form, so that no distance from the surface is too small. The linear field that the
+// nearest panel has, which the formulas reproduce, is taken off before and added after: large rotations do no harm to stresses.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "bem/panels.hpp"
+#include "fem/options.hpp"
+
+namespace mortise::bem {
+
+/// Where a point lies.
+struct Location {
+  bool inside;        ///< by the solid angle of the surface, 4 pi inside and 0 outside
+  double distance;    ///< from the surface, >= 0
+  std::size_t panel;  ///< the nearest one
+};
+
+struct InteriorField {
+  Eigen::MatrixXd displacement;  ///< points x 3
+  Eigen::MatrixXd stress;        ///< points x 6, XX YY ZZ XY YZ XZ
+};
+
+class Representation {
+ public:
+  /// Keeps a reference to `panels`. `accuracy` of the quadrature, relative to how far strains differ from those of the nearest
+  /// panel.
+  Representation(const Panels& panels, const fem::Material& material, double accuracy = 1e-5);
+
+  Location locate(const Point& x) const;
+
+  /// At points inside or on the surface, of displacements u (3 n) and tractions t (3 m). A linear u with its t is exact. On the
+  /// surface this is the limit from inside; outside, where the identity does not hold, the linear field of the nearest panel.
+  /// As t and grad u jump between panels, stresses have a logarithm of the distance from an edge times the jump: of the order of
+  /// the size of the panels, as the stresses on the panels are.
+  InteriorField evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const;
+
+ private:
+  static constexpr int lanes = 4;  // panels side by side
+  static constexpr int rules = 4;  // of triangles, for panels that are not near
+  using Lane = Eigen::Array<double, lanes, 1>;
+  using Lane3 = std::array<Lane, 3>;
+
+  // Panels that lie side by side in space; the last block repeats a panel without area.
+  struct Block {
+    Lane3 centre, normal;
+    Lane radius, area, offset;
+    std::array<std::size_t, lanes> panel;
+    int size;
+  };
+  // Surface gradient (row: component), t - 2 mu m, m and u in the centre.
+  struct Fields {
+    std::array<Lane3, 3> gradient;
+    Lane3 force, moment, u;
+  };
+  struct Nearest {
+    std::size_t panel;
+    double squared_distance;
+  };
+  struct Sum;
+
+  Nearest nearest(const Point& x) const;
+  int rule_for(const Block& block, const Point& x) const;
+  std::vector<Fields> fields(const Eigen::VectorXd& u, const Eigen::VectorXd& t) const;
+  void add_far(std::size_t block, int rule, const Fields& rest, const Point& x, Sum& sum) const;
+  void add_near(const Block& block, const Fields& rest, const Point& x, Sum& sum) const;
+
+  const Panels& panels_;
+  fem::Material material_;
+  std::array<double, rules> largest_;  // radius / distance of a panel for each rule
+  std::vector<Block> blocks_;
+  std::array<std::vector<Lane3>, rules> points_;  // of the rules: block * points + point
+};
+
+}  // namespace mortise::bem
