@@ -37,6 +37,19 @@ std::vector<CellFace> sorted_faces(const Cells& cells)
   return result;
 }
 
+std::vector<CellFace> border_faces(const Cells& cells)
+{
+  const auto all = sorted_faces(cells);
+  std::vector<CellFace> result;
+  for (std::size_t i = 0; i < all.size();) {
+    std::size_t end = i + 1;
+    while (end < all.size() && all[end].corners == all[i].corners) ++end;
+    if (end == i + 1) result.push_back(all[i]);
+    i = end;
+  }
+  return result;
+}
+
 Neighbours face_neighbours(const Cells& cells)
 {
   const auto all = sorted_faces(cells);

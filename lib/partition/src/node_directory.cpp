@@ -22,7 +22,7 @@ NodeDirectory::NodeDirectory(const Decomposition& decomposition, const std::vect
   std::vector<std::vector<Entry>> send(static_cast<std::size_t>(comm.size()));
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
-    for (const Local n : surface_.emplace_back(surface_nodes(subdomain.mesh))) {
+    for (const Local n : surface_.emplace_back(surface_nodes(subdomain))) {
       const Global id = subdomain.mesh.node_id[static_cast<std::size_t>(n)];
       send[static_cast<std::size_t>(id % comm.size())].push_back({id, {subdomain.id, n, weight[s][static_cast<std::size_t>(n)]}});
     }
@@ -78,20 +78,16 @@ NodeDirectory::Found NodeDirectory::find(std::span<const Global> nodes, const Co
   return result;
 }
 
-std::vector<Local> surface_nodes(const mesh::Mesh& mesh)
+std::vector<Local> surface_nodes(const Subdomain& subdomain)
 {
-  std::vector<bool> on(mesh.node_count(), false);
-  const auto faces = mesh::sorted_faces(mesh.cells);
-  for (std::size_t i = 0; i < faces.size();) {
-    std::size_t end = i + 1;
-    while (end < faces.size() && faces[end].corners == faces[i].corners) ++end;
-    if (end == i + 1) {
-      const auto cell = static_cast<std::size_t>(faces[i].cell);
-      for (const int n : mesh::faces(mesh.cells.type[cell])[static_cast<std::size_t>(faces[i].face)].nodes)
+  const auto& mesh = subdomain.mesh;
+  std::vector<bool> on(mesh.node_count(), subdomain.skin);
+  if (!subdomain.skin)
+    for (const auto& border : mesh::border_faces(mesh.cells)) {
+      const auto cell = static_cast<std::size_t>(border.cell);
+      for (const int n : mesh::faces(mesh.cells.type[cell])[static_cast<std::size_t>(border.face)].nodes)
         on[static_cast<std::size_t>(mesh.cells[cell][static_cast<std::size_t>(n)])] = true;
     }
-    i = end;
-  }
   std::vector<Local> nodes;
   for (std::size_t n = 0; n < on.size(); ++n)
     if (on[n]) nodes.push_back(static_cast<Local>(n));

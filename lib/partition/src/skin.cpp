@@ -15,20 +15,23 @@ struct OuterFace {
   int face;
 };
 
-// Faces of cells of one subdomain that belong to one cell of it.
-void add_border(const mesh::Mesh& mesh, Local subdomain, std::vector<OuterFace>& border)
+// The faces of one subdomain that belong to one cell of it; of a skin its panels.
+std::vector<mesh::CellFace> border_of(const Subdomain& subdomain)
 {
-  const auto all = mesh::sorted_faces(mesh.cells);
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t end = i + 1;
-    while (end < all.size() && all[end].corners == all[i].corners) ++end;
-    if (end == i + 1) {
-      OuterFace face{{-1, -1, -1, -1}, subdomain, all[i].cell, all[i].face};
-      for (std::size_t k = 0; k < 4; ++k)
-        if (all[i].corners[k] >= 0) face.corners[k] = mesh.node_id[static_cast<std::size_t>(all[i].corners[k])];
-      border.push_back(face);  // node_id ascends, and so do the corners
-    }
-    i = end;
+  const auto& cells = subdomain.mesh.cells;
+  if (!subdomain.skin) return mesh::border_faces(cells);
+  std::vector<mesh::CellFace> panels;
+  for (std::size_t c = 0; c < cells.size(); ++c) panels.push_back({mesh::face_key(cells[c]), static_cast<Local>(c), 0});
+  return panels;
+}
+
+void add_border(const Subdomain& subdomain, Local index, std::vector<OuterFace>& border)
+{
+  for (const auto& own : border_of(subdomain)) {
+    OuterFace face{{-1, -1, -1, -1}, index, own.cell, own.face};
+    for (std::size_t k = 0; k < 4; ++k)
+      if (own.corners[k] >= 0) face.corners[k] = subdomain.mesh.node_id[static_cast<std::size_t>(own.corners[k])];
+    border.push_back(face);  // node_id ascends, and so do the corners
   }
 }
 
@@ -67,13 +70,26 @@ std::vector<bool> told_once(const std::vector<OuterFace>& border, const Communic
 
 }  // namespace
 
+FaceOfCell face_of(const Subdomain& subdomain, Local cell, int face)
+{
+  const auto c = static_cast<std::size_t>(cell);
+  const auto& cells = subdomain.mesh.cells;
+  if (subdomain.skin) return {cells.type[c], {cells[c].begin(), cells[c].end()}};
+  const auto& own = mesh::faces(cells.type[c])[static_cast<std::size_t>(face)];
+  FaceOfCell result{own.type, {}};
+  for (const int k : own.nodes) result.nodes.push_back(cells[c][static_cast<std::size_t>(k)]);
+  return result;
+}
+
 Global face_number(const mesh::Mesh& mesh, std::size_t facet)
 {
   const auto parent = static_cast<std::size_t>(mesh.facets.parent[facet]);
   const auto cell = mesh.cells[parent];
   const auto nodes = mesh.facets.cells[facet];
+  const auto type = mesh.cells.type[parent];
   Local place = 0;
-  const auto& table = mesh::faces(mesh.cells.type[parent]);
+  if (mesh::dimension(type) == mesh::dimension(mesh.facets.cells.type[facet])) return 6 * mesh.cell_id[parent];  // a panel
+  const auto& table = mesh::faces(type);
   for (std::size_t k = 0; k < table.size(); ++k)
     if (cell[static_cast<std::size_t>(table[k].nodes[0])] == nodes[0] &&
         cell[static_cast<std::size_t>(table[k].nodes[1])] == nodes[1])
@@ -85,14 +101,13 @@ mesh::Surface outer_surface(const Decomposition& decomposition, const Communicat
 {
   std::vector<OuterFace> border;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
-    add_border(decomposition.subdomains[s].mesh, static_cast<Local>(s), border);
+    add_border(decomposition.subdomains[s], static_cast<Local>(s), border);
   const auto once = told_once(border, comm);
   mesh::Surface surface;
   const auto nodes_of = [&](const OuterFace& face, const auto& use) {
-    const auto& mesh = decomposition.subdomains[static_cast<std::size_t>(face.subdomain)].mesh;
-    const auto cell = static_cast<std::size_t>(face.cell);
-    for (const int k : mesh::faces(mesh.cells.type[cell])[static_cast<std::size_t>(face.face)].nodes)
-      use(mesh, static_cast<std::size_t>(mesh.cells[cell][static_cast<std::size_t>(k)]));
+    const auto& subdomain = decomposition.subdomains[static_cast<std::size_t>(face.subdomain)];
+    const auto& mesh = subdomain.mesh;
+    for (const Local n : face_of(subdomain, face.cell, face.face).nodes) use(mesh, static_cast<std::size_t>(n));
   };
   for (std::size_t i = 0; i < border.size(); ++i)
     if (once[i])
@@ -110,9 +125,8 @@ mesh::Surface outer_surface(const Decomposition& decomposition, const Communicat
       surface.points[static_cast<std::size_t>(at)] = mesh.points[node];
     });
     const auto& subdomain = decomposition.subdomains[static_cast<std::size_t>(border[i].subdomain)];
-    const auto cell = static_cast<std::size_t>(border[i].cell);
-    surface.faces.add(mesh::faces(subdomain.mesh.cells.type[cell])[static_cast<std::size_t>(border[i].face)].type, nodes);
-    surface.face_id.push_back(6 * subdomain.mesh.cell_id[cell] + border[i].face);
+    surface.faces.add(face_of(subdomain, border[i].cell, border[i].face).type, nodes);
+    surface.face_id.push_back(6 * subdomain.mesh.cell_id[static_cast<std::size_t>(border[i].cell)] + border[i].face);
     surface.body.push_back(subdomain.body);
   }
   return surface;

@@ -29,11 +29,10 @@ void get(std::vector<T>& values, const std::vector<char>& bytes, std::size_t& at
   at += count * sizeof(T);
 }
 
-// Visits every vector of a subdomain in one fixed order.
-template <class S, class Visit>
-void for_each_part(S& subdomain, const Visit& visit)
+// Visits every vector of a mesh in one fixed order.
+template <class M, class Visit>
+void for_each_part(M& mesh, const Visit& visit)
 {
-  auto& mesh = subdomain.mesh;
   visit(mesh.node_id);
   visit(mesh.points);
   for (auto* cells : {&mesh.cells, &mesh.facets.cells}) {
@@ -70,8 +69,8 @@ std::vector<Global> deal(const std::vector<long long>& weight, const std::vector
 
 void pack(const Subdomain& subdomain, std::vector<char>& bytes)
 {
-  put(std::vector<Global>{subdomain.id, subdomain.body}, bytes);
-  for_each_part(subdomain, [&](const auto& part) { put(part, bytes); });
+  put(std::vector<Global>{subdomain.id, subdomain.body, subdomain.skin ? 1 : 0}, bytes);
+  for (const auto* mesh : {&subdomain.mesh, &subdomain.inside}) for_each_part(*mesh, [&](const auto& part) { put(part, bytes); });
 }
 
 std::vector<Subdomain> unpack(const std::vector<char>& bytes)
@@ -83,7 +82,8 @@ std::vector<Subdomain> unpack(const std::vector<char>& bytes)
     get(head, bytes, at);
     subdomain.id = head[0];
     subdomain.body = static_cast<int>(head[1]);
-    for_each_part(subdomain, [&](auto& part) { get(part, bytes, at); });
+    subdomain.skin = head[2] != 0;
+    for (auto* mesh : {&subdomain.mesh, &subdomain.inside}) for_each_part(*mesh, [&](auto& part) { get(part, bytes, at); });
     result.push_back(std::move(subdomain));
   }
   return result;

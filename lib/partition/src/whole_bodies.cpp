@@ -53,29 +53,45 @@ mesh::Mesh join(const std::vector<const mesh::Mesh*>& pieces)
 
 Decomposition whole_bodies(const Decomposition& decomposition, const Communicator& comm)
 {
-  const auto bodies = decomposition.catalogue.bodies.size();
-  std::vector<double> cells(bodies, 0.0);
+  std::vector<int> own;  // of each subdomain its body and whether it is a skin
+  for (const auto& subdomain : decomposition.subdomains) own.insert(own.end(), {subdomain.body, subdomain.skin ? 1 : 0});
+  const auto all = comm.all_gather(own);
+  std::vector<Global> number;  // of each subdomain in the result
+  Global count = 0;
+  for (std::size_t i = 0; i < all.size(); i += 2) {
+    if (i == 0 || all[i] != all[i - 2] || all[i + 1] != 0) ++count;
+    number.push_back(count - 1);
+  }
+  std::vector<double> cells(static_cast<std::size_t>(count), 0.0);
   for (const auto& subdomain : decomposition.subdomains)
-    cells[static_cast<std::size_t>(subdomain.body)] += static_cast<double>(subdomain.mesh.cells.size());
+    cells[static_cast<std::size_t>(number[static_cast<std::size_t>(subdomain.id)])] +=
+        static_cast<double>(subdomain.mesh.cells.size());
   comm.sum_in_place(cells);
   Decomposition result;
   result.catalogue = decomposition.catalogue;
-  result.clusters.resize(bodies + 1);
+  result.clusters.resize(cells.size() + 1);
   std::iota(result.clusters.begin(), result.clusters.end(), Global{0});
   result.first = deal({cells.begin(), cells.end()}, result.clusters, comm.size());
 
   std::vector<std::vector<char>> send(static_cast<std::size_t>(comm.size()));
   for (const auto& subdomain : decomposition.subdomains)
-    pack(subdomain, send[static_cast<std::size_t>(result.rank_of(subdomain.body))]);
-  std::vector<std::vector<Subdomain>> received;
-  for (const auto& bytes : comm.exchange(send)) received.push_back(unpack(bytes));
-  const auto rank = static_cast<std::size_t>(comm.rank());
-  for (Global body = result.first[rank]; body < result.first[rank + 1]; ++body) {
-    std::vector<const mesh::Mesh*> pieces;  // ranks own ascending ranges of subdomains
-    for (const auto& part : received)
-      for (const auto& subdomain : part)
-        if (subdomain.body == body) pieces.push_back(&subdomain.mesh);
-    result.subdomains.push_back({body, static_cast<int>(body), join(pieces)});
+    pack(subdomain, send[static_cast<std::size_t>(result.rank_of(number[static_cast<std::size_t>(subdomain.id)]))]);
+  std::vector<Subdomain> received;  // in the order that they had, since ranks own ascending ranges of subdomains
+  for (const auto& bytes : comm.exchange(send))
+    for (auto& subdomain : unpack(bytes)) received.push_back(std::move(subdomain));
+  for (std::size_t i = 0; i < received.size();) {
+    const Global id = number[static_cast<std::size_t>(received[i].id)];
+    const int body = received[i].body;
+    std::vector<const mesh::Mesh*> pieces;
+    std::size_t end = i;
+    for (; end < received.size() && number[static_cast<std::size_t>(received[end].id)] == id; ++end)
+      pieces.push_back(&received[end].mesh);
+    if (received[i].skin) {
+      received[i].id = id;
+      result.subdomains.push_back(std::move(received[i]));
+    } else
+      result.subdomains.push_back({id, body, join(pieces)});
+    i = end;
   }
   return result;
 }

@@ -21,6 +21,9 @@ std::array<Local, 4> face_key(std::span<const Local> corners);
 /// All faces of all cells, ordered by corners and then by cell, so that faces shared by two cells stand side by side.
 std::vector<CellFace> sorted_faces(const Cells& cells);
 
+/// Those of sorted_faces() that belong to one cell.
+std::vector<CellFace> border_faces(const Cells& cells);
+
 /// For each cell the cells that share a face with it, ascending, in compressed rows.
 struct Neighbours {
   std::vector<Local> offset{0};

@@ -9,10 +9,15 @@
 namespace mortise::partition {
 
 struct Subdomain {
-  Global id = 0;      ///< over all ranks and bodies
-  int body = 0;       ///< index into Catalogue::bodies
-  mesh::Mesh mesh;    ///< its own cells, nodes and boundary facets; nodes on its border are copied in the neighbours
-  bool skin = false;  ///< known by its surface alone: its cells are panels, of type tri3 in space (line2 in a plane)
+  Global id = 0;    ///< over all ranks and bodies
+  int body = 0;     ///< index into Catalogue::bodies
+  mesh::Mesh mesh;  ///< its own cells, nodes and boundary facets; nodes on its border are copied in the neighbours
+  /// Known by its surface alone: `mesh` is closed, its cells are panels, of type tri3 in space and line2 in a plane, turned as
+  /// facets are; every node lies on the surface, and the parent of a facet is the panel that it is. See skins().
+  bool skin = false;
+  /// Of a skin, if asked for: the cells that it encloses, or else empty. Its first nodes are those of `mesh`, in the same order
+  /// and with the same numbers.
+  mesh::Mesh inside = {};
 };
 
 struct Decomposition {

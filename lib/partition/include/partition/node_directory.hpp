@@ -44,8 +44,8 @@ class NodeDirectory {
   Found entries_;
 };
 
-/// The local nodes on the surface of a subdomain, ascending.
-std::vector<Local> surface_nodes(const mesh::Mesh& mesh);
+/// The local nodes on the surface of a subdomain, ascending; all of a skin.
+std::vector<Local> surface_nodes(const Subdomain& subdomain);
 
 /// The nodes of this rank's subdomains that have two copies or more, and where these are.
 struct Interface {

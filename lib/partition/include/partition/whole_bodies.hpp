@@ -6,8 +6,8 @@
 
 namespace mortise::partition {
 
-/// The same assembly with one subdomain a body, dealt to the ranks with about equal numbers of cells. Numbers of nodes and cells
-/// stay. Collective.
+/// The same assembly with one subdomain a body, dealt to the ranks with about equal numbers of cells. Bodies of skins stay as
+/// they are cut: what is known by its surface cannot be joined. Numbers of nodes and cells stay. Collective.
 Decomposition whole_bodies(const Decomposition& decomposition, const Communicator& comm);
 
 }  // namespace mortise::partition
