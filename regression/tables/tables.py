@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Solves the rows of the two scalability tables of Dostal et al. (DD20) and prints them beside the paper's.
 
-    tables.py MORTISE [--dimension 2|3] [--rows N ...] [--ranks R] [--mpiexec MPIEXEC] [--scratch DIR] [--set KEY=VALUE ...]
+    tables.py MORTISE [--dimension 2|3] [--method finite_elements|boundary_elements] [--rows N ...] [--ranks R] [--mpiexec MPIEXEC] [--scratch DIR] [--set KEY=VALUE ...]
 
 Two beams 2:1(:1), each cut into 2n x n (x n) squares or cubes; the decks are those of inputs/cantilever_2d and cantilever_3d with other
 numbers. "product/limit" is the time of a product with F over the time its floating point operations take at the rate of a
-matrix-matrix product of the same machine, measured at the start. The results of a row are deleted once it is judged, unless
+matrix-matrix product of the same machine, measured at the start. With boundary elements (the paper's TBETI, in space) a subdomain is a dense
+matrix of its surface. The results of a row are deleted once it is judged, unless
 --keep is given.
 """
 import argparse
@@ -28,15 +29,19 @@ PAPER = {
         5: (500, 1996500, 444927, 3000, "4 / 97 / 374"),
         7: (1372, 5478396, 1261493, 8232, "4 / 93 / 1663"),
         9: (2916, 11643588, 2728955, 17496, "4 / 119 / 7745")}}
+# The same by boundary elements: outer iterations / products / seconds. The paper's primal unknowns are these, but for 3, 2 and 4 of them.
+PAPER_BOUNDARY = {3: "7 / 160 / 46", 5: "8 / 161 / 301", 7: "9 / 160 / 2211", 9: "9 / 260 / 7949"}
+SURFACE_UNKNOWNS = 3 * (11**3 - 9**3)  # of a cube of 10 x 10 x 10 cells
 # Entries of the factor of one subdomain, from its analysis by CHOLMOD; two solves cost four operations an entry.
 FACTOR_ENTRIES = {2: 0.31e6, 3: 0.9e6}
 
 
-def settings(dimension, n):
+def settings(dimension, n, method):
     """The --set arguments that make the input's deck a row of the table."""
     shape = [2 * n, n] if dimension == 2 else [2 * n, n, n]
     cells = [CELLS[dimension] * k for k in shape]
-    result = [f"mesh.blocks.{beam}.cells={cells}" for beam in ("lower", "upper")]
+    result = [f"bodies.{beam}.method={method}" for beam in ("lower", "upper")]
+    result += [f"mesh.blocks.{beam}.cells={cells}" for beam in ("lower", "upper")]
     return result + [f"decomposition.counts={{lower: {shape}, upper: {shape}}}"]
 
 
@@ -55,7 +60,7 @@ def dgemm_rate():
 def solve(arguments, dimension, n, directory):
     deck = ROOT / f"inputs/cantilever_{dimension}d/cantilever_{dimension}d.yaml"
     command = [arguments.mortise, str(deck), "--output", str(directory)]
-    for value in settings(dimension, n) + arguments.set:
+    for value in settings(dimension, n, arguments.method) + arguments.set:
         command += ["--set", value]
     if arguments.ranks > 1:
         command = [arguments.mpiexec, "--oversubscribe", "--bind-to", "none", "-n", str(arguments.ranks)] + command
@@ -73,6 +78,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mortise")
     parser.add_argument("--dimension", type=int, choices=(2, 3), action="append")
+    parser.add_argument("--method", choices=("finite_elements", "boundary_elements"), default="finite_elements")
     parser.add_argument("--rows", type=int, nargs="*", help="values of n; all rows if absent")
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--mpiexec", default="mpirun")
@@ -83,12 +89,16 @@ def main():
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     rate = dgemm_rate() * min(arguments.ranks, os.cpu_count() or 1)
     failures = []
-    for dimension in arguments.dimension or (2, 3):
+    boundary = arguments.method == "boundary_elements"
+    for dimension in arguments.dimension or ((3,) if boundary else (2, 3)):
         print(f"{dimension}D | subdomains | primal | dual | kernel | paper: outer / products / s | outer / products | wall s | "
               "mesh+partition | contact | factors | solve | products | output | product/limit | GB")
         for n, (subdomains, primal, dual, kernel, paper) in PAPER[dimension].items():
             if arguments.rows and n not in arguments.rows:
                 continue
+            operations = 4 * FACTOR_ENTRIES[dimension]
+            if boundary:
+                primal, paper, operations = SURFACE_UNKNOWNS * subdomains, PAPER_BOUNDARY[n], 2 * SURFACE_UNKNOWNS**2
             directory = pathlib.Path(tempfile.mkdtemp(prefix="mortise_table_", dir=arguments.scratch))
             summary, wall = solve(arguments, dimension, n, directory)
             found = tuple(summary[k] for k in ("subdomains", "primal_unknowns", "dual_unknowns", "kernel_dimension"))
@@ -96,7 +106,7 @@ def main():
                 failures.append(f"{dimension}D, n = {n}: dimensions {found}, the paper has {(subdomains, primal, dual, kernel)}")
             seconds = summary["time"]
             products = summary["hessian_multiplications"]
-            limit = 4 * FACTOR_ENTRIES[dimension] * subdomains / rate
+            limit = operations * subdomains / rate
             print(f"{n} | {found[0]} | {found[1]} | {found[2]} | {found[3]} | {paper} | {summary['outer_iterations']} / {products} | "
                   f"{wall:.1f} | {seconds['mesh'] + seconds['partition']:.1f} | {seconds['contact']:.1f} | "
                   f"{seconds['assembly'] + seconds['factorization']:.1f} | {seconds['solve']:.1f} | {seconds['multiplication']:.1f} | "

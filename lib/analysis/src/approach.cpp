@@ -12,6 +12,18 @@ namespace {
 
 constexpr int products_of_check = 40;  // that a direct solution is one
 
+// A body of several skins, which cannot be made whole for a direct solution; empty if there is none. Collective.
+std::string cut_skin(const partition::Decomposition& decomposition, const Communicator& comm)
+{
+  std::vector<double> skins(decomposition.catalogue.bodies.size(), 0.0);
+  for (const auto& subdomain : decomposition.subdomains)
+    if (subdomain.skin) skins[static_cast<std::size_t>(subdomain.body)] += 1;
+  comm.sum_in_place(skins);
+  for (std::size_t b = 0; b < skins.size(); ++b)
+    if (skins[b] > 1) return decomposition.catalogue.bodies[b].name;
+  return {};
+}
+
 }  // namespace
 
 bool is_tried_again(const Approach& approach, const Error& error)
@@ -24,6 +36,13 @@ bool is_tried_again(const Approach& approach, const Error& error)
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
                        const Communicator& comm)
 {
+  const auto cut = cut_skin(assembly.decomposition(), comm);
+  if (!cut.empty() && approach.algorithm == "direct")
+    throw Error(ExitStatus::bad_input,
+                "body \"" + cut +
+                    "\" is made of boundary elements and cut into several subdomains: `solver.algorithm: direct` wants " +
+                    "it whole (decomposition.subdomains), `auto` and `face_newton` do not");
+  if (!cut.empty()) return approach;
   const auto effort = [&] { return effort_of_direct(assembly.decomposition(), assembly.system(), constraints, comm); };
   if (approach.kind == Approach::Kind::direct_instead)
     approach.patience = products_of_check;

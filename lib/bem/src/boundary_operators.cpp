@@ -8,7 +8,7 @@ namespace mortise::bem {
 
 namespace {
 
-constexpr std::array<std::array<int, 2>, 6> components{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+constexpr std::array<std::array<int, 2>, 6> tensor_places{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
 struct Kelvin {
   double factor, alone;  // U = factor (alone / (4 pi r) I + d d' / (4 pi r^3))
@@ -38,7 +38,8 @@ Derivatives derivatives(const Panels& panels)
 }
 
 // result += a (M u): column blocks of a by panel, of result by node.
-void add_times_tangential(const Panels& panels, const Derivatives& of, const Eigen::MatrixXd& a, double factor, Eigen::MatrixXd& result)
+void add_times_tangential(const Panels& panels, const Derivatives& of, const Eigen::MatrixXd& a, double factor,
+                          Eigen::MatrixXd& result)
 {
   for (std::size_t p = 0; p < panels.corners.size(); ++p)
     for (int k = 0; k < 3; ++k)
@@ -54,7 +55,8 @@ void add_tangential_times(const Panels& panels, const Derivatives& of, const Eig
     for (std::size_t p = 0; p < panels.corners.size(); ++p)
       for (int k = 0; k < 3; ++k)
         result.col(c).segment<3>(3 * panels.corners[p][static_cast<std::size_t>(k)]) +=
-            of.tangential[3 * p + static_cast<std::size_t>(k)].transpose() * a.col(c).segment<3>(3 * static_cast<Eigen::Index>(p));
+            of.tangential[3 * p + static_cast<std::size_t>(k)].transpose() *
+            a.col(c).segment<3>(3 * static_cast<Eigen::Index>(p));
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ LayerIntegrals integrate_layers(const Panels& panels, const fem::Material& mater
       layers.single(y, x) = layers.single(x, y) = pair.single;
       Eigen::Matrix3d u = (factor * alone * pair.single) * Eigen::Matrix3d::Identity();
       for (std::size_t c = 0; c < 6; ++c) {
-        const auto [i, j] = components[c];
+        const auto [i, j] = tensor_places[c];
         u(i, j) += factor * pair.tensor[c];
         if (i != j) u(j, i) += factor * pair.tensor[c];
       }
@@ -125,7 +127,8 @@ BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& 
   for (Eigen::Index q = 0; q < m; ++q)
     for (std::size_t k = 0; k < 3; ++k)
       for (int c = 0; c < 3; ++c)
-        result.k(3 * q + c, 3 * panels.corners[static_cast<std::size_t>(q)][k] + c) += panels.area[static_cast<std::size_t>(q)] / 6;
+        result.k(3 * q + c, 3 * panels.corners[static_cast<std::size_t>(q)][k] + c) +=
+            panels.area[static_cast<std::size_t>(q)] / 6;
 
   // (M v)' (2 mu V_L - 4 mu^2 V) (M u)
   image = 2 * mu * single_image - 2 * mu * image;

@@ -10,9 +10,9 @@ namespace mortise::bem {
 
 namespace {
 
-constexpr int far_rules = 4;         // the symmetric rules, for pairs of whole panels
-constexpr int deepest = 12;          // halvings of a panel that is close to another one
-constexpr std::size_t lanes = 8;     // pairs that are integrated side by side
+constexpr int far_rules = 4;                                // the symmetric rules, for pairs of whole panels
+constexpr int deepest = 12;                                 // halvings of a panel that is close to another one
+constexpr std::size_t lanes = 8;                            // pairs that are integrated side by side
 constexpr int fewest_in_corners = 3, most_in_corners = 16;  // points a coordinate of the integrals with common corners
 
 // A triangle by its corners, and these by the area coordinates of the panel that it is a part of.
@@ -68,8 +68,8 @@ std::array<Part, 2> halves(const Part& part)
 }
 
 // Adds what one pair of points gives.
-void add(const Point& x, const Point& y, const Point& nx, const Point& ny, double weight, const Weights& at_x, const Weights& at_y,
-         PairIntegrals& sum)
+void add(const Point& x, const Point& y, const Point& nx, const Point& ny, double weight, const Weights& at_x,
+         const Weights& at_y, PairIntegrals& sum)
 {
   const Point d = x - y;
   const double inverse = 1 / d.norm(), g = weight * inverse, g3 = g * inverse * inverse;
@@ -98,23 +98,26 @@ PairIntegrals scaled(PairIntegrals sum, double factor)
 
 // Errors of the rules, relative to those of the nearest pairs, for panels whose sizes are t times the distance of their centres:
 // below factor * t^power for t < 1 (measured on triangles of all directions).
-struct Error {
+struct RuleError {
   double factor;
   int power;
 };
-constexpr std::array<Error, triangle_rules> errors{{{5e-3, 3}, {5e-4, 5}, {2e-5, 7}, {1e-5, 9}, {3e-7, 11}, {5e-8, 13}, {1e-8, 15}}};
+constexpr std::array<RuleError, triangle_rules> pair_rule_errors{
+    {{5e-3, 3}, {5e-4, 5}, {2e-5, 7}, {1e-5, 9}, {3e-7, 11}, {5e-8, 13}, {1e-8, 15}}};
 
 // The largest t for which each rule is as good as `accuracy`.
 std::array<double, triangle_rules> largest_ratios(double accuracy)
 {
   std::array<double, triangle_rules> result;
-  for (std::size_t r = 0; r < result.size(); ++r) result[r] = std::min(1.0, std::pow(accuracy / errors[r].factor, 1.0 / errors[r].power));
+  for (std::size_t r = 0; r < result.size(); ++r)
+    result[r] = std::min(1.0, std::pow(accuracy / pair_rule_errors[r].factor, 1.0 / pair_rule_errors[r].power));
   return result;
 }
 
 }  // namespace
 
-PairQuadrature::PairQuadrature(const Panels& panels, double accuracy) : panels_(panels), accuracy_(accuracy), largest_(largest_ratios(accuracy))
+PairQuadrature::PairQuadrature(const Panels& panels, double accuracy)
+    : panels_(panels), accuracy_(accuracy), largest_(largest_ratios(accuracy))
 {
   const auto size = panels.corners.size();
   for (std::size_t p = 0; p < size; ++p) {
@@ -138,7 +141,8 @@ PairQuadrature::PairQuadrature(const Panels& panels, double accuracy) : panels_(
 struct PairQuadrature::Far {
   using Lane = std::array<double, lanes>;
 
-  static void integrate(const PairQuadrature& all, std::size_t x, std::span<const std::size_t> others, int index, PairIntegrals* const* results)
+  static void integrate(const PairQuadrature& all, std::size_t x, std::span<const std::size_t> others, int index,
+                        PairIntegrals* const* results)
   {
     const Panels& panels = all.panels_;
     const auto& rule = triangle_rule(index);
@@ -278,10 +282,11 @@ PairIntegrals PairQuadrature::close(std::size_t x, std::size_t y) const
   return scaled(sum, scale);
 }
 
-// Sauter and Schwab's coordinates: a corner of each panel is (0, 0), the common ones come first, then (1, 0), then (1, 1). In them
-// the integrands are products of powers of xi (and of the first eta where an edge is common), for which two points are exact, with
-// smooth functions of the others.
-PairIntegrals PairQuadrature::touching(std::size_t x, std::size_t y, const std::array<int, 3>& of_x, const std::array<int, 3>& of_y, int common) const
+// Sauter and Schwab's coordinates: a corner of each panel is (0, 0), the common ones come first, then (1, 0), then (1, 1). In
+// them the integrands are products of powers of xi (and of the first eta where an edge is common), for which two points are
+// exact, with smooth functions of the others.
+PairIntegrals PairQuadrature::touching(std::size_t x, std::size_t y, const std::array<int, 3>& of_x,
+                                       const std::array<int, 3>& of_y, int common) const
 {
   struct At {
     double first, second;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/error.hpp"
 
@@ -10,22 +11,24 @@ namespace mortise::bem {
 
 namespace {
 
-// Each edge once in either direction.
+// Each edge as often one way as the other: once, or twice where two parts of the body touch in it.
 void require_closed(const Panels& panels)
 {
-  std::vector<std::pair<Local, Local>> edges;
+  std::map<std::pair<Local, Local>, int> surplus;
   for (const auto& c : panels.corners)
-    for (std::size_t k = 0; k < 3; ++k) edges.emplace_back(c[k], c[(k + 1) % 3]);
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto [a, b] = edges[i];
-    const bool twice = i > 0 && edges[i - 1] == edges[i];
-    if (!twice && std::binary_search(edges.begin(), edges.end(), std::pair(b, a))) continue;
-    const Point middle = (panels.points[static_cast<std::size_t>(a)] + panels.points[static_cast<std::size_t>(b)]) / 2;
-    throw Error(ExitStatus::bad_input,
-                fmt::format("the surface is not closed, or its triangles are not turned alike: the edge at ({:.6g}, {:.6g}, {:.6g}) "
-                            "does not belong to two triangles that run along it in opposite directions",
-                            middle[0], middle[1], middle[2]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
+      surplus[{low, high}] += c[k] == low ? 1 : -1;
+    }
+  for (const auto& [edge, count] : surplus) {
+    if (count == 0) continue;
+    const Point middle =
+        (panels.points[static_cast<std::size_t>(edge.first)] + panels.points[static_cast<std::size_t>(edge.second)]) / 2;
+    throw Error(
+        ExitStatus::bad_input,
+        fmt::format("the surface is not closed, or its triangles are not turned alike: the edge at ({:.6g}, {:.6g}, {:.6g}) does "
+                    "not belong to two triangles that run along it in opposite directions",
+                    middle[0], middle[1], middle[2]));
   }
 }
 
@@ -52,8 +55,7 @@ Panels make_panels(std::vector<Point> points, std::vector<std::array<Local, 3>> 
     volume += (a - panels.points.front()).dot(twice) / 6;
   }
   require_closed(panels);
-  if (!(volume > 0))
-    throw Error(ExitStatus::bad_input, "the surface encloses no volume, or its triangles are turned inward");
+  if (!(volume > 0)) throw Error(ExitStatus::bad_input, "the surface encloses no volume, or its triangles are turned inward");
   return panels;
 }
 

@@ -18,11 +18,11 @@ namespace {
 
 // Errors of the rules in the integrals of d / r^3 and 3 d d'd / r^5 over a panel whose radius is t times its distance: below
 // factor * t^power for t < 1/2 (measured on triangles of all directions). Those of a panel that is near are of the order of 1.
-struct Error {
+struct FieldRuleError {
   double factor;
   int power;
 };
-constexpr std::array<Error, 4> errors{{{0.35, 5}, {0.12, 7}, {0.027, 9}, {0.008, 9}}};
+constexpr std::array<FieldRuleError, 4> field_rule_errors{{{0.35, 5}, {0.12, 7}, {0.027, 9}, {0.008, 9}}};
 constexpr double largest_ratio = 0.5;
 
 // The place of a point on a curve that fills the box [0, 1)^3, in an order that keeps neighbours together.
@@ -83,7 +83,7 @@ Representation::Representation(const Panels& panels, const fem::Material& materi
     : panels_(panels), material_(material)
 {
   for (std::size_t r = 0; r < rules; ++r)
-    largest_[r] = std::min(largest_ratio, std::pow(accuracy / errors[r].factor, 1.0 / errors[r].power));
+    largest_[r] = std::min(largest_ratio, std::pow(accuracy / field_rule_errors[r].factor, 1.0 / field_rule_errors[r].power));
 
   Point low = panels.points.front(), high = low;
   for (const auto& p : panels.points) {
