@@ -333,6 +333,51 @@ TEST(Skins, OfACubeIsWhatIsCountedByHand)
   }
 }
 
+// Cells round an edge, wedges of a turned cake of which some are missing: the skin of each wedge is closed in itself.
+TEST(Skins, PanelsWhereCellsTouchInAnEdgeBelongToOneWedge)
+{
+  const Communicator alone(MPI_COMM_SELF);
+  for (const double turned : {0.0, 1.3, 4.0}) {
+    Decomposition d;
+    d.catalogue.bodies = {{"cake", "cake"}};
+    d.first = d.clusters = {0, 1};
+    auto& mesh = d.subdomains.emplace_back().mesh;
+    mesh.points = {{0, 0, 0}, {0, 0, 1}};
+    const std::vector<std::pair<double, double>> wedges{{0, 1}, {2, 2.5}, {3, 5.5}};
+    for (const auto& [from, to] : wedges) {
+      const auto first = static_cast<Local>(mesh.points.size());
+      for (const double z : {0.0, 1.0})
+        for (const double angle : {from, (from + to) / 2, to})
+          mesh.points.emplace_back(std::cos(angle + turned), std::sin(angle + turned), z);
+      const Local f = first;
+      mesh.cells.add(mesh::CellType::hex8, std::array{0, f, f + 1, f + 2, 1, f + 3, f + 4, f + 5});
+      mesh.cell_id.push_back(static_cast<Global>(mesh.cell_id.size()));
+      mesh.cell_body.push_back(0);
+    }
+    for (std::size_t n = 0; n < mesh.points.size(); ++n) mesh.node_id.push_back(static_cast<Global>(n));
+    d.catalogue.node_count = static_cast<Global>(mesh.points.size());
+    d = skins(d, {true}, false, alone);
+    const auto& skin = d.subdomains[0].mesh;
+    ASSERT_EQ(skin.cells.size(), 36U);
+    EXPECT_EQ(edges(skin.cells).open, 0);
+    EXPECT_EQ(edges(skin.cells).crowded, 1);
+    const auto neighbours = panel_neighbours(skin);
+    for (std::size_t p = 0; p < neighbours.size(); ++p)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto other = static_cast<std::size_t>(neighbours[p][k]);
+        EXPECT_EQ(other / 12, p / 12);  // 12 panels each
+        const Local a = skin.cells[p][k], b = skin.cells[p][(k + 1) % 3];
+        int shared = 0;
+        for (std::size_t j = 0; j < 3; ++j)
+          if (skin.cells[other][j] == b && skin.cells[other][(j + 1) % 3] == a) {
+            ++shared;
+            EXPECT_EQ(neighbours[other][j], static_cast<Local>(p));
+          }
+        EXPECT_EQ(shared, 1);
+      }
+  }
+}
+
 TEST(Skins, OfRotatedInstancesAreCopies)
 {
   const Communicator alone(MPI_COMM_SELF);
