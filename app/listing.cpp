@@ -33,24 +33,27 @@ void print_bodies(const partition::Decomposition& decomposition, const std::set<
 {
   const auto& bodies = decomposition.catalogue.bodies;
   constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> cells(bodies.size(), 0.0);
+  std::vector<double> cells(bodies.size(), 0.0), skins(bodies.size(), 0.0);
   std::vector<Point> low(bodies.size(), Point::Constant(none)), high(bodies.size(), Point::Constant(-none));
   for (const auto& subdomain : decomposition.subdomains) {
     const auto b = static_cast<std::size_t>(subdomain.body);
     cells[b] += static_cast<double>(subdomain.mesh.cells.size());
+    if (subdomain.skin) skins[b] += 1;
     for (const auto& x : subdomain.mesh.points) {
       low[b] = low[b].cwiseMin(x);
       high[b] = high[b].cwiseMax(x);
     }
   }
   context.comm.sum_in_place(cells);
+  context.comm.sum_in_place(skins);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (further.contains(bodies[b].instance)) continue;
     for (int c = 0; c < 3; ++c) {
       low[b][c] = context.comm.min(low[b][c]);
       high[b][c] = context.comm.max(high[b][c]);
     }
-    context.log.line("  body {}: {} cells, from {} to {}", bodies[b].name, cells[b], text(low[b]), text(high[b]));
+    context.log.line("  body {}: {} {}, from {} to {}", bodies[b].name, cells[b], skins[b] > 0 ? "panels" : "cells", text(low[b]),
+                     text(high[b]));
   }
   if (!further.empty()) context.log.line("  and {} more instances", further.size());
 }

@@ -12,6 +12,7 @@
 #include "deck_file.hpp"
 #include "model/resolution.hpp"
 #include "partition/decompose.hpp"
+#include "partition/skins.hpp"
 #include "partition/whole_bodies.hpp"
 #include "process.hpp"
 #include "report.hpp"
@@ -61,6 +62,8 @@ ExitStatus solve(const CommandLine& command_line, const Context& context)
 
   auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
   if (deck.solver.programme.algorithm == "direct") decomposition = partition::whole_bodies(decomposition, context.comm);
+  const auto on_surface = model::bodies_of_boundary_elements(deck, decomposition.catalogue);
+  decomposition = partition::skins(std::move(decomposition), on_surface, false, context.comm);
   report.mesh(decomposition);
   const auto resolved = model::resolve(deck, document, std::move(decomposition), context);
   report.resolution(resolved);

@@ -16,6 +16,35 @@ const std::map<std::string, Formulation>& formulations()
   return table;
 }
 
+const std::map<std::string, Method>& methods()
+{
+  static const std::map<std::string, Method> table{{"finite_elements", Method::finite_elements},
+                                                   {"boundary_elements", Method::boundary_elements}};
+  return table;
+}
+
+// A key whose values are the names of an enumeration.
+template <class E>
+auto& names_key(deck::Description<BodyOptions>& d, const std::string& key, const std::string& help, E BodyOptions::*member,
+                const std::map<std::string, E>& (*table)())
+{
+  return d.custom(
+      key, help,
+      [member, table](BodyOptions& body, const YAML::Node& node, const std::string& path, deck::Document& document,
+                      const deck::Limits& limits) {
+        std::string name;
+        deck::Codec<std::string>::read(name, node, path, document, limits);
+        const auto found = table().find(name);
+        if (found != table().end()) body.*member = found->second;
+      },
+      [member, table](const BodyOptions& body) {
+        for (const auto& [name, value] : table())
+          if (value == body.*member) return YAML::Node(name);
+        return YAML::Node();
+      },
+      [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); });
+}
+
 }  // namespace
 
 int dimension(Kinematics kinematics)
@@ -46,7 +75,7 @@ void describe(deck::Description<Material>& d)
 
 void describe(deck::Description<BodyOptions>& d)
 {
-  d.help("What a body is made of.");
+  d.help("What a body is made of, and how it is discretised.");
   d.key("material", &BodyOptions::material, "Name of a material; absent where `volumes` is given.");
   d.key("volumes", &BodyOptions::volumes,
         "Physical volumes (plane models: surfaces) of the file that form this one body, each with its material: {core: rubber, "
@@ -69,28 +98,28 @@ void describe(deck::Description<BodyOptions>& d)
         return body.instances.empty() ? YAML::Node() : deck::Codec<std::vector<mesh::InstanceOptions>>::write(body.instances);
       },
       [](const deck::Limits& limits) { return deck::Codec<std::vector<mesh::InstanceOptions>>::schema(limits); });
-  d.custom(
-       "formulation",
-       "standard: full integration; bbar: nearly incompressible materials (hex8, quad4, prism6); incompatible: bending (hex8, "
-       "quad4).",
-       [](BodyOptions& body, const YAML::Node& node, const std::string& path, deck::Document& document,
-          const deck::Limits& limits) {
-         std::string name;
-         deck::Codec<std::string>::read(name, node, path, document, limits);
-         const auto found = formulations().find(name);
-         if (found != formulations().end()) body.formulation = found->second;
-       },
-       [](const BodyOptions& body) {
-         for (const auto& [name, formulation] : formulations())
-           if (formulation == body.formulation) return YAML::Node(name);
-         return YAML::Node();
-       },
-       [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); })
+  names_key(d, "method",
+            "finite_elements: in the cells of the body; boundary_elements: on its surface alone, by flat triangles (models of "
+            "dimension 3, bodies of one material).",
+            &BodyOptions::method, methods)
+      .one_of({"finite_elements", "boundary_elements"});
+  names_key(
+      d, "formulation",
+      "standard: full integration; bbar: nearly incompressible materials (hex8, quad4, prism6); incompatible: bending (hex8, "
+      "quad4).",
+      &BodyOptions::formulation, formulations)
       .one_of({"standard", "bbar", "incompatible"});
   d.check([](const BodyOptions& body, const std::string& path, deck::Document& document) {
     if (body.material.empty() == body.volumes.empty())
       document.error(path, body.volumes.empty() ? "the key \"material\" is missing: Name of a material."
                                                 : "expected either `material` or `volumes`, found both");
+    if (body.method != Method::boundary_elements) return;
+    if (!body.volumes.empty())
+      document.error(deck::join(path, "volumes"),
+                     "boundary elements are for bodies of one material; give the body a `material`, or take finite_elements");
+    if (body.formulation != Formulation::standard)
+      document.error(deck::join(path, "formulation"),
+                     "this is a formulation of finite elements; remove it, or take `method: finite_elements`");
   });
 }
 

@@ -91,10 +91,9 @@ void define(const std::vector<std::pair<std::string, const std::vector<Global>*>
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       auto member = std::lower_bound(members.begin(), members.end(), std::pair(6 * mesh.cell_id[c], -1));
       for (; member != members.end() && member->first < 6 * mesh.cell_id[c] + 6; ++member) {
-        const auto& face = mesh::faces(mesh.cells.type[c])[static_cast<std::size_t>(member->first - 6 * mesh.cell_id[c])];
-        std::vector<Local> nodes;
-        for (const int k : face.nodes) nodes.push_back(mesh.cells[c][static_cast<std::size_t>(k)]);
-        mesh.facets.cells.add(face.type, nodes);
+        const auto face =
+            partition::face_of(subdomain, static_cast<Local>(c), static_cast<int>(member->first - 6 * mesh.cell_id[c]));
+        mesh.facets.cells.add(face.type, face.nodes);
         mesh.facets.parent.push_back(static_cast<Local>(c));
         mesh.facets.boundary.push_back(member->second);
       }

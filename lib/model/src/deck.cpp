@@ -77,6 +77,10 @@ void check_bodies(const Deck& deck, deck::Document& document)
     if (body.formulation == fem::Formulation::incompatible && deck.axisymmetric())
       document.error("bodies." + name + ".formulation",
                      "the incompatible modes are for boxes, not for rings; expected standard or bbar, or cells of second order");
+  for (const auto& [name, body] : deck.bodies)
+    if (body.method == fem::Method::boundary_elements && deck.kinematics != fem::Kinematics::solid)
+      document.error("bodies." + name + ".method",
+                     "boundary elements are for models of dimension 3; expected finite_elements, or `dimension: 3`");
   for (const auto& [name, block] : deck.mesh.blocks) {
     const auto type = mesh::cell_type(block.element);
     if (type && mesh::dimension(*type) != deck.dimension())
@@ -90,6 +94,14 @@ void check_bodies(const Deck& deck, deck::Document& document)
 
 void check_decomposition(const Deck& deck, deck::Document& document)
 {
+  if (deck.decomposition.subdomains_per_cluster > 1)
+    for (const auto& [name, body] : deck.bodies)
+      if (body.method == fem::Method::boundary_elements) {
+        document.error(
+            "decomposition.subdomains_per_cluster",
+            fmt::format("clusters are for finite elements, and the body \"{}\" is of boundary elements; expected 1", name));
+        break;
+      }
   if (deck.decomposition.method != "grid") {
     if (!deck.decomposition.counts.empty()) document.error("decomposition.counts", "counts are for `method: grid`");
     return;
@@ -286,6 +298,16 @@ Deck read_deck(deck::Document& document, const std::string& output)
   if ((fs::path(deck.output.directory) / "deck.yaml").lexically_normal() == file)
     document.error("output.directory", "the results hold a deck.yaml, which would replace this deck; choose another directory");
   return deck;
+}
+
+std::vector<bool> bodies_of_boundary_elements(const Deck& deck, const mesh::Catalogue& catalogue)
+{
+  std::vector<bool> result;
+  for (const auto& body : catalogue.bodies) {
+    const auto entry = deck.bodies.find(body.group);
+    result.push_back(entry != deck.bodies.end() && entry->second.method == fem::Method::boundary_elements);
+  }
+  return result;
 }
 
 BoundaryName parse_boundary(const std::string& name)

@@ -99,6 +99,34 @@ contacts:
   EXPECT_EQ(write_deck(copy), written);
 }
 
+TEST(Decks, BoundaryElementsAreForSolidBodiesOfOneMaterial)
+{
+  const std::string on_surface = "bodies.a.method=boundary_elements";
+  deck::Document document(blocks, "deck.yaml", {on_surface});
+  const auto deck = read_deck(document, "");
+  EXPECT_NO_THROW(document.check());
+  EXPECT_EQ(deck.bodies.at("a").method, fem::Method::boundary_elements);
+  EXPECT_EQ(deck.bodies.at("b").method, fem::Method::finite_elements);
+  deck::Document again(write_deck(deck), "deck.yaml", {});
+  EXPECT_EQ(read_deck(again, "").bodies.at("a").method, fem::Method::boundary_elements);
+  mesh::Catalogue catalogue;
+  catalogue.bodies = {{"b", "b"}, {"a.1", "a", "a.1"}, {"a.2", "a", "a.2"}, {"c", "c"}};
+  EXPECT_EQ(bodies_of_boundary_elements(deck, catalogue), (std::vector<bool>{false, true, true, false}));
+
+  const auto expect = [&](std::vector<std::string> settings, const std::string& expected) {
+    settings.push_back(on_surface);
+    EXPECT_NE(complaints(blocks, settings).find(expected), std::string::npos) << complaints(blocks, settings);
+  };
+  expect({"bodies.a.formulation=bbar"}, "bodies.a.formulation: this is a formulation of finite elements");
+  expect({"dimension=axisymmetric"}, "bodies.a.method: boundary elements are for models of dimension 3");
+  expect({"dimension=plane_strain"}, "bodies.a.method: boundary elements are for models of dimension 3");
+  expect({"decomposition.subdomains_per_cluster=4"},
+         "decomposition.subdomains_per_cluster: clusters are for finite elements, and the body \"a\" is of boundary elements");
+  expect({"bodies.a={volumes: {c: steel}, method: boundary_elements}"},
+         "bodies.a.volumes: boundary elements are for bodies of one material");
+  EXPECT_NE(complaints(blocks, {"bodies.a.method=finite"}).find("boundary_elements"), std::string::npos);
+}
+
 TEST(Decks, SectionsAreCheckedAgainstEachOther)
 {
   EXPECT_EQ(complaints(blocks), "");

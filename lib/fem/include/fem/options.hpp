@@ -36,12 +36,16 @@ enum class Formulation { standard, bbar, incompatible };
 /// Whether there is a formulation for a cell.
 bool applies(Formulation formulation, mesh::CellType type);
 
-/// What a physical body is made of.
+/// How a body is discretised: in its cells, or on its surface alone (module bem).
+enum class Method { finite_elements, boundary_elements };
+
+/// What a physical body is made of, and how it is discretised.
 struct BodyOptions {
   std::string material;                          ///< of the whole body; empty: by `volumes`
   std::map<std::string, std::string> volumes;    ///< physical volumes that form the body together: the material of each
   std::vector<mesh::InstanceOptions> instances;  ///< where copies of the body are; empty: the body as it lies in the mesh
-  Formulation formulation = Formulation::standard;
+  Method method = Method::finite_elements;
+  Formulation formulation = Formulation::standard;  ///< of finite elements
 };
 
 /// One load; exactly one of the five quantities is given, `boundary` for the first three and `body` for the others.

@@ -50,6 +50,9 @@ struct Deck {
 /// the deck's output directory if it is not empty. Errors go to the document.
 Deck read_deck(deck::Document& document, const std::string& output);
 
+/// For each body of the catalogue whether its entry says `method: boundary_elements`.
+std::vector<bool> bodies_of_boundary_elements(const Deck& deck, const mesh::Catalogue& catalogue);
+
 /// A boundary by its name in the deck: `boundary`, or `body:boundary` for the part of it that lies on one body, instance or
 /// group. A name with wild cards is one boundary: see patterns.hpp.
 struct BoundaryName {
