@@ -183,6 +183,7 @@ std::vector<Warning> inverted_cells(const partition::Decomposition& decompositio
   std::vector<Found> found(decomposition.catalogue.bodies.size());  // minus the least ratio
   long long count = 0;
   for (std::size_t s = 0; s < displacement.size(); ++s) {
+    if (decomposition.subdomains[s].skin) continue;  // panels enclose no volume of their own
     const auto& mesh = decomposition.subdomains[s].mesh;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       const auto nodes = mesh.cells[c];
