@@ -13,7 +13,7 @@ namespace mortise::contact {
 namespace {
 
 // Outer faces of bodies, whole on every rank; a rank takes every ranks-th face.
-struct Skin {
+struct OuterFaces {
   std::vector<Point> points;
   std::vector<std::vector<Local>> faces;
   std::vector<int> body;
@@ -85,9 +85,9 @@ struct Skin {
 };
 
 // A block of 2 x 2 x 2 cells and on it, `gap` higher, one of 4 x 4 x 4.
-Skin two_blocks(double gap)
+OuterFaces two_blocks(double gap)
 {
-  Skin skin;
+  OuterFaces skin;
   skin.add_box(0, Point(0, 0, 0), Point(1, 1, 1), {2, 2, 2});
   skin.add_box(1, Point(0, 0, 1 + gap), Point(1, 1, 1), {4, 4, 4});
   return skin;
@@ -151,7 +151,7 @@ TEST(Pairing, GapsThatInterferenceCloses)
 TEST(Pairing, ThinPlates)
 {
   for (const double gap : {-0.005, 0.0, 0.01}) {
-    Skin skin;
+    OuterFaces skin;
     for (int i = 0; i < 4; ++i) skin.add_box(i, Point(0.03 * i, 0, (0.05 + gap) * i), Point(1, 1, 0.05), {4, 4, 1});
     const auto found = skin.candidates();
     ASSERT_EQ(found.size(), 3u) << gap;
@@ -169,7 +169,7 @@ TEST(Pairing, ThinPlates)
 
 TEST(Pairing, TwoPatchesAreTwoContacts)
 {
-  Skin skin;  // a beam on two feet, with a pit between them
+  OuterFaces skin;  // a beam on two feet, with a pit between them
   skin.add_box(0, Point(0, 0, 0), Point(1, 1, 1), {3, 3, 2});
   skin.add_box(0, Point(4, 0, 0), Point(1, 1, 1), {3, 3, 2});
   skin.add_box(1, Point(0, 0, 1), Point(1, 1, 1), {2, 2, 2});
@@ -203,7 +203,7 @@ std::vector<Point> plate(double y)
 
 TEST(Pairing, FarSidesOfRoundedPlates)
 {
-  Skin skin;
+  OuterFaces skin;
   skin.add_line(0, plate(0));
   skin.add_line(1, plate(0.1));
   const auto found = skin.candidates();
@@ -239,7 +239,7 @@ std::vector<Point> circle(double x, double y, double radius, int n, bool hole = 
 TEST(Pairing, RollerOnTable)
 {
   constexpr double h = 0.1;
-  Skin skin;
+  OuterFaces skin;
   skin.add_line(0, circle(0, 1, 1, 64));  // sides of 0.098
   std::vector<Point> table;
   for (int i = 0; i < 40; ++i) table.emplace_back(2 - h * i, 0, 0);
@@ -268,7 +268,7 @@ TEST(Pairing, RollerOnTable)
 TEST(Pairing, RingOfRollers)
 {
   constexpr int rollers = 12;
-  Skin skin;
+  OuterFaces skin;
   skin.add_line(0, circle(0, 0, 2, 120));       // the inner ring
   skin.add_line(0, circle(0, 0, 1, 60, true));  // its bore
   skin.add_line(1, circle(0, 0, 2.8, 180, true));
@@ -293,7 +293,7 @@ TEST(Pairing, RingOfRollers)
 // A shim between two blocks hides them from each other, though they are near enough.
 TEST(Pairing, ShimHidesWhatIsBehind)
 {
-  Skin skin = two_blocks(0.01);
+  OuterFaces skin = two_blocks(0.01);
   skin.add_box(2, Point(0, 0, 1), Point(1, 1, 0.01), {3, 3, 1});
   const auto found = skin.candidates();
   ASSERT_EQ(found.size(), 2u);
