@@ -344,11 +344,14 @@ InteriorField Representation::evaluate(std::span<const Point> points, const Eige
       displacement[static_cast<int>(j)] += sum.displacement[j].sum();
       for (std::size_t k = 0; k < 3; ++k) gradient(static_cast<int>(j), static_cast<int>(k)) += sum.gradient[j][k].sum();
     }
-    result.displacement.row(static_cast<Eigen::Index>(i)) =
-        displacement / (4 * std::numbers::pi) + offset + linear * (x - origin);
+    displacement = displacement / (4 * std::numbers::pi) + offset + linear * (x - origin);
     fem::Stress stress = components(hooke(material_, linear + gradient / (4 * std::numbers::pi)));
-    if (const double s = std::sqrt(squared_distance / (2 * panels_.area[p])); s < 1)
-      stress += (1 - s * s * (3 - 2 * s)) * (recovered_at(x, p) - stress);
+    if (const double s = std::sqrt(squared_distance / (2 * panels_.area[p])); s < 1) {
+      const double share = 1 - s * s * (3 - 2 * s);
+      stress += share * (recovered_at(x, p) - stress);
+      displacement += std::pow(share, 4) * (offset + linear * (x - origin) - displacement);
+    }
+    result.displacement.row(static_cast<Eigen::Index>(i)) = displacement;
     result.stress.row(static_cast<Eigen::Index>(i)) = stress;
   }
   return result;

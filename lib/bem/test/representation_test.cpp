@@ -80,22 +80,24 @@ TEST(Representation, LargeRotationsLeaveStressesAlone)
 }
 
 // Somigliana's identity with its kernels U, T, D and S [Brebbia, Telles and Wrobel, Boundary element techniques, 1984,
-// sections 5.2 and 5.10], of arbitrary u and t, on panels cut fine.
+// sections 5.2 and 5.10], of arbitrary u and t, on panels cut fine. The points are farther from the surface
+// than a panel is large.
 TEST(Representation, AgreesWithTheKernelsOfTextbooks)
 {
-  const auto panels = box({2, 1, 1}, {2, 1, 1.5});
+  const auto panels = box({8, 4, 6}, {2, 1, 1.5});
   const auto material = steel();
   const double nu = material.poisson_ratio, mu = shear_modulus(material), pi = std::numbers::pi;
   const Eigen::VectorXd u = random_vector(3 * panels.node_count(), 1), t = random_vector(3 * panels.size(), 2);
-  const std::vector<Point> points{{0.9, 0.4, 0.6}, {0.5, 0.7, 1.3}, {0.11, 0.93, 0.2}};
+  const std::vector<Point> points{{0.9, 0.4, 0.6}, {0.5, 0.7, 1.1}, {0.4, 0.3, 0.31}};
   // The midpoints of Gauss and Legendre's rule with 5 points on [0, 1].
   constexpr std::array<std::pair<double, double>, 5> gauss{{{0.046910077030668, 0.118463442528095},
                                                             {0.230765344947158, 0.239314335249683},
                                                             {0.5, 0.284444444444444},
                                                             {0.769234655052841, 0.239314335249683},
                                                             {0.953089922969332, 0.118463442528095}}};
-  constexpr int parts = 24;
-  const auto found = Representation(panels, material, 1e-12).evaluate(points, u, t);
+  constexpr int parts = 4;
+  const auto found = Representation(panels, material, 1e-12).evaluate(points, u, t),
+             usual = Representation(panels, material, 1e-5).evaluate(points, u, t);
   for (std::size_t i = 0; i < points.size(); ++i) {
     Point displacement = Point::Zero();
     Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
@@ -140,8 +142,10 @@ TEST(Representation, AgreesWithTheKernelsOfTextbooks)
                   2 * panels.area[p] * s * ws * wq / (parts * parts));
             }
     const auto row = static_cast<Eigen::Index>(i);
-    EXPECT_LT((found.displacement.row(row).transpose() - displacement).norm(), 1e-10) << i;
-    EXPECT_LT((found.stress.row(row).transpose() - components(stress)).norm(), 1e-8) << i;
+    EXPECT_LT((found.displacement.row(row).transpose() - displacement).norm(), 1e-9 * displacement.norm()) << i;
+    EXPECT_LT((found.stress.row(row).transpose() - components(stress)).norm(), 1e-8 * stress.norm()) << i;
+    EXPECT_LT((usual.displacement - found.displacement).row(row).norm(), 1e-4 * displacement.norm()) << i;
+    EXPECT_LT((usual.stress - found.stress).row(row).norm(), 1e-4 * stress.norm()) << i;
   }
 }
 
@@ -150,11 +154,12 @@ TEST(Representation, PointForceOutsideIsOfSecondOrderInside)
 {
   const auto field = kelvin(steel(), {0.7, 0.4, 2.5}, {0.3, -0.5, 1});
   const std::vector<Point> points{{1, 0.5, 0.7}, {0.6, 0.3, 1.1}, {1.4, 0.6, 0.5}};
-  const auto coarse = errors(box({4, 2, 3}, {2, 1, 1.5}), field, points),
-             fine = errors(box({8, 4, 6}, {2, 1, 1.5}), field, points);
+  const auto coarse = errors(box({8, 4, 6}, {2, 1, 1.5}), field, points),
+             fine = errors(box({16, 8, 12}, {2, 1, 1.5}), field, points);
   EXPECT_LT(fine.displacement, coarse.displacement / 3.2);
   EXPECT_LT(fine.stress, coarse.stress / 3.2);
-  EXPECT_LT(fine.stress, 2e-3 * hooke(steel(), field.gradient(points[1])).norm());
+  EXPECT_LT(fine.displacement, 5e-3 * field.u(points[1]).norm());
+  EXPECT_LT(fine.stress, 5e-3 * hooke(steel(), field.gradient(points[1])).norm());
 }
 
 // The recovery at the nodes is exact for a quadratic displacement; the error comes from the panels' own second order and is
