@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <numeric>
+#include <optional>
 
 #include "bem/surface_stress.hpp"
 #include "panel_potentials.hpp"
@@ -53,6 +53,23 @@ double squared_distance(const Point& x, const Point& a, const Point& b, const Po
   return h * h / n.squaredNorm();
 }
 
+// Area coordinates of the point of a triangle that is nearest to x.
+std::array<double, 3> nearest_point(const Point& x, const Point& a, const Point& b, const Point& c)
+{
+  const auto along = [&x](const Point& from, const Point& to) {
+    return std::clamp((x - from).dot(to - from) / (to - from).squaredNorm(), 0.0, 1.0);
+  };
+  const Point n = (b - a).cross(c - a);
+  const double twice = n.squaredNorm(), wa = n.dot((c - b).cross(x - b)) / twice, wb = n.dot((a - c).cross(x - c)) / twice;
+  if (wa >= 0 && wb >= 0 && wa + wb <= 1) return {wa, wb, 1 - wa - wb};
+  const double ab = along(a, b), bc = along(b, c), ca = along(c, a);
+  const std::array<std::array<double, 3>, 3> edges{{{1 - ab, ab, 0}, {0, 1 - bc, bc}, {ca, 0, 1 - ca}}};
+  return *std::min_element(edges.begin(), edges.end(), [&](const auto& v, const auto& w) {
+    const auto squared = [&](const auto& at) { return (at[0] * a + at[1] * b + at[2] * c - x).squaredNorm(); };
+    return squared(v) < squared(w);
+  });
+}
+
 // K n - tr(K) n with K = gradient', the operator M on a linear field.
 Eigen::Matrix3d tangential(const Eigen::Matrix3d& gradient)
 {
@@ -80,7 +97,7 @@ struct Representation::Sum {
 };
 
 Representation::Representation(const Panels& panels, const fem::Material& material, double accuracy)
-    : panels_(panels), material_(material)
+    : panels_(panels), material_(material), recovery_(panels, material)
 {
   for (std::size_t r = 0; r < rules; ++r)
     largest_[r] = std::min(largest_ratio, std::pow(accuracy / field_rule_errors[r].factor, 1.0 / field_rule_errors[r].power));
@@ -281,10 +298,23 @@ InteriorField Representation::evaluate(std::span<const Point> points, const Eige
 {
   const double nu = material_.poisson_ratio, mu = material_.young_modulus / (2 * (1 + nu));
   const auto all = fields(u, t);
+  std::vector<std::optional<LinearStress>> recovered(panels_.points.size());
+  // In x, whose nearest panel is p.
+  const auto recovered_at = [&](const Point& x, std::size_t p) {
+    const auto at = nearest_point(x, panels_.corner(p, 0), panels_.corner(p, 1), panels_.corner(p, 2));
+    fem::Stress stress = fem::Stress::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Local node = panels_.corners[p][k];
+      auto& fit = recovered[static_cast<std::size_t>(node)];
+      if (!fit) fit = recovery_.at(node, u, t);
+      stress += at[k] * (fit->constant + fit->slope * (x - panels_.corner(p, static_cast<int>(k))));
+    }
+    return stress;
+  };
   InteriorField result{Eigen::MatrixXd(points.size(), 3), Eigen::MatrixXd(points.size(), 6)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& x = points[i];
-    const std::size_t p = nearest(x).panel;
+    const auto [p, squared_distance] = nearest(x);
     const Point& origin = panels_.corner(p, 0);
     const Point offset = u.segment<3>(3 * panels_.corners[p][0]);
     const Eigen::Matrix3d linear = panel_gradient(panels_, material_, p, u, t), turned = tangential(linear),
@@ -314,9 +344,15 @@ InteriorField Representation::evaluate(std::span<const Point> points, const Eige
       displacement[static_cast<int>(j)] += sum.displacement[j].sum();
       for (std::size_t k = 0; k < 3; ++k) gradient(static_cast<int>(j), static_cast<int>(k)) += sum.gradient[j][k].sum();
     }
-    result.displacement.row(static_cast<Eigen::Index>(i)) =
-        displacement / (4 * std::numbers::pi) + offset + linear * (x - origin);
-    result.stress.row(static_cast<Eigen::Index>(i)) = components(hooke(material_, linear + gradient / (4 * std::numbers::pi)));
+    displacement = displacement / (4 * std::numbers::pi) + offset + linear * (x - origin);
+    fem::Stress stress = components(hooke(material_, linear + gradient / (4 * std::numbers::pi)));
+    if (const double s = std::sqrt(squared_distance / (2 * panels_.area[p])); s < 1) {
+      const double share = 1 - s * s * (3 - 2 * s);
+      stress += share * (recovered_at(x, p) - stress);
+      displacement += std::pow(share, 4) * (offset + linear * (x - origin) - displacement);
+    }
+    result.displacement.row(static_cast<Eigen::Index>(i)) = displacement;
+    result.stress.row(static_cast<Eigen::Index>(i)) = stress;
   }
   return result;
 }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "bem/panels.hpp"
+#include "bem/stress_recovery.hpp"
 #include "fem/options.hpp"
 
 namespace mortise::bem {
@@ -43,8 +44,9 @@ class Representation {
 
   /// At points inside or on the surface, of displacements u (3 n) and tractions t (3 m). A linear u with its t is exact. On the
   /// surface this is the limit from inside; outside, where the identity does not hold, the linear field of the nearest panel.
-  /// As t and grad u jump between panels, stresses have a logarithm of the distance from an edge times the jump: of the order of
-  /// the size of the panels, as the stresses on the panels are.
+  /// As t and grad u jump between panels, the identity's stresses next to them are of first order and have a logarithm of the
+  /// distance from each edge. Within a panel's size from the surface those of the recovery at the nodes (stress_recovery.hpp)
+  /// replace them little by little: on the surface they are alone.
   InteriorField evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const;
 
  private:
@@ -79,6 +81,7 @@ class Representation {
 
   const Panels& panels_;
   fem::Material material_;
+  StressRecovery recovery_;
   std::array<double, rules> largest_;  // radius / distance of a panel for each rule
   std::vector<Block> blocks_;
   std::array<std::vector<Lane3>, rules> points_;  // of the rules: block * points + point
