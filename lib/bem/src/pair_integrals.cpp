@@ -10,10 +10,11 @@ namespace mortise::bem {
 
 namespace {
 
-constexpr int far_rules = 4;                                // the symmetric rules, for pairs of whole panels
-constexpr int deepest = 12;                                 // halvings of a panel that is close to another one
-constexpr std::size_t lanes = 8;                            // pairs that are integrated side by side
-constexpr int fewest_in_corners = 3, most_in_corners = 16;  // points a coordinate of the integrals with common corners
+constexpr int far_rules = 4;            // the symmetric rules, for pairs of whole panels
+constexpr int deepest = 16;             // halvings of a panel that is close to another one
+constexpr std::size_t lanes = 8;        // pairs that are integrated side by side
+constexpr int fewest_in_corners = 3;    // points a coordinate of the integrals with common corners
+constexpr double most_variation = 2.5;  // of the distance of two points in one part of those
 
 // A triangle by its corners, and these by the area coordinates of the panel that it is a part of.
 struct Part {
@@ -282,77 +283,153 @@ PairIntegrals PairQuadrature::close(std::size_t x, std::size_t y) const
   return scaled(sum, scale);
 }
 
-// Sauter and Schwab's coordinates: a corner of each panel is (0, 0), the common ones come first, then (1, 0), then (1, 1). In
-// them the integrands are products of powers of xi (and of the first eta where an edge is common), for which two points are
-// exact, with smooth functions of the others.
-PairIntegrals PairQuadrature::touching(std::size_t x, std::size_t y, const std::array<int, 3>& of_x,
-                                       const std::array<int, 3>& of_y, int common) const
-{
+// In Sauter and Schwab's coordinates a corner of each panel is (0, 0), the common ones come first, then (1, 0), then (1, 1).
+// Points of the two panels, for xi = 1, where a pair of panels has `free` coordinates eta in which integrands are smooth
+// functions; in xi, and in the etas before the free ones, they are polynomials for which two points are exact.
+struct PairQuadrature::Touching {
   struct At {
     double first, second;
   };
-  PairIntegrals sum;
-  const Point &nx = panels_.normal[x], &ny = panels_.normal[y];
+  struct Region {
+    At x, y;
+    double weight;  // but for xi^3 and the powers of the etas that are not free
+  };
+  using Etas = std::array<double, 3>;
+  using Map = Region (*)(const Etas&);
+
+  static Region swapped(const Region& r) { return {r.y, r.x, r.weight}; }
+  // Of a panel with itself: with each region also its mirror image.
+  static Region same_1(const Etas& e)
+  {
+    return {{1, 1 - e[0] + e[0] * e[1]}, {1 - e[0] * e[1] * e[2], 1 - e[0]}, e[0] * e[0] * e[1]};
+  }
+  static Region same_2(const Etas& e)
+  {
+    return {{1, e[0] * (1 - e[1] + e[1] * e[2])}, {1 - e[0] * e[1], e[0] * (1 - e[1])}, e[0] * e[0] * e[1]};
+  }
+  static Region same_3(const Etas& e)
+  {
+    return {{1 - e[0] * e[1] * e[2], e[0] * (1 - e[1] * e[2])}, {1, e[0] * (1 - e[1])}, e[0] * e[0] * e[1]};
+  }
+  static Region edge_1(const Etas& e) { return {{1, e[0] * e[2]}, {1 - e[0] * e[1], e[0] * (1 - e[1])}, e[0] * e[0]}; }
+  static Region edge_2(const Etas& e)
+  {
+    return {{1, e[0]}, {1 - e[0] * e[1] * e[2], e[0] * e[1] * (1 - e[2])}, e[0] * e[0] * e[1]};
+  }
+  static Region edge_3(const Etas& e)
+  {
+    return {{1 - e[0] * e[1], e[0] * (1 - e[1])}, {1, e[0] * e[1] * e[2]}, e[0] * e[0] * e[1]};
+  }
+  static Region edge_4(const Etas& e) { return swapped(edge_2(e)); }
+  static Region edge_5(const Etas& e)
+  {
+    return {{1 - e[0] * e[1] * e[2], e[0] * (1 - e[1] * e[2])}, {1, e[0] * e[1]}, e[0] * e[0] * e[1]};
+  }
+  static Region corner_1(const Etas& e) { return {{1, e[0]}, {e[1], e[1] * e[2]}, e[1]}; }
+  static Region corner_2(const Etas& e) { return swapped(corner_1(e)); }
+
   std::array<Point, 3> px, py;
-  double longest = 0;
+  std::array<int, 3> of_x, of_y;
+  Point nx, ny;
+  std::size_t free;  // the first free eta
+  int points;        // a coordinate
+  bool mirrored;
+  PairIntegrals& sum;
+
+  static Point at(const std::array<Point, 3>& p, const At& a)
+  {
+    return (1 - a.first) * p[0] + (a.first - a.second) * p[1] + a.second * p[2];
+  }
+
+  double distance(Map map, Etas e) const
+  {
+    for (std::size_t k = 0; k < free; ++k) e[k] = 1;
+    const Region r = map(e);
+    return (at(px, r.x) - at(py, r.y)).norm();
+  }
+
+  void put(const At& a, const At& b, double weight) const
+  {
+    const Weights wx{1 - a.first, a.first - a.second, a.second}, wy{1 - b.first, b.first - b.second, b.second};
+    Weights at_x{}, at_y{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      at_x[static_cast<std::size_t>(of_x[k])] = wx[k];
+      at_y[static_cast<std::size_t>(of_y[k])] = wy[k];
+    }
+    add(at(px, a), at(py, b), nx, ny, 4 * weight, at_x, at_y, sum);
+  }
+
+  // Over the free etas from low to low + size; in halves as long as the distance of the points varies by much, as it does where
+  // panels are slender.
+  void integrate(Map map, const Etas& low, const Etas& size, int depth) const
+  {
+    Etas middle{};
+    for (std::size_t k = 0; k < 3; ++k) middle[k] = low[k] + size[k] / 2;
+    const double centre = distance(map, middle);
+    double least = centre, most = centre, steepest = -1;
+    std::size_t along = free;
+    for (std::size_t k = free; k < 3; ++k) {
+      Etas e = middle;
+      e[k] = low[k];
+      const double before = distance(map, e);
+      e[k] = low[k] + size[k];
+      const double after = distance(map, e);
+      least = std::min({least, before, after});
+      most = std::max({most, before, after});
+      const double varies = std::max({before, after, centre}) / std::min({before, after, centre});
+      if (varies > steepest) {
+        steepest = varies;
+        along = k;
+      }
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      Etas e = low;
+      for (std::size_t k = free; k < 3; ++k)
+        if ((corner >> k & 1) != 0) e[k] += size[k];
+      const double d = distance(map, e);
+      least = std::min(least, d);
+      most = std::max(most, d);
+    }
+    if (most > most_variation * least && depth < deepest) {
+      Etas half = size, second = low;
+      half[along] /= 2;
+      second[along] += half[along];
+      integrate(map, low, half, depth + 1);
+      integrate(map, second, half, depth + 1);
+      return;
+    }
+    const auto &fine = gauss(points), &exact = gauss(2);
+    const auto rule = [&](std::size_t k) -> const std::vector<Node>& { return k < free ? exact : fine; };
+    for (const auto& [s, w0] : rule(0))
+      for (const auto& [t, w1] : rule(1))
+        for (const auto& [u, w2] : rule(2)) {
+          const Region r = map({low[0] + s * size[0], low[1] + t * size[1], low[2] + u * size[2]});
+          for (const auto& [xi, w3] : exact) {
+            const double weight = w0 * w1 * w2 * w3 * size[0] * size[1] * size[2] * xi * xi * xi * r.weight;
+            const At a{xi * r.x.first, xi * r.x.second}, b{xi * r.y.first, xi * r.y.second};
+            put(a, b, weight);
+            if (mirrored) put(b, a, weight);
+          }
+        }
+  }
+};
+
+PairIntegrals PairQuadrature::touching(std::size_t x, std::size_t y, const std::array<int, 3>& of_x,
+                                       const std::array<int, 3>& of_y, int common) const
+{
+  PairIntegrals sum;
+  std::array<Point, 3> px, py;
   for (std::size_t k = 0; k < 3; ++k) {
     px[k] = panels_.corner(x, of_x[k]);
     py[k] = panels_.corner(y, of_y[k]);
   }
-  for (std::size_t k = 0; k < 3; ++k)
-    longest = std::max({longest, (px[k] - px[(k + 1) % 3]).squaredNorm(), (py[k] - py[(k + 1) % 3]).squaredNorm()});
-  const auto put = [&](const At& a, const At& b, double weight) {
-    const Weights wx{1 - a.first, a.first - a.second, a.second}, wy{1 - b.first, b.first - b.second, b.second};
-    Weights at_x{}, at_y{};
-    Point p = Point::Zero(), q = Point::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      p += wx[k] * px[k];
-      q += wy[k] * py[k];
-      at_x[static_cast<std::size_t>(of_x[k])] = wx[k];
-      at_y[static_cast<std::size_t>(of_y[k])] = wy[k];
-    }
-    add(p, q, nx, ny, 4 * weight, at_x, at_y, sum);
-  };
-  // Slender triangles make the functions of the other coordinates steep.
-  const double slender = std::sqrt(longest / std::min(panels_.area[x], panels_.area[y]) / 2.5);
-  const int n = std::clamp(static_cast<int>(std::ceil((0.3 - std::log10(accuracy_)) * std::sqrt(slender))), fewest_in_corners,
-                           most_in_corners);
-  const auto &fine = gauss(n), &exact = gauss(2);
-  for (const auto& [xi, w0] : exact) {
-    if (common == 3) {
-      for (const auto& [e1, w1] : exact)
-        for (const auto& [e2, w2] : exact)
-          for (const auto& [e3, w3] : fine) {
-            const double w = w0 * w1 * w2 * w3 * xi * xi * xi * e1 * e1 * e2;
-            const auto both = [&](const At& a, const At& b) {
-              put(a, b, w);
-              put(b, a, w);
-            };
-            both({xi, xi * (1 - e1 + e1 * e2)}, {xi * (1 - e1 * e2 * e3), xi * (1 - e1)});
-            both({xi, xi * e1 * (1 - e2 + e2 * e3)}, {xi * (1 - e1 * e2), xi * e1 * (1 - e2)});
-            both({xi * (1 - e1 * e2 * e3), xi * e1 * (1 - e2 * e3)}, {xi, xi * e1 * (1 - e2)});
-          }
-    } else if (common == 2) {
-      for (const auto& [e1, w1] : exact)
-        for (const auto& [e2, w2] : fine)
-          for (const auto& [e3, w3] : fine) {
-            const double w = w0 * w1 * w2 * w3 * xi * xi * xi * e1 * e1;
-            put({xi, xi * e1 * e3}, {xi * (1 - e1 * e2), xi * e1 * (1 - e2)}, w);
-            put({xi, xi * e1}, {xi * (1 - e1 * e2 * e3), xi * e1 * e2 * (1 - e3)}, w * e2);
-            put({xi * (1 - e1 * e2), xi * e1 * (1 - e2)}, {xi, xi * e1 * e2 * e3}, w * e2);
-            put({xi * (1 - e1 * e2 * e3), xi * e1 * e2 * (1 - e3)}, {xi, xi * e1}, w * e2);
-            put({xi * (1 - e1 * e2 * e3), xi * e1 * (1 - e2 * e3)}, {xi, xi * e1 * e2}, w * e2);
-          }
-    } else {
-      for (const auto& [e1, w1] : fine)
-        for (const auto& [e2, w2] : fine)
-          for (const auto& [e3, w3] : fine) {
-            const double w = w0 * w1 * w2 * w3 * xi * xi * xi * e2;
-            put({xi, xi * e1}, {xi * e2, xi * e2 * e3}, w);
-            put({xi * e2, xi * e2 * e3}, {xi, xi * e1}, w);
-          }
-    }
-  }
+  const auto free = static_cast<std::size_t>(common - 1);
+  const int points = std::max(fewest_in_corners, static_cast<int>(std::ceil(0.8 - std::log10(accuracy_))));
+  const Touching touching{px, py, of_x, of_y, panels_.normal[x], panels_.normal[y], free, points, common == 3, sum};
+  using T = Touching;
+  static const std::array<std::vector<T::Map>, 3> maps{
+      {{T::corner_1, T::corner_2}, {T::edge_1, T::edge_2, T::edge_3, T::edge_4, T::edge_5}, {T::same_1, T::same_2, T::same_3}}};
+  for (const auto map : maps[free]) touching.integrate(map, {0, 0, 0}, {1, 1, 1}, 0);
   if (common == 3) sum.double_x = sum.double_y = {};  // d lies in the plane
   return sum;
 }

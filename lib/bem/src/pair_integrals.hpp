@@ -24,15 +24,17 @@ class PairQuadrature {
  public:
   PairQuadrature(const Panels& panels, double accuracy);
 
-  /// Integrals of panel x with each of `others`, results in the same order. Pairs with common corners are integrated in coordinates
-  /// in which the kernels are smooth [Sauter and Schwab, Boundary Element Methods, Springer 2011, section 5.2], others by rules that
-  /// fit their distance, in parts if they are close.
+  /// Integrals of panel x with each of `others`, results in the same order. Pairs with common corners are integrated in
+  /// coordinates in which the kernels are smooth [Sauter and Schwab, Boundary Element Methods, Springer 2011, section 5.2],
+  /// others by rules that fit their distance, in parts if they are close.
   void integrate(std::size_t x, std::span<const std::size_t> others, std::span<PairIntegrals> results) const;
 
  private:
   struct Far;
+  struct Touching;
   PairIntegrals close(std::size_t x, std::size_t y) const;
-  PairIntegrals touching(std::size_t x, std::size_t y, const std::array<int, 3>& of_x, const std::array<int, 3>& of_y, int common) const;
+  PairIntegrals touching(std::size_t x, std::size_t y, const std::array<int, 3>& of_x, const std::array<int, 3>& of_y,
+                         int common) const;
 
   const Panels& panels_;
   double accuracy_;

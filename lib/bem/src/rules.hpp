@@ -20,7 +20,8 @@ struct TriangleNode {
 using TriangleRule = std::vector<TriangleNode>;
 
 /// Rules for functions that are smooth, the next one more exact than the one before: symmetric ones of degree 2, 4, 6 and 8
-/// (3, 6, 12 and 16 points) [Dunavant, Int. J. Numer. Methods Eng. 21 (1985)], then products of Gauss rules of degree 10, 12 and 14.
+/// (3, 6, 12 and 16 points) [Dunavant, Int. J. Numer. Methods Eng. 21 (1985)], then products of Gauss rules of degree 10, 12
+/// and 14.
 inline constexpr int triangle_rules = 7;
 const TriangleRule& triangle_rule(int index);
 

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "shapes.hpp"
+#include "surfaces.hpp"
 
 namespace mortise::bem {
 namespace {
 
-const fem::Material steel{2.0, 0.3, 0, 0};
-constexpr double mu = 2.0 / 2.6, lambda = 2 * mu * 0.3 / 0.4;
+const fem::Material soft{2.0, 0.3, 0, 0};
+constexpr double soft_mu = 2.0 / 2.6, soft_lambda = 2 * soft_mu * 0.3 / 0.4;
 
 // Integral of 1 / (4 pi r) over all pairs of points of a square of side 1 [Durand, Electrostatique, 1964: 4 (asinh 1 - (sqrt 2 -
 // 1) / 3)].
@@ -25,8 +25,8 @@ TEST(LayerIntegrals, SquareWithItself)
 {
   for (const int cells : {1, 2, 4})
     for (const double accuracy : {1e-4, 1e-8}) {
-      const auto panels = box({cells, cells, cells}, Point(1, 1, 1));
-      const auto layers = integrate_layers(panels, steel, accuracy);
+      const auto panels = test::box({cells, cells, cells}, Point(1, 1, 1));
+      const auto layers = integrate_layers(panels, soft, accuracy);
       double single = 0;
       Eigen::Matrix3d kelvin = Eigen::Matrix3d::Zero();
       for (Eigen::Index p = 0; p < panels.size(); ++p)
@@ -47,9 +47,10 @@ TEST(LayerIntegrals, SquareWithItself)
 // Seen from a point of the surface, the surface fills half of all directions.
 TEST(LayerIntegrals, DoubleLayerOfAConstantIsMinusOneHalf)
 {
-  for (const auto& panels : {box({3, 2, 1}, Point(1, 2, 0.3)), tetrahedron(), sphere(1), box({10, 10, 1}, Point(1, 1, 0.05))})
+  for (const auto& panels : {test::box({3, 2, 1}, Point(1, 2, 0.3)), test::tetrahedron(), test::sphere(1, 1),
+                             test::box({10, 10, 1}, Point(1, 1, 0.05))})
     for (const double accuracy : {1e-3, 1e-5}) {
-      const Eigen::VectorXd sums = integrate_layers(panels, steel, accuracy).double_layer.rowwise().sum();
+      const Eigen::VectorXd sums = integrate_layers(panels, soft, accuracy).double_layer.rowwise().sum();
       for (Eigen::Index p = 0; p < panels.size(); ++p)
         EXPECT_NEAR(sums[p] / panels.area[static_cast<std::size_t>(p)], -0.5, 3 * accuracy) << panels.size();
     }
@@ -60,16 +61,18 @@ TEST(BoundaryOperators, LinearFieldsAreExactButForTheQuadrature)
 {
   Eigen::Matrix3d gradient;
   gradient << 0.3, 0.2, -0.5, 0.7, -0.4, 0.1, 0.25, 0.9, 0.6;
-  const Eigen::Matrix3d stress = mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
-  for (const auto& panels : {box({2, 3, 2}, Point(1, 1.5, 0.8)), tetrahedron(), sphere(2), box({6, 6, 1}, Point(1, 1, 0.05))}) {
+  const Eigen::Matrix3d stress =
+      soft_mu * (gradient + gradient.transpose()) + soft_lambda * gradient.trace() * Eigen::Matrix3d::Identity();
+  for (const auto& panels : {test::box({2, 3, 2}, Point(1, 1.5, 0.8)), test::tetrahedron(), test::sphere(1, 2),
+                             test::box({6, 6, 1}, Point(1, 1, 0.05))}) {
     const auto u = linear_field(panels, Point(0.1, 0.2, 0.3), gradient, Point(0.3, 0.4, 0.1));
     Eigen::VectorXd t(3 * panels.size());
     for (Eigen::Index p = 0; p < panels.size(); ++p) t.segment<3>(3 * p) = stress * panels.normal[static_cast<std::size_t>(p)];
     for (const double accuracy : {1e-3, 1e-5, 1e-7}) {
-      const auto [v, k, d] = boundary_operators(panels, steel, accuracy);
+      const auto [v, k, d] = boundary_operators(panels, soft, accuracy);
       const Eigen::VectorXd forces = nodal_forces(panels, t);
-      EXPECT_LT((v * t - k * u).norm(), 10 * accuracy * (v * t).norm()) << panels.size() << ' ' << accuracy;
-      EXPECT_LT((d * u + k.transpose() * t - forces).norm(), 10 * accuracy * forces.norm()) << panels.size() << ' ' << accuracy;
+      EXPECT_LT((v * t - k * u).norm(), 30 * accuracy * (v * t).norm()) << panels.size() << ' ' << accuracy;
+      EXPECT_LT((d * u + k.transpose() * t - forces).norm(), 30 * accuracy * forces.norm()) << panels.size() << ' ' << accuracy;
       EXPECT_LT((d - d.transpose()).norm(), 1e-13 * d.norm());
       EXPECT_LT((v - v.transpose()).norm(), 1e-14 * v.norm());
     }
@@ -81,8 +84,8 @@ TEST(LayerIntegrals, EigenvaluesOfTheSphere)
 {
   std::array<std::vector<double>, 3> single, twofold;
   for (const int levels : {2, 3}) {
-    const auto panels = sphere(levels);
-    const auto layers = integrate_layers(panels, steel, 1e-6);
+    const auto panels = test::sphere(1, levels);
+    const auto layers = integrate_layers(panels, soft, 1e-6);
     for (int l = 0; l < 3; ++l) {
       const auto harmonic = [&](const Point& x) { return l == 0 ? 1.0 : l == 1 ? x[2] : x[0] * x[1]; };
       Eigen::VectorXd on_panels(panels.size()), weighted(panels.size()), at_nodes(panels.node_count());
@@ -107,15 +110,15 @@ TEST(LayerIntegrals, EigenvaluesOfTheSphere)
   }
 }
 
-// A layer of tractions n on the unit sphere in space moves it by n / (3 (lambda + 2 mu)), one of e_z x n by e_z x n / (3 mu):
-// inside and outside such fields fit, u and u / r^3, and sigma n jumps by the layer.
+// A layer of tractions n on the unit sphere in space moves it by n / (3 (soft_lambda + 2 soft_mu)), one of e_z x n by e_z x n /
+// (3 soft_mu): inside and outside such fields fit, u and u / r^3, and sigma n jumps by the layer.
 TEST(LayerIntegrals, ElasticLayersOnTheSphere)
 {
   for (const bool radial : {true, false}) {
     std::vector<double> error;
     for (const int levels : {2, 3}) {
-      const auto panels = sphere(levels);
-      const auto v = single_layer(panels, steel, 1e-6);
+      const auto panels = test::sphere(1, levels);
+      const auto v = single_layer(panels, soft, 1e-6);
       Eigen::VectorXd t(3 * panels.size());
       double norm = 0;
       for (std::size_t p = 0; p < panels.corners.size(); ++p) {
@@ -123,7 +126,7 @@ TEST(LayerIntegrals, ElasticLayersOnTheSphere)
         t.segment<3>(3 * static_cast<Eigen::Index>(p)) = layer;
         norm += panels.area[p] * layer.squaredNorm();
       }
-      error.push_back(std::abs(t.dot(v * t) / norm * 3 * (radial ? lambda + 2 * mu : mu) - 1));
+      error.push_back(std::abs(t.dot(v * t) / norm * 3 * (radial ? soft_lambda + 2 * soft_mu : soft_mu) - 1));
     }
     EXPECT_LT(error[1], 0.02) << radial;
     EXPECT_LT(error[1], 0.3 * error[0]) << radial;

@@ -8,25 +8,25 @@
 #include "bem/boundary_operators.hpp"
 #include "bem/particular_solution.hpp"
 #include "bem/surface_stress.hpp"
-#include "shapes.hpp"
+#include "surfaces.hpp"
 
 namespace mortise::bem {
 namespace {
 
-fem::Material material(double nu)
+fem::Material elastic(double nu)
 {
   return {2.0, nu, 1.5, 1e-2};
 }
 
-Eigen::Matrix3d stress_of(const Eigen::Matrix3d& gradient, double nu)
+Eigen::Matrix3d stress_of_gradient(const Eigen::Matrix3d& gradient, double nu)
 {
   const double mu = 1 / (1 + nu), lambda = 2 * mu * nu / (1 - 2 * nu);
   return mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
 }
 
-std::vector<Panels> shapes()
+std::vector<Panels> closed_surfaces()
 {
-  return {box({3, 3, 3}, Point(1, 1, 1)), tetrahedron(), sphere(1), box({8, 8, 1}, Point(1, 1, 0.05))};
+  return {test::box({3, 3, 3}, Point(1, 1, 1)), test::tetrahedron(), test::sphere(1, 1), test::box({8, 8, 1}, Point(1, 1, 0.05))};
 }
 
 TEST(SteklovPoincare, ConstantStressIsExact)
@@ -34,17 +34,17 @@ TEST(SteklovPoincare, ConstantStressIsExact)
   Eigen::Matrix3d gradient;
   gradient << 0.3, 0.2, -0.5, 0.7, -0.4, 0.1, 0.25, 0.9, 0.6;
   for (const double nu : {0.0, 0.3, 0.49})
-    for (const auto& panels : shapes()) {
+    for (const auto& panels : closed_surfaces()) {
       const auto u = linear_field(panels, Point(3, -2, 1), gradient, Point(0.3, 0.4, 0.1));
-      const Eigen::Matrix3d stress = stress_of(gradient, nu);
+      const Eigen::Matrix3d stress = stress_of_gradient(gradient, nu);
       Eigen::VectorXd t(3 * panels.size());
       for (Eigen::Index p = 0; p < panels.size(); ++p) t.segment<3>(3 * p) = stress * panels.normal[static_cast<std::size_t>(p)];
       const auto forces = nodal_forces(panels, t);
-      const Eigen::VectorXd found = steklov_poincare(panels, material(nu)) * u;
+      const Eigen::VectorXd found = steklov_poincare(panels, elastic(nu)) * u;
       EXPECT_LT((found - forces).norm(), 1e-11 * forces.norm()) << nu << ' ' << panels.size();
-      const Eigen::VectorXd traction = tractions(panels, material(nu), u);
+      const Eigen::VectorXd traction = tractions(panels, elastic(nu), u);
       EXPECT_LT((traction - t).norm(), 1e-11 * t.norm()) << nu << ' ' << panels.size();
-      const auto stresses = panel_stresses(panels, material(nu), u, traction);
+      const auto stresses = panel_stresses(panels, elastic(nu), u, traction);
       for (Eigen::Index p = 0; p < panels.size(); ++p) {
         const auto s = stresses.row(p);
         Eigen::Matrix3d tensor;
@@ -57,8 +57,8 @@ TEST(SteklovPoincare, ConstantStressIsExact)
 TEST(SteklovPoincare, SemidefiniteWithSixZeroEigenvalues)
 {
   for (const double nu : {0.0, 0.3, 0.49})
-    for (const auto& panels : shapes()) {
-      const auto s = steklov_poincare(panels, material(nu));
+    for (const auto& panels : closed_surfaces()) {
+      const auto s = steklov_poincare(panels, elastic(nu));
       EXPECT_EQ((s - s.transpose()).norm(), 0);
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(s, Eigen::EigenvaluesOnly);
       const auto& values = solver.eigenvalues();
@@ -74,7 +74,7 @@ TEST(SteklovPoincare, BendingConverges)
   const double nu = 0.3;
   std::vector<double> energy, traction;
   for (const int cells : {4, 8}) {
-    const auto panels = box({cells, cells, cells}, Point(1, 1, 1));
+    const auto panels = test::box({cells, cells, cells}, Point(1, 1, 1));
     Eigen::VectorXd u(3 * panels.node_count()), t = Eigen::VectorXd::Zero(3 * panels.size());
     for (Eigen::Index n = 0; n < panels.node_count(); ++n) {
       const Point x = panels.points[static_cast<std::size_t>(n)] - Point(0.5, 0.5, 0.5);
@@ -86,8 +86,8 @@ TEST(SteklovPoincare, BendingConverges)
       t[3 * static_cast<Eigen::Index>(p)] = 2.0 * z * panels.normal[p][0];
       norm += panels.area[p] * t.segment<3>(3 * static_cast<Eigen::Index>(p)).squaredNorm();
     }
-    energy.push_back(std::abs(u.dot(steklov_poincare(panels, material(nu)) * u) / (2.0 / 12) - 1));
-    const Eigen::VectorXd difference = tractions(panels, material(nu), u) - t;
+    energy.push_back(std::abs(u.dot(steklov_poincare(panels, elastic(nu)) * u) / (2.0 / 12) - 1));
+    const Eigen::VectorXd difference = tractions(panels, elastic(nu), u) - t;
     double sum = 0;
     for (std::size_t p = 0; p < panels.corners.size(); ++p)
       sum += panels.area[p] * difference.segment<3>(3 * static_cast<Eigen::Index>(p)).squaredNorm();
@@ -101,7 +101,7 @@ TEST(SteklovPoincare, BendingConverges)
 
 TEST(SteklovPoincare, RejectsSurfacesThatAreNone)
 {
-  const auto cube = box({2, 2, 2}, Point(1, 1, 1));
+  const auto cube = test::box({2, 2, 2}, Point(1, 1, 1));
   auto open = cube.corners;
   open.pop_back();
   EXPECT_THROW(make_panels(cube.points, open), Error);
@@ -120,10 +120,10 @@ TEST(SteklovPoincare, RejectsSurfacesThatAreNone)
 TEST(ParticularSolution, WeightAndWarmth)
 {
   const double nu = 0.3;
-  fem::Constitution constitution{material(nu)};
+  fem::Constitution constitution{elastic(nu)};
   constitution.acceleration = Point(0, 0, -4);
   constitution.temperature_change = 25;
-  const auto panels = box({2, 2, 4}, Point(1, 1, 3));
+  const auto panels = test::box({2, 2, 4}, Point(1, 1, 3));
   const Point centre(0.2, 0.7, 0.1);
   const ParticularSolution particular(constitution, centre);
   // Divergence of its stress, by differences, is exact for a linear one.
@@ -146,7 +146,7 @@ TEST(ParticularSolution, WeightAndWarmth)
   for (int j = 0; j < 3; ++j)
     gradient.col(j) =
         (particular.displacement(at + 1e-3 * Point::Unit(j)) - particular.displacement(at - 1e-3 * Point::Unit(j))) / 2e-3;
-  const Eigen::Matrix3d stress = stress_of(gradient - 0.25 * Eigen::Matrix3d::Identity(), nu);
+  const Eigen::Matrix3d stress = stress_of_gradient(gradient - 0.25 * Eigen::Matrix3d::Identity(), nu);
   const auto own = particular.stress(at);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(own[place[i][j]], stress(static_cast<int>(i), static_cast<int>(j)), 1e-9);

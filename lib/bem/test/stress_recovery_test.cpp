@@ -10,17 +10,17 @@ namespace {
 using namespace test;
 
 // Square root of the mean square error of the nodal stresses, of the recovery and of area-weighted means of the panels' stresses.
-struct Errors {
+struct RecoveryErrors {
   double recovered, averaged;
 };
-Errors errors(const Panels& panels, const Field& field)
+RecoveryErrors recovery_errors(const Panels& panels, const Field& field)
 {
   const Eigen::VectorXd u = field.nodal(panels), t = field.tractions(panels, steel());
   const Eigen::MatrixXd sums = nodal_sums(panels, steel(), u, t), stresses = panel_stresses(panels, steel(), u, t);
   Eigen::MatrixXd means = Eigen::MatrixXd::Zero(panels.node_count(), 6);
   for (std::size_t p = 0; p < panels.corners.size(); ++p)
     for (const Local c : panels.corners[p]) means.row(c) += panels.area[p] / 3 * stresses.row(static_cast<Eigen::Index>(p));
-  Errors result{0, 0};
+  RecoveryErrors result{0, 0};
   for (Eigen::Index n = 0; n < panels.node_count(); ++n) {
     const fem::Stress exact = components(hooke(steel(), field.gradient(panels.points[static_cast<std::size_t>(n)])));
     result.recovered += (sums.row(n).head<6>().transpose() / sums(n, 6) - exact).squaredNorm();
@@ -59,7 +59,7 @@ TEST(StressRecovery, LinearStressesAreExactOnFacesEdgesAndCorners)
 {
   for (const auto& panels :
        {box({3, 2, 4}, {2, 1, 1.5}, [](double s) { return s * (1 + s) / 2; }), sphere(1, 1), box({1, 1, 1}, {1, 1, 1})})
-    EXPECT_LT(errors(panels, bending(steel().poisson_ratio)).recovered, 1e-12);
+    EXPECT_LT(recovery_errors(panels, bending(steel().poisson_ratio)).recovered, 1e-12);
 }
 
 TEST(StressRecovery, SlopeOfALinearStress)
@@ -76,7 +76,8 @@ TEST(StressRecovery, SlopeOfALinearStress)
 TEST(StressRecovery, PointForceOutsideIsOfSecondOrderAndBetterThanMeans)
 {
   const auto field = kelvin(steel(), {0.7, 0.4, 2.5}, {0.3, -0.5, 1});
-  const auto coarse = errors(box({8, 4, 6}, {2, 1, 1.5}), field), fine = errors(box({16, 8, 12}, {2, 1, 1.5}), field);
+  const auto coarse = recovery_errors(box({8, 4, 6}, {2, 1, 1.5}), field),
+             fine = recovery_errors(box({16, 8, 12}, {2, 1, 1.5}), field);
   EXPECT_LT(fine.recovered, coarse.recovered / 3);
   EXPECT_LT(fine.recovered, fine.averaged / 1.5);
 }

@@ -49,6 +49,13 @@ inline Panels box(
   return make_panels(std::move(points), std::move(corners));
 }
 
+/// The corners (0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1).
+inline Panels tetrahedron()
+{
+  return make_panels({Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)},
+                     {{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
+}
+
 /// An octahedron whose triangles are cut into four `levels` times, its corners pushed onto the sphere.
 inline Panels sphere(double radius, int levels)
 {

@@ -4,6 +4,7 @@
 
 #include "bem/particular_solution.hpp"
 #include "bem/steklov_poincare.hpp"
+#include "bem/stress_recovery.hpp"
 #include "bem/surface_stress.hpp"
 #include "fem/stress.hpp"
 
@@ -55,14 +56,14 @@ std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const
       const Eigen::VectorXd traction = t.col(column) + particular.traction(panels);
       own.traction = traction.reshaped<Eigen::RowMajor>(panels.size(), 3);
       own.nodal_sums = Eigen::MatrixXd::Zero(panels.node_count(), 7 * static_cast<Eigen::Index>(bodies.blocks));
+      auto sums = own.nodal_sums.leftCols<7>();
+      sums = bem::nodal_sums(panels, bodies.constitution[s].materials[0], u.col(column), t.col(column));
+      for (Eigen::Index n = 0; n < sums.rows(); ++n)
+        sums.row(n).head<6>() += sums(n, 6) * particular.stress(panels.points[static_cast<std::size_t>(n)]).transpose();
       for (std::size_t p = 0; p < panels.corners.size(); ++p) {
         const auto row = static_cast<Eigen::Index>(p);
         own.stress.row(row) +=
             particular.stress((panels.corner(p, 0) + panels.corner(p, 1) + panels.corner(p, 2)) / 3).transpose();
-        for (const Local node : panels.corners[p]) {
-          own.nodal_sums.row(node).head<6>() += panels.area[p] * own.stress.row(row);
-          own.nodal_sums(node, 6) += panels.area[p];
-        }
       }
     }
   }
