@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "partition/decompose.hpp"
+#include "partition/skins.hpp"
 #include "post/drift.hpp"
 #include "post/model_checks.hpp"
 #include "post/strength.hpp"
@@ -92,6 +93,18 @@ TEST(LargeDisplacements, from_a_twentieth_of_the_body)
   EXPECT_NEAR(upper[0].value, 0.15 / std::sqrt(3), 1e-12);
   EXPECT_EQ((*upper[0].at)[0], 1.5);
   EXPECT_EQ(found(0, 0.1)[0].body, "lower");
+}
+
+TEST(InvertedCells, panels_are_none)
+{
+  Blocks blocks;
+  blocks.decomposition = partition::skins(std::move(blocks.decomposition), {true, false}, false, blocks.comm);
+  const auto turned = [&](int body) {
+    return inverted_cells(blocks.decomposition, blocks.displacement(body, [](const Point& x) { return Point(-2 * x[0], 0, 0); }),
+                          blocks.comm);
+  };
+  EXPECT_TRUE(turned(0).empty());
+  EXPECT_EQ(turned(1).size(), 1U);
 }
 
 TEST(InvertedCells, are_counted_and_placed)
