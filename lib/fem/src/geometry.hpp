@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "fem/element.hpp"
 #include "fem/options.hpp"
 #include "mesh/mesh.hpp"
@@ -19,9 +21,13 @@ class CellGeometry {
   {
   }
 
-  /// Takes the coordinates of cell c. Its own gradients follow from evaluate().
+  /// Takes the coordinates of cell c. Its own gradients follow from evaluate(). Throws Error(bad_input) for a cell of another
+  /// dimension than the model's: a panel of boundary elements.
   void gather(const mesh::Mesh& mesh, std::size_t c)
   {
+    if (mesh::dimension(mesh.cells.type[c]) != dimension_)
+      throw Error(ExitStatus::bad_input, "a cell of type " + std::string(mesh::name(mesh.cells.type[c])) +
+                                             " is no finite element of a model of dimension " + std::to_string(dimension_));
     element_ = &fem::element(mesh.cells.type[c], axisymmetric_ ? Kinematics::axisymmetric : Kinematics::solid);
     const auto nodes = mesh.cells[c];
     x_.resize(nodes.size() * static_cast<std::size_t>(dimension_));

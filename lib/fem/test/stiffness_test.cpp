@@ -28,6 +28,14 @@ TEST(Stiffness, RigidMotionsHaveNoEnergyAndAreOrthonormal)
   }
 }
 
+// Panels of boundary elements, and cells of a plane model in space.
+TEST(Stiffness, IsOfCellsOfTheModelsDimensionAlone)
+{
+  for (const char* name : {"tri3", "quad4"})
+    EXPECT_THROW(stiffness(Block(name, {2, 2, 1}).mesh, steel(), Kinematics::solid), Error);
+  EXPECT_THROW(stiffness(Block("tet4", {2, 2, 2}).mesh, steel(), Kinematics::plane_strain), Error);
+}
+
 // A single cell resists everything but rigid motions: no hourglass, no negative eigenvalue.
 TEST(Stiffness, OfOneCellHasTheRankOfTheElement)
 {
