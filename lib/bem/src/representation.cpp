@@ -346,11 +346,8 @@ InteriorField Representation::evaluate(std::span<const Point> points, const Eige
     }
     displacement = displacement / (4 * std::numbers::pi) + offset + linear * (x - origin);
     fem::Stress stress = components(hooke(material_, linear + gradient / (4 * std::numbers::pi)));
-    if (const double s = std::sqrt(squared_distance / (2 * panels_.area[p])); s < 1) {
-      const double share = 1 - s * s * (3 - 2 * s);
-      stress += share * (recovered_at(x, p) - stress);
-      displacement += std::pow(share, 4) * (offset + linear * (x - origin) - displacement);
-    }
+    if (const double s = std::sqrt(squared_distance / (2 * panels_.area[p])); s < 1)
+      stress += (1 - s * s * (3 - 2 * s)) * (recovered_at(x, p) - stress);
     result.displacement.row(static_cast<Eigen::Index>(i)) = displacement;
     result.stress.row(static_cast<Eigen::Index>(i)) = stress;
   }

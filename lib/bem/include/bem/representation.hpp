@@ -43,10 +43,11 @@ class Representation {
   Location locate(const Point& x) const;
 
   /// At points inside or on the surface, of displacements u (3 n) and tractions t (3 m). A linear u with its t is exact. On the
-  /// surface this is the limit from inside; outside, where the identity does not hold, the linear field of the nearest panel.
-  /// As t and grad u jump between panels, the identity's stresses next to them are of first order and have a logarithm of the
-  /// distance from each edge. Within a panel's size from the surface those of the recovery at the nodes (stress_recovery.hpp)
-  /// replace them little by little: on the surface they are alone.
+  /// surface this is the limit from inside. Outside the identity does not hold and the result is no more than a continuation of
+  /// the nearest panel's fields: ask locate(). Stresses in the unit of Young's modulus. As t and grad u jump between panels, the
+  /// identity's stresses next to them are of first order and have a logarithm of the distance from each edge. Within a panel's
+  /// size from the surface those of the recovery at the nodes (stress_recovery.hpp) replace them little by little: on the surface
+  /// they are alone.
   InteriorField evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const;
 
  private:
