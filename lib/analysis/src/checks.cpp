@@ -29,7 +29,7 @@ std::vector<post::BodyMaterial> body_materials(const model::Model& model, const 
   std::vector<double> straight(bodies.size(), 0.0);
   for (const auto& subdomain : decomposition.subdomains)
     for (const auto type : subdomain.mesh.cells.type)
-      if (mesh::first_order(type) == type) straight[static_cast<std::size_t>(subdomain.body)] = 1;
+      if (!subdomain.skin && mesh::first_order(type) == type) straight[static_cast<std::size_t>(subdomain.body)] = 1;
   comm.sum_in_place(straight);
   std::vector<post::BodyMaterial> result;
   for (std::size_t b = 0; b < bodies.size(); ++b) {

@@ -18,7 +18,7 @@
 namespace mortise::partition {
 namespace {
 
-mesh::Options two_blocks(const std::string& element, bool plane = false)
+mesh::Options neighbour_blocks(const std::string& element, bool plane = false)
 {
   mesh::Options options;
   mesh::BlockOptions block;
@@ -31,7 +31,7 @@ mesh::Options two_blocks(const std::string& element, bool plane = false)
   return options;
 }
 
-Decomposition make(const mesh::Options& mesh, const Options& options, const Communicator& comm, int dimension = 3)
+Decomposition cut_of(const mesh::Options& mesh, const Options& options, const Communicator& comm, int dimension = 3)
 {
   Timers timers;
   Log log(comm, nullptr);
@@ -146,9 +146,9 @@ const std::vector<Case> cases{{"hex8", 3, 60},   {"tet4", 3, 60},     {"prism6",
                               {"tet10", 3, 600}, {"prism15", 3, 300}, {"prism18", 3, 600}, {"quad4", 2, 15},  {"tri3", 2, 15},
                               {"quad8", 2, 40},  {"quad9", 2, 40},    {"tri6", 2, 40}};
 
-Decomposition make(const Case& c, const Communicator& comm)
+Decomposition cut_of(const Case& c, const Communicator& comm)
 {
-  return make(two_blocks(c.element, c.dimension == 2), metis(c.unknowns), comm, c.dimension);
+  return cut_of(neighbour_blocks(c.element, c.dimension == 2), metis(c.unknowns), comm, c.dimension);
 }
 
 TEST(Skins, EncloseWhatTheCellsFill)
@@ -156,7 +156,7 @@ TEST(Skins, EncloseWhatTheCellsFill)
   const Communicator comm;
   for (const auto& c : cases) {
     SCOPED_TRACE(c.element);
-    const auto solids = make(c, comm);
+    const auto solids = cut_of(c, comm);
     ASSERT_GT(solids.subdomain_count(), 6);
     const auto d = skins(solids, {true, true}, true, comm);
     ASSERT_EQ(d.subdomains.size(), solids.subdomains.size());
@@ -199,7 +199,7 @@ TEST(Skins, AreNumberedWithoutGapsAlikeOnAllRanks)
   for (const auto& c : cases)
     for (const auto& of_body : {std::vector<bool>{true, true}, {true, false}, {false, true}}) {
       SCOPED_TRACE(c.element);
-      const auto d = skins(make(c, comm), of_body, false, comm), whole = skins(make(c, alone), of_body, true, alone);
+      const auto d = skins(cut_of(c, comm), of_body, false, comm), whole = skins(cut_of(c, alone), of_body, true, alone);
       const auto all = [](const Decomposition& from, const Communicator& on) {
         std::vector<Global> nodes, cells, panels;
         for (const auto& s : from.subdomains) {
@@ -239,7 +239,7 @@ TEST(Skins, NeighboursHaveTheSamePanelsMirrored)
   const Communicator comm;
   for (const auto& c : cases) {
     SCOPED_TRACE(c.element);
-    const auto solids = make(c, comm);
+    const auto solids = cut_of(c, comm);
     const auto d = skins(solids, {true, true}, false, comm);
     std::vector<Global> own;  // corners of the panels, first the smallest
     for (const auto& s : d.subdomains)
@@ -293,7 +293,7 @@ TEST(Skins, BoundariesKeepTheirAreasAndNormals)
   const Communicator comm;
   for (const auto& c : cases) {
     SCOPED_TRACE(c.element);
-    const auto solids = make(c, comm);
+    const auto solids = cut_of(c, comm);
     const auto before = areas(solids, comm), after = areas(skins(solids, {true, true}, false, comm), comm);
     ASSERT_EQ(before.size(), after.size());
     ASSERT_FALSE(before.empty());
@@ -311,7 +311,7 @@ TEST(Skins, OfACubeIsWhatIsCountedByHand)
   block.element = "hex8";
   Options one;
   one.subdomains = 1;
-  const auto d = skins(make(cube, one, comm), {true}, true, comm);
+  const auto d = skins(cut_of(cube, one, comm), {true}, true, comm);
   EXPECT_EQ(d.catalogue.node_count, 602);
   EXPECT_EQ(d.catalogue.cell_count, 1200);
   for (const auto& s : d.subdomains) {
@@ -324,7 +324,7 @@ TEST(Skins, OfACubeIsWhatIsCountedByHand)
   Options grid;  // 2 x 2 x 2 subdomains of 5^3 cells: 152 nodes and 300 panels each, and copies of the first
   grid.method = "grid";
   grid.counts = {{"cube", {2, 2, 2}}};
-  const auto parts = skins(make(cube, grid, comm), {true}, false, comm);
+  const auto parts = skins(cut_of(cube, grid, comm), {true}, false, comm);
   EXPECT_EQ(parts.catalogue.node_count, 1331 - 8 * 64);
   EXPECT_EQ(parts.catalogue.cell_count, 8 * 300);
   for (const auto& copy : congruent(parts.subdomains, std::vector<int>(parts.subdomains.size(), 0))) {
@@ -382,12 +382,12 @@ TEST(Skins, OfRotatedInstancesAreCopies)
 {
   const Communicator alone(MPI_COMM_SELF);
   for (const char* element : {"hex8", "tet10", "prism6"}) {
-    auto blocks = two_blocks(element);
+    auto blocks = neighbour_blocks(element);
     mesh::InstanceOptions row;
     row.count = 7;
     row.rotate = mesh::RotationOptions{{1, 2, -0.5}, 360.0 / 7, {-3, 2, 1}};
     blocks.instances["upper"] = mesh::motions({row});
-    const auto solids = make(blocks, metis(60), alone), d = skins(solids, std::vector<bool>(8, true), false, alone);
+    const auto solids = cut_of(blocks, metis(60), alone), d = skins(solids, std::vector<bool>(8, true), false, alone);
     const std::vector<int> alike(d.subdomains.size(), 0);
     const auto before = congruent(solids.subdomains, alike), after = congruent(d.subdomains, alike);
     std::size_t copies = 0;
@@ -402,7 +402,7 @@ TEST(Skins, OfRotatedInstancesAreCopies)
 TEST(Skins, OfOtherBodiesNothingChanges)
 {
   const Communicator comm;
-  const auto solids = make(cases[0], comm), same = skins(solids, {false, false}, true, comm),
+  const auto solids = cut_of(cases[0], comm), same = skins(solids, {false, false}, true, comm),
              d = skins(solids, {false, true}, true, comm);
   EXPECT_EQ(same.catalogue.node_count, solids.catalogue.node_count);
   for (std::size_t s = 0; s < solids.subdomains.size(); ++s) {
@@ -421,7 +421,7 @@ TEST(Skins, StayWhereBodiesAreTakenWhole)
 {
   const Communicator comm;
   for (const bool lower : {true, false}) {
-    const auto d = skins(make(cases[0], comm), {lower, !lower}, true, comm), whole = whole_bodies(d, comm);
+    const auto d = skins(cut_of(cases[0], comm), {lower, !lower}, true, comm), whole = whole_bodies(d, comm);
     std::vector<double> skins_before(2, 0.0), now(2, 0.0);
     std::vector<double> before(4, 0.0), after(4, 0.0);  // cells and nodes of skins, and of what is inside
     const auto count = [](const Subdomain& s, std::vector<double>& sums) {
