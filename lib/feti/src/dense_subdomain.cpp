@@ -12,7 +12,7 @@ namespace mortise::feti {
 
 namespace {
 
-constexpr Eigen::Index columns_at_once = 64;
+constexpr Eigen::Index most_columns = 64;
 
 // y = A x, A symmetric with leading dimension n, one triangle of which is read.
 void multiply(Teuchos::EUplo triangle, const double* a, const Eigen::MatrixXd& x, Eigen::MatrixXd& y)
@@ -52,8 +52,8 @@ class DenseInterface : public InterfaceStiffness {
   Eigen::MatrixXd apply(const Eigen::MatrixXd& u) const override
   {
     Eigen::MatrixXd result(u.rows(), u.cols());
-    for (Eigen::Index first = 0; first < u.cols(); first += columns_at_once) {
-      const auto count = std::min(columns_at_once, u.cols() - first);
+    for (Eigen::Index first = 0; first < u.cols(); first += most_columns) {
+      const auto count = std::min(most_columns, u.cols() - first);
       Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(subdomain_.size(), count);
       whole(unknowns_, Eigen::all) = u.middleCols(first, count);
       if (!inside_.empty()) whole(inside_, Eigen::all) = -relaxed_ * u.middleCols(first, count);
@@ -92,8 +92,8 @@ DenseSubdomain::DenseSubdomain(const Eigen::MatrixXd& matrix, Eigen::MatrixXd ke
 void DenseSubdomain::apply_inverse(std::span<double* const> columns) const
 {
   Eigen::MatrixXd x, y;
-  for (std::size_t first = 0; first < columns.size(); first += columns_at_once) {
-    const auto count = std::min<std::size_t>(columns_at_once, columns.size() - first);
+  for (std::size_t first = 0; first < columns.size(); first += most_columns) {
+    const auto count = std::min<std::size_t>(most_columns, columns.size() - first);
     x.resize(size(), static_cast<Eigen::Index>(count));
     for (std::size_t c = 0; c < count; ++c)
       x.col(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::VectorXd>(columns[first + c], size());
