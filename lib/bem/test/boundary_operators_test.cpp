@@ -40,7 +40,7 @@ TEST(LayerIntegrals, SquareWithItself)
       const double factor = 1.3 / (2 * 2.0 * 0.7);
       const Eigen::Matrix3d exact =
           factor * square_with_itself() * Eigen::Vector3d(3 - 4 * 0.3 + 0.5, 3 - 4 * 0.3 + 0.5, 3 - 4 * 0.3).asDiagonal();
-      EXPECT_LT((kelvin - exact).norm(), 5 * accuracy * exact.norm()) << cells;
+      EXPECT_LT((kelvin - exact).norm(), 10 * accuracy * exact.norm()) << cells;
     }
 }
 
