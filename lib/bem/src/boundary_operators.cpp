@@ -94,17 +94,12 @@ LayerIntegrals integrate_layers(const Panels& panels, const fem::Material& mater
   return layers;
 }
 
-Eigen::MatrixXd single_layer(const Panels& panels, const fem::Material& material, double accuracy)
-{
-  return integrate_layers(panels, material, accuracy).kelvin;
-}
-
-BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& material, double accuracy)
+BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& material, double accuracy, Operators which)
 {
   auto layers = integrate_layers(panels, material, accuracy);
   const auto m = panels.size(), n = panels.node_count();
   const double mu = material.young_modulus / (2 * (1 + material.poisson_ratio));
-  BoundaryOperators result{std::move(layers.kelvin), Eigen::MatrixXd::Zero(3 * m, 3 * n), Eigen::MatrixXd::Zero(3 * n, 3 * n)};
+  BoundaryOperators result{std::move(layers.kelvin), {}, {}};
 
   const auto of = derivatives(panels);
 
@@ -129,9 +124,11 @@ BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& 
       for (int c = 0; c < 3; ++c)
         result.k(3 * q + c, 3 * panels.corners[static_cast<std::size_t>(q)][k] + c) +=
             panels.area[static_cast<std::size_t>(q)] / 6;
+  if (which == Operators::of_tractions) return result;
 
   // (M v)' (2 mu V_L - 4 mu^2 V) (M u)
   image = 2 * mu * single_image - 2 * mu * image;
+  result.d = Eigen::MatrixXd::Zero(3 * n, 3 * n);
   add_tangential_times(panels, of, image, result.d);
 
   // Surface curls c = n x grad, constant on a panel: Y_ij = c_i' V_L c_j, to which mu (tr Y I - Y) belongs.
@@ -160,15 +157,6 @@ BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& 
 }
 
 // Integral of the k-th function over a panel is a third of its area.
-Eigen::VectorXd mass(const Panels& panels, const Eigen::VectorXd& u)
-{
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(3 * panels.size());
-  for (std::size_t p = 0; p < panels.corners.size(); ++p)
-    for (const Local node : panels.corners[p])
-      result.segment<3>(3 * static_cast<Eigen::Index>(p)) += panels.area[p] / 3 * u.segment<3>(3 * node);
-  return result;
-}
-
 Eigen::VectorXd nodal_forces(const Panels& panels, const Eigen::VectorXd& t)
 {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(3 * panels.node_count());

@@ -98,7 +98,7 @@ Eigen::MatrixXd steklov_poincare(const Panels& panels, const fem::Material& mate
 
 Eigen::MatrixXd tractions(const Panels& panels, const fem::Material& material, const Eigen::MatrixXd& u, double accuracy)
 {
-  auto [v, k, d] = boundary_operators(panels, material, accuracy);
+  auto [v, k, d] = boundary_operators(panels, material, accuracy, Operators::of_tractions);
   correct(linear_fields(panels, material), v, k);
   Eigen::MatrixXd t = k * u;
   factorize(v);

@@ -118,7 +118,7 @@ TEST(LayerIntegrals, ElasticLayersOnTheSphere)
     std::vector<double> error;
     for (const int levels : {2, 3}) {
       const auto panels = test::sphere(1, levels);
-      const auto v = single_layer(panels, soft, 1e-6);
+      const auto v = integrate_layers(panels, soft, 1e-6).kelvin;
       Eigen::VectorXd t(3 * panels.size());
       double norm = 0;
       for (std::size_t p = 0; p < panels.corners.size(); ++p) {

@@ -171,6 +171,7 @@ void work(const Options& options, int dimension, Sender& sender)
   if (kind != FileKind::geo) limit_processor_time(reading_seconds(size_of(options.file)));
   session.open(options.file);
   limit_processor_time(0);
+  if (is_geometry(kind)) GmshSession::set_sizes(options);  // again: what the deck says outweighs what a script has set
   if (is_geometry(kind)) session.mesh(options.file, dimension);
   send(take_from_gmsh(options, dimension), sender);
 }

@@ -152,6 +152,24 @@ TEST(Read, SecondOrderCells)
     }
 }
 
+// What the deck says of sizes and order outweighs what a geometry sets.
+TEST(Read, DeckOutweighsGeometry)
+{
+  const auto file =
+      geo("own_order.geo",
+          "SetFactory(\"OpenCASCADE\");\nMesh.ElementOrder = 1;\nMesh.MeshSizeMax = 0.5;\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
+          "Physical Volume(\"box\") = {1};\n");
+  Options options;
+  options.file = file;
+  const auto coarse = read(options, 3);
+  options.order = 2;
+  options.size.max = 0.1;
+  const auto fine = read(options, 3);
+  EXPECT_EQ(coarse.mesh.cells.type.front(), CellType::tet4);
+  EXPECT_EQ(fine.mesh.cells.type.front(), CellType::tet10);
+  EXPECT_GT(fine.mesh.cells.size(), 3 * coarse.mesh.cells.size());
+}
+
 void expect_error(const std::string& file, int dimension, const std::string& text)
 {
   try {

@@ -1,17 +1,17 @@
 // The boundary integral operators of linear elasticity on the surface of one body, by Galerkin's method with displacements u that
 // are linear on each panel and continuous, and tractions t that are constant on each panel.
 //
-// With Kelvin's solution U(d) = (1 + nu) / (8 pi E (1 - nu)) ((3 - 4 nu) I / r + d d' / r^3), d = x - y, r = |d|, and T its traction
-// in y,
+// With Kelvin's solution U(d) = (1 + nu) / (8 pi E (1 - nu)) ((3 - 4 nu) I / r + d d' / r^3), d = x - y, r = |d|, and T its
+// traction in y,
 //
-//     V t = II U t,   K u = II T u,   D = the hypersingular operator;   inside a body without body forces
-//     V t = (M / 2 + K) u,   f = D u + (M / 2 + K)' t
+//     V t = II U t,   K u = II T u,   D u = -II (traction in x of T) u:
 //
-// for the nodal forces f. All of them come from the kernels 1 / (4 pi r) and d d' / (4 pi r^3) and from the double layer of
-// Laplace's equation, by Stokes' theorem with the tangential derivatives M_ij = n_j d_i - n_i d_j, which are constant on a panel:
+// in a body without body forces V t = (M / 2 + K) u and D u + (M / 2 + K)' t = f, the nodal forces. All of them come from the
+// kernels 1 / (4 pi r) and d d' / (4 pi r^3) and from the double layer of Laplace's equation, by Stokes' theorem with the
+// tangential derivatives M_ij = n_j d_i - n_i d_j, which are constant on a panel:
 //
 //     K u = K_L u - V_L (M u) + 2 mu V (M u),
-//     <D u, v> = mu II (sum_k (c_k u) . (c_k v) + sum_ij (c_i v_i c_j u_j - c_i v_j c_j u_i ...)) / (4 pi r) + ...
+//     D_ij = mu (2 tr Y I - Y)_ij + (M' (2 mu V_L - 4 mu^2 V) M)_ij,   Y_ij = c_i' V_L c_j,   c = n x grad
 //
 // [Kupradze, Three-dimensional problems of elasticity, 1979; Han, Numer. Math. 68 (1994)].
 #pragma once
@@ -32,18 +32,17 @@ struct LayerIntegrals {
 /// `accuracy` of the quadrature, relative to the entries of neighbours.
 LayerIntegrals integrate_layers(const Panels& panels, const fem::Material& material, double accuracy);
 
-/// The kernel U alone: the operator V.
-Eigen::MatrixXd single_layer(const Panels& panels, const fem::Material& material, double accuracy);
+/// Which operators are made: V and K give tractions, D forces as well.
+enum class Operators { of_tractions, all };
 
 struct BoundaryOperators {
   Eigen::MatrixXd v;  ///< V, 3 m x 3 m
   Eigen::MatrixXd k;  ///< M / 2 + K, 3 m x 3 n
-  Eigen::MatrixXd d;  ///< D, 3 n x 3 n
+  Eigen::MatrixXd d;  ///< D, 3 n x 3 n; empty if not made
 };
-BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& material, double accuracy);
+BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& material, double accuracy,
+                                     Operators which = Operators::all);
 
-/// Integrals of each node's function over each panel, times u: M u, 3 m.
-Eigen::VectorXd mass(const Panels& panels, const Eigen::VectorXd& u);
 /// Nodal forces of tractions that are constant on each panel: M't, 3 n.
 Eigen::VectorXd nodal_forces(const Panels& panels, const Eigen::VectorXd& t);
 

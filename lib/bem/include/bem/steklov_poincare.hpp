@@ -17,7 +17,7 @@ namespace mortise::bem {
 /// Of the quadrature, as far as fields are not linear.
 inline constexpr double usual_accuracy = 1e-4;
 
-/// S, 3 n x 3 n, symmetric, unknown 3 * node + component. Takes about 31 m n doubles of memory for a moment (m panels, n nodes).
+/// S, 3 n x 3 n, symmetric, unknown 3 * node + component. Takes about 50 m n numbers for a moment (m panels, n nodes).
 /// Throws Error(bad_input) where V is not positive definite, which is a matter of panels that cut each other.
 Eigen::MatrixXd steklov_poincare(const Panels& panels, const fem::Material& material, double accuracy = usual_accuracy);
 
