@@ -103,6 +103,9 @@ void describe(deck::Description<BodyOptions>& d)
             "dimension 3, bodies of one material).",
             &BodyOptions::method, methods)
       .one_of({"finite_elements", "boundary_elements"});
+  d.key("surfaces", &BodyOptions::surfaces,
+        "For boundary_elements, where the file has no cells of the body but its closed surface: the physical surfaces (plane "
+        "models: curves) that enclose it together, with those of its cavities; without this key the one of the body's name.");
   names_key(
       d, "formulation",
       "standard: full integration; bbar: nearly incompressible materials (hex8, quad4, prism6); incompatible: bending (hex8, "
@@ -113,7 +116,12 @@ void describe(deck::Description<BodyOptions>& d)
     if (body.material.empty() == body.volumes.empty())
       document.error(path, body.volumes.empty() ? "the key \"material\" is missing: Name of a material."
                                                 : "expected either `material` or `volumes`, found both");
-    if (body.method != Method::boundary_elements) return;
+    if (body.method != Method::boundary_elements) {
+      if (!body.surfaces.empty())
+        document.error(deck::join(path, "surfaces"),
+                       "finite elements need the cells of the body; remove this, or take `method: boundary_elements`");
+      return;
+    }
     if (!body.volumes.empty())
       document.error(deck::join(path, "volumes"),
                      "boundary elements are for bodies of one material; give the body a `material`, or take finite_elements");

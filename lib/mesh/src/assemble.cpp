@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
+#include "closed_surfaces.hpp"
 #include "gmsh_file.hpp"
 #include "mesh/curved_surface.hpp"
 #include "mesh/topology.hpp"
@@ -52,12 +54,13 @@ std::vector<int> reversed_corners(CellType first_order)
       return {4, 5, 6, 7, 0, 1, 2, 3};
     case prism6:
       return {3, 4, 5, 0, 1, 2};
-    default:
-      return {0, 1};
+    default:  // line2
+      return {1, 0};
   }
 }
 
-// The same cell, turned inside out.
+}  // namespace
+
 std::vector<Local> reversed(CellType type, std::span<const Local> nodes)
 {
   const auto corner = reversed_corners(first_order(type));
@@ -70,6 +73,8 @@ std::vector<Local> reversed(CellType type, std::span<const Local> nodes)
   }
   return result;
 }
+
+namespace {
 
 // Corners of a face that are neighbours: two nodes in one place, which are meant to be one.
 void require_edges(const RawMesh& raw, std::size_t cell, double size, const std::string& file)
@@ -90,6 +95,12 @@ void require_edges(const RawMesh& raw, std::size_t cell, double size, const std:
     }
 }
 
+// Of the model's dimension, not of a surface that stands for the body that it bounds.
+bool is_solid(CellType type, int dimension)
+{
+  return mesh::dimension(type) == dimension;
+}
+
 // Cells turned inside out are turned back; such without volume are an error.
 void orient(RawMesh& raw, const Options& options, int dimension)
 {
@@ -97,6 +108,10 @@ void orient(RawMesh& raw, const Options& options, int dimension)
   for (std::size_t c = 0; c < raw.cells.size(); ++c) {
     const CellType type = raw.cells.type[c];
     const auto nodes = raw.cells[c];
+    if (!is_solid(type, dimension)) {
+      right.add(type, nodes);
+      continue;
+    }
     const double volume = orientation(type, nodes, raw.points);
     Point low = raw.points[static_cast<std::size_t>(nodes[0])], high = low;
     for (const Local n : nodes) {
@@ -207,9 +222,26 @@ class FaceCheck {
   const Groups& groups_;
 };
 
-void require_conforming(const std::string& file, const RawMesh& raw, const Groups& groups)
+// Those of the solids, and surfaces themselves; in the order of sorted_faces().
+std::vector<CellFace> faces_of_bodies(const Cells& cells, int dimension)
 {
-  const auto all = sorted_faces(raw.cells);
+  auto all = sorted_faces(cells);
+  std::erase_if(all, [&](const CellFace& face) { return !is_solid(cells.type[static_cast<std::size_t>(face.cell)], dimension); });
+  const auto solid = all.size();
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (!is_solid(cells.type[c], dimension))
+      all.push_back({face_key(cells[c].first(static_cast<std::size_t>(corner_count(cells.type[c])))), static_cast<Local>(c), 0});
+  if (all.size() > solid)
+    std::sort(all.begin(), all.end(),
+              [](const CellFace& a, const CellFace& b) { return std::tie(a.corners, a.cell) < std::tie(b.corners, b.cell); });
+  return all;
+}
+
+void require_conforming(const std::string& file, const RawMesh& raw, const Groups& groups, int dimension)
+{
+  auto all = sorted_faces(raw.cells);
+  std::erase_if(all,
+                [&](const CellFace& face) { return !is_solid(raw.cells.type[static_cast<std::size_t>(face.cell)], dimension); });
   const FaceCheck check(file, raw, groups);
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     if (all[i].corners != all[i + 1].corners || check.group(all[i]) != check.group(all[i + 1])) continue;
@@ -250,11 +282,24 @@ void warn_of_scattered_volumes(const Groups& groups, const Options& options, con
                       groups.names[g], parts_in[g]));
 }
 
-// Cells ordered by body, with nodes of its own for each body.
-Assembly separate(const RawMesh& raw, const Groups& groups, const Options& options, int dimension, std::vector<Local>& original,
-                  std::vector<int>& solid_of_cell)
+// The body of each cell, numbered in the order of their smallest cells: connected parts, and surfaces with those of their
+// cavities
+// (`enclosed`, as close_surfaces() gives it).
+std::vector<int> parts_of(const RawMesh& raw, const Groups& groups, const std::vector<int>& enclosed)
 {
-  const auto part = connected_parts(face_neighbours(raw.cells), groups.label);
+  auto part = connected_parts(face_neighbours(raw.cells), groups.label);
+  std::map<int, int> of_surface, order;
+  for (std::size_t c = 0; c < part.size(); ++c) {
+    if (enclosed[c] >= 0) part[c] = of_surface.emplace(enclosed[c], part[c]).first->second;
+    part[c] = order.emplace(part[c], static_cast<int>(order.size())).first->second;
+  }
+  return part;
+}
+
+// Cells ordered by body, with nodes of its own for each body.
+Assembly separate(const RawMesh& raw, const Groups& groups, const std::vector<int>& part, const Options& options, int dimension,
+                  std::vector<Local>& original, std::vector<int>& solid_of_cell)
+{
   const int parts = 1 + *std::max_element(part.begin(), part.end());
   std::vector<int> group_of(static_cast<std::size_t>(parts)), parts_in(groups.names.size(), 0),
       order(static_cast<std::size_t>(parts));
@@ -312,7 +357,7 @@ void attach_boundaries(const RawMesh& raw, const Options& options, const std::ve
   Mesh& mesh = assembly.mesh;
   Cells in_file = mesh.cells;
   for (auto& n : in_file.nodes) n = original[static_cast<std::size_t>(n)];
-  const auto all = sorted_faces(in_file);
+  const auto all = faces_of_bodies(in_file, assembly.catalogue.dimension);
   const auto body = [&](const CellFace& face) { return mesh.cell_body[static_cast<std::size_t>(face.cell)]; };
   const auto volume = [&](const CellFace& face) {
     return mesh.cell_volume.empty() ? 0 : mesh.cell_volume[static_cast<std::size_t>(face.cell)];
@@ -341,10 +386,15 @@ void attach_boundaries(const RawMesh& raw, const Options& options, const std::ve
         if (named.solid >= 0 && solid_of_cell[static_cast<std::size_t>(match->cell)] != named.solid) continue;
         if (!taken.emplace(match->cell, match->face).second) continue;
         const auto cell = static_cast<std::size_t>(match->cell);
-        const auto& face = faces(mesh.cells.type[cell])[static_cast<std::size_t>(match->face)];
-        std::vector<Local> facet;
-        for (const int i : face.nodes) facet.push_back(mesh.cells[cell][static_cast<std::size_t>(i)]);
-        mesh.facets.cells.add(face.type, facet);
+        const auto type = mesh.cells.type[cell];
+        if (is_solid(type, assembly.catalogue.dimension)) {
+          const auto& face = faces(type)[static_cast<std::size_t>(match->face)];
+          std::vector<Local> facet;
+          for (const int i : face.nodes) facet.push_back(mesh.cells[cell][static_cast<std::size_t>(i)]);
+          mesh.facets.cells.add(face.type, facet);
+        } else {
+          mesh.facets.cells.add(type, std::vector<Local>(mesh.cells[cell].begin(), mesh.cells[cell].end()));
+        }
         mesh.facets.parent.push_back(match->cell);
         mesh.facets.boundary.push_back(boundary);
       }
@@ -378,10 +428,11 @@ Assembly assemble(RawMesh raw, const Options& options, int dimension)
   resolve_repeated_nodes(raw, options.file, dimension);
   orient(raw, options, dimension);
   const Groups groups = group(raw, options);
-  require_conforming(options.file, raw, groups);
+  require_conforming(options.file, raw, groups, dimension);
+  const auto part = parts_of(raw, groups, close_surfaces(raw, groups.label, options.file, dimension));
   std::vector<Local> original;
   std::vector<int> solid_of_cell;
-  Assembly assembly = separate(raw, groups, options, dimension, original, solid_of_cell);
+  Assembly assembly = separate(raw, groups, part, options, dimension, original, solid_of_cell);
   assembly.warnings.insert(assembly.warnings.begin(), raw.warnings.begin(), raw.warnings.end());
   attach_boundaries(raw, options, original, solid_of_cell, assembly);
   return assembly;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,16 +18,16 @@
 
 namespace mortise::mesh {
 
-const char* const known_endings = ".msh, .geo, .step, .stp, .brep or .inp";
+const char* const known_endings = ".msh, .geo, .step, .stp, .brep, .stl or .inp";
 
 FileKind kind_of(const std::string& file)
 {
   auto ending = std::filesystem::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  static const std::map<std::string, FileKind> table{{".msh", FileKind::msh},   {".geo", FileKind::geo},
-                                                     {".step", FileKind::step}, {".stp", FileKind::step},
-                                                     {".brep", FileKind::brep}, {".inp", FileKind::abaqus}};
+  static const std::map<std::string, FileKind> table{
+      {".msh", FileKind::msh},   {".geo", FileKind::geo}, {".step", FileKind::step}, {".stp", FileKind::step},
+      {".brep", FileKind::brep}, {".stl", FileKind::stl}, {".inp", FileKind::abaqus}};
   const auto found = table.find(ending);
   return found == table.end() ? FileKind::none : found->second;
 }
@@ -119,6 +120,23 @@ void check_msh_counts(const std::string& file, std::ifstream& stream)
   }
 }
 
+// Texts end with "endsolid"; of others the length follows from the number of triangles, whatever their head says.
+void check_stl(const std::string& file, std::ifstream& stream)
+{
+  const auto head = piece(stream, 0, 84);
+  const auto length = static_cast<unsigned long long>(std::filesystem::file_size(file));
+  std::uint32_t triangles = 0;
+  if (head.size() == 84) std::memcpy(&triangles, head.data() + 80, sizeof triangles);  // little-endian, as this machine
+  if (triangles > 0 && length == 84 + 50ULL * triangles) return;
+  if (!head.starts_with("solid"))
+    fail(file,
+         fmt::format("is no .stl file, or it is cut off: as a text it would begin with \"solid\", and with its {} triangles it "
+                     "would have {} bytes, and has {}; write it anew",
+                     triangles, 84 + 50ULL * triangles, length));
+  if (piece(stream, -1024, 1024).find("endsolid") == std::string::npos)
+    fail(file, "is cut off: \"endsolid\" is missing at its end; write it anew");
+}
+
 void check_content(const std::string& file, std::ifstream& stream, FileKind kind)
 {
   if (kind == FileKind::abaqus) return;  // our own reader says more
@@ -134,6 +152,7 @@ void check_content(const std::string& file, std::ifstream& stream, FileKind kind
   if (kind == FileKind::brep && !has("CASCADE Topology V"))
     fail(file, "is no .brep file: \"CASCADE Topology V\" is missing in its head (binary ones are not understood)");
   if (kind == FileKind::brep) check_brep_end(file, stream);
+  if (kind == FileKind::stl) check_stl(file, stream);
   if (kind == FileKind::geo) check_script(file, stream);
 }
 

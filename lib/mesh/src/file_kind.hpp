@@ -6,7 +6,7 @@
 namespace mortise::mesh {
 
 /// none: no reader is known for this ending.
-enum class FileKind { none, msh, geo, step, brep, abaqus };
+enum class FileKind { none, msh, geo, step, brep, stl, abaqus };
 
 /// By the ending of its name, in capitals or not.
 FileKind kind_of(const std::string& file);

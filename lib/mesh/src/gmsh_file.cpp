@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
 #include <vector>
 
 #include "base/error.hpp"
@@ -96,19 +97,67 @@ std::string label_of(int dimension, int tag)
 }
 
 // A physical group for each label of the solids (plane models: faces) of a CAD file; those without one are called solid.1,
-// solid.2, .. by their place. Faces of solids have no labels: gmsh does not ask OpenCASCADE for the names of subshapes.
-void name_by_labels(int dimension)
+// solid.2, .. by their place, `word` being "solid". Faces of solids have no labels: gmsh does not ask OpenCASCADE for the names
+// of subshapes.
+void name_by_labels(int dimension, const std::string& word)
 {
   gmsh::vectorpair solids;
   gmsh::model::getEntities(solids, dimension);
   std::map<std::string, std::vector<int>> named;
   for (std::size_t i = 0; i < solids.size(); ++i) {
     auto label = label_of(dimension, solids[i].second);
-    if (label.empty()) label = fmt::format("{}.{}", dimension == 3 ? "solid" : "surface", i + 1);
+    if (label.empty()) label = fmt::format("{}.{}", word, i + 1);
     named[label].push_back(solids[i].second);
   }
   for (const auto& [label, tags] : named)
     gmsh::model::setPhysicalName(dimension, gmsh::model::addPhysicalGroup(dimension, tags), label);
+}
+
+// Whether the deck speaks of a surface of this name.
+bool is_wanted(const Options& options, const std::string& name)
+{
+  return std::any_of(options.surfaces.begin(), options.surfaces.end(), [&](const auto& body) {
+    return body.first == name || std::find(body.second.begin(), body.second.end(), name) != body.second.end();
+  });
+}
+
+// The solids of an .stl file are surfaces of their names. A file of one solid may be called by its own name as well: what stands
+// behind the word "solid" is often that of the program that wrote it.
+void name_stl_solids(const Options& options)
+{
+  gmsh::vectorpair solids;
+  gmsh::model::getEntities(solids, 2);
+  const auto stem = std::filesystem::path(options.file).stem().string();
+  if (solids.size() == 1 && !is_wanted(options, label_of(2, solids[0].second)) && is_wanted(options, stem))
+    gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {solids[0].second}), stem);
+  else
+    name_by_labels(2, "solid");
+}
+
+// Volumes without a name that the surfaces of bodies enclose need no cells.
+void leave_out_enclosed(const Options& options, int dimension)
+{
+  std::set<int> wanted;
+  gmsh::vectorpair groups, volumes;
+  gmsh::model::getPhysicalGroups(groups, dimension - 1);
+  for (const auto& [dim, tag] : groups) {
+    std::string name;
+    std::vector<int> entities;
+    gmsh::model::getPhysicalName(dim, tag, name);
+    if (!is_wanted(options, name)) continue;
+    gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
+    wanted.insert(entities.begin(), entities.end());
+  }
+  gmsh::model::getEntities(volumes, dimension);
+  for (const auto& volume : volumes) {
+    std::vector<int> physical;
+    gmsh::vectorpair border;
+    gmsh::model::getPhysicalGroupsForEntity(volume.first, volume.second, physical);
+    gmsh::model::getBoundary({volume}, border, true, false, false);
+    const bool enclosed =
+        std::all_of(border.begin(), border.end(), [&](const auto& side) { return wanted.contains(side.second); });
+    if (physical.empty() && !border.empty() && enclosed) gmsh::model::removeEntities({volume}, false);
+  }
 }
 
 }  // namespace
@@ -128,15 +177,16 @@ void GmshSession::open(const std::string& file) const
   checked(file, "gmsh cannot load it: the file is cut off or damaged", [&] { gmsh::open(file); });
 }
 
-void GmshSession::mesh(const std::string& file, int dimension) const
+void GmshSession::mesh(const Options& options, int dimension) const
 {
-  checked(file, "gmsh gave up meshing it without a word", [&] {
+  checked(options.file, "gmsh gave up meshing it without a word", [&] {
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parameters;
     gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-    if (is_cad(kind_of(file))) name_by_labels(dimension);
+    if (is_cad(kind_of(options.file))) name_by_labels(dimension, dimension == 3 ? "solid" : "surface");
     if (!tags.empty()) return;
-    gmsh::model::mesh::generate(dimension);
+    if (!options.surfaces.empty()) leave_out_enclosed(options, dimension);
+    gmsh::model::mesh::generate(options.dimension.value_or(dimension));
     mark_curved_surfaces(dimension);
   });
 }
@@ -172,7 +222,8 @@ void work(const Options& options, int dimension, Sender& sender)
   session.open(options.file);
   limit_processor_time(0);
   if (is_geometry(kind)) GmshSession::set_sizes(options);  // again: what the deck says outweighs what a script has set
-  if (is_geometry(kind)) session.mesh(options.file, dimension);
+  if (is_geometry(kind)) session.mesh(options, dimension);
+  if (kind == FileKind::stl) name_stl_solids(options);
   send(take_from_gmsh(options, dimension), sender);
 }
 

@@ -23,7 +23,7 @@ class GmshSession {
   /// Opens the file. Throws as fail().
   void open(const std::string& file) const;
   /// Meshes the geometry unless the script has done that. The solids of a CAD file become physical groups. Throws as fail().
-  void mesh(const std::string& file, int dimension) const;
+  void mesh(const Options& options, int dimension) const;
   /// Sets gmsh's mesh sizes and the order of cells.
   static void set_sizes(const Options& options);
 };

@@ -42,14 +42,19 @@ void describe(deck::Description<Options>& d)
   d.help("Where the mesh comes from: a file that gmsh reads or meshes, or structured blocks.");
   d.key(
       "file", &Options::file,
-      "A .msh file (2.2 or 4.1); a .geo, .step or .brep file to be meshed; an .inp file of Abaqus or CalculiX; relative to the "
-      "deck. In .step and .brep files each solid is a body, by its name there or solid.1, solid.2, ..; its faces are the "
+      "A .msh file (2.2 or 4.1); a .geo, .step or .brep file to be meshed; an .inp file of Abaqus or CalculiX; an .stl file of "
+      "closed surfaces for bodies of boundary elements, whose solids are bodies and boundaries; relative to the deck. In .step "
+      "and .brep files each solid is a body, by its name there or solid.1, solid.2, ..; its faces are the "
       "boundaries NAME.face.1, NAME.face.2, .. (plane models: surface.1, NAME.edge.1): --check lists them with area and centre. "
       "In .inp files the sets of *SOLID SECTION (without one the ELSETs of cells) are bodies; *SURFACE, *NSET and "
       "ELSETs of faces are boundaries.");
   d.key("constants", &Options::constants, "Values for the DefineConstant names of a .geo file (gmsh's -setnumber).");
   d.key("size", &Options::size, "Size of the cells of a geometry, {max, min, curvature}.").hidden();
   d.key("order", &Options::order, "Order of the cells of a geometry: 1, or 2 for cells with curved sides.").at_least(1).below(3);
+  d.key("dimension", &Options::dimension,
+        "Dimension of the cells of a geometry: one less than the model's makes surfaces alone, for bodies of boundary elements.")
+      .at_least(1)
+      .below(4);
   d.key("time_limit", &Options::time_limit, "Seconds after which gmsh is stopped that has not read and meshed the file.")
       .positive()
       .below(1e8)
@@ -63,6 +68,8 @@ void describe(deck::Description<Options>& d)
     if (is_geometry(kind_of(mesh.file))) return;
     if (mesh.size.max || mesh.size.min || mesh.size.curvature)
       document.error(path + ".size", "sizes are for a geometry (.geo, .step, .brep) that gmsh meshes");
+    if (mesh.dimension)
+      document.error(path + ".dimension", "the dimension is for a geometry (.geo, .step, .brep) that gmsh meshes");
     if (mesh.order) document.error(path + ".order", "the order is for a geometry (.geo, .step, .brep) that gmsh meshes");
   });
 }

@@ -12,7 +12,7 @@ namespace mortise::mesh {
 /// Cells in the nodes of the file.
 struct RawMesh {
   std::vector<Point> points;
-  Cells cells;
+  Cells cells;                       ///< of the model's dimension; of bodies that are their surface alone, of one less
   std::vector<std::size_t> tag;      ///< of each cell: its number in the file
   std::vector<int> volume;           ///< of each cell: index into volumes
   std::vector<int> solid;            ///< of each cell; cells of different solids are different bodies; empty: only volumes matter
@@ -43,11 +43,15 @@ void check(const RawMesh& raw, const std::string& file);
 /// faces of boundaries follow. Throws Error(bad_input) where no such cell is left.
 void resolve_repeated_nodes(RawMesh& raw, const std::string& file, int dimension);
 
+/// The nodes of the same cell, turned inside out.
+std::vector<Local> reversed(CellType type, std::span<const Local> nodes);
+
 /// Moves the points into a plane model's plane z = 0. Throws Error(bad_input) if they are not near.
 void flatten(const std::string& file, std::vector<Point>& points);
 
 /// The assembly: cells turned right side out, every connected part of a volume (or of the volumes that options.volumes unites) a
-/// body with nodes of its own, facets of the boundaries on it. Throws as read().
+/// body with nodes of its own, and so every closed surface with those of its cavities; facets of the boundaries on it. Throws as
+/// read().
 Assembly assemble(RawMesh raw, const Options& options, int dimension);
 
 /// The mesh in an Abaqus or CalculiX input file.

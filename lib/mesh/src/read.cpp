@@ -1,12 +1,14 @@
 #include "mesh/read.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmsh.h>
 
 #include <algorithm>
 #include <map>
 #include <unordered_map>
 
+#include "deck/document.hpp"
 #include "file_kind.hpp"
 #include "gmsh_file.hpp"
 #include "mesh/curved_surface.hpp"
@@ -105,14 +107,117 @@ NumberedNodes read_nodes(const Options& options, int dimension)
   return nodes;
 }
 
+// A body that has no cells of its own, by the entities that enclose it.
+struct Shell {
+  int volume;  // index into RawMesh::volumes
+  int solid;   // of a CAD file, or -1
+  std::vector<int> entities;
+};
+
+bool has_cells(int dimension, const Group& group)
+{
+  return std::any_of(group.entities.begin(), group.entities.end(), [&](int entity) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+    return !types.empty();
+  });
+}
+
+std::vector<int> border_of(int dimension, const std::vector<int>& entities)
+{
+  gmsh::vectorpair solids, border;
+  for (const int entity : entities) solids.emplace_back(dimension, entity);
+  gmsh::model::getBoundary(solids, border, true, false, false);
+  std::vector<int> result;
+  for (const auto& [dim, entity] : border) result.push_back(std::abs(entity));
+  return result;
+}
+
+const Group* find(const std::vector<Group>& groups, const std::string& name)
+{
+  const auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.name == name; });
+  return found == groups.end() ? nullptr : &*found;
+}
+
+std::vector<int> entities_of(const Options& options, const std::vector<Group>& sides, const std::string& body,
+                             const std::vector<std::string>& surfaces)
+{
+  std::vector<int> result;
+  std::vector<std::string> known;
+  for (const auto& side : sides)
+    if (!curved_surface(side.name)) known.push_back(side.name);
+  for (const auto& name : surfaces) {
+    const auto* side = find(sides, name);
+    if (side == nullptr)
+      fail(options.file,
+           fmt::format("body \"{}\": there is no physical surface \"{}\"{}", body, name, deck::suggestion(name, known)));
+    for (const int entity : side->entities)
+      if (std::find(result.begin(), result.end(), entity) == result.end()) result.push_back(entity);
+  }
+  return result;
+}
+
+// The bodies of options.surfaces: physical surfaces, or volumes that have none but the cells of their surface.
+std::vector<Shell> shells(const Options& options, int dimension, const std::vector<Group>& bodies, RawMesh& raw)
+{
+  std::vector<Shell> result;
+  const auto sides = groups(dimension - 1);
+  for (const auto& [name, surfaces] : options.surfaces) {
+    const auto* body = find(bodies, name);
+    const bool meshed = body != nullptr && has_cells(dimension, *body);
+    if (meshed && !surfaces.empty())
+      fail(options.file,
+           fmt::format("has cells of the body \"{}\" as well as its `surfaces`; leave these out, or give the body another "
+                       "name",
+                       name));
+    if (meshed) continue;
+    if (body != nullptr && surfaces.empty()) {
+      const auto volume = static_cast<int>(body - bodies.data());
+      if (!is_cad(kind_of(options.file)))
+        result.push_back({volume, -1, border_of(dimension, body->entities)});
+      else
+        for (const int solid : body->entities) result.push_back({volume, solid, border_of(dimension, {solid})});
+      continue;
+    }
+    if (surfaces.empty() && find(sides, name) == nullptr) continue;  // the deck's check of names knows more
+    result.push_back({static_cast<int>(raw.volumes.size()), -1,
+                      entities_of(options, sides, name, surfaces.empty() ? std::vector{name} : surfaces)});
+    raw.volumes.push_back(name);
+  }
+  return result;
+}
+
+void add_cells(const Options& options, int dimension, int entity, int volume, int solid, const NumberedNodes& nodes, RawMesh& raw)
+{
+  for_each_element(options.file, dimension, entity, [&](CellType type, std::size_t tag, std::span<const std::size_t> tags) {
+    if (volume < 0)
+      fail(options.file, fmt::format("element {} lies in entity {}, which belongs to no physical {}; add the entity to a body{}",
+                                     tag, entity, dimension == 3 ? "volume" : "surface",
+                                     options.surfaces.empty() ? "" : ", or all of its sides to the `surfaces` of one"));
+    std::vector<Local> cell;
+    for (const std::size_t t : tags) cell.push_back(nodes.of(options.file, tag, t));
+    raw.cells.add(type, cell);
+    raw.tag.push_back(tag);
+    raw.volume.push_back(volume);
+    if (solid >= 0) raw.solid.push_back(solid);
+  });
+}
+
 void read_cells(const Options& options, int dimension, const std::vector<Group>& bodies, const NumberedNodes& nodes, RawMesh& raw)
 {
-  if (bodies.empty() && is_cad(kind_of(options.file)))
+  const auto enclosed = shells(options, dimension, bodies, raw);
+  const bool solids = is_cad(kind_of(options.file));
+  if (raw.volumes.empty() && solids)
     fail(options.file, fmt::format("holds no {}", dimension == 3 ? "solid: its surfaces enclose no volume that is a body"
                                                                  : "face that could be a body"));
-  if (bodies.empty())
-    fail(options.file, fmt::format("has no physical {0}; give each body a name with gmsh's Physical {1}(\"name\") = {{...}};",
-                                   dimension == 3 ? "volume" : "surface", dimension == 3 ? "Volume" : "Surface"));
+  if (raw.volumes.empty())
+    fail(options.file,
+         fmt::format("has no physical {0}; give each body a name with gmsh's Physical {1}(\"name\") = {{...}};{2}",
+                     dimension == 3 ? "volume" : "surface", dimension == 3 ? "Volume" : "Surface",
+                     dimension == 3 ? " a closed physical surface is a body where `bodies` has an entry of its name with "
+                                      "`method: boundary_elements`"
+                                    : ""));
   std::map<int, int> owner;
   for (std::size_t g = 0; g < bodies.size(); ++g)
     for (const int entity : bodies[g].entities)
@@ -121,22 +226,20 @@ void read_cells(const Options& options, int dimension, const std::vector<Group>&
                                        bodies[static_cast<std::size_t>(at->second)].name, bodies[g].name));
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, dimension);
-  const bool solids = is_cad(kind_of(options.file));
   for (const auto& [dim, entity] : entities) {
     const auto body = owner.find(entity);
-    for_each_element(options.file, dimension, entity, [&](CellType type, std::size_t tag, std::span<const std::size_t> tags) {
-      if (body == owner.end())
-        fail(options.file, fmt::format("element {} lies in entity {}, which belongs to no physical {}; add the entity to a body",
-                                       tag, entity, dimension == 3 ? "volume" : "surface"));
-      std::vector<Local> cell;
-      for (const std::size_t t : tags) cell.push_back(nodes.of(options.file, tag, t));
-      raw.cells.add(type, cell);
-      raw.tag.push_back(tag);
-      raw.volume.push_back(body->second);
-      if (solids) raw.solid.push_back(entity);
-    });
+    add_cells(options, dimension, entity, body == owner.end() ? -1 : body->second, solids ? entity : -1, nodes, raw);
   }
-  if (raw.volume.empty()) fail(options.file, "its physical groups hold no cells of the model's dimension");
+  for (const auto& shell : enclosed)
+    for (const int entity : shell.entities) add_cells(options, dimension - 1, entity, shell.volume, shell.solid, nodes, raw);
+  if (!raw.volume.empty()) return;
+  std::vector<std::string> known;
+  for (const auto& list : {bodies, groups(dimension - 1)})
+    for (const auto& group : list)
+      if (!curved_surface(group.name)) known.push_back(group.name);
+  if (options.surfaces.empty() || known.empty()) fail(options.file, "its physical groups hold no cells of the model's dimension");
+  fail(options.file, fmt::format("has no cells of \"{}\", nor a closed surface; what it has names: {}",
+                                 options.surfaces.begin()->first, fmt::join(known, ", ")));
 }
 
 // The faces of an entity.

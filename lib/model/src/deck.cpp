@@ -324,7 +324,10 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
     if (std::find(groups.begin(), groups.end(), body.group) == groups.end()) groups.push_back(body.group);
   for (const auto& [name, body] : deck.bodies)
     if (std::find(groups.begin(), groups.end(), name) == groups.end())
-      document.error("bodies." + name, fmt::format("the mesh has no body \"{}\"{}", name, deck::suggestion(name, groups)));
+      document.error("bodies." + name,
+                     fmt::format("the mesh has no body{} \"{}\"{}",
+                                 body.method == fem::Method::boundary_elements ? " and no physical surface" : "", name,
+                                 deck::suggestion(name, groups)));
   for (const auto& group : groups)
     if (!deck.bodies.contains(group))
       document.error("bodies", fmt::format("the body \"{}\" of the mesh has no entry; give it a material", group));

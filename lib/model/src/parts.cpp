@@ -46,11 +46,36 @@ void describe_instances(Deck& deck, deck::Document& document)
   }
 }
 
+void describe_surfaces(Deck& deck, deck::Document& document)
+{
+  std::map<std::string, std::string> owner;
+  for (const auto& [name, body] : deck.bodies) {
+    const auto path = "bodies." + name;
+    if (body.method == fem::Method::boundary_elements) {
+      if (deck.mesh.file.empty() && !body.surfaces.empty())
+        document.error(path + ".surfaces", "blocks have cells; surfaces are for a mesh from a `file`");
+      for (const auto& surface : body.surfaces)
+        if (const auto [at, fresh] = owner.emplace(surface, name); !fresh)
+          document.error(path + ".surfaces", fmt::format("\"{}\" encloses the body \"{}\" already", surface, at->second));
+      if (!deck.mesh.file.empty()) deck.mesh.surfaces.emplace(name, body.surfaces);
+    } else if (deck.mesh.dimension && *deck.mesh.dimension < deck.dimension()) {
+      document.error(path + ".method",
+                     fmt::format("with `mesh.dimension` {} there are no cells of bodies, but of their surfaces; expected "
+                                 "boundary_elements, or `mesh.dimension: {}`",
+                                 *deck.mesh.dimension, deck.dimension()));
+    }
+  }
+  if (const auto cells = deck.mesh.dimension.value_or(deck.dimension()); cells > deck.dimension() || cells < deck.dimension() - 1)
+    document.error("mesh.dimension", fmt::format("is {} in a model of dimension {}; expected {}, or {} for surfaces alone", cells,
+                                                 deck.dimension(), deck.dimension(), deck.dimension() - 1));
+}
+
 }  // namespace
 
 void describe_assembly(Deck& deck, deck::Document& document)
 {
   describe_instances(deck, document);
+  describe_surfaces(deck, document);
   std::map<std::string, std::string> owner;
   for (const auto& [name, body] : deck.bodies)
     for (const auto& [volume, material] : body.volumes) {

@@ -1,12 +1,14 @@
-// What the section `bodies` says about the assembly: instances of bodies, and bodies of several volumes.
+// What the section `bodies` says about the assembly: instances of bodies, and bodies of several volumes or
+// of closed surfaces.
 #pragma once
 
 #include "model/deck.hpp"
 
 namespace mortise::model {
 
-/// Fills deck.mesh.instances and deck.mesh.volumes from deck.bodies, and checks what does not need the mesh: motions fit the
-/// dimension of the model, no two copies lie in the same place, every volume is in one body. Errors go to the document.
+/// Fills deck.mesh.instances, deck.mesh.volumes and deck.mesh.surfaces from deck.bodies, and checks what does not need the mesh:
+/// motions fit the dimension of the model, no two copies lie in the same place, every volume is in one body. Errors go to the
+/// document.
 void describe_assembly(Deck& deck, deck::Document& document);
 
 /// Whether the mesh has the volumes of the bodies. Errors go to the document.

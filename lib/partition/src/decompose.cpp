@@ -25,6 +25,7 @@ namespace {
 
 // How many subdomains each part gets, of which there are `copies`. A total is met as far as copies allow: the next ones go where
 // subdomains are largest.
+// Surfaces are not cut: they have 0 nodes here.
 std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std::vector<int>& copies, int dimension,
                                   const Options& options)
 {
@@ -36,7 +37,8 @@ std::vector<int> subdomain_counts(const std::vector<long long>& nodes, const std
     return counts;
   }
   std::priority_queue<std::pair<double, std::size_t>> largest;  // nodes a subdomain, part
-  for (std::size_t b = 0; b < nodes.size(); ++b) largest.emplace(static_cast<double>(nodes[b]), b);
+  for (std::size_t b = 0; b < nodes.size(); ++b)
+    if (nodes[b] > 0) largest.emplace(static_cast<double>(nodes[b]), b);
   for (auto total = std::accumulate(copies.begin(), copies.end(), 0); total < *options.subdomains && !largest.empty();) {
     const auto b = largest.top().second;
     largest.pop();
@@ -72,12 +74,13 @@ std::vector<std::vector<PieceOfPart>> cut_parts(const mesh::Mesh& parts, const m
   std::vector<long long> nodes;
   for (const auto& list : of_part) {
     pieces.push_back(mesh::submesh(parts, list));
-    nodes.push_back(static_cast<long long>(pieces.back().node_count()));
+    const bool surface = !list.empty() && mesh::dimension(pieces.back().cells.type[0]) < dimension;
+    nodes.push_back(surface ? 0 : static_cast<long long>(pieces.back().node_count()));
   }
   const auto counts = subdomain_counts(nodes, copies, dimension, options);
   std::vector<std::vector<PieceOfPart>> result(copies.size());
   for (std::size_t p = 0; p < copies.size(); ++p) {
-    const auto label = cut(pieces[p].cells, counts[p]);
+    const auto label = nodes[p] > 0 ? cut(pieces[p].cells, counts[p]) : std::vector<int>(of_part[p].size(), 0);
     auto& list = result[p];
     list.resize(static_cast<std::size_t>(label.empty() ? 0 : 1 + *std::max_element(label.begin(), label.end())));
     for (std::size_t c = 0; c < label.size(); ++c) list[static_cast<std::size_t>(label[c])].cells.push_back(of_part[p][c]);

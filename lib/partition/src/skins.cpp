@@ -66,18 +66,35 @@ void add(mesh::CellType type, std::span<const Local> nodes, const std::vector<Lo
   to.add(type, renumbered);
 }
 
-// The skin of a solid; cell_id holds the keys of the panels. `place`: of each node of the solid in the skin, of those inside
-// after the others.
-mesh::Mesh skin_of(const mesh::Mesh& solid, std::vector<Local>& place)
+// Whether the body stands in its file as its surface alone.
+bool is_surface(const mesh::Mesh& mesh, int dimension)
 {
-  auto border = mesh::border_faces(solid.cells);
+  return mesh.cells.size() > 0 && mesh::dimension(mesh.cells.type[0]) < dimension;
+}
+
+// The skin of a solid, or of what is a surface already; cell_id holds the keys of the panels. `place`: of each node of the solid
+// in the skin, of those inside after the others.
+mesh::Mesh skin_of(const mesh::Mesh& solid, int dimension, std::vector<Local>& place)
+{
+  const bool surface = is_surface(solid, dimension);
+  std::vector<mesh::CellFace> border;
+  if (surface)
+    for (std::size_t c = 0; c < solid.cells.size(); ++c) border.push_back({{}, static_cast<Local>(c), 0});
+  else
+    border = mesh::border_faces(solid.cells);
   std::sort(border.begin(), border.end(),
             [](const auto& a, const auto& b) { return std::pair(a.cell, a.face) < std::pair(b.cell, b.face); });
+  const auto type_of = [&](const mesh::CellFace& face) {
+    const auto type = solid.cells.type[static_cast<std::size_t>(face.cell)];
+    return surface ? type : mesh::faces(type)[static_cast<std::size_t>(face.face)].type;
+  };
   const auto nodes_of = [&](const mesh::CellFace& face) {
+    const auto all = solid.cells[static_cast<std::size_t>(face.cell)];
+    if (surface) return std::vector<Local>(all.begin(), all.end());
     std::vector<Local> nodes;
-    const auto cell = static_cast<std::size_t>(face.cell);
-    for (const int k : mesh::faces(solid.cells.type[cell])[static_cast<std::size_t>(face.face)].nodes)
-      nodes.push_back(solid.cells[cell][static_cast<std::size_t>(k)]);
+    const auto type = solid.cells.type[static_cast<std::size_t>(face.cell)];
+    for (const int k : mesh::faces(type)[static_cast<std::size_t>(face.face)].nodes)
+      nodes.push_back(all[static_cast<std::size_t>(k)]);
     return nodes;
   };
   std::vector<bool> on(solid.node_count(), false);
@@ -97,7 +114,7 @@ mesh::Mesh skin_of(const mesh::Mesh& solid, std::vector<Local>& place)
   std::vector<Local> first;  // panel of each face
   for (const auto& face : border) {
     const auto cell = static_cast<std::size_t>(face.cell);
-    const auto type = mesh::faces(solid.cells.type[cell])[static_cast<std::size_t>(face.face)].type;
+    const auto type = type_of(face);
     first.push_back(static_cast<Local>(skin.cells.size()));
     Global key = keys_a_cell * solid.cell_id[cell] + panels_a_face * face.face;
     for (const auto& panel : panels_of(type, nodes_of(face))) {
@@ -217,8 +234,8 @@ Decomposition skins(Decomposition decomposition, const std::vector<bool>& of_bod
       continue;
     }
     std::vector<Local> place;
-    auto skin = skin_of(mesh, place);
-    if (keep_inside) subdomain.inside = reordered(mesh, place);
+    auto skin = skin_of(mesh, decomposition.catalogue.dimension, place);
+    if (keep_inside && !is_surface(mesh, decomposition.catalogue.dimension)) subdomain.inside = reordered(mesh, place);
     mesh = std::move(skin);
     subdomain.skin = true;
   }

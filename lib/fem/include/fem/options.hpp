@@ -45,6 +45,7 @@ struct BodyOptions {
   std::map<std::string, std::string> volumes;    ///< physical volumes that form the body together: the material of each
   std::vector<mesh::InstanceOptions> instances;  ///< where copies of the body are; empty: the body as it lies in the mesh
   Method method = Method::finite_elements;
+  std::vector<std::string> surfaces;  ///< of boundary elements: what encloses the body, where the file has no cells of it
   Formulation formulation = Formulation::standard;  ///< of finite elements
 };
 

@@ -11,10 +11,12 @@
 
 namespace mortise::mesh {
 
-/// A connected set of cells. A physical group of several connected parts makes several bodies, named group.1, group.2, ...
+/// A connected set of cells, or of a body that the file holds as its surface alone the cells of that, turned outward: such cells
+/// are of one dimension less than the catalogue's. A physical group of several connected parts makes several bodies, named
+/// group.1, group.2, ...
 struct Body {
-  std::string name;           ///< unique; equal to `group` if the group is connected
-  std::string group;          ///< the physical volume (2D: surface) of the file or the block, the name that the deck uses
+  std::string name;   ///< unique; equal to `group` if the group is connected
+  std::string group;  ///< the physical volume (2D: surface) of the file, the closed surface, or the block: the deck's name
   std::string instance = {};  ///< group.i if it belongs to the i-th instance of its group; empty if there are none
 };
 
@@ -31,7 +33,7 @@ struct Catalogue {
 /// Faces on named boundaries. A face that lies on two boundaries stands here twice.
 struct Facets {
   Cells cells;                ///< line2, or tri3 and quad4, oriented so that the normal points out of the body
-  std::vector<Local> parent;  ///< the cell of the Mesh that it is a face of
+  std::vector<Local> parent;  ///< the cell of the Mesh that it is a face of, or that it is (see Body)
   std::vector<int> boundary;  ///< index into Catalogue::boundaries
 };
 

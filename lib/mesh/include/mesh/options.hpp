@@ -31,6 +31,7 @@ struct Options {
   std::map<std::string, double> constants;     ///< gmsh's -setnumber, for files that gmsh meshes
   SizeOptions size;                            ///< for files that gmsh meshes
   std::optional<int> order;                    ///< of the cells, for files that gmsh meshes
+  std::optional<int> dimension;                ///< of the cells, for files that gmsh meshes; absent: the model's
   double time_limit = 3600;                    ///< seconds that gmsh may take
   bool allow_scripts = false;                  ///< of the command line: a .geo may start programs and write files
   double scale = 1.0;                          ///< coordinates of the file or of the blocks are multiplied by this
@@ -39,6 +40,9 @@ struct Options {
   // From the section `bodies`.
   std::map<std::string, std::vector<Motion>> instances;     ///< by group: where its copies are
   std::map<std::string, std::vector<std::string>> volumes;  ///< by group: the physical volumes of which it is made, if several
+  /// By group of boundary elements: the physical surfaces (plane models: curves) that enclose it, where the file has no cells of
+  /// it.
+  std::map<std::string, std::vector<std::string>> surfaces;
 };
 
 /// The keywords.
