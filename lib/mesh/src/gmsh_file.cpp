@@ -134,29 +134,64 @@ void name_stl_solids(const Options& options)
     name_by_labels(2, "solid");
 }
 
-// Volumes without a name that the surfaces of bodies enclose need no cells.
-void leave_out_enclosed(const Options& options, int dimension)
+// Entities of the physical groups of options.surfaces.
+std::set<int> wanted_surfaces(const Options& options, int dimension)
 {
-  std::set<int> wanted;
-  gmsh::vectorpair groups, volumes;
-  gmsh::model::getPhysicalGroups(groups, dimension - 1);
+  std::set<int> result;
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, dimension);
   for (const auto& [dim, tag] : groups) {
     std::string name;
     std::vector<int> entities;
     gmsh::model::getPhysicalName(dim, tag, name);
     if (!is_wanted(options, name)) continue;
     gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
-    wanted.insert(entities.begin(), entities.end());
+    result.insert(entities.begin(), entities.end());
   }
+  return result;
+}
+
+// Volumes in no physical group, those that touch together.
+std::vector<gmsh::vectorpair> nameless_volumes(int dimension)
+{
+  gmsh::vectorpair volumes;
   gmsh::model::getEntities(volumes, dimension);
+  struct Part {
+    gmsh::vectorpair volumes;
+    std::set<int> sides;
+  };
+  std::vector<Part> parts;
   for (const auto& volume : volumes) {
-    std::vector<int> physical;
-    gmsh::vectorpair border;
+    std::vector<int> physical, above, sides;
     gmsh::model::getPhysicalGroupsForEntity(volume.first, volume.second, physical);
-    gmsh::model::getBoundary({volume}, border, true, false, false);
-    const bool enclosed =
-        std::all_of(border.begin(), border.end(), [&](const auto& side) { return wanted.contains(side.second); });
-    if (physical.empty() && !border.empty() && enclosed) gmsh::model::removeEntities({volume}, false);
+    if (!physical.empty()) continue;
+    gmsh::model::getAdjacencies(volume.first, volume.second, above, sides);
+    Part joined{{volume}, {sides.begin(), sides.end()}};
+    std::erase_if(parts, [&](const Part& part) {
+      const bool touches = std::any_of(sides.begin(), sides.end(), [&](int side) { return part.sides.contains(side); });
+      if (touches) {
+        joined.volumes.insert(joined.volumes.end(), part.volumes.begin(), part.volumes.end());
+        joined.sides.insert(part.sides.begin(), part.sides.end());
+      }
+      return touches;
+    });
+    parts.push_back(std::move(joined));
+  }
+  std::vector<gmsh::vectorpair> result;
+  for (auto& part : parts) result.push_back(std::move(part.volumes));
+  return result;
+}
+
+// Volumes without a name that the surfaces of bodies enclose need no cells.
+void leave_out_enclosed(const Options& options, int dimension)
+{
+  const auto wanted = wanted_surfaces(options, dimension - 1);
+  for (const auto& volumes : nameless_volumes(dimension)) {
+    gmsh::vectorpair border;
+    gmsh::model::getBoundary(volumes, border, true, false, false);
+    if (!border.empty() &&
+        std::all_of(border.begin(), border.end(), [&](const auto& side) { return wanted.contains(side.second); }))
+      gmsh::model::removeEntities(volumes, false);
   }
 }
 
