@@ -32,6 +32,14 @@ Physical Surface("ground") = {5}; Physical Surface("lower_top") = {6};
 Physical Surface("upper_bottom") = {9}; Physical Surface("pressed") = {8};
 MeshSize{:} = 0.5;
 """,
+    # The upper body by its surface alone.
+    "skin": """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 0.5}; Cylinder(2) = {0.5, 0.5, 0.5, 0, 0, 0.5, 0.4};
+Physical Volume("lower") = {1};
+Physical Surface("ground") = {5}; Physical Surface("lower_top") = {6}; Physical Surface("lower_sides") = {1, 2, 3, 4};
+Physical Surface("upper_bottom") = {9}; Physical Surface("pressed") = {8}; Physical Surface("upper_side") = {7};
+MeshSize{:} = 0.5;
+""",
     "plane": """Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};
 Point(5) = {0, 1, 0}; Point(6) = {1, 1, 0}; Point(7) = {1, 2, 0}; Point(8) = {0, 2, 0};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};
@@ -53,6 +61,8 @@ supports: [{boundary: ground, displacement: {x: 0, y: 0, z: 0}}]
 loads: [{boundary: pressed, pressure: 1}]
 contacts: [{secondary: upper_bottom, primary: lower_top, friction: {coulomb: 0.3}}]
 """
+SKIN = NAMED.replace("upper: {material: steel}", "upper: {material: steel, method: boundary_elements, surfaces: [upper_bottom, pressed, upper_side]}")
+SKINS = SKIN.replace("lower: {material: steel}", "lower: {material: steel, method: boundary_elements, surfaces: [ground, lower_top, lower_sides]}")
 NUMBERED = """mesh: {file: FILE, size: {max: 0.5}}
 materials: {steel: {young_modulus: 1000, poisson_ratio: 0.3}}
 bodies: {solid.1: {material: steel}, solid.2: {material: steel}}
@@ -142,7 +152,7 @@ def seeds(directory):
     result, gmsh = {}, Gmsh()
     plane = NAMED.replace("z: 0", "").replace("y: 0, ", "y: 0") + "dimension: plane_strain\n"
     for name, text in GEO.items():
-        deck = plane if name == "plane" else NAMED
+        deck = {"plane": plane, "skin": SKIN}.get(name, NAMED)
         geometry = directory / f"{name}.geo"
         geometry.write_text(text)
         result[f"{name}.geo"] = (text.encode(), ".geo", deck)
@@ -156,6 +166,15 @@ def seeds(directory):
                     path = directory / f"{name}_o{order}_v{version}_b{binary}.msh"
                     gmsh.write(path)
                     result[path.name] = (path.read_bytes(), ".msh", deck)
+        if name == "skin":
+            gmsh.open(geometry)
+            gmsh.mesh(2, 1)
+            gmsh.option("Mesh.StlOneSolidPerSurface", 2)
+            for binary in (0, 1):
+                gmsh.option("Mesh.Binary", binary)
+                path = directory / f"{name}_b{binary}.stl"
+                gmsh.write(path)
+                result[path.name] = (path.read_bytes(), ".stl", SKINS)
     (directory / "plain.geo").write_text(PLAIN)
     for ending in (".step", ".brep"):
         gmsh.open(directory / "plain.geo")
@@ -176,7 +195,7 @@ PACKED += [struct.pack("<d", v) for v in (float("nan"), float("inf"), 1e308, 1e-
 
 
 def sections(lines):
-    """Where parts of a file begin: $Section of .msh, *CARD of .inp, numbered entities of .step."""
+    """Where parts of a file begin: $Section of .msh, *CARD of .inp, numbered entities of .step, solids and facets of .stl."""
     return [i for i, line in enumerate(lines) if re.match(rb"\$(?!End)|\*(?!\*)|#\d+|Physical|Transfinite|Point|Line|Curve|Surface|Box", line)]
 
 

@@ -97,8 +97,9 @@ void require(const Memory& memory, const model::Model& model)
       ExitStatus::machine,
       fmt::format("not enough memory: the run needs about {:.1f} GB, {:.1f} GB of it for the factors of the subdomains, which is "
                   "{:.1f} GB more than there is; what helps: smaller subdomains (decomposition.unknowns_per_subdomain, now about "
-                  "{:.0f}, needs less the smaller it is down to 1000){}, more machines, a coarser mesh",
+                  "{:.0f}, needs less the smaller it is down to 1000){}{}, more machines, a coarser mesh",
                   memory.total / 1e9, memory.factors / 1e9, memory.excess / 1e9, average,
+                  deck.mesh.surfaces.empty() ? "" : ", which takes the cells of a body: one of its surface alone is not cut",
                   deck.solver.subdomains.preconditioner == "dirichlet" ? ", solver.preconditioner: lumped" : ""),
       Error::Cause::memory);
 }

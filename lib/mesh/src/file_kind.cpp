@@ -120,19 +120,25 @@ void check_msh_counts(const std::string& file, std::ifstream& stream)
   }
 }
 
-// Texts end with "endsolid"; of others the length follows from the number of triangles, whatever their head says.
+// Texts end with "endsolid"; of others the length follows from the number of triangles behind each head of 80 bytes, whatever
+// that says. gmsh writes several solids one behind the other.
 void check_stl(const std::string& file, std::ifstream& stream)
 {
-  const auto head = piece(stream, 0, 84);
-  const auto length = static_cast<unsigned long long>(std::filesystem::file_size(file));
-  std::uint32_t triangles = 0;
-  if (head.size() == 84) std::memcpy(&triangles, head.data() + 80, sizeof triangles);  // little-endian, as this machine
-  if (triangles > 0 && length == 84 + 50ULL * triangles) return;
-  if (!head.starts_with("solid"))
-    fail(file,
-         fmt::format("is no .stl file, or it is cut off: as a text it would begin with \"solid\", and with its {} triangles it "
-                     "would have {} bytes, and has {}; write it anew",
-                     triangles, 84 + 50ULL * triangles, length));
+  const auto length = static_cast<long long>(std::filesystem::file_size(file));
+  long long place = 0, solids = 0;
+  while (place + 84 <= length && solids < 10000) {
+    const auto count = piece(stream, place + 80, 4);
+    std::uint32_t triangles = 0;
+    if (count.size() == 4) std::memcpy(&triangles, count.data(), sizeof triangles);  // little-endian, as this machine
+    place += 84 + 50LL * triangles;
+    ++solids;
+  }
+  if (solids > 0 && place == length) return;
+  if (!piece(stream, 0, 5).starts_with("solid"))
+    fail(file, fmt::format(
+                   "is no .stl file, or it is cut off: it does not begin with \"solid\" as a text, and the numbers of triangles "
+                   "in it do not fit its {} bytes; write it anew",
+                   length));
   if (piece(stream, -1024, 1024).find("endsolid") == std::string::npos)
     fail(file, "is cut off: \"endsolid\" is missing at its end; write it anew");
 }
