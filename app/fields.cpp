@@ -18,15 +18,28 @@ bool wanted(const model::Deck& deck, const std::string& field)
   return std::find(fields.begin(), fields.end(), field) != fields.end();
 }
 
+// What is shown of a subdomain: of boundary elements the cells inside, if they were asked for.
+const mesh::Mesh& shown(const partition::Subdomain& subdomain, const post::Results& results)
+{
+  return subdomain.skin && !results.interior.nodes.empty() ? subdomain.inside : subdomain.mesh;
+}
+
+// Of a cell among those that are shown; bodies of boundary elements have one material.
+std::size_t block_of(const partition::Subdomain& subdomain, const post::Results& results, std::size_t s, std::size_t cell)
+{
+  return subdomain.skin || results.stress.cell_block.empty() ? 0 : static_cast<std::size_t>(results.stress.cell_block[s][cell]);
+}
+
 // The points of the volume's mesh: the nodes and, where stresses jump between materials, one for each material that meets there.
 // Point (n, k) of a subdomain stands at n * materials + k.
-std::vector<bool> points_of(const post::Results& results, const mesh::Mesh& mesh, std::size_t s, std::size_t materials)
+std::vector<bool> points_of(const partition::Subdomain& subdomain, const post::Results& results, std::size_t s,
+                            std::size_t materials)
 {
+  const auto& mesh = shown(subdomain, results);
   if (materials == 1) return std::vector<bool>(mesh.node_count(), true);
   std::vector<bool> used(mesh.node_count() * materials, false);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    for (const Local n : mesh.cells[c])
-      used[static_cast<std::size_t>(n) * materials + static_cast<std::size_t>(results.stress.cell_block[s][c])] = true;
+    for (const Local n : mesh.cells[c]) used[static_cast<std::size_t>(n) * materials + block_of(subdomain, results, s, c)] = true;
   return used;
 }
 
@@ -40,8 +53,8 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
   std::vector<Global> ids;
   std::vector<std::vector<bool>> used;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const auto& mesh = decomposition.subdomains[s].mesh;
-    used.push_back(points_of(results, mesh, s, materials));
+    const auto& mesh = shown(decomposition.subdomains[s], results);
+    used.push_back(points_of(decomposition.subdomains[s], results, s, materials));
     for (std::size_t i = 0; i < used[s].size(); ++i)
       if (used[s][i])
         ids.push_back(mesh.node_id[i / materials] * static_cast<Global>(materials) + static_cast<Global>(i % materials));
@@ -49,14 +62,15 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   const auto count = ids.size();
-  const auto dimension = static_cast<std::size_t>(decomposition.catalogue.dimension);
+  const int dimension = decomposition.catalogue.dimension;
   piece.points.resize(count);
   io::Field displacement{"displacement", 3, std::vector<double>(3 * count, 0.0)},
       von_mises{"von_mises", 1, std::vector<double>(count)}, stress{"stress", 6, std::vector<double>(6 * count)};
   io::Field cell_von_mises{"von_mises", 1, {}}, body{"body", 1, {}, true}, owner{"subdomain", 1, {}, true};
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
-    const auto& mesh = subdomain.mesh;
+    const auto& mesh = shown(subdomain, results);
+    const auto on_mesh = subdomain.mesh.node_count();  // the nodes after these are inside a skin
     const auto& nodal = materials == 1 ? results.stress.nodal[s] : results.stress.by_material[s];
     std::vector<Local> place(used[s].size(), -1);
     for (std::size_t i = 0; i < used[s].size(); ++i) {
@@ -66,19 +80,27 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
       const auto at = static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
       place[i] = static_cast<Local>(at);
       piece.points[at] = mesh.points[n];
-      for (std::size_t c = 0; c < dimension; ++c)
-        displacement.values[3 * at + c] = u[s][static_cast<Eigen::Index>(n * dimension + c)];
-      const fem::Stress own =
-          nodal.row(static_cast<Eigen::Index>(n)).segment(6 * static_cast<Eigen::Index>(block), 6).transpose();
+      const auto row = static_cast<Eigen::Index>(n < on_mesh ? n : n - on_mesh);
+      Point moved = Point::Zero();
+      fem::Stress own;
+      if (n < on_mesh) {
+        moved.head(dimension) = u[s].segment(dimension * row, dimension);
+        own = nodal.row(row).segment(6 * static_cast<Eigen::Index>(block), 6).transpose();
+      } else {
+        moved = results.interior.nodes[s].displacement.row(row).transpose();
+        own = results.interior.nodes[s].stress.row(row).transpose();
+      }
+      for (std::size_t c = 0; c < 3; ++c) displacement.values[3 * at + c] = moved[static_cast<Eigen::Index>(c)];
       von_mises.values[at] = fem::von_mises(own);
       for (std::size_t c = 0; c < 6; ++c) stress.values[6 * at + c] = own[static_cast<Eigen::Index>(c)];
     }
+    const auto& of_cells = &mesh == &subdomain.mesh ? results.stress.cell_von_mises[s] : results.interior.cell_von_mises[s];
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-      const auto block = materials == 1 ? 0 : static_cast<std::size_t>(results.stress.cell_block[s][c]);
+      const auto block = block_of(subdomain, results, s, c);
       std::vector<Local> nodes;
       for (const Local n : mesh.cells[c]) nodes.push_back(place[static_cast<std::size_t>(n) * materials + block]);
       piece.cells.add(mesh.cells.type[c], nodes);
-      cell_von_mises.values.push_back(results.stress.cell_von_mises[s][static_cast<Eigen::Index>(c)]);
+      cell_von_mises.values.push_back(of_cells[static_cast<Eigen::Index>(c)]);
       body.values.push_back(subdomain.body);
       owner.values.push_back(static_cast<double>(subdomain.id));
     }
@@ -159,6 +181,35 @@ std::vector<io::Table> node_tables(const partition::Decomposition& decomposition
   return tables;
 }
 
+// The nodes inside bodies of boundary elements; they have the numbers after all others.
+std::vector<io::Table> interior_tables(const partition::Decomposition& decomposition, const post::Results& results,
+                                       const Communicator& comm)
+{
+  Global mine = 0;
+  for (const auto& subdomain : decomposition.subdomains)
+    if (subdomain.skin) mine += static_cast<Global>(subdomain.inside.node_count() - subdomain.mesh.node_count());
+  const Global total = comm.sum(mine);
+  std::vector<io::Table> tables{
+      {"interior/points", "coordinates of the nodes inside bodies of boundary elements", 3, total, {}, {}},
+      {"interior/displacement", "displacement", 3, total, {}, {}},
+      {"interior/von_mises", "von Mises stress", 1, total, {}, {}},
+      {"interior/stress", "XX YY ZZ XY YZ XZ", 6, total, {}, {}}};
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    if (!subdomain.skin) continue;
+    const auto& [displacement, stress] = results.interior.nodes[s];
+    for (Eigen::Index i = 0; i < stress.rows(); ++i) {
+      const std::size_t n = subdomain.mesh.node_count() + static_cast<std::size_t>(i);
+      for (auto& table : tables) table.row.push_back(subdomain.inside.node_id[n] - decomposition.catalogue.node_count);
+      append(tables[0].values, subdomain.inside.points[n]);
+      append(tables[1].values, displacement.row(i).transpose());
+      tables[2].values.push_back(fem::von_mises(stress.row(i).transpose()));
+      for (Eigen::Index c = 0; c < 6; ++c) tables[3].values.push_back(stress(i, c));
+    }
+  }
+  return tables;
+}
+
 io::Table contact_table(const post::Results& results, const Communicator& comm)
 {
   const auto mine = static_cast<long long>(results.contact.points.size());
@@ -207,6 +258,8 @@ void FieldFiles::write(const partition::Decomposition& decomposition, const part
   auto tables = node_tables(decomposition, interface, state.displacement, results);
   tables.push_back(multiplier_table(problem, state.solved.solution.x));
   if (!pairs.empty()) tables.push_back(contact_table(results, comm));
+  if (!results.interior.nodes.empty())
+    for (auto& table : interior_tables(decomposition, results, comm)) tables.push_back(std::move(table));
   io::write_results(directory + (last ? "/results.h5" : fmt::format("/results.{}.h5", volume_.frames.size() + 1)), tables, comm);
   const auto put = [&](io::Series& series, const io::Piece& piece) {
     if (deck_.steps.empty())

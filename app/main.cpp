@@ -44,7 +44,7 @@ std::optional<ExitStatus> solve_load_steps(const model::Model& model, analysis::
     try {
       state = solver.solve(acts, std::move(state), report.observer(acts));
       if (report.gave_up(solver, *state, approach)) return {};
-      auto results = analysis::evaluate(assembly, solver, *state, context.comm);
+      auto results = analysis::evaluate(assembly, solver, *state, context);
       report.write(solver, *state, std::move(results), approach);
     } catch (const Error& error) {
       report.fail(error, approach);
@@ -63,7 +63,7 @@ ExitStatus solve(const CommandLine& command_line, const Context& context)
   auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
   if (deck.solver.programme.algorithm == "direct") decomposition = partition::whole_bodies(decomposition, context.comm);
   const auto on_surface = model::bodies_of_boundary_elements(deck, decomposition.catalogue);
-  decomposition = partition::skins(std::move(decomposition), on_surface, false, context.comm);
+  decomposition = partition::skins(std::move(decomposition), on_surface, deck.output.interior.cells, context.comm);
   report.mesh(decomposition);
   const auto resolved = model::resolve(deck, document, std::move(decomposition), context);
   report.resolution(resolved);
