@@ -4,19 +4,16 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
 #include "fem/stress.hpp"
+#include "interior.hpp"
+#include "io/files.hpp"
 #include "io/results.hpp"
 #include "io/vtk.hpp"
 
 namespace mortise {
 
 namespace {
-
-bool wanted(const model::Deck& deck, const std::string& field)
-{
-  const auto& fields = deck.output.fields;
-  return std::find(fields.begin(), fields.end(), field) != fields.end();
-}
 
 // What is shown of a subdomain: of boundary elements the cells inside, if they were asked for.
 const mesh::Mesh& shown(const partition::Subdomain& subdomain, const post::Results& results)
@@ -181,35 +178,6 @@ std::vector<io::Table> node_tables(const partition::Decomposition& decomposition
   return tables;
 }
 
-// The nodes inside bodies of boundary elements; they have the numbers after all others.
-std::vector<io::Table> interior_tables(const partition::Decomposition& decomposition, const post::Results& results,
-                                       const Communicator& comm)
-{
-  Global mine = 0;
-  for (const auto& subdomain : decomposition.subdomains)
-    if (subdomain.skin) mine += static_cast<Global>(subdomain.inside.node_count() - subdomain.mesh.node_count());
-  const Global total = comm.sum(mine);
-  std::vector<io::Table> tables{
-      {"interior/points", "coordinates of the nodes inside bodies of boundary elements", 3, total, {}, {}},
-      {"interior/displacement", "displacement", 3, total, {}, {}},
-      {"interior/von_mises", "von Mises stress", 1, total, {}, {}},
-      {"interior/stress", "XX YY ZZ XY YZ XZ", 6, total, {}, {}}};
-  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const auto& subdomain = decomposition.subdomains[s];
-    if (!subdomain.skin) continue;
-    const auto& [displacement, stress] = results.interior.nodes[s];
-    for (Eigen::Index i = 0; i < stress.rows(); ++i) {
-      const std::size_t n = subdomain.mesh.node_count() + static_cast<std::size_t>(i);
-      for (auto& table : tables) table.row.push_back(subdomain.inside.node_id[n] - decomposition.catalogue.node_count);
-      append(tables[0].values, subdomain.inside.points[n]);
-      append(tables[1].values, displacement.row(i).transpose());
-      tables[2].values.push_back(fem::von_mises(stress.row(i).transpose()));
-      for (Eigen::Index c = 0; c < 6; ++c) tables[3].values.push_back(stress(i, c));
-    }
-  }
-  return tables;
-}
-
 io::Table contact_table(const post::Results& results, const Communicator& comm)
 {
   const auto mine = static_cast<long long>(results.contact.points.size());
@@ -249,17 +217,21 @@ io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambd
 
 }  // namespace
 
+FieldFiles::FieldFiles(const model::Deck& deck) : deck_(deck), points_(point_header(deck))
+{
+  for (const auto& [name, plane] : deck.output.interior.planes) planes_.push_back({"plane." + name, {}});
+}
+
 void FieldFiles::write(const partition::Decomposition& decomposition, const partition::Interface& interface,
-                       const feti::DualProblem& problem, const analysis::StepState& state, const post::Results& results,
-                       bool last, const Communicator& comm)
+                       const feti::DualProblem& problem, const analysis::StepState& state, const post::Probes& probes,
+                       const post::Results& results, bool last, const Communicator& comm)
 {
   const auto& directory = deck_.output.directory;
   const auto& pairs = state.rows->pairs;
   auto tables = node_tables(decomposition, interface, state.displacement, results);
   tables.push_back(multiplier_table(problem, state.solved.solution.x));
   if (!pairs.empty()) tables.push_back(contact_table(results, comm));
-  if (!results.interior.nodes.empty())
-    for (auto& table : interior_tables(decomposition, results, comm)) tables.push_back(std::move(table));
+  for (auto& table : interior_tables(decomposition, probes, results, comm)) tables.push_back(std::move(table));
   io::write_results(directory + (last ? "/results.h5" : fmt::format("/results.{}.h5", volume_.frames.size() + 1)), tables, comm);
   const auto put = [&](io::Series& series, const io::Piece& piece) {
     if (deck_.steps.empty())
@@ -269,6 +241,13 @@ void FieldFiles::write(const partition::Decomposition& decomposition, const part
   };
   if (!pairs.empty()) put(contact_, contact_piece(pairs, results.contact.surfaces));
   put(volume_, volume_piece(deck_, decomposition, state.displacement, results));
+  for (std::size_t k = 0; k < planes_.size(); ++k)
+    put(planes_[k], plane_piece(deck_, decomposition, probes.planes[k], results.interior.planes[k]));
+  if (deck_.output.interior.points.empty()) return;
+  points_ += point_rows(deck_, decomposition.catalogue, state.rows->acts, probes, results.interior.points, comm);
+  collectively(comm, [&] {
+    if (comm.root()) io::write_text(directory + "/interior.csv", points_);
+  });
 }
 
 }  // namespace mortise

@@ -161,7 +161,8 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};
 }
 
-post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const Context& context)
+post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,
+                       const Context& context)
 {
   const auto& comm = context.comm;
   const auto& deck = assembly.deck();
@@ -176,9 +177,9 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
   const auto bodies = elastic_bodies(assembly, constitution);
   auto results = post::evaluate(equilibrium, bodies, comm);
   if (results.verdict.status == ExitStatus::no_equilibrium) throw Error(results.verdict.status, results.verdict.reason);
-  if (deck.output.interior.cells) {
+  if (deck.output.interior.any()) {
     const auto scope = context.timers.scope("interior");
-    results.interior = post::evaluate_interior(bodies, {true}, results.stress, comm);
+    results.interior = post::evaluate_interior(bodies, probes, state.displacement, results.stress, comm);
   }
   return results;
 }

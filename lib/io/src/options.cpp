@@ -1,5 +1,8 @@
 #include "io/options.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 namespace mortise::io {
 
 namespace {
@@ -19,12 +22,34 @@ void read_interior(Options& options, const YAML::Node& node, const std::string& 
 
 }  // namespace
 
+void describe(deck::Description<PlaneOptions>& d)
+{
+  d.help("A plane that cuts bodies.");
+  d.key("point", &PlaneOptions::point, "A point of it.").required();
+  d.key("normal", &PlaneOptions::normal, "Across it, of any length.").required();
+  d.key("size", &PlaneOptions::size,
+        "In bodies of boundary elements no edge of the section's triangles is longer; default: a fiftieth of the body's size.")
+      .positive();
+  d.check([](const PlaneOptions& plane, const std::string& path, deck::Document& document) {
+    if (plane.normal == std::array<double, 3>{0, 0, 0})
+      document.error(path + ".normal", "expected a direction, found a zero vector");
+  });
+}
+
 void describe(deck::Description<InteriorOptions>& d)
 {
   d.help("Displacements and stresses inside bodies.");
   d.key("cells", &InteriorOptions::cells,
         "Bodies of boundary elements are written with the cells of the mesh and values at all nodes, not with their surface "
         "alone.");
+  d.key("points", &InteriorOptions::points,
+        "Coordinates of points in or on bodies, of any method: displacement and stress there, in interior.csv and results.h5.");
+  d.key("planes", &InteriorOptions::planes, "Sections through all bodies by their names; plane.NAME.pvd shows the fields there.");
+  d.check([](const InteriorOptions& interior, const std::string& path, deck::Document& document) {
+    for (const auto& [name, plane] : interior.planes)
+      if (!std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; }))
+        document.error(path + ".planes." + name, "the name goes into file names: letters, digits, - and _ alone are for it");
+  });
 }
 
 void describe(deck::Description<Options>& d)

@@ -1,5 +1,7 @@
 #include "post/interior.hpp"
 
+#include <map>
+
 #include "bem/representation.hpp"
 #include "boundary_stress.hpp"
 #include "mesh/shape_functions.hpp"
@@ -47,9 +49,56 @@ Eigen::VectorXd von_mises_of_cells(const mesh::Cells& cells, const Eigen::Matrix
   return result;
 }
 
+// In a cell of finite elements.
+void interpolate(const ElasticBodies& bodies, const StressField& stress, const Eigen::VectorXd& displacement, const Place& place,
+                 Eigen::Index row, Values& values)
+{
+  const auto& cells = bodies.decomposition.subdomains[place.subdomain].mesh.cells;
+  const Eigen::Index d = bodies.decomposition.catalogue.dimension;
+  const auto& shape = mesh::shape_functions(cells.type[place.cell]);
+  Eigen::VectorXd weight(shape.count());
+  shape.evaluate(place.reference, weight);
+  const bool mixed = !stress.by_material.empty();
+  const auto& nodal = mixed ? stress.by_material[place.subdomain] : stress.nodal[place.subdomain];
+  const Eigen::Index first = mixed ? 6 * stress.cell_block[place.subdomain][place.cell] : 0;
+  for (Eigen::Index i = 0; i < weight.size(); ++i) {
+    const Local node = cells[place.cell][static_cast<std::size_t>(i)];
+    values.displacement.row(row).head(d) += weight[i] * displacement.segment(d * node, d).transpose();
+    values.stress.row(row) += weight[i] * nodal.row(node).segment(first, 6);
+  }
+}
+
+// At places of any subdomains of this rank.
+Values evaluate(const ElasticBodies& bodies, const StressField& stress, const std::vector<Eigen::VectorXd>& displacement,
+                const std::vector<Place>& places, Found& largest)
+{
+  const auto count = static_cast<Eigen::Index>(places.size());
+  Values result{Eigen::MatrixXd::Zero(count, 3), Eigen::MatrixXd::Zero(count, 6)};
+  std::map<std::size_t, std::vector<Eigen::Index>> represented;  // of each subdomain of boundary elements
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& place = places[static_cast<std::size_t>(i)];
+    if (bodies.decomposition.subdomains[place.subdomain].skin)
+      represented[place.subdomain].push_back(i);
+    else
+      interpolate(bodies, stress, displacement[place.subdomain], place, i, result);
+  }
+  for (const auto& [s, rows] : represented) {
+    std::vector<Point> points;
+    for (const auto row : rows) points.push_back(places[static_cast<std::size_t>(row)].at);
+    const auto values = represent(bodies, stress, s, points);
+    take_largest(values, points, largest);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      result.displacement.row(rows[i]) = values.displacement.row(static_cast<Eigen::Index>(i));
+      result.stress.row(rows[i]) = values.stress.row(static_cast<Eigen::Index>(i));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
-Interior evaluate_interior(const ElasticBodies& bodies, const Probes& probes, StressField& stress, const Communicator& comm)
+Interior evaluate_interior(const ElasticBodies& bodies, const Probes& probes, const std::vector<Eigen::VectorXd>& displacement,
+                           StressField& stress, const Communicator& comm)
 {
   const auto& subdomains = bodies.decomposition.subdomains;
   Interior result;
@@ -69,6 +118,10 @@ Interior evaluate_interior(const ElasticBodies& bodies, const Probes& probes, St
       result.cell_von_mises[s] = von_mises_of_cells(inside.cells, nodal);
     }
   }
+  std::vector<Place> places;
+  for (const auto& point : probes.points) places.push_back(point.place);
+  result.points = evaluate(bodies, stress, displacement, places, largest);
+  for (const auto& plane : probes.planes) result.planes.push_back(evaluate(bodies, stress, displacement, plane.places, largest));
   stress.largest_von_mises = largest_of_ranks({largest}, comm).front();
   return result;
 }
