@@ -4,7 +4,10 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
 #include "fem/stress.hpp"
+#include "interior.hpp"
+#include "io/files.hpp"
 #include "io/results.hpp"
 #include "io/vtk.hpp"
 
@@ -12,21 +15,28 @@ namespace mortise {
 
 namespace {
 
-bool wanted(const model::Deck& deck, const std::string& field)
+// What is shown of a subdomain: of boundary elements the cells inside, if they were asked for.
+const mesh::Mesh& shown(const partition::Subdomain& subdomain, const post::Results& results)
 {
-  const auto& fields = deck.output.fields;
-  return std::find(fields.begin(), fields.end(), field) != fields.end();
+  return subdomain.skin && !results.interior.nodes.empty() ? subdomain.inside : subdomain.mesh;
+}
+
+// Of a cell among those that are shown; bodies of boundary elements have one material.
+std::size_t block_of(const partition::Subdomain& subdomain, const post::Results& results, std::size_t s, std::size_t cell)
+{
+  return subdomain.skin || results.stress.cell_block.empty() ? 0 : static_cast<std::size_t>(results.stress.cell_block[s][cell]);
 }
 
 // The points of the volume's mesh: the nodes and, where stresses jump between materials, one for each material that meets there.
 // Point (n, k) of a subdomain stands at n * materials + k.
-std::vector<bool> points_of(const post::Results& results, const mesh::Mesh& mesh, std::size_t s, std::size_t materials)
+std::vector<bool> points_of(const partition::Subdomain& subdomain, const post::Results& results, std::size_t s,
+                            std::size_t materials)
 {
+  const auto& mesh = shown(subdomain, results);
   if (materials == 1) return std::vector<bool>(mesh.node_count(), true);
   std::vector<bool> used(mesh.node_count() * materials, false);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    for (const Local n : mesh.cells[c])
-      used[static_cast<std::size_t>(n) * materials + static_cast<std::size_t>(results.stress.cell_block[s][c])] = true;
+    for (const Local n : mesh.cells[c]) used[static_cast<std::size_t>(n) * materials + block_of(subdomain, results, s, c)] = true;
   return used;
 }
 
@@ -40,8 +50,8 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
   std::vector<Global> ids;
   std::vector<std::vector<bool>> used;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const auto& mesh = decomposition.subdomains[s].mesh;
-    used.push_back(points_of(results, mesh, s, materials));
+    const auto& mesh = shown(decomposition.subdomains[s], results);
+    used.push_back(points_of(decomposition.subdomains[s], results, s, materials));
     for (std::size_t i = 0; i < used[s].size(); ++i)
       if (used[s][i])
         ids.push_back(mesh.node_id[i / materials] * static_cast<Global>(materials) + static_cast<Global>(i % materials));
@@ -49,14 +59,15 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   const auto count = ids.size();
-  const auto dimension = static_cast<std::size_t>(decomposition.catalogue.dimension);
+  const int dimension = decomposition.catalogue.dimension;
   piece.points.resize(count);
   io::Field displacement{"displacement", 3, std::vector<double>(3 * count, 0.0)},
       von_mises{"von_mises", 1, std::vector<double>(count)}, stress{"stress", 6, std::vector<double>(6 * count)};
   io::Field cell_von_mises{"von_mises", 1, {}}, body{"body", 1, {}, true}, owner{"subdomain", 1, {}, true};
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
-    const auto& mesh = subdomain.mesh;
+    const auto& mesh = shown(subdomain, results);
+    const auto on_mesh = subdomain.mesh.node_count();  // the nodes after these are inside a skin
     const auto& nodal = materials == 1 ? results.stress.nodal[s] : results.stress.by_material[s];
     std::vector<Local> place(used[s].size(), -1);
     for (std::size_t i = 0; i < used[s].size(); ++i) {
@@ -66,19 +77,27 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
       const auto at = static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
       place[i] = static_cast<Local>(at);
       piece.points[at] = mesh.points[n];
-      for (std::size_t c = 0; c < dimension; ++c)
-        displacement.values[3 * at + c] = u[s][static_cast<Eigen::Index>(n * dimension + c)];
-      const fem::Stress own =
-          nodal.row(static_cast<Eigen::Index>(n)).segment(6 * static_cast<Eigen::Index>(block), 6).transpose();
+      const auto row = static_cast<Eigen::Index>(n < on_mesh ? n : n - on_mesh);
+      Point moved = Point::Zero();
+      fem::Stress own;
+      if (n < on_mesh) {
+        moved.head(dimension) = u[s].segment(dimension * row, dimension);
+        own = nodal.row(row).segment(6 * static_cast<Eigen::Index>(block), 6).transpose();
+      } else {
+        moved = results.interior.nodes[s].displacement.row(row).transpose();
+        own = results.interior.nodes[s].stress.row(row).transpose();
+      }
+      for (std::size_t c = 0; c < 3; ++c) displacement.values[3 * at + c] = moved[static_cast<Eigen::Index>(c)];
       von_mises.values[at] = fem::von_mises(own);
       for (std::size_t c = 0; c < 6; ++c) stress.values[6 * at + c] = own[static_cast<Eigen::Index>(c)];
     }
+    const auto& of_cells = &mesh == &subdomain.mesh ? results.stress.cell_von_mises[s] : results.interior.cell_von_mises[s];
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-      const auto block = materials == 1 ? 0 : static_cast<std::size_t>(results.stress.cell_block[s][c]);
+      const auto block = block_of(subdomain, results, s, c);
       std::vector<Local> nodes;
       for (const Local n : mesh.cells[c]) nodes.push_back(place[static_cast<std::size_t>(n) * materials + block]);
       piece.cells.add(mesh.cells.type[c], nodes);
-      cell_von_mises.values.push_back(results.stress.cell_von_mises[s][static_cast<Eigen::Index>(c)]);
+      cell_von_mises.values.push_back(of_cells[static_cast<Eigen::Index>(c)]);
       body.values.push_back(subdomain.body);
       owner.values.push_back(static_cast<double>(subdomain.id));
     }
@@ -198,15 +217,21 @@ io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambd
 
 }  // namespace
 
+FieldFiles::FieldFiles(const model::Deck& deck) : deck_(deck), points_(point_header(deck))
+{
+  for (const auto& [name, plane] : deck.output.interior.planes) planes_.push_back({"plane." + name, {}});
+}
+
 void FieldFiles::write(const partition::Decomposition& decomposition, const partition::Interface& interface,
-                       const feti::DualProblem& problem, const analysis::StepState& state, const post::Results& results,
-                       bool last, const Communicator& comm)
+                       const feti::DualProblem& problem, const analysis::StepState& state, const post::Probes& probes,
+                       const post::Results& results, bool last, const Communicator& comm)
 {
   const auto& directory = deck_.output.directory;
   const auto& pairs = state.rows->pairs;
   auto tables = node_tables(decomposition, interface, state.displacement, results);
   tables.push_back(multiplier_table(problem, state.solved.solution.x));
   if (!pairs.empty()) tables.push_back(contact_table(results, comm));
+  for (auto& table : interior_tables(decomposition, probes, results, comm)) tables.push_back(std::move(table));
   io::write_results(directory + (last ? "/results.h5" : fmt::format("/results.{}.h5", volume_.frames.size() + 1)), tables, comm);
   const auto put = [&](io::Series& series, const io::Piece& piece) {
     if (deck_.steps.empty())
@@ -216,6 +241,13 @@ void FieldFiles::write(const partition::Decomposition& decomposition, const part
   };
   if (!pairs.empty()) put(contact_, contact_piece(pairs, results.contact.surfaces));
   put(volume_, volume_piece(deck_, decomposition, state.displacement, results));
+  for (std::size_t k = 0; k < planes_.size(); ++k)
+    put(planes_[k], plane_piece(deck_, decomposition, probes.planes[k], results.interior.planes[k]));
+  if (deck_.output.interior.points.empty()) return;
+  points_ += point_rows(deck_, decomposition.catalogue, state.rows->acts, probes, results.interior.points, comm);
+  collectively(comm, [&] {
+    if (comm.root()) io::write_text(directory + "/interior.csv", points_);
+  });
 }
 
 }  // namespace mortise

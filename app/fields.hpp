@@ -6,19 +6,22 @@
 
 namespace mortise {
 
-/// The files of one state after the other: solution.pvd, contact.pvd and results.h5. With load steps each state has its own
-/// pieces and tables, solution.1_0.vtu or results.1.h5, but for the last tables, which are results.h5.
+/// The files of one state after the other: solution.pvd, contact.pvd and results.h5, and what the deck asks for inside bodies,
+/// interior.csv and plane.NAME.pvd. With load steps each state has its own pieces and tables, solution.1_0.vtu or results.1.h5,
+/// but for the last tables, which are results.h5, and interior.csv.
 class FieldFiles {
  public:
-  explicit FieldFiles(const model::Deck& deck) : deck_(deck) {}
+  explicit FieldFiles(const model::Deck& deck);
   /// Collective.
   void write(const partition::Decomposition& decomposition, const partition::Interface& interface,
-             const feti::DualProblem& problem, const analysis::StepState& state, const post::Results& results, bool last,
-             const Communicator& comm);
+             const feti::DualProblem& problem, const analysis::StepState& state, const post::Probes& probes,
+             const post::Results& results, bool last, const Communicator& comm);
 
  private:
   const model::Deck& deck_;
   io::Series volume_{"solution", {}}, contact_{"contact", {}};
+  std::vector<io::Series> planes_;
+  std::string points_;  // interior.csv so far
 };
 
 }  // namespace mortise

@@ -9,6 +9,7 @@
 #include "analysis/checks.hpp"
 #include "analysis/load_step_solver.hpp"
 #include "analysis/memory.hpp"
+#include "analysis/probes.hpp"
 #include "deck_file.hpp"
 #include "model/resolution.hpp"
 #include "partition/decompose.hpp"
@@ -22,12 +23,12 @@ namespace {
 using namespace mortise;
 
 // From constraint rows to files, for all load steps; nothing if the approach gave up.
-std::optional<ExitStatus> solve_load_steps(const model::Model& model, analysis::Approach& approach, Report& report,
-                                           const Context& context)
+std::optional<ExitStatus> solve_load_steps(const model::Model& model, const post::Probes& probes, analysis::Approach& approach,
+                                           Report& report, const Context& context)
 {
   const auto states = model::load_states(model.deck(), model.contacts());
   auto rows = analysis::make_rows(model, states.front(), {}, context);
-  report.rows(model, rows, states.size(), approach);
+  report.rows(model, rows, probes, states.size(), approach);
   const auto copies = model.congruent();
   const auto memory = analysis::foresee_memory(model, copies, context.comm);
   report.memory(model, rows, memory);
@@ -44,8 +45,8 @@ std::optional<ExitStatus> solve_load_steps(const model::Model& model, analysis::
     try {
       state = solver.solve(acts, std::move(state), report.observer(acts));
       if (report.gave_up(solver, *state, approach)) return {};
-      auto results = analysis::evaluate(assembly, solver, *state, context.comm);
-      report.write(solver, *state, std::move(results), approach);
+      auto results = analysis::evaluate(assembly, solver, *state, probes, context);
+      report.write(solver, *state, probes, std::move(results), approach);
     } catch (const Error& error) {
       report.fail(error, approach);
     }
@@ -63,7 +64,7 @@ ExitStatus solve(const CommandLine& command_line, const Context& context)
   auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
   if (deck.solver.programme.algorithm == "direct") decomposition = partition::whole_bodies(decomposition, context.comm);
   const auto on_surface = model::bodies_of_boundary_elements(deck, decomposition.catalogue);
-  decomposition = partition::skins(std::move(decomposition), on_surface, false, context.comm);
+  decomposition = partition::skins(std::move(decomposition), on_surface, deck.output.interior.any(), context.comm);
   report.mesh(decomposition);
   const auto resolved = model::resolve(deck, document, std::move(decomposition), context);
   report.resolution(resolved);
@@ -71,7 +72,8 @@ ExitStatus solve(const CommandLine& command_line, const Context& context)
   const auto attempt = [&](const partition::Decomposition& bodies, analysis::Approach& approach) {
     const model::Model model(deck, resolved.contacts, bodies);
     model.require_fit(document, context.comm);
-    return solve_load_steps(model, approach, report, context);
+    const auto probes = analysis::find_probes(model, document, context.comm);
+    return solve_load_steps(model, probes, approach, report, context);
   };
   return analysis::try_approaches(deck, resolved.decomposition, attempt, context);
 }

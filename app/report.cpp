@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/checks.hpp"
+#include "analysis/probes.hpp"
 #include "base/interruption.hpp"
 #include "initial_gaps.hpp"
 #include "io/files.hpp"
@@ -50,7 +51,8 @@ void Report::resolution(const model::Resolution& resolved)
   if (directory_) directory_->clear();
 }
 
-void Report::rows(const model::Model& model, const analysis::Rows& first, std::size_t states, const analysis::Approach& approach)
+void Report::rows(const model::Model& model, const analysis::Rows& first, const post::Probes& probes, std::size_t states,
+                  const analysis::Approach& approach)
 {
   auto& [comm, log, timers] = context_;
   states_ = states;
@@ -60,6 +62,7 @@ void Report::rows(const model::Model& model, const analysis::Rows& first, std::s
   if (approach.kind == Kind::as_asked) {
     end_stage("supports and contact", "contact");
     for (auto& warning : analysis::check_model(model, first, comm)) warnings_.report(std::move(warning), log);
+    for (auto& warning : analysis::idle_planes(deck_, probes, comm)) warnings_.report(std::move(warning), log);
     for (auto& warning : report_initial_gaps(first.initial_gaps, model.contacts(), command_line_.check, log))
       warnings_.report(std::move(warning), log);
     analysis::check_unconstrained_bodies(model, first, context_, warnings_);
@@ -99,8 +102,8 @@ bool Report::gave_up(const analysis::LoadStepSolver& solver, const analysis::Ste
   return true;
 }
 
-void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepState& state, post::Results results,
-                   const analysis::Approach& approach)
+void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepState& state, const post::Probes& probes,
+                   post::Results results, const analysis::Approach& approach)
 {
   const auto& comm = context_.comm;
   const auto& model = assembly_->model();
@@ -113,7 +116,7 @@ void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepS
   warnings_.add(analysis::check_results(model, state, results, comm));
   {
     const auto scope = context_.timers.scope("output");
-    files_->write(assembly_->decomposition(), assembly_->interface(), solver.problem(), state, results,
+    files_->write(assembly_->decomposition(), assembly_->interface(), solver.problem(), state, probes, results,
                   index_ == states_ || !summary.converged, comm);
     collectively(comm, [&] {
       if (!comm.root()) return;

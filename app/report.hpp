@@ -35,7 +35,8 @@ class Report {
 
   /// An approach begins: the functions from here on are called again for the next one. Throws Error(no_equilibrium), see
   /// analysis::check_unconstrained_bodies.
-  void rows(const model::Model& model, const analysis::Rows& first, std::size_t states, const analysis::Approach& approach);
+  void rows(const model::Model& model, const analysis::Rows& first, const post::Probes& probes, std::size_t states,
+            const analysis::Approach& approach);
   void memory(const model::Model& model, const analysis::Rows& first, const analysis::Memory& memory);
   void assembly(const analysis::Assembly& assembly, const std::vector<partition::CopyOf>& copies);
 
@@ -44,8 +45,8 @@ class Report {
   /// The solver has come to an end with this state. True if it gave up.
   bool gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state, const analysis::Approach& approach);
   /// The files of a state, which has been evaluated.
-  void write(const analysis::LoadStepSolver& solver, const analysis::StepState& state, post::Results results,
-             const analysis::Approach& approach);
+  void write(const analysis::LoadStepSolver& solver, const analysis::StepState& state, const post::Probes& probes,
+             post::Results results, const analysis::Approach& approach);
   /// A load step failed: leaves the results of those before, and throws the error, which names the load step then.
   [[noreturn]] void fail(const Error& error, const analysis::Approach& approach);
   /// Whether another load step is to be solved after the one that was written.

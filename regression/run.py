@@ -4,6 +4,8 @@
     run.py MORTISE DECK --ranks N [--mpiexec MPIEXEC] [--set key=value ...]   compare with the stored results
     run.py MORTISE DECK --ranks N --update                                                 store the results of this run
 
+Quantities are those of summary.json; interior.4.szz is that of the fifth row of interior.csv.
+
 A deck NAME.yaml has its expectations beside it in NAME.expected.json, or in the file that --expected names:
 
     {"quantities": {"strain_energy": {"value": 1.25, "relative": 1e-3}, "contacts.0.force.2": {"value": -50, "absolute": 1e-2},
@@ -18,6 +20,7 @@ Every quantity has a tolerance of its own: without one there is no test. Whateve
 they hold whichever way the solver went.
 """
 import argparse
+import csv
 import json
 import os
 import pathlib
@@ -28,6 +31,17 @@ import tempfile
 
 # Limits of summary.json's residuals for a deck solved to 1e-6, a hundred times looser than what such decks reach.
 RESIDUALS = {"projected_gradient": 1e-6, "equality": 1e-6, "equilibrium": 1e-8, "penetration": 1e-4, "complementarity": 1e-4}
+
+
+def read_summary(directory):
+    """summary.json, with the rows of interior.csv."""
+    summary = json.loads((directory / "summary.json").read_text())
+    points = directory / "interior.csv"
+    if points.exists():
+        with points.open(newline="") as lines:
+            summary["interior"] = [{key: value if key in ("body", "step") else float(value) for key, value in row.items()}
+                                   for row in csv.DictReader(lines)]
+    return summary
 
 
 def look_up(summary, path):
@@ -112,7 +126,7 @@ def main():
             complaints.append(f"exit status {done.returncode}, expected {status}")
         summary_file = directory / "summary.json"
         if status in (0, 2) and summary_file.exists():
-            summary = json.loads(summary_file.read_text())
+            summary = read_summary(directory)
             if arguments.update:
                 for path, quantity in expected["quantities"].items():
                     if "most" in quantity:

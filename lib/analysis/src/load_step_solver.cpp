@@ -161,8 +161,10 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};
 }
 
-post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const Communicator& comm)
+post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,
+                       const Context& context)
 {
+  const auto& comm = context.comm;
   const auto& deck = assembly.deck();
   const auto constitution = assembly.model().constitution(state.rows->acts);
   const post::Equilibrium equilibrium{solver.problem(),
@@ -172,8 +174,13 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
                                       state.displacement,
                                       deck.supports.size(),
                                       deck.solver.programme.tolerance.value.value_or(0)};
-  auto results = post::evaluate(equilibrium, elastic_bodies(assembly, constitution), comm);
+  const auto bodies = elastic_bodies(assembly, constitution);
+  auto results = post::evaluate(equilibrium, bodies, comm);
   if (results.verdict.status == ExitStatus::no_equilibrium) throw Error(results.verdict.status, results.verdict.reason);
+  if (deck.output.interior.any()) {
+    const auto scope = context.timers.scope("interior");
+    results.interior = post::evaluate_interior(bodies, probes, state.displacement, results.stress, comm);
+  }
   return results;
 }
 

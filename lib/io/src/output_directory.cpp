@@ -32,7 +32,7 @@ constexpr const char* old_summary_name = "summary.old.json";
 bool is_ours(const fs::path& path)
 {
   static const std::regex names(
-      R"(((solution|contact)(\.\d+)?(_\d+)?\.(vtu|pvtu|pvd)|results(\.\d+)?\.h5|history\.csv|deck\.yaml|summary(\.old)?\.json)(\.part)?)");
+      R"(((solution|contact|plane\.[\w-]+)(\.\d+)?(_\d+)?\.(vtu|pvtu|pvd)|results(\.\d+)?\.h5|(history|interior)\.csv|deck\.yaml|summary(\.old)?\.json)(\.part)?)");
   return std::regex_match(path.filename().string(), names);
 }
 

@@ -60,9 +60,11 @@ TEST(OutputDirectory, WhatAnEarlierRunLeftIsRemovedAndNothingElse)
 {
   const Communicator comm;
   const Scratch scratch(comm);
-  const Names theirs{"notes.txt", "solution_final.vtu", "my_solution.pvd", "summary.json.bak", "x.part", "results.h5.old"};
+  const Names theirs{"notes.txt", "solution_final.vtu", "my_solution.pvd", "summary.json.bak",
+                     "plane.vtu", "planes.pvd",         "x.part",          "results.h5.old"};
   for (const char* name : {"solution.pvd", "solution.pvtu", "solution_0.vtu", "solution_6.vtu", "contact.pvd", "contact_6.vtu",
-                           "results.h5", "results.12.h5", "history.csv", "deck.yaml", "summary.json", "results.h5.part"})
+                           "plane.mid.pvd", "plane.mid_2.vtu", "plane.a-b.3_0.vtu", "interior.csv", "results.h5", "results.12.h5",
+                           "history.csv", "deck.yaml", "summary.json", "results.h5.part"})
     put(scratch / name, "old", comm);
   for (const auto& name : theirs) put(scratch / name, "mine", comm);
   {

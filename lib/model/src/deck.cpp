@@ -149,6 +149,16 @@ void check_vectors(const Deck& deck, deck::Document& document)
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
     if (deck.supports[i].displacement[2])
       document.error(fmt::format("supports[{}].displacement.z", i), "a plane model has no z component");
+  const auto& interior = deck.output.interior;
+  for (std::size_t i = 0; i < interior.points.size(); ++i) flat(interior.points[i], fmt::format("output.interior.points[{}]", i));
+  if (!interior.planes.empty()) document.error("output.interior.planes", "sections are for models of dimension 3");
+  for (const auto& [name, body] : deck.bodies)
+    if (interior.any() && body.method == fem::Method::boundary_elements)
+      document.error(
+          "output.interior",
+          fmt::format("the inside of boundary elements, of the body \"{}\", is evaluated in models of dimension 3 alone; "
+                      "take its `method: finite_elements`",
+                      name));
 }
 
 }  // namespace

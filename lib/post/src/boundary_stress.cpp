@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "bem/particular_solution.hpp"
 #include "bem/steklov_poincare.hpp"
 #include "bem/stress_recovery.hpp"
 #include "bem/surface_stress.hpp"
@@ -12,11 +11,6 @@ namespace mortise::post {
 
 namespace {
 
-bem::ParticularSolution particular_solution(const ElasticBodies& bodies, std::size_t s)
-{
-  return {bodies.constitution[s], bodies.decomposition.subdomains[s].mesh.points.front()};
-}
-
 // The vectors of all nodes or panels, 3 each, rotated.
 void rotate(const Eigen::Matrix3d& rotation, Eigen::Ref<Eigen::VectorXd> v)
 {
@@ -24,6 +18,11 @@ void rotate(const Eigen::Matrix3d& rotation, Eigen::Ref<Eigen::VectorXd> v)
 }
 
 }  // namespace
+
+bem::ParticularSolution particular_solution(const ElasticBodies& bodies, std::size_t subdomain)
+{
+  return {bodies.constitution[subdomain], bodies.decomposition.subdomains[subdomain].mesh.points.front()};
+}
 
 std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement)
 {
@@ -65,6 +64,7 @@ std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const
         own.stress.row(row) +=
             particular.stress((panels.corner(p, 0) + panels.corner(p, 1) + panels.corner(p, 2)) / 3).transpose();
       }
+      own.surface = {u.col(column), t.col(column)};
     }
   }
   return result;

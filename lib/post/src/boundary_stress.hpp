@@ -1,6 +1,7 @@
 // Stresses of subdomains of boundary elements: at their surfaces, from displacements and the tractions that belong to them.
 #pragma once
 
+#include "bem/particular_solution.hpp"
 #include "post/stress_recovery.hpp"
 
 namespace mortise::post {
@@ -10,7 +11,11 @@ struct BoundaryStress {
   Eigen::MatrixXd nodal_sums;  ///< nodes x 7 blocks, weighted with the panels' areas
   Eigen::MatrixXd stress;      ///< panels x 6
   Eigen::MatrixXd traction;    ///< panels x 3
+  SurfaceField surface;
 };
+
+/// Of weight and temperature of a subdomain of boundary elements.
+bem::ParticularSolution particular_solution(const ElasticBodies& bodies, std::size_t subdomain);
 
 /// Of every subdomain of this rank; empty where it is made of finite elements. Copies are solved together.
 std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement);

@@ -15,6 +15,7 @@ constexpr double assumed_error = 0.01;  // of boundary elements, of their part o
 struct Recovered {
   std::vector<Eigen::MatrixXd> nodal;  // nodes x 6 blocks
   std::vector<Eigen::VectorXd> cell_von_mises;
+  std::vector<SurfaceField> surface;
   double squared_error = 0;  // of all ranks
   double strain_energy = 0;  // of all ranks
   std::vector<Found> worst_cell;
@@ -86,6 +87,7 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
         worst = {errors[c], centre(mesh, static_cast<std::size_t>(c))};
     result.nodal[s] = std::move(stress);
   }
+  for (auto& found : boundary) result.surface.push_back(std::move(found.surface));
   result.squared_error = comm.sum(result.squared_error);
   result.strain_energy = comm.sum(result.strain_energy);
   return result;
@@ -131,6 +133,7 @@ StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen:
   }
   field.largest_von_mises = largest_of_ranks({largest}, comm).front();
   field.cell_von_mises = std::move(recovered.cell_von_mises);
+  field.surface = std::move(recovered.surface);
   field.strain_energy = recovered.strain_energy;
   field.squared_error = recovered.squared_error;
   field.worst_cell = std::move(recovered.worst_cell);

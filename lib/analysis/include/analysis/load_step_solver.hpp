@@ -55,7 +55,9 @@ class LoadStepSolver {
   int before_ = 0;                          // products of the solvers and approaches before this one
 };
 
-/// What there is to know of a state that solver.solve() returned last. Throws Error(no_equilibrium) if it is none. Collective.
-post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const Communicator& comm);
+/// What there is to know of a state that solver.solve() returned last, also inside bodies where `probes` are. Throws
+/// Error(no_equilibrium) if it is none. Collective.
+post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,
+                       const Context& context);
 
 }  // namespace mortise::analysis

@@ -4,6 +4,7 @@
 #include "friction/friction.hpp"
 #include "post/balance.hpp"
 #include "post/contact_results.hpp"
+#include "post/interior.hpp"
 #include "post/strength.hpp"
 #include "post/stress_recovery.hpp"
 #include "post/verdict.hpp"
@@ -13,6 +14,7 @@ namespace mortise::post {
 struct Results {
   double max_displacement = 0;
   StressField stress;
+  Interior interior;  ///< see evaluate_interior()
   ContactResults contact;
   std::vector<std::array<double, 3>> reactions;  ///< of each support
   Balance balance;

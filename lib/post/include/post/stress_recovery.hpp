@@ -31,6 +31,12 @@ struct ElasticBodies {
   std::span<const std::shared_ptr<const feti::SubdomainOperator>> operators = {};
 };
 
+/// What the inside of a subdomain of boundary elements follows from: displacements (3 n) and tractions (3 m) of its surface, less
+/// those of its particular solution.
+struct SurfaceField {
+  Eigen::VectorXd displacement, traction;
+};
+
 /// Fields of each subdomain of this rank, in the deck's unit of stress, and sums over all ranks.
 struct StressField {
   std::vector<Eigen::MatrixXd> nodal;  ///< nodes x 6, recovered inside the body
@@ -39,11 +45,12 @@ struct StressField {
   std::vector<Eigen::MatrixXd> by_material;
   std::vector<std::vector<int>> cell_block;
   std::vector<Eigen::VectorXd> nodal_von_mises, cell_von_mises;
-  Found largest_von_mises;         ///< of all nodes
-  double strain_energy = 0;        ///< of the elastic strain
-  double squared_error = 0;        ///< estimated, in the energy norm
-  std::vector<Found> worst_cell;   ///< of each body: the largest squared error of a cell of this rank, at the cell's centre
-  std::vector<double> body_error;  ///< of each body: its part of the squared error on this rank
+  std::vector<SurfaceField> surface;  ///< of boundary elements; else empty
+  Found largest_von_mises;            ///< of all nodes
+  double strain_energy = 0;           ///< of the elastic strain
+  double squared_error = 0;           ///< estimated, in the energy norm
+  std::vector<Found> worst_cell;      ///< of each body: the largest squared error of a cell of this rank, at the cell's centre
+  std::vector<double> body_error;     ///< of each body: its part of the squared error on this rank
 };
 
 /// `displacement`: of each subdomain. Collective.

@@ -1,0 +1,54 @@
+// Points inside bodies, and which cells they lie in.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "fem/options.hpp"
+#include "partition/decomposition.hpp"
+
+namespace mortise::post {
+
+/// A point in a subdomain.
+struct Place {
+  std::size_t subdomain;      ///< of this rank
+  std::size_t cell;           ///< of solid()
+  Eigen::Vector3d reference;  ///< coordinates in the cell
+  Point at;
+};
+
+/// The cells that a subdomain is made of; of boundary elements those that its skin encloses, if they were kept.
+inline const mesh::Mesh& solid(const partition::Subdomain& subdomain)
+{
+  return subdomain.skin ? subdomain.inside : subdomain.mesh;
+}
+
+/// A point in a body, on this rank.
+struct PointInBody {
+  std::size_t point;
+  Global row;  ///< counts points and, where one lies in several bodies, these, in the order of the catalogue
+  int body;
+  Place place;
+};
+
+/// A point in no body, and the node that is nearest to it.
+struct LostPoint {
+  std::size_t point;
+  double distance;
+  int body;
+};
+
+struct FoundPoints {
+  std::vector<PointInBody> mine;
+  Global rows = 0;              ///< on all ranks
+  std::vector<LostPoint> lost;  ///< the same on every rank
+};
+
+/// Each of `points`, the same on every rank, in each body that it lies in, to 1e-6 of the body's size. One that lies in none is
+/// taken to lie on the surface of the nearest body if that is not farther than 5 % of the diagonal of the cell there: so far
+/// curved surfaces and their meshes may be apart. Where subdomains meet, it lies in the first of them. Collective.
+FoundPoints find_points(const partition::Decomposition& decomposition, fem::Kinematics kinematics, std::span<const Point> points,
+                        const Communicator& comm);
+
+}  // namespace mortise::post

@@ -1,0 +1,119 @@
+#include "post/places.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "mesh/inverse_map.hpp"
+#include "post/bodies.hpp"
+
+namespace mortise::post {
+
+namespace {
+
+constexpr double on_surface = 1e-6;       // of a body's size
+constexpr double off_the_mesh = 0.05;     // of a cell's diagonal
+constexpr double beyond_the_nodes = 0.1;  // of a cell's diagonal, how far curved cells may reach
+
+struct Candidate {
+  double distance = std::numeric_limits<double>::infinity();  // 0 if the point lies in the body
+  Place place;
+};
+
+// The candidates of this rank, by point and body.
+std::map<std::pair<std::size_t, int>, Candidate> candidates(const partition::Decomposition& decomposition,
+                                                            const std::vector<double>& sizes, std::span<const Point> points)
+{
+  std::vector<std::size_t> by_x(points.size());
+  std::iota(by_x.begin(), by_x.end(), std::size_t{0});
+  std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) { return points[a][0] < points[b][0]; });
+  std::map<std::pair<std::size_t, int>, Candidate> result;
+  std::vector<Point> nodes;
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& mesh = solid(decomposition.subdomains[s]);
+    const int body = decomposition.subdomains[s].body;
+    const double within = on_surface * sizes[static_cast<std::size_t>(body)];
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      nodes.clear();
+      for (const Local n : mesh.cells[c]) nodes.push_back(mesh.points[static_cast<std::size_t>(n)]);
+      Point low = nodes.front(), high = low;
+      for (const auto& p : nodes) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+      }
+      const double diagonal = (high - low).norm(), margin = std::max(beyond_the_nodes * diagonal, within);
+      low.array() -= margin;
+      high.array() += margin;
+      auto i = std::lower_bound(by_x.begin(), by_x.end(), low[0], [&](std::size_t p, double x) { return points[p][0] < x; });
+      for (; i != by_x.end() && points[*i][0] <= high[0]; ++i) {
+        const Point& x = points[*i];
+        if ((x.array() < low.array()).any() || (x.array() > high.array()).any()) continue;
+        const auto [reference, distance] = mesh::find_in_cell(mesh.cells.type[c], nodes, x);
+        if (!(distance <= std::max(within, off_the_mesh * diagonal))) continue;
+        auto& best = result[{*i, body}];
+        if (const double counts = distance <= within ? 0 : distance; counts < best.distance)
+          best = {counts, {s, c, reference, x}};
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+FoundPoints find_points(const partition::Decomposition& decomposition, fem::Kinematics kinematics, std::span<const Point> points,
+                        const Communicator& comm)
+{
+  const auto mine = candidates(decomposition, body_sizes(decomposition, kinematics, comm), points);
+  struct Entry {
+    std::size_t point;
+    double distance;
+    Global subdomain;
+    int body;
+  };
+  std::vector<Entry> entries;
+  for (const auto& [key, best] : mine)
+    entries.push_back({key.first, best.distance, decomposition.subdomains[best.place.subdomain].id, key.second});
+  entries = comm.all_gather(entries);
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::tie(a.point, a.distance, a.body, a.subdomain) < std::tie(b.point, b.distance, b.body, b.subdomain);
+  });
+  FoundPoints result;
+  for (std::size_t p = 0, next = 0; p < points.size(); ++p) {
+    int last = -1;  // body
+    const std::size_t first = next;
+    for (; next < entries.size() && entries[next].point == p; ++next) {
+      const auto& entry = entries[next];
+      if ((entry.distance > 0 && next > first) || entry.body == last) continue;
+      last = entry.body;
+      const Global row = result.rows++;
+      if (const auto own = mine.find({p, entry.body});
+          own != mine.end() && decomposition.subdomains[own->second.place.subdomain].id == entry.subdomain)
+        result.mine.push_back({p, row, entry.body, own->second.place});
+    }
+    if (next == first) result.lost.push_back({p, 0, 0});
+  }
+  if (result.lost.empty()) return result;
+
+  std::vector<LostPoint> nearest;  // of each rank
+  for (const auto& lost : result.lost) {
+    auto& own = nearest.emplace_back(LostPoint{lost.point, std::numeric_limits<double>::infinity(), 0});
+    for (const auto& subdomain : decomposition.subdomains)
+      for (const auto& node : subdomain.mesh.points)
+        if (const double distance = (node - points[lost.point]).norm(); distance < own.distance) {
+          own.distance = distance;
+          own.body = subdomain.body;
+        }
+  }
+  nearest = comm.all_gather(nearest);
+  for (std::size_t i = 0; i < result.lost.size(); ++i) {
+    auto& best = result.lost[i] = nearest[i];
+    for (std::size_t k = i; k < nearest.size(); k += result.lost.size())
+      if (std::tie(nearest[k].distance, nearest[k].body) < std::tie(best.distance, best.body)) best = nearest[k];
+  }
+  return result;
+}
+
+}  // namespace mortise::post
