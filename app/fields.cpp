@@ -18,7 +18,7 @@ namespace {
 // What is shown of a subdomain: of boundary elements the cells inside, if they were asked for.
 const mesh::Mesh& shown(const partition::Subdomain& subdomain, const post::Results& results)
 {
-  return subdomain.skin && !results.interior.nodes.empty() ? subdomain.inside : subdomain.mesh;
+  return results.interior.nodes.empty() ? subdomain.mesh : post::solid(subdomain);
 }
 
 // Of a cell among those that are shown; bodies of boundary elements have one material.

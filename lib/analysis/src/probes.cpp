@@ -83,6 +83,10 @@ void append(const io::Section& section, const model::Model& model, std::size_t s
       triangle[k] = at->second;
       if (!fresh) continue;
       const Point& x = section.points[static_cast<std::size_t>(p)];
+      if (subdomain.skin) {
+        to.places.push_back({s, cell, Point::Zero(), x});
+        continue;
+      }
       nodes.clear();
       for (const Local n : mesh.cells[cell]) nodes.push_back(mesh.points[static_cast<std::size_t>(n)]);
       to.places.push_back({s, cell, mesh::find_in_cell(mesh.cells.type[cell], nodes, x).reference, x});
@@ -114,7 +118,8 @@ post::PlaneSection section_of(const model::Model& model, const std::string& name
     if (below[static_cast<std::size_t>(subdomain.body)] == 0)
       for (double& value : h) value = -value;
     const auto& mesh = post::solid(subdomain);
-    sections.push_back(io::cut(mesh.points, mesh.cells, h));
+    sections.push_back(post::is_surface_alone(subdomain) ? io::enclosed(mesh.points, mesh.cells, h, normal)
+                                                         : io::cut(mesh.points, mesh.cells, h));
     if (!subdomain.skin) continue;
     const double own = area(sections.back());
     square += own;

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "pair_integrals.hpp"
+#include "pressure_modes.hpp"
 
 namespace mortise::bem {
 
@@ -124,6 +125,7 @@ BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& 
       for (int c = 0; c < 3; ++c)
         result.k(3 * q + c, 3 * panels.corners[static_cast<std::size_t>(q)][k] + c) +=
             panels.area[static_cast<std::size_t>(q)] / 6;
+  make_exact_for_pressure(panels, material, layers.single, result);
   if (which == Operators::of_tractions) return result;
 
   // (M v)' (2 mu V_L - 4 mu^2 V) (M u)

@@ -68,6 +68,31 @@ TEST(SteklovPoincare, SemidefiniteWithSixZeroEigenvalues)
     }
 }
 
+// Soft motions keep their stiffness up to nu = 1/2, where V n vanishes on every closed surface: of a body, of its cavity.
+TEST(SteklovPoincare, NearlyIncompressible)
+{
+  auto hollow = test::box({4, 4, 4}, Point(1, 1, 1));
+  const auto cavity = test::box({2, 2, 2}, Point(0.4, 0.4, 0.4));
+  const auto first = static_cast<Local>(hollow.points.size());
+  for (const auto& p : cavity.points) hollow.points.push_back(p + Point(0.3, 0.3, 0.3));
+  for (const auto& c : cavity.corners) hollow.corners.push_back({first + c[0], first + c[2], first + c[1]});
+  hollow = make_panels(hollow.points, hollow.corners);
+  for (const auto& panels : {test::box({3, 3, 3}, Point(1, 1, 1)), test::sphere(1, 1), hollow}) {
+    const auto softest = [&](double nu) -> Eigen::VectorXd {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(steklov_poincare(panels, elastic(nu)), Eigen::EigenvaluesOnly);
+      const auto& values = solver.eigenvalues();
+      EXPECT_LT(values.head(6).cwiseAbs().maxCoeff(), 1e-12 * values[values.size() - 1]);
+      return values.segment(6, 20);
+    };
+    const auto reference = softest(0.499);
+    for (const double nu : {0.4999, 0.499999}) {
+      const auto found = softest(nu);
+      for (Eigen::Index i = 0; i < 20; ++i)
+        EXPECT_NEAR(found[i] / reference[i], 1, 0.005) << nu << ' ' << i << ' ' << panels.size();
+    }
+  }
+}
+
 // A beam of length 1 bent by u = (x z, -nu y z, -(x^2 + nu (z^2 - y^2)) / 2) R about its middle axis: stress E R z along it.
 TEST(SteklovPoincare, BendingConverges)
 {

@@ -36,6 +36,40 @@ vtkNew<vtkUnstructuredGrid> grid_of(const std::vector<Point>& points, const mesh
   return grid;
 }
 
+// A line of the plane by two coordinates, the end with the smaller second one first.
+using Line = std::array<std::array<double, 2>, 2>;
+
+// Where closed surfaces of triangles meet the plane; lines along the first direction are left out.
+std::vector<Line> outline(const std::vector<Point>& points, const mesh::Cells& triangles, const std::vector<double>& height,
+                          const Point& right, const Point& up)
+{
+  const auto crossing = [&](Local a, Local b) -> std::array<double, 2> {  // the same from both sides of an edge
+    if (a > b) std::swap(a, b);
+    const double of_a = height[static_cast<std::size_t>(a)], of_b = height[static_cast<std::size_t>(b)];
+    const Point &from = points[static_cast<std::size_t>(a)], &to = points[static_cast<std::size_t>(b)];
+    const Point x = of_a == 0 ? from : of_b == 0 ? to : Point(from + of_a / (of_a - of_b) * (to - from));
+    return {right.dot(x), up.dot(x)};
+  };
+  std::vector<Line> lines;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto above = [&](std::size_t k) { return height[static_cast<std::size_t>(triangles[t][k % 3])] >= 0; };
+    for (std::size_t k = 0; k < 3; ++k) {  // the corner that lies alone on its side
+      if (above(k) == above(k + 1) || above(k) == above(k + 2)) continue;
+      auto low = crossing(triangles[t][k], triangles[t][(k + 1) % 3]),
+           high = crossing(triangles[t][k], triangles[t][(k + 2) % 3]);
+      if (low[1] > high[1]) std::swap(low, high);
+      if (low[1] < high[1]) lines.push_back({low, high});
+    }
+  }
+  return lines;
+}
+
+// Some point of the plane.
+Point point_of_plane(const std::vector<Point>& points, const std::vector<double>& height, const Point& normal)
+{
+  return points.front() - height.front() * normal;
+}
+
 }  // namespace
 
 Section cut(const std::vector<Point>& points, const mesh::Cells& cells, const std::vector<double>& height)
@@ -77,6 +111,44 @@ Section cut(const std::vector<Point>& points, const mesh::Cells& cells, const st
   }
   result.points.resize(static_cast<std::size_t>(found->GetNumberOfPoints()));
   for (std::size_t p = 0; p < result.points.size(); ++p) found->GetPoint(static_cast<vtkIdType>(p), result.points[p].data());
+  return result;
+}
+
+Section enclosed(const std::vector<Point>& points, const mesh::Cells& triangles, const std::vector<double>& height,
+                 const Point& normal)
+{
+  const Point right = normal.unitOrthogonal(), up = normal.cross(right);
+  const auto lines = outline(points, triangles, height, right, up);
+  std::vector<double> levels;
+  for (const auto& [low, high] : lines) levels.insert(levels.end(), {low[1], high[1]});
+  std::sort(levels.begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+  Section result;
+  if (lines.empty()) return result;
+  const Point origin = point_of_plane(points, height, normal);
+  const auto add = [&](double x, double y) {
+    result.points.push_back(origin + (x - right.dot(origin)) * right + (y - up.dot(origin)) * up);
+    return static_cast<Local>(result.points.size() - 1);
+  };
+  for (std::size_t band = 0; band + 1 < levels.size(); ++band) {
+    const double bottom = levels[band], top = levels[band + 1];
+    std::vector<std::array<double, 2>> across;  // where lines enter and leave the band
+    for (const auto& [low, high] : lines) {
+      if (low[1] > bottom || high[1] < top) continue;
+      const auto at = [&, &low = low, &high = high](double y) {
+        return low[0] + (y - low[1]) / (high[1] - low[1]) * (high[0] - low[0]);
+      };
+      across.push_back({at(bottom), at(top)});
+    }
+    std::sort(across.begin(), across.end(), [](const auto& a, const auto& b) { return a[0] + a[1] < b[0] + b[1]; });
+    for (std::size_t i = 0; i + 1 < across.size(); i += 2) {  // in between is inside
+      const auto a = add(across[i][0], bottom), b = add(across[i + 1][0], bottom), c = add(across[i + 1][1], top),
+                 d = add(across[i][1], top);
+      if (across[i][0] < across[i + 1][0]) result.triangles.push_back({a, b, c});
+      if (across[i][1] < across[i + 1][1]) result.triangles.push_back({a, c, d});
+    }
+  }
+  result.cell.assign(result.triangles.size(), 0);
   return result;
 }
 

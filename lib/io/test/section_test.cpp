@@ -102,5 +102,48 @@ INSTANTIATE_TEST_SUITE_P(Types, SectionOf,
                          testing::Values("tet4", "hex8", "prism6", "tet10", "hex20", "hex27", "prism15", "prism18"),
                          [](const auto& info) { return std::string(info.param); });
 
+// The surface of a box from `low`, with edges `size`, as triangles.
+void add_box(const Point& low, const Point& size, bool outward, std::vector<Point>& points, mesh::Cells& triangles)
+{
+  const auto first = static_cast<Local>(points.size());
+  for (int k = 0; k < 8; ++k) {
+    Point x = low;
+    for (int axis = 0; axis < 3; ++axis) x[axis] += (k >> axis & 1) * size[axis];
+    points.push_back(x);
+  }
+  const Local sides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& s : sides)
+    for (const auto& [a, b] : {std::pair(1, 2), std::pair(2, 3)})
+      triangles.add(mesh::CellType::tri3, std::vector{first + s[0], first + s[outward ? a : b], first + s[outward ? b : a]});
+}
+
+TEST(SectionOfSurfaces, HasTheAreaInside)
+{
+  std::vector<Point> points;
+  mesh::Cells triangles;
+  add_box({0, 0, 0}, {2, 1, 1}, true, points, triangles);
+  add_box({0.5, 0.25, 0.25}, {1, 0.5, 0.5}, false, points, triangles);  // a cavity
+  add_box({3, 0, 0}, {1, 1, 1}, true, points, triangles);
+  const struct {
+    Point origin, normal;
+    double area;
+  } planes[] = {{{0, 0, 0.3}, {0, 0, 1}, 2.5},
+                {{0, 0, 0.1}, {0, 0, 1}, 3},
+                {{0, 0, 0.25}, {0, 0, 1}, 3},  // through the bottom of the cavity, which counts as above
+                {{0, 0, 1}, {0, 0, 1}, 3},
+                {{0.7, 0, 0}, {-1, 0, 0}, 0.75},
+                {{0, 0, 0.5}, {0, 0.1, 1}, 2.5 * std::hypot(1, 0.1)},
+                {{0, 0, 2}, {0, 0, 1}, 0}};
+  for (const auto& plane : planes) {
+    std::vector<double> height;
+    for (const auto& p : points) height.push_back(plane.normal.normalized().dot(p - plane.origin));
+    const auto section = enclosed(points, triangles, height, plane.normal.normalized());
+    EXPECT_NEAR(area(section), plane.area, 1e-12) << plane.origin.transpose() << ", " << plane.normal.transpose();
+    for (const auto& p : section.points) EXPECT_NEAR(plane.normal.normalized().dot(p - plane.origin), 0, 1e-12);
+    const auto fine = refined(section, 0.1);
+    EXPECT_NEAR(area(fine), plane.area, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace mortise::io

@@ -11,6 +11,8 @@ namespace {
 
 // Of what nodal stiffness makes of displacements.
 constexpr double part_of_stiffness = 1e-12;
+// Of loads at nodes that cancel, as those of warmth do. Sums of dense matrices' rows have larger ones than those of elements.
+constexpr double part_of_loads = 1e-11;
 
 }  // namespace
 
@@ -59,9 +61,11 @@ Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::spa
 {
   const auto& comm = problem.communicator();
   const auto counted = [&](const auto& f) { return Point(axisymmetric ? 0 : f[0], f[1], f[2]); };
-  std::vector<double> applied(3, 0.0);
-  for (const auto& f : problem.load())
+  std::vector<double> applied(4, 0.0);  // and the sum of sizes
+  for (const auto& f : problem.load()) {
     for (Eigen::Index i = 0; i < f.size(); ++i) applied[static_cast<std::size_t>(i % problem.dimension())] += f[i];
+    applied[3] += f.lpNorm<1>();
+  }
   comm.sum_in_place(applied);
   Balance b;
   b.applied = counted(applied);
@@ -72,7 +76,7 @@ Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::spa
       b.neighbours += contacts[c].force - rotation->rotation.transpose() * contacts[c].force;
     if (options.obstacle) b.obstacles += counted(contacts[c].force);
   }
-  b.largest = std::max({b.applied.norm(), b.supports.norm(), rounding.force, 1e-300});
+  b.largest = std::max({b.applied.norm(), b.supports.norm(), rounding.force, part_of_loads * applied[3], 1e-300});
   for (const auto& r : contacts) b.largest = std::max(b.largest, r.force.norm());
   for (const auto& force : reactions) b.largest = std::max(b.largest, std::hypot(force[0], force[1], force[2]));
   b.gauges = problem.gauge_force(lambda);

@@ -23,8 +23,9 @@ std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const
 /// Energy of the elastic strain of a subdomain of boundary elements.
 double boundary_energy(const ElasticBodies& bodies, std::size_t subdomain, const Eigen::VectorXd& displacement);
 
-/// For each panel an estimate of its part of the squared error in the energy norm: h / (2 mu) |s* n - t|^2 area, where s*
-/// is the recovered stress, nodes x 6, and h the panel's size.
+/// For each panel an estimate of its part of the squared error in the energy norm: h area (a (s* - s) C^-1 (s* - s) / 2 +
+/// b |s* n - t|^2 / (2 mu)), where s* is the recovered stress, nodes x 6, s and t are those of the panel, and h is its size.
+/// Tractions alone do not see bending that linear displacements cannot follow.
 Eigen::VectorXd boundary_errors(const ElasticBodies& bodies, std::size_t subdomain, const BoundaryStress& found,
                                 const Eigen::MatrixXd& recovered);
 

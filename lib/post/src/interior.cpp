@@ -107,7 +107,7 @@ Interior evaluate_interior(const ElasticBodies& bodies, const Probes& probes, co
     result.nodes.resize(subdomains.size());
     result.cell_von_mises.resize(subdomains.size());
     for (std::size_t s = 0; s < subdomains.size(); ++s) {
-      if (!subdomains[s].skin) continue;
+      if (!subdomains[s].skin || is_surface_alone(subdomains[s])) continue;
       const auto& inside = subdomains[s].inside;
       const std::span points(inside.points.begin() + static_cast<std::ptrdiff_t>(subdomains[s].mesh.node_count()),
                              inside.points.end());

@@ -1,11 +1,13 @@
 #include "post/places.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
 
+#include "bem/representation.hpp"
 #include "mesh/inverse_map.hpp"
 #include "post/bodies.hpp"
 
@@ -35,6 +37,20 @@ std::map<std::pair<std::size_t, int>, Candidate> candidates(const partition::Dec
     const auto& mesh = solid(decomposition.subdomains[s]);
     const int body = decomposition.subdomains[s].body;
     const double within = on_surface * sizes[static_cast<std::size_t>(body)];
+    const auto take = [&](std::size_t point, double distance, double allowed, const Place& place) {
+      if (!(distance <= std::max(within, allowed))) return;
+      auto& best = result[{point, body}];
+      if (const double counts = distance <= within ? 0 : distance; counts < best.distance) best = {counts, place};
+    };
+    if (is_surface_alone(decomposition.subdomains[s])) {
+      const auto panels = bem::make_panels(mesh);
+      const bem::Representation surface(panels, {.young_modulus = 1});  // of any material
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto [inside, distance, panel] = surface.locate(points[i]);
+        take(i, inside ? 0 : distance, off_the_mesh * std::sqrt(2 * panels.area[panel]), {s, 0, Point::Zero(), points[i]});
+      }
+      continue;
+    }
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       nodes.clear();
       for (const Local n : mesh.cells[c]) nodes.push_back(mesh.points[static_cast<std::size_t>(n)]);
@@ -51,10 +67,7 @@ std::map<std::pair<std::size_t, int>, Candidate> candidates(const partition::Dec
         const Point& x = points[*i];
         if ((x.array() < low.array()).any() || (x.array() > high.array()).any()) continue;
         const auto [reference, distance] = mesh::find_in_cell(mesh.cells.type[c], nodes, x);
-        if (!(distance <= std::max(within, off_the_mesh * diagonal))) continue;
-        auto& best = result[{*i, body}];
-        if (const double counts = distance <= within ? 0 : distance; counts < best.distance)
-          best = {counts, {s, c, reference, x}};
+        take(*i, distance, off_the_mesh * diagonal, {s, c, reference, x});
       }
     }
   }

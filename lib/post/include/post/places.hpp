@@ -13,15 +13,21 @@ namespace mortise::post {
 /// A point in a subdomain.
 struct Place {
   std::size_t subdomain;      ///< of this rank
-  std::size_t cell;           ///< of solid()
+  std::size_t cell;           ///< of solid(); of a surface alone any
   Eigen::Vector3d reference;  ///< coordinates in the cell
   Point at;
 };
 
-/// The cells that a subdomain is made of; of boundary elements those that its skin encloses, if they were kept.
+/// Whether nothing is there of a subdomain but its skin.
+inline bool is_surface_alone(const partition::Subdomain& subdomain)
+{
+  return subdomain.skin && subdomain.inside.cells.size() == 0;
+}
+
+/// The cells that a subdomain is made of; of boundary elements those that its skin encloses, or that itself if there are none.
 inline const mesh::Mesh& solid(const partition::Subdomain& subdomain)
 {
-  return subdomain.skin ? subdomain.inside : subdomain.mesh;
+  return subdomain.skin && !is_surface_alone(subdomain) ? subdomain.inside : subdomain.mesh;
 }
 
 /// A point in a body, on this rank.

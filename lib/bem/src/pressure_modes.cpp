@@ -1,0 +1,131 @@
+#include "pressure_modes.hpp"
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace mortise::bem {
+
+namespace {
+
+// The closed surface that each node lies on, 0, 1, ..: panels that share an edge with one other are on one.
+struct Sheets {
+  std::vector<int> of_panel;
+  int count = 0;
+};
+
+Sheets sheets(const Panels& panels)
+{
+  std::map<std::pair<Local, Local>, std::vector<std::size_t>> edges;
+  for (std::size_t p = 0; p < panels.corners.size(); ++p)
+    for (std::size_t k = 0; k < 3; ++k) edges[std::minmax(panels.corners[p][k], panels.corners[p][(k + 1) % 3])].push_back(p);
+  std::vector<std::size_t> leader(panels.corners.size());
+  std::iota(leader.begin(), leader.end(), std::size_t{0});
+  const auto find = [&](std::size_t p) {
+    while (leader[p] != p) p = leader[p] = leader[leader[p]];
+    return p;
+  };
+  for (const auto& [edge, both] : edges)
+    if (both.size() == 2) leader[find(both[0])] = find(both[1]);
+  Sheets result;
+  std::map<std::size_t, int> number;
+  for (std::size_t p = 0; p < panels.corners.size(); ++p)
+    result.of_panel.push_back(number.emplace(find(p), static_cast<int>(number.size())).first->second);
+  result.count = static_cast<int>(number.size());
+  return result;
+}
+
+// D u for one u, 3 n (boundary_operators.hpp).
+Eigen::VectorXd hypersingular(const Panels& panels, double mu, const Eigen::MatrixXd& single, const Eigen::MatrixXd& v,
+                              const Eigen::VectorXd& u)
+{
+  const auto m = panels.size();
+  Eigen::VectorXd tangential = Eigen::VectorXd::Zero(3 * m);  // M u
+  Eigen::MatrixXd curl = Eigen::MatrixXd::Zero(m, 9);         // c_k u_i at 3 k + i
+  for (Eigen::Index p = 0; p < m; ++p) {
+    const auto panel = static_cast<std::size_t>(p);
+    const Point& n = panels.normal[panel];
+    for (int corner = 0; corner < 3; ++corner) {
+      const Point g = panels.gradient(panel, corner), c = n.cross(g);
+      const Point value = u.segment<3>(3 * panels.corners[panel][static_cast<std::size_t>(corner)]);
+      tangential.segment<3>(3 * p) += g * n.dot(value) - n * g.dot(value);
+      for (int k = 0; k < 3; ++k) curl.row(p).segment<3>(3 * k) += c[k] * value.transpose();
+    }
+  }
+  const Eigen::MatrixXd image = single * curl;
+  Eigen::VectorXd moved = -4 * mu * mu * (v * tangential);
+  moved += 2 * mu * (tangential.reshaped(3, m) * single).reshaped();  // V_L is symmetric
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(u.size());
+  for (Eigen::Index p = 0; p < m; ++p) {
+    const auto panel = static_cast<std::size_t>(p);
+    const Point& n = panels.normal[panel];
+    const double trace = image(p, 0) + image(p, 4) + image(p, 8);
+    for (int corner = 0; corner < 3; ++corner) {
+      const Point g = panels.gradient(panel, corner), c = n.cross(g);
+      const Point w = moved.segment<3>(3 * p);
+      Point force = n * g.dot(w) - g * n.dot(w) - mu * trace * c;
+      for (int k = 0; k < 3; ++k) force += 2 * mu * c[k] * image.row(p).segment<3>(3 * k).transpose();
+      result.segment<3>(3 * panels.corners[panel][static_cast<std::size_t>(corner)]) += force;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void make_exact_for_pressure(const Panels& panels, const fem::Material& material, const Eigen::MatrixXd& single,
+                             BoundaryOperators& operators)
+{
+  auto& [v, k, d] = operators;
+  const auto m = panels.size(), n = panels.node_count();
+  const double mu = material.young_modulus / (2 * (1 + material.poisson_ratio));
+  const double pressure = material.young_modulus / (1 - 2 * material.poisson_ratio);
+  const auto surfaces = sheets(panels);
+  Point low = panels.points.front(), high = low;
+  for (const auto& x : panels.points) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const Point centre = (low + high) / 2;
+
+  const auto count = surfaces.count;
+  Eigen::MatrixXd normals = Eigen::MatrixXd::Zero(3 * m, count), dilations = Eigen::MatrixXd::Zero(3 * n, count),
+                  whole = dilations;
+  Eigen::MatrixXd shifts = dilations;  // by a unit along x
+  for (Eigen::Index p = 0; p < m; ++p) {
+    const auto panel = static_cast<std::size_t>(p);
+    const int s = surfaces.of_panel[panel];
+    normals.col(s).segment<3>(3 * p) = panels.normal[panel];
+    for (const Local node : panels.corners[panel]) {
+      dilations.col(s).segment<3>(3 * node) = panels.points[static_cast<std::size_t>(node)] - centre;
+      shifts(3 * node, s) = 1;
+    }
+  }
+  for (int s = 0; s < count; ++s) whole.col(s) = nodal_forces(panels, normals.col(s));
+  const Eigen::VectorXd inverse = normals.colwise().squaredNorm().cwiseInverse().transpose();
+
+  const Eigen::MatrixXd found = k.transpose() * normals;
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(3 * n, count);  // that K'n is to be
+  for (int s = 0; s < count; ++s) {
+    for (int other = 0; other < count; ++other)
+      forces.col(s) += std::round(found.col(s).dot(whole.col(other)) / whole.col(other).squaredNorm()) * whole.col(other);
+    forces.col(s) -= hypersingular(panels, mu, single, v, dilations.col(s)) / pressure;
+  }
+  k.noalias() += normals * inverse.asDiagonal() * (forces - found).transpose();
+
+  Eigen::MatrixXd wanted = k * dilations;  // p V n
+  const Eigen::MatrixXd of_shifts = k * shifts;
+  for (Eigen::Index p = 0; p < m; ++p) {
+    const auto panel = static_cast<std::size_t>(p);
+    const Point middle = (panels.corner(panel, 0) + panels.corner(panel, 1) + panels.corner(panel, 2)) / 3 - centre;
+    for (int s = 0; s < count; ++s)
+      wanted.col(s).segment<3>(3 * p) -= std::round(of_shifts(3 * p, s) / panels.area[panel]) * panels.area[panel] * middle;
+  }
+  const Eigen::MatrixXd lacking = (wanted / pressure - v * normals) * inverse.asDiagonal();
+  const Eigen::MatrixXd both = inverse.asDiagonal() * normals.transpose() * lacking;
+  const Eigen::MatrixXd left = lacking - normals * ((both + both.transpose()) / 4);
+  v.noalias() += left * normals.transpose();
+  v.noalias() += normals * left.transpose();
+}
+
+}  // namespace mortise::bem
