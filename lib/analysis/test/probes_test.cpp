@@ -73,7 +73,9 @@ TEST(Probes, PlanesCutBodiesOfBothMethods)
       area += (place(1).at - place(0).at).cross(place(2).at - place(0).at).norm() / 2;
       for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(place(i).subdomain, place(0).subdomain);
-        if (asked.subdomain(place(0)).skin && (k == 0 || k == 4)) EXPECT_LE((place(i).at - place((i + 1) % 3).at).norm(), 0.2);
+        if (asked.subdomain(place(0)).skin && (k == 0 || k == 4)) {
+          EXPECT_LE((place(i).at - place((i + 1) % 3).at).norm(), 0.2);
+        }
       }
     }
     EXPECT_NEAR(asked.comm.sum(area), areas[k], 1e-12) << k;
