@@ -243,7 +243,7 @@ void FieldFiles::write(const partition::Decomposition& decomposition, const part
   put(volume_, volume_piece(deck_, decomposition, state.displacement, results));
   for (std::size_t k = 0; k < planes_.size(); ++k)
     put(planes_[k], plane_piece(deck_, decomposition, probes.planes[k], results.interior.planes[k]));
-  if (deck_.output.interior.points.empty()) return;
+  if (!deck_.output.interior.any_points()) return;
   points_ += point_rows(deck_, decomposition.catalogue, state.rows->acts, probes, results.interior.points, comm);
   collectively(comm, [&] {
     if (comm.root()) io::write_text(directory + "/interior.csv", points_);

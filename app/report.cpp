@@ -25,7 +25,9 @@ using Kind = analysis::Approach::Kind;
 Report::Report(const model::Deck& deck, const deck::Document& document, const CommandLine& command_line, const Context& context)
     : deck_(deck), command_line_(command_line), context_(context), history_(deck.solver.programme, context)
 {
-  if (!command_line.check) directory_.emplace(deck.output.directory, std::vector{document.file(), deck.mesh.file}, context.comm);
+  if (!command_line.check)
+    directory_.emplace(deck.output.directory, std::vector{document.file(), deck.mesh.file, deck.output.interior.point_file},
+                       context.comm);
 }
 
 // The line of a stage: the time since it was last asked for.

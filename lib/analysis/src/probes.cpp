@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/error.hpp"
+#include "io/point_file.hpp"
 #include "io/section.hpp"
 #include "mesh/inverse_map.hpp"
 #include "post/bodies.hpp"
@@ -23,24 +25,42 @@ Point point_of(const std::array<double, 3>& x)
   return {x[0], x[1], x[2]};
 }
 
+// The deck's points; of those of a file with their lines, else 0. What is wrong with the file goes to the document.
+std::vector<io::ListedPoint> listed_points(const model::Deck& deck, deck::Document& document, const Communicator& comm)
+{
+  const auto& interior = deck.output.interior;
+  std::vector<io::ListedPoint> result;
+  for (const auto& x : interior.points) result.push_back({point_of(x), 0});
+  if (interior.point_file.empty()) return result;
+  try {
+    return io::read_points(interior.point_file, deck.dimension(), comm);
+  } catch (const Error& error) {
+    document.error("output.interior.points", error.what());
+    return {};
+  }
+}
+
 void find(const model::Model& model, deck::Document& document, const Communicator& comm, post::Probes& probes)
 {
   const auto& deck = model.deck();
+  const auto listed = listed_points(deck, document, comm);
+  if (listed.empty()) return;
   std::vector<Point> points;
-  for (const auto& x : deck.output.interior.points) points.push_back(point_of(x));
-  if (points.empty()) return;
+  for (const auto& point : listed) points.push_back(point.at);
   auto found = post::find_points(model.decomposition(), deck.kinematics, points, comm);
   for (std::size_t i = 0; i < found.lost.size(); ++i) {
     const auto& [point, distance, body] = found.lost[i];
-    const auto path = fmt::format("output.interior.points[{}]", point);
+    const auto& [x, line] = listed[point];
+    const auto path = line == 0 ? fmt::format("output.interior.points[{}]", point) : "output.interior.points";
+    const auto where = line == 0 ? "" : fmt::format("{}:{}: ", deck.output.interior.point_file, line);
     if (i == most_told) {
-      document.error(path, fmt::format("lies in no body, as do {} others after it", found.lost.size() - i - 1));
+      document.error(path, fmt::format("{}lies in no body, as do {} others after it", where, found.lost.size() - i - 1));
       break;
     }
-    const Point& x = points[point];
     document.error(
-        path, fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) lies in no body; the nearest node, of \"{}\", is {:.4g} away", x[0],
-                          x[1], x[2], model.decomposition().catalogue.bodies[static_cast<std::size_t>(body)].name, distance));
+        path,
+        fmt::format("{}the point ({:.6g}, {:.6g}, {:.6g}) lies in no body; the nearest node, of \"{}\", is {:.4g} away", where,
+                    x[0], x[1], x[2], model.decomposition().catalogue.bodies[static_cast<std::size_t>(body)].name, distance));
   }
   probes.points = std::move(found.mine);
   probes.rows = found.rows;
@@ -113,6 +133,7 @@ post::PlaneSection section_of(const model::Model& model, const std::string& name
   };
   std::vector<io::Section> sections;
   double triangles = 0, square = 0;
+<<<<<<< HEAD
   for (const auto& subdomain : subdomains) {
     auto h = height(subdomain);
     if (below[static_cast<std::size_t>(subdomain.body)] == 0)
@@ -125,6 +146,21 @@ post::PlaneSection section_of(const model::Model& model, const std::string& name
     square += own;
     triangles += 4 * own / std::pow(size_of(subdomain), 2);
   }
+=======
+  collectively(comm, [&] {
+    for (const auto& subdomain : subdomains) {
+      auto h = height(subdomain);
+      if (below[static_cast<std::size_t>(subdomain.body)] == 0)
+        for (double& value : h) value = -value;
+      const auto& mesh = post::solid(subdomain);
+      sections.push_back(io::cut(mesh.points, mesh.cells, h));
+      if (!subdomain.skin) continue;
+      const double own = area(sections.back());
+      square += own;
+      triangles += 4 * own / std::pow(size_of(subdomain), 2);
+    }
+  });
+>>>>>>> b08a78b47535e95b6c5bed9b297aa99d75e5bc56
   triangles = comm.sum(triangles);
   square = comm.sum(square);
   if (triangles > most_triangles) {
@@ -134,10 +170,12 @@ post::PlaneSection section_of(const model::Model& model, const std::string& name
     return {};
   }
   post::PlaneSection result;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    if (subdomains[s].skin) sections[s] = io::refined(std::move(sections[s]), size_of(subdomains[s]));
-    append(sections[s], model, s, result);
-  }
+  collectively(comm, [&] {
+    for (std::size_t s = 0; s < subdomains.size(); ++s) {
+      if (subdomains[s].skin) sections[s] = io::refined(std::move(sections[s]), size_of(subdomains[s]));
+      append(sections[s], model, s, result);
+    }
+  });
   return result;
 }
 

@@ -54,8 +54,8 @@ class Analysis {
     std::optional<StepState> state;
     for (const auto& acts : states_) {
       state = solver_->solve(acts, std::move(state), [](int, double, const qp::Progress&) {});
-      results.push_back(evaluate(*assembly_, *solver_, *state, comm));
-      again.push_back(evaluate(*assembly_, *solver_, *state, comm));
+      results.push_back(evaluate(*assembly_, *solver_, *state, {}, context_));
+      again.push_back(evaluate(*assembly_, *solver_, *state, {}, context_));
       states.push_back(*state);
     }
   }

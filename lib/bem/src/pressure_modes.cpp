@@ -107,9 +107,12 @@ void make_exact_for_pressure(const Panels& panels, const fem::Material& material
   const Eigen::MatrixXd found = k.transpose() * normals;
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(3 * n, count);  // that K'n is to be
   for (int s = 0; s < count; ++s) {
-    for (int other = 0; other < count; ++other)
-      forces.col(s) += std::round(found.col(s).dot(whole.col(other)) / whole.col(other).squaredNorm()) * whole.col(other);
-    forces.col(s) -= hypersingular(panels, mu, single, v, dilations.col(s)) / pressure;
+    const Eigen::VectorXd of_dilation = hypersingular(panels, mu, single, v, dilations.col(s)) / pressure;
+    for (int other = 0; other < count; ++other) {
+      const auto all = whole.col(other);
+      forces.col(s) += std::round((found.col(s) + of_dilation).dot(all) / all.squaredNorm()) * all;
+    }
+    forces.col(s) -= of_dilation;
   }
   k.noalias() += normals * inverse.asDiagonal() * (forces - found).transpose();
 

@@ -7,6 +7,8 @@ namespace mortise::io {
 
 namespace {
 
+using Points = std::vector<std::array<double, 3>>;
+
 constexpr const char* only_cells = "cells";  // short for {cells: true}
 
 void read_interior(Options& options, const YAML::Node& node, const std::string& path, deck::Document& document,
@@ -42,8 +44,24 @@ void describe(deck::Description<InteriorOptions>& d)
   d.key("cells", &InteriorOptions::cells,
         "Bodies of boundary elements are written with the cells of the mesh and values at all nodes, not with their surface "
         "alone.");
-  d.key("points", &InteriorOptions::points,
-        "Coordinates of points in or on bodies, of any method: displacement and stress there, in interior.csv and results.h5.");
+  d.custom(
+      "points",
+      "Points in or on bodies, of any method: a list of coordinates, or a file, relative to the deck, with a point a line. "
+      "Displacement and stress there go into interior.csv and results.h5.",
+      [](InteriorOptions& interior, const YAML::Node& node, const std::string& path, deck::Document& document,
+         const deck::Limits& limits) {
+        if (node.IsScalar())
+          deck::Codec<std::string>::read(interior.point_file, node, path, document, limits);
+        else
+          deck::Codec<Points>::read(interior.points, node, path, document, limits);
+      },
+      [](const InteriorOptions& interior) {
+        return interior.point_file.empty() ? deck::Codec<Points>::write(interior.points)
+                                           : deck::Codec<std::string>::write(interior.point_file);
+      },
+      [](const deck::Limits& limits) {
+        return nlohmann::ordered_json{{"anyOf", {deck::Codec<Points>::schema(limits), deck::Codec<std::string>::schema(limits)}}};
+      });
   d.key("planes", &InteriorOptions::planes, "Sections through all bodies by their names; plane.NAME.pvd shows the fields there.");
   d.check([](const InteriorOptions& interior, const std::string& path, deck::Document& document) {
     for (const auto& [name, plane] : interior.planes)

@@ -31,8 +31,8 @@ constexpr const char* old_summary_name = "summary.old.json";
 // What this program writes, under any number of ranks, and what it leaves if it is killed while it writes.
 bool is_ours(const fs::path& path)
 {
-  static const std::regex names(
-      R"(((solution|contact|plane\.[\w-]+)(\.\d+)?(_\d+)?\.(vtu|pvtu|pvd)|results(\.\d+)?\.h5|(history|interior)\.csv|deck\.yaml|summary(\.old)?\.json)(\.part)?)");
+  static const std::regex names(R"(((solution|contact|plane\.[\w-]+)(\.\d+)?(_\d+)?\.(vtu|pvtu|pvd)|)"
+                                R"(results(\.\d+)?\.h5|(history|interior)\.csv|deck\.yaml|summary(\.old)?\.json)(\.part)?)");
   return std::regex_match(path.filename().string(), names);
 }
 

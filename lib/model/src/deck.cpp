@@ -299,6 +299,8 @@ Deck read_deck(deck::Document& document, const std::string& output)
 
   const auto file = fs::absolute(document.file()).lexically_normal();
   if (!deck.mesh.file.empty()) deck.mesh.file = (file.parent_path() / deck.mesh.file).lexically_normal().string();
+  if (auto& points = deck.output.interior.point_file; !points.empty())
+    points = (file.parent_path() / points).lexically_normal().string();
   if (!output.empty())
     deck.output.directory = fs::absolute(output).lexically_normal().string();
   else if (deck.output.directory.empty())

@@ -127,6 +127,35 @@ TEST(Decks, BoundaryElementsAreForSolidBodiesOfOneMaterial)
   EXPECT_NE(complaints(blocks, {"bodies.a.method=finite"}).find("boundary_elements"), std::string::npos);
 }
 
+TEST(Decks, TheInsideOfBodiesIsAskedForByWordListOrFile)
+{
+  const auto interior = [](const std::string& setting) {
+    deck::Document document(blocks, "deck.yaml", {"output.interior=" + setting});
+    const auto deck = read_deck(document, "");
+    EXPECT_NO_THROW(document.check());
+    deck::Document again(write_deck(deck), "deck.yaml", {});
+    EXPECT_EQ(write_deck(read_deck(again, "")), write_deck(deck));
+    return deck.output.interior;
+  };
+  EXPECT_FALSE(interior("{}").any());
+  EXPECT_TRUE(interior("cells").cells);
+  EXPECT_EQ(interior("{points: [[1, 2, 3], [4, 5, 6]]}").points.at(1), (std::array<double, 3>{4, 5, 6}));
+  EXPECT_EQ(interior("{points: probes.csv}").point_file, (fs::current_path() / "probes.csv").string());
+  EXPECT_EQ(interior("{planes: {mid: {point: [0, 0, 0], normal: [0, 0, 2]}}}").planes.at("mid").size, std::nullopt);
+
+  const auto expect = [&](std::vector<std::string> settings, const std::string& expected) {
+    EXPECT_NE(complaints(blocks, settings).find(expected), std::string::npos) << complaints(blocks, settings);
+  };
+  expect({"output.interior=nodes"}, "output.interior: expected cells, or a mapping such as {cells: true}, found \"nodes\"");
+  expect({"output.interior.points=[[1, 2]]"}, "output.interior.points[0]: expected 3 entries");
+  expect({"output.interior.planes={a/b: {point: [0, 0, 0], normal: [0, 0, 1]}}"},
+         "output.interior.planes.a/b: the name goes into file");
+  expect({"output.interior.planes={a: {point: [0, 0, 0], normal: [0, 0, 0]}}"}, "planes.a.normal: expected a direction");
+  expect({"dimension=plane_strain", "output.interior.points=[[1, 2, 3]]"}, "output.interior.points[0]: a plane model has no z");
+  expect({"dimension=plane_strain", "output.interior=cells", "bodies.a.method=boundary_elements"},
+         "output.interior: the inside of boundary elements, of the body \"a\", is evaluated in models of dimension 3 alone");
+}
+
 TEST(Decks, SectionsAreCheckedAgainstEachOther)
 {
   EXPECT_EQ(complaints(blocks), "");

@@ -2,8 +2,10 @@
 
 #include <map>
 
+#include "base/error.hpp"
 #include "bem/representation.hpp"
 #include "boundary_stress.hpp"
+#include "fem/stress.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace mortise::post {
@@ -95,33 +97,40 @@ Values evaluate(const ElasticBodies& bodies, const StressField& stress, const st
   return result;
 }
 
+// At the nodes inside boundary elements, and in their cells.
+void nodes_inside(const ElasticBodies& bodies, const StressField& stress, Interior& result, Found& largest)
+{
+  const auto& subdomains = bodies.decomposition.subdomains;
+  result.nodes.resize(subdomains.size());
+  result.cell_von_mises.resize(subdomains.size());
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    if (!subdomains[s].skin || is_surface_alone(subdomains[s])) continue;
+    const auto& inside = subdomains[s].inside;
+    const std::span points(inside.points.begin() + static_cast<std::ptrdiff_t>(subdomains[s].mesh.node_count()),
+                           inside.points.end());
+    auto& values = result.nodes[s] = represent(bodies, stress, s, points);
+    take_largest(values, points, largest);
+    Eigen::MatrixXd nodal(static_cast<Eigen::Index>(inside.node_count()), 6);
+    nodal << stress.nodal[s], values.stress;
+    result.cell_von_mises[s] = von_mises_of_cells(inside.cells, nodal);
+  }
+}
+
 }  // namespace
 
 Interior evaluate_interior(const ElasticBodies& bodies, const Probes& probes, const std::vector<Eigen::VectorXd>& displacement,
                            StressField& stress, const Communicator& comm)
 {
-  const auto& subdomains = bodies.decomposition.subdomains;
   Interior result;
   Found largest = stress.largest_von_mises;
-  if (probes.cells) {
-    result.nodes.resize(subdomains.size());
-    result.cell_von_mises.resize(subdomains.size());
-    for (std::size_t s = 0; s < subdomains.size(); ++s) {
-      if (!subdomains[s].skin || is_surface_alone(subdomains[s])) continue;
-      const auto& inside = subdomains[s].inside;
-      const std::span points(inside.points.begin() + static_cast<std::ptrdiff_t>(subdomains[s].mesh.node_count()),
-                             inside.points.end());
-      auto& values = result.nodes[s] = represent(bodies, stress, s, points);
-      take_largest(values, points, largest);
-      Eigen::MatrixXd nodal(static_cast<Eigen::Index>(inside.node_count()), 6);
-      nodal << stress.nodal[s], values.stress;
-      result.cell_von_mises[s] = von_mises_of_cells(inside.cells, nodal);
-    }
-  }
-  std::vector<Place> places;
-  for (const auto& point : probes.points) places.push_back(point.place);
-  result.points = evaluate(bodies, stress, displacement, places, largest);
-  for (const auto& plane : probes.planes) result.planes.push_back(evaluate(bodies, stress, displacement, plane.places, largest));
+  collectively(comm, [&] {
+    if (probes.cells) nodes_inside(bodies, stress, result, largest);
+    std::vector<Place> places;
+    for (const auto& point : probes.points) places.push_back(point.place);
+    result.points = evaluate(bodies, stress, displacement, places, largest);
+    for (const auto& plane : probes.planes)
+      result.planes.push_back(evaluate(bodies, stress, displacement, plane.places, largest));
+  });
   stress.largest_von_mises = largest_of_ranks({largest}, comm).front();
   return result;
 }

@@ -21,9 +21,11 @@ struct PlaneOptions {
 struct InteriorOptions {
   bool cells = false;  ///< bodies of boundary elements are written with their cells, not with their skin
   std::vector<std::array<double, 3>> points;
+  std::string point_file;  ///< instead of points; absolute by the time it gets here
   std::map<std::string, PlaneOptions> planes;
 
-  bool any() const { return cells || !points.empty() || !planes.empty(); }
+  bool any_points() const { return !points.empty() || !point_file.empty(); }
+  bool any() const { return cells || any_points() || !planes.empty(); }
 };
 
 struct Options {

@@ -1,0 +1,117 @@
+// What a deck asks for inside bodies, on two blocks of either method. The same on any ranks.
+#include "analysis/probes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "mesh/shape_functions.hpp"
+#include "model/resolution.hpp"
+#include "partition/decompose.hpp"
+#include "partition/skins.hpp"
+
+namespace mortise::analysis {
+namespace {
+
+const std::string two_methods = R"(
+mesh:
+  blocks:
+    lower: {size: [1, 1, 1], cells: [2, 2, 2]}
+    upper: {origin: [0, 0, 1], size: [1, 1, 1], cells: [2, 2, 2], element: prism6}
+materials: {steel: {young_modulus: 1000, poisson_ratio: 0}}
+bodies: {lower: {material: steel}, upper: {material: steel, method: boundary_elements}}
+decomposition: {method: grid, counts: {lower: [2, 1, 1], upper: [1, 2, 1]}}
+)";
+
+class Asked {
+ public:
+  explicit Asked(const std::string& interior)
+      : document_(two_methods + "output: {interior: " + interior + "}\n", "deck.yaml", {}), deck_(model::read_deck(document_, ""))
+  {
+    document_.check();
+    auto decomposition = partition::decompose(deck_.mesh, deck_.decomposition, 3, context_);
+    const auto on_surface = model::bodies_of_boundary_elements(deck_, decomposition.catalogue);
+    decomposition = partition::skins(std::move(decomposition), on_surface, true, comm);
+    resolved_ = model::resolve(deck_, document_, std::move(decomposition), context_);
+    model_.emplace(deck_, resolved_.contacts, resolved_.decomposition);
+  }
+  post::Probes find() { return find_probes(*model_, document_, comm); }
+  const model::Deck& deck() const { return deck_; }
+  const partition::Subdomain& subdomain(const post::Place& place) const
+  {
+    return resolved_.decomposition.subdomains[place.subdomain];
+  }
+
+  Communicator comm;
+
+ private:
+  Timers timers_;
+  Log log_{comm, nullptr};
+  Context context_{comm, log_, timers_};
+  deck::Document document_;
+  model::Deck deck_;
+  model::Resolution resolved_;
+  std::optional<model::Model> model_;
+};
+
+// A plane where both blocks are cut into subdomains, or touch it, counts once; the places are where their reference coordinates
+// say, and triangles in boundary elements are as small as asked.
+TEST(Probes, PlanesCutBodiesOfBothMethods)
+{
+  Asked asked(
+      "{planes: {across: {point: [0.5, 0, 0], normal: [2, 0, 0], size: 0.2}, bottom: {point: [0, 0, 0], normal: [0, 0, 1]}, "
+      "joint: {point: [0, 0, 1], normal: [0, 0, 1]}, off: {point: [3, 0, 0], normal: [1, 0, 0]}, "
+      "side: {point: [0, 0.5, 0], normal: [0, 1, 0], size: 0.2}}}");
+  const auto probes = asked.find();
+  ASSERT_EQ(probes.planes.size(), 5U);
+  const double areas[] = {2, 1, 2, 0, 2};
+  for (std::size_t k = 0; k < 5; ++k) {
+    double area = 0;
+    for (const auto& triangle : probes.planes[k].triangles) {
+      const auto place = [&](std::size_t i) -> const post::Place& {
+        return probes.planes[k].places[static_cast<std::size_t>(triangle[i])];
+      };
+      area += (place(1).at - place(0).at).cross(place(2).at - place(0).at).norm() / 2;
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(place(i).subdomain, place(0).subdomain);
+        if (asked.subdomain(place(0)).skin && (k == 0 || k == 4)) {
+          EXPECT_LE((place(i).at - place((i + 1) % 3).at).norm(), 0.2);
+        }
+      }
+    }
+    EXPECT_NEAR(asked.comm.sum(area), areas[k], 1e-12) << k;
+    for (const auto& place : probes.planes[k].places) {
+      const auto& mesh = post::solid(asked.subdomain(place));
+      const auto& shape = mesh::shape_functions(mesh.cells.type[place.cell]);
+      Eigen::VectorXd weight(shape.count());
+      shape.evaluate(place.reference, weight);
+      Point at = Point::Zero();
+      for (Eigen::Index i = 0; i < weight.size(); ++i)
+        at += weight[i] * mesh.points[static_cast<std::size_t>(mesh.cells[place.cell][static_cast<std::size_t>(i)])];
+      EXPECT_LT((at - place.at).norm(), 1e-12);
+    }
+  }
+  const auto warnings = idle_planes(asked.deck(), probes, asked.comm);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].text.find("\"off\""), std::string::npos);
+  EXPECT_EQ(warnings[0].kind, "idle_plane");
+}
+
+TEST(Probes, PointsInNoBodyAreErrorsOnAllRanks)
+{
+  Asked asked("{points: [[0.5, 0.5, 1], [0.1, 0.2, 0.3], [0, 0, 2.25]]}");
+  try {
+    asked.find();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input);
+    const std::string text = error.what();
+    EXPECT_NE(text.find("deck.yaml:9: output.interior.points[2]: the point (0, 0, 2.25) lies in no body; the nearest node, of "
+                        "\"upper\", is 0.25 away"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("points[0]"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace mortise::analysis
