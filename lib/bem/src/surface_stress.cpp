@@ -32,20 +32,27 @@ Eigen::Matrix3d hooke(const fem::Material& material, const Eigen::Matrix3d& grad
   return mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
 }
 
-Eigen::Matrix3d panel_gradient(const Panels& panels, const fem::Material& material, std::size_t panel, const Eigen::VectorXd& u,
-                               const Eigen::VectorXd& t)
+template <int D>
+Eigen::Matrix3d panel_gradient(const PanelsIn<D>& panels, const fem::Material& material, std::size_t panel,
+                               const Eigen::VectorXd& u, const Eigen::VectorXd& t)
 {
   const auto [mu, lambda] = lame(material);
-  const Point &n = panels.normal[panel], force = t.segment<3>(3 * static_cast<Eigen::Index>(panel));
+  const Point &n = panels.normal[panel], force = lifted<D>(t.segment<D>(D * static_cast<Eigen::Index>(panel)));
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-  for (int k = 0; k < 3; ++k)
-    gradient += u.segment<3>(3 * panels.corners[panel][static_cast<std::size_t>(k)]) * panels.gradient(panel, k).transpose();
+  for (int k = 0; k < D; ++k)
+    gradient +=
+        lifted<D>(u.segment<D>(D * panels.corners[panel][static_cast<std::size_t>(k)])) * panels.gradient(panel, k).transpose();
   const Point tangential = force / mu - gradient.transpose() * n;
   const double normal = (force.dot(n) - lambda * gradient.trace()) / (lambda + 2 * mu);
   return gradient + (tangential - n.dot(tangential) * n + normal * n) * n.transpose();
 }
+template Eigen::Matrix3d panel_gradient(const PanelsIn<2>&, const fem::Material&, std::size_t, const Eigen::VectorXd&,
+                                        const Eigen::VectorXd&);
+template Eigen::Matrix3d panel_gradient(const PanelsIn<3>&, const fem::Material&, std::size_t, const Eigen::VectorXd&,
+                                        const Eigen::VectorXd&);
 
-Eigen::MatrixXd panel_stresses(const Panels& panels, const fem::Material& material, const Eigen::VectorXd& u,
+template <int D>
+Eigen::MatrixXd panel_stresses(const PanelsIn<D>& panels, const fem::Material& material, const Eigen::VectorXd& u,
                                const Eigen::VectorXd& t)
 {
   Eigen::MatrixXd result(panels.size(), 6);
@@ -53,5 +60,7 @@ Eigen::MatrixXd panel_stresses(const Panels& panels, const fem::Material& materi
     result.row(p) = components(hooke(material, panel_gradient(panels, material, static_cast<std::size_t>(p), u, t)));
   return result;
 }
+template Eigen::MatrixXd panel_stresses(const PanelsIn<2>&, const fem::Material&, const Eigen::VectorXd&, const Eigen::VectorXd&);
+template Eigen::MatrixXd panel_stresses(const PanelsIn<3>&, const fem::Material&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 
 }  // namespace mortise::bem
