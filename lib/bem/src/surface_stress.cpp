@@ -1,5 +1,7 @@
 #include "bem/surface_stress.hpp"
 
+#include <numbers>
+
 namespace mortise::bem {
 
 namespace {
@@ -62,5 +64,31 @@ Eigen::MatrixXd panel_stresses(const PanelsIn<D>& panels, const fem::Material& m
 }
 template Eigen::MatrixXd panel_stresses(const PanelsIn<2>&, const fem::Material&, const Eigen::VectorXd&, const Eigen::VectorXd&);
 template Eigen::MatrixXd panel_stresses(const PanelsIn<3>&, const fem::Material&, const Eigen::VectorXd&, const Eigen::VectorXd&);
+
+Eigen::VectorXd interpolation_errors(const PlanePanels& panels, const fem::Material& material, const Eigen::VectorXd& u,
+                                     const Eigen::VectorXd& t)
+{
+  const double nu = material.poisson_ratio, stiffness = lame(material).mu / (2 * std::numbers::pi * (1 - nu));
+  std::vector<Eigen::Matrix3d> gradient, mean(panels.points.size(), Eigen::Matrix3d::Zero());
+  std::vector<double> length(panels.points.size(), 0.0);
+  for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+    gradient.push_back(panel_gradient(panels, material, p, u, t));
+    for (const Local n : panels.corners[p]) {
+      mean[static_cast<std::size_t>(n)] += panels.area[p] * gradient.back();
+      length[static_cast<std::size_t>(n)] += panels.area[p];
+    }
+  }
+  Eigen::VectorXd result(panels.size());
+  for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+    std::array<Point, 2> off;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto n = static_cast<std::size_t>(panels.corners[p][k]);
+      off[k] = (mean[n] / length[n] - gradient[p]) * (panels.area[p] * panels.gradient(p, 1));
+    }
+    const double square = (off[0].squaredNorm() + off[0].dot(off[1]) + off[1].squaredNorm()) / 3;
+    result[static_cast<Eigen::Index>(p)] = stiffness * panels.area[p] * panels.area[p] * square;
+  }
+  return result;
+}
 
 }  // namespace mortise::bem

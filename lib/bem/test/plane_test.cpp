@@ -9,6 +9,7 @@
 #include "bem/plane_state.hpp"
 #include "bem/steklov_poincare.hpp"
 #include "bem/stress_recovery.hpp"
+#include "bem/surface_stress.hpp"
 #include "lines.hpp"
 
 namespace mortise::bem {
@@ -233,6 +234,26 @@ TEST(PlaneSurfaceStress, ConstantStressOnEveryPanel)
     const auto stresses = panel_stresses(panels, material, u, t);
     const fem::Stress exact = components(hooke(material, plane_gradient()));
     for (Eigen::Index p = 0; p < panels.size(); ++p) EXPECT_LT((stresses.row(p).transpose() - exact).norm(), 1e-12);
+  }
+}
+
+// Nothing where the gradient is constant; of bending of a strip, of which u' is e = curvature (s - middle) off on each side along
+// it, with E' / (4 pi) h the integral of e^2.
+TEST(PlaneSurfaceStress, InterpolationErrors)
+{
+  const double nu = 0.3, young = 2.0 / (1 - nu * nu);
+  const auto material = plane_material(nu);
+  const auto field = linear(plane_gradient());
+  for (const auto& panels : borders())
+    EXPECT_LT(interpolation_errors(panels, material, nodal(panels, field), tractions_of(panels, material, field)).sum(), 1e-24);
+  const double h = 0.125;
+  auto strip = rectangle(20, 1, 160, 8);
+  for (auto& x : strip.points) x[1] -= 0.5;
+  const auto bent = plane_bending(nu);
+  const auto errors = interpolation_errors(strip, material, nodal(strip, bent), tractions_of(strip, material, bent));
+  for (std::size_t p = 0; p < strip.corners.size(); ++p) {
+    if (std::abs(strip.middle(p)[0] - 10) > 5) continue;
+    EXPECT_NEAR(errors[static_cast<Eigen::Index>(p)], young * h / (4 * std::numbers::pi) * h * h * h / 12, 1e-9);
   }
 }
 

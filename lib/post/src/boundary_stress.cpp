@@ -50,6 +50,7 @@ BoundaryStress stress_of_skin(const ElasticBodies& bodies, std::size_t s, const 
     const auto row = static_cast<Eigen::Index>(p);
     own.stress.row(row) = complete(own.stress.row(row).transpose(), panels.middle(p)).transpose();
   }
+  if constexpr (D == 2) own.interpolation_errors = bem::interpolation_errors(panels, material, u, t);
   const Eigen::VectorXd traction = t + particular.traction(panels);
   own.traction = Eigen::MatrixXd::Zero(panels.size(), 3);
   own.traction.leftCols<D>() = traction.reshaped<Eigen::RowMajor>(panels.size(), D);
@@ -123,6 +124,7 @@ Eigen::VectorXd errors_of_skin(const ElasticBodies& bodies, std::size_t subdomai
     const double size = D == 2 ? panels.area[p] : std::sqrt(panels.area[p]);
     result[row] = size * panels.area[p] / (2 * mu) * lacking.squaredNorm();
   }
+  if (D == 2) result += found.interpolation_errors;
   return result;
 }
 

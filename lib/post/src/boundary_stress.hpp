@@ -7,9 +7,10 @@ namespace mortise::post {
 
 /// As fem::StressField, of one subdomain: its cells are panels.
 struct BoundaryStress {
-  Eigen::MatrixXd nodal_sums;  ///< nodes x 7 blocks, weighted with the panels' areas
-  Eigen::MatrixXd stress;      ///< panels x 6
-  Eigen::MatrixXd traction;    ///< panels x 3
+  Eigen::MatrixXd nodal_sums;            ///< nodes x 7 blocks, weighted with the panels' areas
+  Eigen::MatrixXd stress;                ///< panels x 6
+  Eigen::MatrixXd traction;              ///< panels x 3
+  Eigen::VectorXd interpolation_errors;  ///< of panels of plane models, see bem/surface_stress.hpp; else empty
 };
 
 /// Of every subdomain of this rank; empty where it is made of finite elements. Copies are solved together.
@@ -19,7 +20,7 @@ std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const
 double boundary_energy(const ElasticBodies& bodies, std::size_t subdomain, const Eigen::VectorXd& displacement);
 
 /// For each panel an estimate of its part of the squared error in the energy norm: h / (2 mu) |s* n - t|^2 area, where s*
-/// is the recovered stress, nodes x 6, and h the panel's size.
+/// is the recovered stress, nodes x 6, and h the panel's size, and of plane models the interpolation error.
 Eigen::VectorXd boundary_errors(const ElasticBodies& bodies, std::size_t subdomain, const BoundaryStress& found,
                                 const Eigen::MatrixXd& recovered);
 

@@ -35,4 +35,10 @@ template <int D>
 Eigen::MatrixXd panel_stresses(const PanelsIn<D>& panels, const fem::Material& material, const Eigen::VectorXd& u,
                                const Eigen::VectorXd& t);
 
+/// For each panel of a plane body an estimate of the squared energy norm of the error of u, that it is linear on panels:
+/// mu h / (2 pi (1 - nu)) times the integral of |(G* - G) tangent|^2 over its length h, G the gradient, G* linear between the
+/// means of G at nodes. To an error that repeats itself from panel to panel S gives this energy.
+Eigen::VectorXd interpolation_errors(const PlanePanels& panels, const fem::Material& material, const Eigen::VectorXd& u,
+                                     const Eigen::VectorXd& t);
+
 }  // namespace mortise::bem
