@@ -11,6 +11,15 @@ namespace mortise::analysis {
 
 namespace {
 
+// Forces of a subdomain of boundary elements by the loads of its inside.
+template <int D>
+Eigen::VectorXd forces_of_inside(const mesh::Mesh& skin, const bem::ParticularSolution& particular,
+                                 const feti::SubdomainOperator& s)
+{
+  const auto panels = bem::make_panels<D>(skin);
+  return s.apply(particular.displacement(panels)) - particular.nodal_forces(panels);
+}
+
 // Factorizes every subdomain that is not a copy of an earlier one.
 feti::Subdomains factorize(const model::Model& model, const std::vector<partition::CopyOf>& copies,
                            std::vector<SparseMatrix> stiffness,
@@ -109,10 +118,12 @@ std::vector<Eigen::VectorXd> Assembly::loads(const model::LoadState& state, cons
   for (std::size_t s = 0; s < f.size(); ++s) {
     const auto& subdomain = decomposition().subdomains[s];
     if (!subdomain.skin) continue;
-    const bem::ParticularSolution particular(constitution[s], subdomain.mesh.points.front());
+    const auto& deck = model_.deck();
+    const bem::ParticularSolution particular(constitution[s], subdomain.mesh.points.front(), deck.kinematics);
     if (particular.is_zero()) continue;
-    const auto panels = bem::make_panels(subdomain.mesh);
-    f[s] += system_.clusters.subdomains()[s]->apply(particular.displacement(panels)) - particular.nodal_forces(panels);
+    const auto& own = *system_.clusters.subdomains()[s];
+    f[s] += deck.dimension() == 2 ? forces_of_inside<2>(subdomain.mesh, particular, own)
+                                  : forces_of_inside<3>(subdomain.mesh, particular, own);
   }
   return f;
 }

@@ -18,8 +18,9 @@ constexpr double bytes_an_unknown = 450;         // mesh, fields, vectors of the
 constexpr double bytes_a_multiplier = 1000;      // vectors of the dual space, most of them recycled directions; B, G
 constexpr double dirichlet_part = 0.8;           // of a factor: the preconditioner's own
 constexpr double constraints_of_subdomain = 45;  // averages that join a subdomain to others of its cluster, each a vector of it
-constexpr double numbers_of_boundary_operators = 16;  // V, K, D and what they are made of, for each pair of unknowns at nodes
-constexpr double margin = 0.9;                        // of what is available
+// V, K, D and what they are made of, for each pair of unknowns at nodes, in a plane and in space.
+constexpr double numbers_of_plane_operators = 8, numbers_of_boundary_operators = 16;
+constexpr double margin = 0.9;  // of what is available
 
 // Sum over the ranks that share this rank's memory. Collective.
 double sum_on_machine(double x, const Communicator& comm)
@@ -56,7 +57,8 @@ Memory foresee_memory(const model::Model& model, const std::vector<partition::Co
     if (copies[s].original != s) continue;
     if (decomposition.subdomains[s].skin) {
       dense += static_cast<double>(feti::DenseSubdomain::foreseen_bytes(static_cast<std::size_t>(unknowns(s))));
-      making = std::max(making, sizeof(double) * numbers_of_boundary_operators * unknowns(s) * unknowns(s));
+      const double numbers = dimension == 2 ? numbers_of_plane_operators : numbers_of_boundary_operators;
+      making = std::max(making, sizeof(double) * numbers * unknowns(s) * unknowns(s));
       continue;
     }
     if (largest == none || unknowns(s) > unknowns(largest)) largest = s;

@@ -158,14 +158,17 @@ BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& 
   return result;
 }
 
-// Integral of the k-th function over a panel is a third of its area.
-Eigen::VectorXd nodal_forces(const Panels& panels, const Eigen::VectorXd& t)
+// Integral of the k-th function over a panel is 1 / D of its area.
+template <int D>
+Eigen::VectorXd nodal_forces(const PanelsIn<D>& panels, const Eigen::VectorXd& t)
 {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(3 * panels.node_count());
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(D * panels.node_count());
   for (std::size_t p = 0; p < panels.corners.size(); ++p)
     for (const Local node : panels.corners[p])
-      result.segment<3>(3 * node) += panels.area[p] / 3 * t.segment<3>(3 * static_cast<Eigen::Index>(p));
+      result.segment<D>(D * node) += panels.area[p] / D * t.segment<D>(D * static_cast<Eigen::Index>(p));
   return result;
 }
+template Eigen::VectorXd nodal_forces(const PanelsIn<2>&, const Eigen::VectorXd&);
+template Eigen::VectorXd nodal_forces(const PanelsIn<3>&, const Eigen::VectorXd&);
 
 }  // namespace mortise::bem

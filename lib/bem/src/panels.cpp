@@ -32,11 +32,44 @@ void require_closed(const Panels& panels)
   }
 }
 
+// As many lines begin in a node as end there.
+void require_closed(const PlanePanels& panels)
+{
+  std::vector<int> surplus(panels.points.size(), 0);
+  for (const auto& c : panels.corners) {
+    ++surplus[static_cast<std::size_t>(c[0])];
+    --surplus[static_cast<std::size_t>(c[1])];
+  }
+  const auto open = std::find_if(surplus.begin(), surplus.end(), [](int count) { return count != 0; });
+  if (open == surplus.end()) return;
+  const Point& x = panels.points[static_cast<std::size_t>(open - surplus.begin())];
+  throw Error(
+      ExitStatus::bad_input,
+      fmt::format("the border is not closed, or its lines are not turned alike: at ({:.6g}, {:.6g}) not as many begin as end",
+                  x[0], x[1]));
+}
+
+template <int D>
+PanelsIn<D> panels_of(const mesh::Mesh& mesh)
+{
+  std::vector<std::array<Local, D>> corners(mesh.cells.size());
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    for (std::size_t k = 0; k < D; ++k) corners[c][k] = mesh.cells[c][k];
+  return make_panels(mesh.points, std::move(corners));
+}
+
 }  // namespace
 
-Point Panels::gradient(std::size_t panel, int k) const
+template <>
+Point PanelsIn<3>::gradient(std::size_t panel, int k) const
 {
   return normal[panel].cross(corner(panel, (k + 2) % 3) - corner(panel, (k + 1) % 3)) / (2 * area[panel]);
+}
+
+template <>
+Point PanelsIn<2>::gradient(std::size_t panel, int k) const
+{
+  return (corner(panel, k) - corner(panel, 1 - k)) / (area[panel] * area[panel]);
 }
 
 Panels make_panels(std::vector<Point> points, std::vector<std::array<Local, 3>> corners)
@@ -59,19 +92,44 @@ Panels make_panels(std::vector<Point> points, std::vector<std::array<Local, 3>> 
   return panels;
 }
 
-Panels make_panels(const mesh::Mesh& mesh)
+PlanePanels make_panels(std::vector<Point> points, std::vector<std::array<Local, 2>> corners)
 {
-  std::vector<std::array<Local, 3>> corners;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) corners.push_back({mesh.cells[c][0], mesh.cells[c][1], mesh.cells[c][2]});
-  return make_panels(mesh.points, std::move(corners));
+  PlanePanels panels{std::move(points), std::move(corners), {}, {}};
+  double area = 0;
+  for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+    const Point &a = panels.corner(p, 0), along = panels.corner(p, 1) - a, outward(along[1], -along[0], 0);
+    const double length = along.norm();
+    if (!(length > 0))
+      throw Error(ExitStatus::bad_input, fmt::format("a line of the border at ({:.6g}, {:.6g}) has no length", a[0], a[1]));
+    panels.normal.push_back(outward / length);
+    panels.area.push_back(length);
+    area += (a - panels.points.front()).dot(outward) / 2;
+  }
+  require_closed(panels);
+  if (!(area > 0)) throw Error(ExitStatus::bad_input, "the border encloses no area, or its lines are turned inward");
+  return panels;
 }
 
-Eigen::VectorXd linear_field(const Panels& panels, const Point& offset, const Eigen::Matrix3d& gradient, const Point& origin)
+template <>
+PanelsIn<3> make_panels(const mesh::Mesh& mesh)
 {
-  Eigen::VectorXd u(3 * panels.node_count());
+  return panels_of<3>(mesh);
+}
+template <>
+PanelsIn<2> make_panels(const mesh::Mesh& mesh)
+{
+  return panels_of<2>(mesh);
+}
+
+template <int D>
+Eigen::VectorXd linear_field(const PanelsIn<D>& panels, const Point& offset, const Eigen::Matrix3d& gradient, const Point& origin)
+{
+  Eigen::VectorXd u(D * panels.node_count());
   for (Eigen::Index n = 0; n < panels.node_count(); ++n)
-    u.segment<3>(3 * n) = offset + gradient * (panels.points[static_cast<std::size_t>(n)] - origin);
+    u.segment<D>(D * n) = flattened<D>(offset + gradient * (panels.points[static_cast<std::size_t>(n)] - origin));
   return u;
 }
+template Eigen::VectorXd linear_field(const PanelsIn<2>&, const Point&, const Eigen::Matrix3d&, const Point&);
+template Eigen::VectorXd linear_field(const PanelsIn<3>&, const Point&, const Eigen::Matrix3d&, const Point&);
 
 }  // namespace mortise::bem

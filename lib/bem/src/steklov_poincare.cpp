@@ -6,40 +6,53 @@
 
 #include "base/error.hpp"
 #include "bem/boundary_operators.hpp"
+#include "bem/surface_stress.hpp"
 
 namespace mortise::bem {
 
 namespace {
 
-// U, 3 n x 12, and T, 3 m x 12: displacements that are linear in space, and their tractions.
+constexpr double least_pivot = 1e-11;  // over the diagonal: nothing where two panels lie on each other
+
+// U and T, D n and D m x D (D + 1): displacements that are linear in space, and their tractions.
 struct LinearFields {
   Eigen::MatrixXd u, t;
 };
 
-LinearFields linear_fields(const Panels& panels, const fem::Material& material)
+template <int D>
+LinearFields linear_fields(const PanelsIn<D>& panels, const fem::Material& material)
 {
-  const double mu = material.young_modulus / (2 * (1 + material.poisson_ratio));
-  const double lambda = 2 * mu * material.poisson_ratio / (1 - 2 * material.poisson_ratio);
+  constexpr int fields_count = D * (D + 1);
   Point low = panels.points.front(), high = low;
   for (const auto& p : panels.points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
   const Point centre = (low + high) / 2, size = high - low;
-  LinearFields fields{Eigen::MatrixXd(3 * panels.node_count(), 12), Eigen::MatrixXd::Zero(3 * panels.size(), 12)};
-  for (int c = 0; c < 3; ++c) fields.u.col(c) = linear_field(panels, Point::Unit(c), Eigen::Matrix3d::Zero(), centre);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
+  LinearFields fields{Eigen::MatrixXd(D * panels.node_count(), fields_count),
+                      Eigen::MatrixXd::Zero(D * panels.size(), fields_count)};
+  for (int c = 0; c < D; ++c) fields.u.col(c) = linear_field(panels, Point::Unit(c), Eigen::Matrix3d::Zero(), centre);
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) {
       Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
       gradient(i, j) = 1 / size[j];
-      const Eigen::Matrix3d stress =
-          mu * (gradient + gradient.transpose()) + lambda * gradient.trace() * Eigen::Matrix3d::Identity();
-      const int column = 3 + 3 * i + j;
+      const Eigen::Matrix3d stress = hooke(material, gradient);
+      const int column = D + D * i + j;
       fields.u.col(column) = linear_field(panels, Point::Zero(), gradient, centre);
       for (std::size_t p = 0; p < panels.corners.size(); ++p)
-        fields.t.col(column).segment<3>(3 * static_cast<Eigen::Index>(p)) = stress * panels.normal[p];
+        fields.t.col(column).segment<D>(D * static_cast<Eigen::Index>(p)) = flattened<D>(stress * panels.normal[p]);
     }
   return fields;
+}
+
+BoundaryOperators operators(const Panels& panels, const fem::Material& material, double accuracy, Operators which)
+{
+  return boundary_operators(panels, material, accuracy, which);
+}
+
+BoundaryOperators operators(const PlanePanels& panels, const fem::Material& material, double, Operators which)
+{
+  return boundary_operators(panels, material, which);
 }
 
 // V and K, with which linear fields are exact.
@@ -50,7 +63,8 @@ void correct(const LinearFields& fields, const Eigen::MatrixXd& v, Eigen::Matrix
 }
 
 // D likewise, after K: D U = M'T - K'T.
-void correct(const LinearFields& fields, const Panels& panels, const Eigen::MatrixXd& k, Eigen::MatrixXd& d)
+template <int D>
+void correct(const LinearFields& fields, const PanelsIn<D>& panels, const Eigen::MatrixXd& k, Eigen::MatrixXd& d)
 {
   const auto gram = (fields.u.transpose() * fields.u).eval().ldlt();
   const Eigen::MatrixXd dual = gram.solve(fields.u.transpose());
@@ -67,10 +81,11 @@ void factorize(Eigen::MatrixXd& v)
 {
   int info = 0;
   const auto size = static_cast<int>(v.rows());
+  const Eigen::VectorXd diagonal = v.diagonal();
   Teuchos::LAPACK<int, double>().POTRF('L', size, v.data(), size, &info);
-  if (info != 0)
+  if (info != 0 || (v.diagonal().array().square() < least_pivot * diagonal.array()).any())
     throw Error(ExitStatus::bad_input,
-                "the single layer of the surface is not positive definite: do faces of it cut each other?");
+                "the single layer of the surface is not positive definite: do faces of it cut each other or lie on each other?");
 }
 
 void solve_lower(const Eigen::MatrixXd& lower, Teuchos::ETransp transposed, Eigen::MatrixXd& b)
@@ -82,9 +97,10 @@ void solve_lower(const Eigen::MatrixXd& lower, Teuchos::ETransp transposed, Eige
 
 }  // namespace
 
-Eigen::MatrixXd steklov_poincare(const Panels& panels, const fem::Material& material, double accuracy)
+template <int D>
+Eigen::MatrixXd steklov_poincare(const PanelsIn<D>& panels, const fem::Material& material, double accuracy)
 {
-  auto [v, k, d] = boundary_operators(panels, material, accuracy);
+  auto [v, k, d] = operators(panels, material, accuracy, Operators::all);
   const auto fields = linear_fields(panels, material);
   correct(fields, v, k);
   correct(fields, panels, k, d);
@@ -92,13 +108,16 @@ Eigen::MatrixXd steklov_poincare(const Panels& panels, const fem::Material& mate
   solve_lower(v, Teuchos::NO_TRANS, k);
   const auto n = static_cast<int>(d.rows()), m = static_cast<int>(k.rows());
   Teuchos::BLAS<int, double>().SYRK(Teuchos::LOWER_TRI, Teuchos::TRANS, n, m, 1.0, k.data(), m, 1.0, d.data(), n);
-  d.triangularView<Eigen::StrictlyUpper>() = d.transpose();
+  d.template triangularView<Eigen::StrictlyUpper>() = d.transpose();
   return std::move(d);
 }
+template Eigen::MatrixXd steklov_poincare(const PanelsIn<2>&, const fem::Material&, double);
+template Eigen::MatrixXd steklov_poincare(const PanelsIn<3>&, const fem::Material&, double);
 
-Eigen::MatrixXd tractions(const Panels& panels, const fem::Material& material, const Eigen::MatrixXd& u, double accuracy)
+template <int D>
+Eigen::MatrixXd tractions(const PanelsIn<D>& panels, const fem::Material& material, const Eigen::MatrixXd& u, double accuracy)
 {
-  auto [v, k, d] = boundary_operators(panels, material, accuracy, Operators::of_tractions);
+  auto [v, k, d] = operators(panels, material, accuracy, Operators::of_tractions);
   correct(linear_fields(panels, material), v, k);
   Eigen::MatrixXd t = k * u;
   factorize(v);
@@ -106,5 +125,7 @@ Eigen::MatrixXd tractions(const Panels& panels, const fem::Material& material, c
   solve_lower(v, Teuchos::TRANS, t);
   return t;
 }
+template Eigen::MatrixXd tractions(const PanelsIn<2>&, const fem::Material&, const Eigen::MatrixXd&, double);
+template Eigen::MatrixXd tractions(const PanelsIn<3>&, const fem::Material&, const Eigen::MatrixXd&, double);
 
 }  // namespace mortise::bem

@@ -99,8 +99,8 @@ void describe(deck::Description<BodyOptions>& d)
       },
       [](const deck::Limits& limits) { return deck::Codec<std::vector<mesh::InstanceOptions>>::schema(limits); });
   names_key(d, "method",
-            "finite_elements: in the cells of the body; boundary_elements: on its surface alone, by flat triangles (models of "
-            "dimension 3, bodies of one material).",
+            "finite_elements: in the cells of the body; boundary_elements: on its surface alone, by flat triangles, in plane "
+            "models by straight lines (not axisymmetric; bodies of one material).",
             &BodyOptions::method, methods)
       .one_of({"finite_elements", "boundary_elements"});
   d.key("surfaces", &BodyOptions::surfaces,

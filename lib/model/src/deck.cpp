@@ -57,6 +57,20 @@ std::vector<std::string> keys_of(const auto& map)
   return names;
 }
 
+void check_boundary_elements(const Deck& deck, const std::string& name, const fem::BodyOptions& body, deck::Document& document)
+{
+  if (deck.axisymmetric())
+    document.error("bodies." + name + ".method",
+                   "boundary elements are not for axisymmetric models; expected finite_elements, or another `dimension`");
+  const auto material = deck.materials.find(body.material);
+  if (deck.kinematics == fem::Kinematics::plane_stress && material != deck.materials.end() &&
+      material->second.poisson_ratio <= -0.5)
+    document.error("bodies." + name + ".method",
+                   fmt::format("boundary elements in plane stress need a Poisson's ratio above -0.5, found {:.6g}; expected "
+                               "finite_elements",
+                               material->second.poisson_ratio));
+}
+
 // Mesh, bodies and materials.
 void check_bodies(const Deck& deck, deck::Document& document)
 {
@@ -78,9 +92,7 @@ void check_bodies(const Deck& deck, deck::Document& document)
       document.error("bodies." + name + ".formulation",
                      "the incompatible modes are for boxes, not for rings; expected standard or bbar, or cells of second order");
   for (const auto& [name, body] : deck.bodies)
-    if (body.method == fem::Method::boundary_elements && deck.kinematics != fem::Kinematics::solid)
-      document.error("bodies." + name + ".method",
-                     "boundary elements are for models of dimension 3; expected finite_elements, or `dimension: 3`");
+    if (body.method == fem::Method::boundary_elements) check_boundary_elements(deck, name, body, document);
   for (const auto& [name, block] : deck.mesh.blocks) {
     const auto type = mesh::cell_type(block.element);
     if (type && mesh::dimension(*type) != deck.dimension())

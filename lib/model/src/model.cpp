@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "bem/plane_state.hpp"
 #include "bem/steklov_poincare.hpp"
 #include "contact/cyclic.hpp"
 #include "fem/loads.hpp"
@@ -227,7 +228,9 @@ SparseMatrix Model::stiffness(const partition::Subdomain& subdomain) const
 Eigen::MatrixXd Model::steklov_poincare(const partition::Subdomain& subdomain) const
 {
   try {
-    return bem::steklov_poincare(bem::make_panels(subdomain.mesh), materials(subdomain)[0]);
+    const auto material = bem::in_plane(materials(subdomain)[0], deck_.kinematics);
+    if (deck_.dimension() == 2) return bem::steklov_poincare(bem::make_panels<2>(subdomain.mesh), material);
+    return bem::steklov_poincare(bem::make_panels(subdomain.mesh), material);
   } catch (const Error& error) {
     const auto& body = decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];
     throw Error(error.status(), fmt::format("body \"{}\": {}", body.name, error.what()));

@@ -99,7 +99,7 @@ contacts:
   EXPECT_EQ(write_deck(copy), written);
 }
 
-TEST(Decks, BoundaryElementsAreForSolidBodiesOfOneMaterial)
+TEST(Decks, BoundaryElementsAreForBodiesOfOneMaterial)
 {
   const std::string on_surface = "bodies.a.method=boundary_elements";
   deck::Document document(blocks, "deck.yaml", {on_surface});
@@ -118,8 +118,13 @@ TEST(Decks, BoundaryElementsAreForSolidBodiesOfOneMaterial)
     EXPECT_NE(complaints(blocks, settings).find(expected), std::string::npos) << complaints(blocks, settings);
   };
   expect({"bodies.a.formulation=bbar"}, "bodies.a.formulation: this is a formulation of finite elements");
-  expect({"dimension=axisymmetric"}, "bodies.a.method: boundary elements are for models of dimension 3");
-  expect({"dimension=plane_strain"}, "bodies.a.method: boundary elements are for models of dimension 3");
+  expect({"dimension=axisymmetric"}, "bodies.a.method: boundary elements are not for axisymmetric models");
+  const std::string above = "bodies.a.method: boundary elements in plane stress need a Poisson's ratio above -0.5, found -0.7";
+  expect({"dimension=plane_stress", "materials.steel.poisson_ratio=-0.7"}, above);
+  for (const std::string plane : {"plane_strain", "plane_stress"})
+    EXPECT_EQ(complaints(blocks, {"dimension=" + plane, on_surface}).find("bodies.a.method"), std::string::npos);
+  EXPECT_EQ(complaints(blocks, {"dimension=plane_strain", "materials.steel.poisson_ratio=-0.7", on_surface}).find(above),
+            std::string::npos);
   expect({"decomposition.subdomains_per_cluster=4"},
          "decomposition.subdomains_per_cluster: clusters are for finite elements, and the body \"a\" is of boundary elements");
   expect({"bodies.a={volumes: {c: steel}, method: boundary_elements}"},

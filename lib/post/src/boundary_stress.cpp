@@ -1,7 +1,9 @@
 #include "boundary_stress.hpp"
 
+#include <cmath>
 #include <map>
 
+#include "bem/plane_state.hpp"
 #include "bem/steklov_poincare.hpp"
 #include "bem/stress_recovery.hpp"
 #include "bem/surface_stress.hpp"
@@ -11,20 +13,63 @@ namespace mortise::post {
 
 namespace {
 
-// The vectors of all nodes or panels, 3 each, rotated.
+fem::Material material_of(const ElasticBodies& bodies, std::size_t s)
+{
+  return bem::in_plane(bodies.constitution[s].materials[0], bodies.kinematics);
+}
+
+// The vectors of all nodes or panels, D each, rotated.
+template <int D>
 void rotate(const Eigen::Matrix3d& rotation, Eigen::Ref<Eigen::VectorXd> v)
 {
-  for (Eigen::Index i = 0; i < v.size(); i += 3) v.segment<3>(i) = rotation * Eigen::Vector3d(v.segment<3>(i));
+  const Eigen::Matrix<double, D, D> turn = rotation.topLeftCorner<D, D>();
+  for (Eigen::Index i = 0; i < v.size(); i += D) v.segment<D>(i) = turn * Eigen::Matrix<double, D, 1>(v.segment<D>(i));
+}
+
+// Of one subdomain, from what boundary elements find, u and t of its rest.
+template <int D>
+BoundaryStress stress_of_skin(const ElasticBodies& bodies, std::size_t s, const Eigen::VectorXd& u, const Eigen::VectorXd& t)
+{
+  const auto panels = bem::make_panels<D>(bodies.decomposition.subdomains[s].mesh);
+  const auto particular = particular_solution(bodies, s);
+  const auto material = material_of(bodies, s);
+  const auto complete = [&](fem::Stress stress, const Point& x) -> fem::Stress {
+    stress += particular.stress(x);
+    if (D == 2) stress[2] = bem::stress_across_plane(bodies.constitution[s], bodies.kinematics, stress[0] + stress[1]);
+    return stress;
+  };
+  BoundaryStress own;
+  own.stress = bem::panel_stresses(panels, material, u, t);
+  for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+    const auto row = static_cast<Eigen::Index>(p);
+    own.stress.row(row) = complete(own.stress.row(row).transpose(), panels.middle(p)).transpose();
+  }
+  if constexpr (D == 2) own.interpolation_errors = bem::interpolation_errors(panels, material, u, t);
+  const Eigen::VectorXd traction = t + particular.traction(panels);
+  own.traction = Eigen::MatrixXd::Zero(panels.size(), 3);
+  own.traction.leftCols<D>() = traction.reshaped<Eigen::RowMajor>(panels.size(), D);
+  own.nodal_sums = Eigen::MatrixXd::Zero(panels.node_count(), 7 * static_cast<Eigen::Index>(bodies.blocks));
+  auto sums = own.nodal_sums.leftCols<7>();
+  sums = bem::nodal_sums(panels, material, u, t);
+  own.surface = {u, t};
+  for (Eigen::Index n = 0; n < sums.rows(); ++n) {
+    const fem::Stress rest = sums.row(n).template head<6>().transpose() / sums(n, 6);
+    sums.row(n).template head<6>() = sums(n, 6) * complete(rest, panels.points[static_cast<std::size_t>(n)]).transpose();
+  }
+  return own;
 }
 
 }  // namespace
 
 bem::ParticularSolution particular_solution(const ElasticBodies& bodies, std::size_t subdomain)
 {
-  return {bodies.constitution[subdomain], bodies.decomposition.subdomains[subdomain].mesh.points.front()};
+  return {bodies.constitution[subdomain], bodies.decomposition.subdomains[subdomain].mesh.points.front(), bodies.kinematics};
 }
 
-std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement)
+namespace {
+
+template <int D>
+std::vector<BoundaryStress> stresses_of_skins(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement)
 {
   const auto& subdomains = bodies.decomposition.subdomains;
   std::vector<BoundaryStress> result(subdomains.size());
@@ -32,58 +77,40 @@ std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const
   for (std::size_t s = 0; s < subdomains.size(); ++s)
     if (subdomains[s].skin) members[bodies.copies[s].original].push_back(s);
   for (const auto& [original, list] : members) {
-    const auto reference = bem::make_panels(subdomains[original].mesh);
-    Eigen::MatrixXd u(3 * reference.node_count(), static_cast<Eigen::Index>(list.size()));
+    const auto reference = bem::make_panels<D>(subdomains[original].mesh);
+    Eigen::MatrixXd u(D * reference.node_count(), static_cast<Eigen::Index>(list.size()));
     for (std::size_t c = 0; c < list.size(); ++c) {
       const auto s = list[c];
       auto column = u.col(static_cast<Eigen::Index>(c));
-      column = displacement[s] - particular_solution(bodies, s).displacement(bem::make_panels(subdomains[s].mesh));
-      if (const auto& rotation = bodies.copies[s].rotation) rotate(rotation->transpose(), column);
+      column = displacement[s] - particular_solution(bodies, s).displacement(bem::make_panels<D>(subdomains[s].mesh));
+      if (const auto& rotation = bodies.copies[s].rotation) rotate<D>(rotation->transpose(), column);
     }
-    Eigen::MatrixXd t = bem::tractions(reference, bodies.constitution[original].materials[0], u);
+    Eigen::MatrixXd t = bem::tractions(reference, material_of(bodies, original), u);
     for (std::size_t c = 0; c < list.size(); ++c) {
       const auto s = list[c];
       const auto column = static_cast<Eigen::Index>(c);
       if (const auto& rotation = bodies.copies[s].rotation) {
-        rotate(*rotation, u.col(column));
-        rotate(*rotation, t.col(column));
+        rotate<D>(*rotation, u.col(column));
+        rotate<D>(*rotation, t.col(column));
       }
-      const auto panels = bem::make_panels(subdomains[s].mesh);
-      const auto particular = particular_solution(bodies, s);
-      auto& own = result[s];
-      own.stress = bem::panel_stresses(panels, bodies.constitution[s].materials[0], u.col(column), t.col(column));
-      const Eigen::VectorXd traction = t.col(column) + particular.traction(panels);
-      own.traction = traction.reshaped<Eigen::RowMajor>(panels.size(), 3);
-      own.nodal_sums = Eigen::MatrixXd::Zero(panels.node_count(), 7 * static_cast<Eigen::Index>(bodies.blocks));
-      auto sums = own.nodal_sums.leftCols<7>();
-      sums = bem::nodal_sums(panels, bodies.constitution[s].materials[0], u.col(column), t.col(column));
-      for (Eigen::Index n = 0; n < sums.rows(); ++n)
-        sums.row(n).head<6>() += sums(n, 6) * particular.stress(panels.points[static_cast<std::size_t>(n)]).transpose();
-      for (std::size_t p = 0; p < panels.corners.size(); ++p) {
-        const auto row = static_cast<Eigen::Index>(p);
-        own.stress.row(row) +=
-            particular.stress((panels.corner(p, 0) + panels.corner(p, 1) + panels.corner(p, 2)) / 3).transpose();
-      }
-      own.surface = {u.col(column), t.col(column)};
+      result[s] = stress_of_skin<D>(bodies, s, u.col(column), t.col(column));
     }
   }
   return result;
 }
 
-// Of u = e + u_p: e'S e / 2 + u_p'S e + that of u_p.
-double boundary_energy(const ElasticBodies& bodies, std::size_t subdomain, const Eigen::VectorXd& displacement)
+template <int D>
+double energy_of_skin(const ElasticBodies& bodies, std::size_t subdomain, const Eigen::VectorXd& displacement)
 {
   const auto& s = *bodies.operators[subdomain];
   const auto particular = particular_solution(bodies, subdomain);
   if (particular.is_zero()) return displacement.dot(s.apply(displacement)) / 2;
-  const auto panels = bem::make_panels(bodies.decomposition.subdomains[subdomain].mesh);
+  const auto panels = bem::make_panels<D>(bodies.decomposition.subdomains[subdomain].mesh);
   const Eigen::VectorXd of_force = particular.displacement_of_force(panels);
   const Eigen::VectorXd rest = displacement - particular.displacement(panels);
   const Eigen::VectorXd force = s.apply(rest);
   return rest.dot(force) / 2 + of_force.dot(force) + particular.strain_energy(panels);
 }
-
-namespace {
 
 // Of the energies that stresses and tractions off the recovered ones have in a layer as deep as the panel is wide, such that
 // estimates are 0.75 to 1.8 times the true errors of beams, punches and spheres (regression/verification/methods.py).
@@ -97,25 +124,50 @@ double strain_energy_density(const fem::Stress& stress, const fem::Material& mat
          (2 * material.young_modulus);
 }
 
-}  // namespace
-
-Eigen::VectorXd boundary_errors(const ElasticBodies& bodies, std::size_t subdomain, const BoundaryStress& found,
-                                const Eigen::MatrixXd& recovered)
+template <int D>
+Eigen::VectorXd errors_of_skin(const ElasticBodies& bodies, std::size_t subdomain, const BoundaryStress& found,
+                               const Eigen::MatrixXd& recovered)
 {
-  const auto panels = bem::make_panels(bodies.decomposition.subdomains[subdomain].mesh);
+  const auto panels = bem::make_panels<D>(bodies.decomposition.subdomains[subdomain].mesh);
   const auto& material = bodies.constitution[subdomain].materials[0];
   const double mu = material.young_modulus / (2 * (1 + material.poisson_ratio));
   Eigen::VectorXd result(panels.size());
   for (std::size_t p = 0; p < panels.corners.size(); ++p) {
     const auto row = static_cast<Eigen::Index>(p);
     fem::Stress mean = fem::Stress::Zero();
-    for (const Local node : panels.corners[p]) mean += recovered.row(node).head<6>().transpose() / 3;
+    for (const Local node : panels.corners[p]) mean += recovered.row(node).head<6>().transpose() / D;
     const double square = (bem::traction(mean, panels.normal[p]) - found.traction.row(row).transpose()).squaredNorm();
-    result[row] = std::pow(panels.area[p], 1.5) *
-                  (share_of_stress * strain_energy_density(mean - found.stress.row(row).transpose(), material) +
-                   share_of_traction * square / (2 * mu));
+    const double of_traction = square / (2 * mu), volume = std::pow(panels.area[p], D == 2 ? 2 : 1.5);
+    if (D == 2)
+      result[row] = volume * of_traction;
+    else
+      result[row] = volume * (share_of_stress * strain_energy_density(mean - found.stress.row(row).transpose(), material) +
+                              share_of_traction * of_traction);
   }
+  if (D == 2) result += found.interpolation_errors;
   return result;
+}
+
+}  // namespace
+
+std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement)
+{
+  return fem::dimension(bodies.kinematics) == 2 ? stresses_of_skins<2>(bodies, displacement)
+                                                : stresses_of_skins<3>(bodies, displacement);
+}
+
+// Of u = e + u_p: e'S e / 2 + u_p'S e + that of u_p.
+double boundary_energy(const ElasticBodies& bodies, std::size_t subdomain, const Eigen::VectorXd& displacement)
+{
+  return fem::dimension(bodies.kinematics) == 2 ? energy_of_skin<2>(bodies, subdomain, displacement)
+                                                : energy_of_skin<3>(bodies, subdomain, displacement);
+}
+
+Eigen::VectorXd boundary_errors(const ElasticBodies& bodies, std::size_t subdomain, const BoundaryStress& found,
+                                const Eigen::MatrixXd& recovered)
+{
+  return fem::dimension(bodies.kinematics) == 2 ? errors_of_skin<2>(bodies, subdomain, found, recovered)
+                                                : errors_of_skin<3>(bodies, subdomain, found, recovered);
 }
 
 }  // namespace mortise::post

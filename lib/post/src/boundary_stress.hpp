@@ -8,9 +8,10 @@ namespace mortise::post {
 
 /// As fem::StressField, of one subdomain: its cells are panels.
 struct BoundaryStress {
-  Eigen::MatrixXd nodal_sums;  ///< nodes x 7 blocks, weighted with the panels' areas
-  Eigen::MatrixXd stress;      ///< panels x 6
-  Eigen::MatrixXd traction;    ///< panels x 3
+  Eigen::MatrixXd nodal_sums;            ///< nodes x 7 blocks, weighted with the panels' areas
+  Eigen::MatrixXd stress;                ///< panels x 6
+  Eigen::MatrixXd traction;              ///< panels x 3
+  Eigen::VectorXd interpolation_errors;  ///< of panels of plane models, see bem/surface_stress.hpp; else empty
   SurfaceField surface;
 };
 
@@ -24,8 +25,9 @@ std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const
 double boundary_energy(const ElasticBodies& bodies, std::size_t subdomain, const Eigen::VectorXd& displacement);
 
 /// For each panel an estimate of its part of the squared error in the energy norm: h area (a (s* - s) C^-1 (s* - s) / 2 +
-/// b |s* n - t|^2 / (2 mu)), where s* is the recovered stress, nodes x 6, s and t are those of the panel, and h is its size.
-/// Tractions alone do not see bending that linear displacements cannot follow.
+/// b |s* n - t|^2 / (2 mu)), where s* is the recovered stress, nodes x 6, s and t are those of the panel, and h is its size:
+/// tractions alone do not see bending that linear displacements cannot follow. In plane models h area |s* n - t|^2 / (2 mu) and
+/// the interpolation error.
 Eigen::VectorXd boundary_errors(const ElasticBodies& bodies, std::size_t subdomain, const BoundaryStress& found,
                                 const Eigen::MatrixXd& recovered);
 

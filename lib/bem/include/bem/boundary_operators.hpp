@@ -14,6 +14,16 @@
 //     D_ij = mu (2 tr Y I - Y)_ij + (M' (2 mu V_L - 4 mu^2 V) M)_ij,   Y_ij = c_i' V_L c_j,   c = n x grad
 //
 // [Kupradze, Three-dimensional problems of elasticity, 1979; Han, Numer. Math. 68 (1994)].
+//
+// In plane strain, lengths over a unit beyond the size of the surface, so that V is positive definite,
+//
+//     U(d) = (1 + nu) / (4 pi E (1 - nu)) (-(3 - 4 nu) ln r I + d d' / r^2),   M u = (-u_2', u_1'),   ' = d / ds:
+//
+// K as above with Laplace's kernels -ln r / (2 pi) and n_y.d / (2 pi r^2), and
+//
+//     <D u, v> = E / (4 pi (1 - nu^2)) II u' . (-ln r I + d d' / r^2) v'.
+//
+// The choice of the unit adds a translation to V t, which vanishes for tractions in equilibrium, and nothing to K and D.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,7 +53,11 @@ struct BoundaryOperators {
 BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& material, double accuracy,
                                      Operators which = Operators::all);
 
-/// Nodal forces of tractions that are constant on each panel: M't, 3 n.
-Eigen::VectorXd nodal_forces(const Panels& panels, const Eigen::VectorXd& t);
+/// In plane strain, from closed forms: 2 components instead of 3. For plane stress see plane_state.hpp.
+BoundaryOperators boundary_operators(const PlanePanels& panels, const fem::Material& material, Operators which = Operators::all);
+
+/// Nodal forces of tractions that are constant on each panel: M't, D n.
+template <int D>
+Eigen::VectorXd nodal_forces(const PanelsIn<D>& panels, const Eigen::VectorXd& t);
 
 }  // namespace mortise::bem

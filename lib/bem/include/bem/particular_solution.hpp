@@ -2,7 +2,8 @@
 //
 //     u_p = alpha dT (x - c) - (x - c).b b / (2 (lambda + 2 mu)) (x - c).b / b.b,     div sigma(u_p) = -b
 //
-// What boundary elements find is the rest, u - u_p, which has neither: f = S (u - u_p) + integral of t_p phi.
+// What boundary elements find is the rest, u - u_p, which has neither: f = S (u - u_p) + integral of t_p phi. In planes with the
+// material of plane_state.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,23 +16,32 @@ namespace mortise::bem {
 
 class ParticularSolution {
  public:
-  /// Zero at `centre`. Of one material; forces a volume are its density times the acceleration.
-  ParticularSolution(const fem::Constitution& constitution, const Point& centre);
+  /// Zero at `centre`. Of one material; forces a volume are its density times the acceleration, in a plane model the part of it
+  /// that lies in the plane.
+  ParticularSolution(const fem::Constitution& constitution, const Point& centre,
+                     fem::Kinematics kinematics = fem::Kinematics::solid);
 
   bool is_zero() const { return expansion_ == 0 && force_ == 0; }
   Point displacement(const Point& x) const;
-  /// Without that which the free expansion would need: that has none.
+  /// Without that which the free expansion would need: that has none. In a plane model as in_plane()'s material has it in plane
+  /// strain.
   fem::Stress stress(const Point& x) const;
-  /// At the nodes, 3 n.
-  Eigen::VectorXd displacement(const Panels& panels) const;
+  /// At the nodes, D n.
+  template <int D>
+  Eigen::VectorXd displacement(const PanelsIn<D>& panels) const;
   /// The part of the force alone, which strains the body elastically.
-  Eigen::VectorXd displacement_of_force(const Panels& panels) const;
-  /// Means over the panels, 3 m.
-  Eigen::VectorXd traction(const Panels& panels) const;
-  /// Integral of t_p phi, 3 n.
-  Eigen::VectorXd nodal_forces(const Panels& panels) const;
-  /// Integral of sigma(u_p) : e(u_p) / 2 over the inside.
-  double strain_energy(const Panels& panels) const;
+  template <int D>
+  Eigen::VectorXd displacement_of_force(const PanelsIn<D>& panels) const;
+  /// Means over the panels, D m.
+  template <int D>
+  Eigen::VectorXd traction(const PanelsIn<D>& panels) const;
+  /// Integral of t_p phi, D n.
+  template <int D>
+  Eigen::VectorXd nodal_forces(const PanelsIn<D>& panels) const;
+  /// Integral of sigma(u_p) : e(u_p) / 2 over the inside, and in plane strain of what the held expansion across the plane adds to
+  /// the energy of any displacement.
+  template <int D>
+  double strain_energy(const PanelsIn<D>& panels) const;
 
  private:
   Point centre_, direction_;
@@ -39,6 +49,7 @@ class ParticularSolution {
   double force_;           // a volume, along the direction
   double along_, across_;  // stress along the direction and across it, of a unit of force_ * distance
   double constrained_;     // lambda + 2 mu
+  double across_plane_;    // energy an area of the expansion across the plane
 };
 
 }  // namespace mortise::bem

@@ -82,7 +82,7 @@ class Representation {
 
   const Panels& panels_;
   fem::Material material_;
-  StressRecovery recovery_;
+  StressRecovery<3> recovery_;
   std::array<double, rules> largest_;  // radius / distance of a panel for each rule
   std::vector<Block> blocks_;
   std::array<std::vector<Lane3>, rules> points_;  // of the rules: block * points + point

@@ -4,7 +4,8 @@
 //
 // [Steinbach, Numerical Approximation Methods for Elliptic Boundary Value Problems, Springer 2008, section 12.3]. Quadrature is
 // made exact for fields that are linear in space, with tractions T n of a constant stress: K gets (V T - K U) (U'U)^-1 U' more
-// for the twelve of them, U and T, and D a symmetric term such that S U = M'T. So rigid motions have no forces but by rounding.
+// for the D (D + 1) of them in D dimensions, U and T, and D a symmetric term such that S U = M'T. So rigid motions have no forces
+// but by rounding. Plane models: plane strain; for plane stress see plane_state.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,15 +15,17 @@
 
 namespace mortise::bem {
 
-/// Of the quadrature, as far as fields are not linear.
+/// Of the quadrature in space, as far as fields are not linear; lines have closed forms.
 inline constexpr double usual_accuracy = 1e-4;
 
-/// S, 3 n x 3 n, symmetric, unknown 3 * node + component. Takes about 50 m n numbers for a moment (m panels, n nodes).
-/// Throws Error(bad_input) where V is not positive definite, which is a matter of panels that cut each other.
-Eigen::MatrixXd steklov_poincare(const Panels& panels, const fem::Material& material, double accuracy = usual_accuracy);
+/// S, D n x D n, symmetric, unknown D * node + component. Takes about 50 m n numbers for a moment in space, 24 m n in a plane (m
+/// panels, n nodes). Throws Error(bad_input) where V is not positive definite, which is a matter of panels that cut each other.
+template <int D>
+Eigen::MatrixXd steklov_poincare(const PanelsIn<D>& panels, const fem::Material& material, double accuracy = usual_accuracy);
 
-/// t, 3 m x columns, of displacements u, 3 n x columns: unknown 3 * panel + component. Costs about a third of S.
-Eigen::MatrixXd tractions(const Panels& panels, const fem::Material& material, const Eigen::MatrixXd& u,
+/// t, D m x columns, of displacements u, D n x columns: unknown D * panel + component. Costs about a third of S.
+template <int D>
+Eigen::MatrixXd tractions(const PanelsIn<D>& panels, const fem::Material& material, const Eigen::MatrixXd& u,
                           double accuracy = usual_accuracy);
 
 }  // namespace mortise::bem

@@ -4,6 +4,8 @@
 // Hooke's law: with P = I - n n' and the surface gradient g = (grad u) P,
 //
 //     d u / d n = P (t / mu - g'n) + n (t . n - lambda tr g) / (lambda + 2 mu).
+//
+// Plane models: plane strain, with the stress across the plane; for plane stress see plane_state.hpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,12 +25,20 @@ Point traction(const fem::Stress& stress, const Point& normal);
 /// Stress tensor of the gradient d u_i / d x_j.
 Eigen::Matrix3d hooke(const fem::Material& material, const Eigen::Matrix3d& gradient);
 
-/// d u_i / d x_j on a panel, inside the body, of displacements u (3 n) and tractions t (3 m).
-Eigen::Matrix3d panel_gradient(const Panels& panels, const fem::Material& material, std::size_t panel, const Eigen::VectorXd& u,
-                               const Eigen::VectorXd& t);
+/// d u_i / d x_j on a panel, inside the body, of displacements u (D n) and tractions t (D m).
+template <int D>
+Eigen::Matrix3d panel_gradient(const PanelsIn<D>& panels, const fem::Material& material, std::size_t panel,
+                               const Eigen::VectorXd& u, const Eigen::VectorXd& t);
 
 /// On each panel, m x 6. Of first order in the size of the panels.
-Eigen::MatrixXd panel_stresses(const Panels& panels, const fem::Material& material, const Eigen::VectorXd& u,
+template <int D>
+Eigen::MatrixXd panel_stresses(const PanelsIn<D>& panels, const fem::Material& material, const Eigen::VectorXd& u,
                                const Eigen::VectorXd& t);
+
+/// For each panel of a plane body an estimate of the squared energy norm of the error of u, that it is linear on panels:
+/// mu h / (2 pi (1 - nu)) times the integral of |(G* - G) tangent|^2 over its length h, G the gradient, G* linear between the
+/// means of G at nodes. To an error that repeats itself from panel to panel S gives this energy.
+Eigen::VectorXd interpolation_errors(const PlanePanels& panels, const fem::Material& material, const Eigen::VectorXd& u,
+                                     const Eigen::VectorXd& t);
 
 }  // namespace mortise::bem
