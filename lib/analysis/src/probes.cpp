@@ -133,34 +133,20 @@ post::PlaneSection section_of(const model::Model& model, const std::string& name
   };
   std::vector<io::Section> sections;
   double triangles = 0, square = 0;
-<<<<<<< HEAD
-  for (const auto& subdomain : subdomains) {
-    auto h = height(subdomain);
-    if (below[static_cast<std::size_t>(subdomain.body)] == 0)
-      for (double& value : h) value = -value;
-    const auto& mesh = post::solid(subdomain);
-    sections.push_back(post::is_surface_alone(subdomain) ? io::enclosed(mesh.points, mesh.cells, h, normal)
-                                                         : io::cut(mesh.points, mesh.cells, h));
-    if (!subdomain.skin) continue;
-    const double own = area(sections.back());
-    square += own;
-    triangles += 4 * own / std::pow(size_of(subdomain), 2);
-  }
-=======
   collectively(comm, [&] {
     for (const auto& subdomain : subdomains) {
       auto h = height(subdomain);
       if (below[static_cast<std::size_t>(subdomain.body)] == 0)
         for (double& value : h) value = -value;
       const auto& mesh = post::solid(subdomain);
-      sections.push_back(io::cut(mesh.points, mesh.cells, h));
+      sections.push_back(post::is_surface_alone(subdomain) ? io::enclosed(mesh.points, mesh.cells, h, normal)
+                                                           : io::cut(mesh.points, mesh.cells, h));
       if (!subdomain.skin) continue;
       const double own = area(sections.back());
       square += own;
       triangles += 4 * own / std::pow(size_of(subdomain), 2);
     }
   });
->>>>>>> b08a78b47535e95b6c5bed9b297aa99d75e5bc56
   triangles = comm.sum(triangles);
   square = comm.sum(square);
   if (triangles > most_triangles) {
