@@ -103,7 +103,7 @@ void append(const io::Section& section, const model::Model& model, std::size_t s
       triangle[k] = at->second;
       if (!fresh) continue;
       const Point& x = section.points[static_cast<std::size_t>(p)];
-      if (subdomain.skin) {
+      if (post::is_surface_alone(subdomain)) {
         to.places.push_back({s, cell, Point::Zero(), x});
         continue;
       }
