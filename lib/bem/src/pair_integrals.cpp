@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "panel_potentials.hpp"
 #include "rules.hpp"
 
 namespace mortise::bem {
@@ -11,10 +12,14 @@ namespace mortise::bem {
 namespace {
 
 constexpr int far_rules = 4;            // the symmetric rules, for pairs of whole panels
-constexpr int deepest = 16;             // halvings of a panel that is close to another one
+constexpr int deepest = 16;             // halvings of a cube of coordinates
+constexpr int deepest_graded = 60;      // halvings of a panel
+constexpr double least_part = 1.0;      // over the height of a panel and the accuracy
 constexpr std::size_t lanes = 8;        // pairs that are integrated side by side
 constexpr int fewest_in_corners = 3;    // points a coordinate of the integrals with common corners
 constexpr double most_variation = 2.5;  // of the distance of two points in one part of those
+// Parts of those, with a common corner, a common edge and of a panel with itself, up to which they are cheaper than closed forms.
+constexpr std::array<std::size_t, 3> most_parts{60, 1000, 1000000};
 
 // A triangle by its corners, and these by the area coordinates of the panel that it is a part of.
 struct Part {
@@ -25,14 +30,6 @@ struct Part {
 };
 
 using Weights = std::array<double, 3>;
-
-Weights blend(const Part& part, const Weights& w)
-{
-  Weights result{};
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t c = 0; c < 3; ++c) result[c] += w[k] * part.at[k][c];
-  return result;
-}
 
 Part make_part(const std::array<Point, 3>& corner, const std::array<std::array<double, 3>, 3>& at, double area)
 {
@@ -45,27 +42,6 @@ Part whole(const Panels& panels, std::size_t p)
 {
   return make_part({panels.corner(p, 0), panels.corner(p, 1), panels.corner(p, 2)}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
                    panels.area[p]);
-}
-
-// The two halves across the longest edge.
-std::array<Part, 2> halves(const Part& part)
-{
-  std::size_t k = 0;
-  double longest = 0;
-  for (std::size_t e = 0; e < 3; ++e)
-    if (const double length = (part.corner[(e + 1) % 3] - part.corner[e]).squaredNorm(); length > longest) {
-      longest = length;
-      k = e;
-    }
-  const std::size_t a = k, b = (k + 1) % 3;
-  const Point middle = (part.corner[a] + part.corner[b]) / 2;
-  std::array<double, 3> at{};
-  for (std::size_t c = 0; c < 3; ++c) at[c] = (part.at[a][c] + part.at[b][c]) / 2;
-  auto first = part.corner, second = part.corner;
-  auto first_at = part.at, second_at = part.at;
-  first[b] = second[a] = middle;
-  first_at[b] = second_at[a] = at;
-  return {make_part(first, first_at, part.area / 2), make_part(second, second_at, part.area / 2)};
 }
 
 // Adds what one pair of points gives.
@@ -115,10 +91,24 @@ std::array<double, triangle_rules> largest_ratios(double accuracy)
   return result;
 }
 
+constexpr std::array<int, triangle_rules> rule_degrees{2, 4, 6, 8, 10, 12, 14};
+
+// The largest steepness for which each rule is as good as `accuracy`: with a singularity at a distance of 1 / steepness from an
+// interval of length 1, errors fall with the degree as rho^-degree, rho = 1 + 2 z + 2 sqrt(z + z^2), z = 1 / steepness.
+std::array<double, triangle_rules> largest_steepness(double accuracy)
+{
+  std::array<double, triangle_rules> result;
+  for (std::size_t r = 0; r < result.size(); ++r) {
+    const double rho = std::pow(1 / accuracy, 1.0 / rule_degrees[r]);
+    result[r] = 4 * rho / ((rho - 1) * (rho - 1));
+  }
+  return result;
+}
+
 }  // namespace
 
 PairQuadrature::PairQuadrature(const Panels& panels, double accuracy)
-    : panels_(panels), accuracy_(accuracy), largest_(largest_ratios(accuracy))
+    : panels_(panels), accuracy_(accuracy), largest_(largest_ratios(accuracy)), steepest_(largest_steepness(accuracy))
 {
   const auto size = panels.corners.size();
   for (std::size_t p = 0; p < size; ++p) {
@@ -250,37 +240,123 @@ PairIntegrals PairQuadrature::close(std::size_t x, std::size_t y) const
     if (!used_x[i]) of_x[at_x++] = static_cast<int>(i);
     if (!used_y[i]) of_y[at_y++] = static_cast<int>(i);
   }
-  const double scale = panels_.area[x] * panels_.area[y] / (4 * std::numbers::pi);
-  if (common > 0) return scaled(touching(x, y, of_x, of_y, common), scale);
+  if (common > 0) return touching(x, y, of_x, of_y, common);
 
-  PairIntegrals sum;
-  const Point &nx = panels_.normal[x], &ny = panels_.normal[y];
-  const auto recurse = [&](const auto& self, const Part& a, const Part& b, int depth) -> void {
-    const double ratio = (a.radius + b.radius) / (a.centre - b.centre).norm();
-    int index = 0;
-    while (index < triangle_rules && !(ratio < largest_[static_cast<std::size_t>(index)])) ++index;
+  return graded(x, y);
+}
+
+// One panel by a rule, in parts, the other one in closed form. The potentials of a triangle are smooth but at its edges, above
+// and below its inside as well, and along an edge as far as its ends are. So a part is halved that is wide for its distance from
+// an edge, or long for that from an end.
+struct PairQuadrature::Graded {
+  using Triangle = std::array<Point, 3>;
+
+  const Panels& panels;
+  std::size_t outer, inner;
+  double accuracy, least;  // the distance from an edge at which parts are no longer halved for it
+  std::array<double, triangle_rules> steepest;
+  PairIntegrals& sum;  // outer panel: x
+  std::size_t& evaluations;
+
+  static double to_segment(const Point& x, const Point& a, const Point& b)
+  {
+    const Point ab = b - a;
+    return (a + std::clamp((x - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0) * ab - x).norm();
+  }
+  // Between segments a + s u and b + t v [Ericson, Real-Time Collision Detection, 2005, section 5.1.9].
+  static double between_segments(const Point& a, const Point& u, const Point& b, const Point& v)
+  {
+    const Point r = a - b;
+    const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r);
+    const double determinant = uu * vv - uv * uv;
+    double s = determinant > 1e-14 * uu * vv ? std::clamp((uv * vr - ur * vv) / determinant, 0.0, 1.0) : 0.0;
+    double t = (uv * s + vr) / vv;
+    if (t < 0 || t > 1) {
+      t = std::clamp(t, 0.0, 1.0);
+      s = std::clamp((uv * t - ur) / uu, 0.0, 1.0);
+    }
+    return (r + s * u - t * v).norm();
+  }
+  static double to_triangle(const Triangle& t, const Point& n, const Point& x)
+  {
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) inside = inside && n.cross(t[(k + 1) % 3] - t[k]).dot(x - t[k]) >= 0;
+    if (inside) return std::abs(n.dot(x - t[0]));
+    return std::min({to_segment(x, t[0], t[1]), to_segment(x, t[1], t[2]), to_segment(x, t[2], t[0])});
+  }
+
+  // How fast the potentials may vary over a part, and the side of it along which they do most.
+  std::pair<double, std::size_t> steepness(const Triangle& part) const
+  {
+    const Point& n = panels.normal[outer];
+    std::array<double, 3> to_end{};
+    for (std::size_t k = 0; k < 3; ++k) to_end[k] = to_triangle(part, n, panels.corner(inner, static_cast<int>(k)));
+    std::pair<double, std::size_t> result{0, 0};
+    for (std::size_t e = 0; e < 3; ++e) {
+      const Point a = panels.corner(inner, static_cast<int>(e)), b = panels.corner(inner, static_cast<int>((e + 1) % 3)),
+                  u = b - a;
+      const double end = std::min(to_end[e], to_end[(e + 1) % 3]);
+      double edge = end;
+      for (std::size_t k = 0; k < 3; ++k) edge = std::min(edge, between_segments(a, u, part[k], part[(k + 1) % 3] - part[k]));
+      edge = std::max(edge, least);
+      const double farther = std::max(end, edge), length = u.norm();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point side = part[(k + 1) % 3] - part[k];
+        const double along = std::abs(side.dot(u)) / length;
+        const double across = std::sqrt(std::max(0.0, side.squaredNorm() - along * along));
+        if (const double s = across / edge + along / farther; s > result.first) result = {s, k};
+      }
+    }
+    return result;
+  }
+
+  void integrate(const Triangle& part, double share, int depth) const
+  {
+    const auto [steep, k] = steepness(part);
+    std::size_t index = 0;
+    while (index < triangle_rules && steep > steepest[index]) ++index;
     if (index == triangle_rules) {
-      if (depth < deepest) {
-        const bool first = a.radius >= b.radius;
-        for (const auto& half : halves(first ? a : b)) first ? self(self, half, b, depth + 1) : self(self, a, half, depth + 1);
+      if (depth < deepest_graded) {
+        Triangle first = part, second = part;
+        first[(k + 1) % 3] = second[k] = (part[k] + part[(k + 1) % 3]) / 2;
+        integrate(first, share / 2, depth + 1);
+        integrate(second, share / 2, depth + 1);
         return;
       }
-      index = triangle_rules - 1;
+      --index;
     }
-    const auto& rule = triangle_rule(index);
-    std::vector<std::pair<Point, Weights>> points_b;
-    for (const auto& q : rule)
-      points_b.emplace_back(q.at[0] * b.corner[0] + q.at[1] * b.corner[1] + q.at[2] * b.corner[2], blend(b, q.at));
-    const double weight = a.area / panels_.area[x] * b.area / panels_.area[y];
+    const Point& n = panels.normal[outer];
+    const std::array<Point, 3> slope{panels.gradient(outer, 0), panels.gradient(outer, 1), panels.gradient(outer, 2)};
+    const auto& rule = triangle_rule(static_cast<int>(index));
+    evaluations += rule.size();
     for (const auto& q : rule) {
-      const Point at = q.at[0] * a.corner[0] + q.at[1] * a.corner[1] + q.at[2] * a.corner[2];
-      const Weights at_x = blend(a, q.at);
-      for (std::size_t j = 0; j < rule.size(); ++j)
-        add(at, points_b[j].first, nx, ny, weight * q.weight * rule[j].weight, at_x, points_b[j].second, sum);
+      const Point x = q.at[0] * part[0] + q.at[1] * part[1] + q.at[2] * part[2];
+      const auto of = layer_potentials(panels, inner, x);
+      const double weight = q.weight * share;
+      sum.single += weight * of.single;
+      for (std::size_t c = 0; c < 6; ++c) sum.tensor[c] += weight * of.tensor[c];
+      const double flux = -weight * n.dot(of.attraction);
+      for (std::size_t c = 0; c < 3; ++c) {
+        sum.double_y[c] += weight * of.double_layer[c];
+        sum.double_x[c] += flux * (1 + slope[c].dot(x - panels.corner(outer, static_cast<int>(c))));
+      }
     }
-  };
-  recurse(recurse, whole(panels_, x), whole(panels_, y), 0);
-  return scaled(sum, scale);
+  }
+};
+
+PairIntegrals PairQuadrature::graded(std::size_t x, std::size_t y) const
+{
+  const bool turned = radius_[x] > radius_[y];
+  const std::size_t outer = turned ? y : x, inner = turned ? x : y;
+  std::array<Point, 3> corner{panels_.corner(outer, 0), panels_.corner(outer, 1), panels_.corner(outer, 2)};
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (corner[(k + 1) % 3] - corner[k]).norm());
+  PairIntegrals sum;
+  const Graded integral{panels_,   outer, inner,       accuracy_, least_part * accuracy_ * 2 * panels_.area[outer] / longest,
+                        steepest_, sum,   evaluations_};
+  integral.integrate(corner, 1, 0);
+  if (turned) std::swap(sum.double_x, sum.double_y);
+  return scaled(sum, panels_.area[outer] / (4 * std::numbers::pi));
 }
 
 // In Sauter and Schwab's coordinates a corner of each panel is (0, 0), the common ones come first, then (1, 0), then (1, 1).
@@ -341,6 +417,13 @@ struct PairQuadrature::Touching {
     return (1 - a.first) * p[0] + (a.first - a.second) * p[1] + a.second * p[2];
   }
 
+  std::size_t points_of_a_part() const
+  {
+    std::size_t result = 2;
+    for (std::size_t k = 0; k < 3; ++k) result *= k < free ? 2 : static_cast<std::size_t>(points);
+    return result;
+  }
+
   double distance(Map map, Etas e) const
   {
     for (std::size_t k = 0; k < free; ++k) e[k] = 1;
@@ -359,9 +442,10 @@ struct PairQuadrature::Touching {
     add(at(px, a), at(py, b), nx, ny, 4 * weight, at_x, at_y, sum);
   }
 
-  // Over the free etas from low to low + size; in halves as long as the distance of the points varies by much, as it does where
-  // panels are slender.
-  void integrate(Map map, const Etas& low, const Etas& size, int depth) const
+  // Over the free etas from low to low + size: the one along which the distance of the points varies most, or `none` if it varies
+  // by little. It varies by much where panels are slender.
+  static constexpr std::size_t none = 3;
+  std::size_t to_halve(Map map, const Etas& low, const Etas& size) const
   {
     Etas middle{};
     for (std::size_t k = 0; k < 3; ++k) middle[k] = low[k] + size[k] / 2;
@@ -390,14 +474,32 @@ struct PairQuadrature::Touching {
       least = std::min(least, d);
       most = std::max(most, d);
     }
-    if (most > most_variation * least && depth < deepest) {
-      Etas half = size, second = low;
-      half[along] /= 2;
-      second[along] += half[along];
-      integrate(map, low, half, depth + 1);
-      integrate(map, second, half, depth + 1);
-      return;
+    return most > most_variation * least ? along : none;
+  }
+
+  struct Box {
+    Map map;
+    Etas low, size;
+  };
+
+  // Appends the parts into which the etas are cut; false if there are more than `limit` of them.
+  bool cut(const Box& box, int depth, std::size_t limit, std::vector<Box>& parts) const
+  {
+    const std::size_t along = depth < deepest ? to_halve(box.map, box.low, box.size) : none;
+    if (along == none) {
+      parts.push_back(box);
+      return parts.size() <= limit;
     }
+    Box first = box;
+    first.size[along] /= 2;
+    Box second = first;
+    second.low[along] += first.size[along];
+    return cut(first, depth + 1, limit, parts) && cut(second, depth + 1, limit, parts);
+  }
+
+  void integrate(const Box& box) const
+  {
+    const auto& [map, low, size] = box;
     const auto &fine = gauss(points), &exact = gauss(2);
     const auto rule = [&](std::size_t k) -> const std::vector<Node>& { return k < free ? exact : fine; };
     for (const auto& [s, w0] : rule(0))
@@ -429,9 +531,13 @@ PairIntegrals PairQuadrature::touching(std::size_t x, std::size_t y, const std::
   using T = Touching;
   static const std::array<std::vector<T::Map>, 3> maps{
       {{T::corner_1, T::corner_2}, {T::edge_1, T::edge_2, T::edge_3, T::edge_4, T::edge_5}, {T::same_1, T::same_2, T::same_3}}};
-  for (const auto map : maps[free]) touching.integrate(map, {0, 0, 0}, {1, 1, 1}, 0);
+  std::vector<T::Box> parts;
+  for (const auto map : maps[free])
+    if (!touching.cut({map, {0, 0, 0}, {1, 1, 1}}, 0, most_parts[free], parts)) return graded(x, y);
+  evaluations_ += parts.size() * touching.points_of_a_part();
+  for (const auto& part : parts) touching.integrate(part);
   if (common == 3) sum.double_x = sum.double_y = {};  // d lies in the plane
-  return sum;
+  return scaled(sum, panels_.area[x] * panels_.area[y] / (4 * std::numbers::pi));
 }
 
 }  // namespace mortise::bem

@@ -25,6 +25,43 @@ double solid_angle(const Panels& panels, std::size_t panel, const Point& x)
   return 2 * std::atan2(determinant, la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
+LayerPotentials layer_potentials(const Panels& panels, std::size_t panel, const Point& x)
+{
+  const Point& n = panels.normal[panel];
+  const double h = n.dot(x - panels.corner(panel, 0)), angle = solid_angle(panels, panel, x);
+  double single = -h * angle;
+  Point b = Point::Zero();
+  Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();
+  std::array<double, 3> beyond{};  // twice the area of x's projection with each edge
+  std::array<Point, 3> normals;    // of the edges, as long as these
+  for (int k = 0; k < 3; ++k) {
+    const Point first = panels.corner(panel, k) - x, edge = panels.corner(panel, (k + 1) % 3) - panels.corner(panel, k);
+    const double length = edge.norm();
+    const Point tau = edge / length, nu = tau.cross(n);
+    const double p = nu.dot(first), s0 = tau.dot(first), s1 = s0 + length;
+    const double squared = std::max(p * p + h * h, 1e-24 * length * length);
+    const double r0 = std::sqrt(s0 * s0 + squared), r1 = std::sqrt(s1 * s1 + squared);
+    const double f = log_ratio(s0, s1, r0, r1, squared);
+    single += p * f;
+    b -= f * nu;
+    edges += nu * (p * f * nu + (r1 - r0) * tau).transpose();
+    beyond[static_cast<std::size_t>(k)] = p * length;
+    normals[static_cast<std::size_t>(k)] = length * nu;
+  }
+  const double lift = h * angle - single;
+  const auto entry = [&](int i, int j) {
+    return lift * n[i] * n[j] - h * (n[i] * b[j] + b[i] * n[j]) - (edges(i, j) + edges(j, i)) / 2 + (i == j ? single : 0);
+  };
+  LayerPotentials result{
+      single, {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(0, 2)}, angle * n - b, {}};
+  // phi falls from 1 in corner k to 0 on the edge opposite, whose outward normal is nu: grad phi = -length nu / (2 area).
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t opposite = (k + 1) % 3;
+    result.double_layer[k] = (beyond[opposite] * angle - h * normals[opposite].dot(b)) / (2 * panels.area[panel]);
+  }
+  return result;
+}
+
 PanelPotentials panel_potentials(const Panels& panels, std::size_t panel, const Point& x, const Point& c)
 {
   const Point& n = panels.normal[panel];
