@@ -175,7 +175,10 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
                                       deck.supports.size(),
                                       deck.solver.programme.tolerance.value.value_or(0)};
   const auto bodies = elastic_bodies(assembly, constitution);
-  auto results = post::evaluate(equilibrium, bodies, comm);
+  auto results = [&] {
+    const auto scope = context.timers.scope("stresses");
+    return post::evaluate(equilibrium, bodies, comm);
+  }();
   if (results.verdict.status == ExitStatus::no_equilibrium) throw Error(results.verdict.status, results.verdict.reason);
   if (deck.output.interior.any()) {
     const auto scope = context.timers.scope("interior");
