@@ -221,7 +221,8 @@ TEST(ClosedSurfaces, MistakesAreExplained)
   Soup open;
   open.cube(open.group("a"), origin, 1);
   open.remove_last();
-  EXPECT_NE(refusal(open).find("is not closed near (0.5, -0.5, 0): a cell there has no neighbour"), std::string::npos) << refusal(open);
+  EXPECT_NE(refusal(open).find("is not closed near (0.5, -0.5, 0): a cell there has no neighbour"), std::string::npos)
+      << refusal(open);
   EXPECT_NE(refusal(open, {{"a", {"a", "b"}}}).find("there is no physical surface \"b\""), std::string::npos);
   EXPECT_NE(refusal(open, {}).find("method: boundary_elements"), std::string::npos);
 
