@@ -134,11 +134,17 @@ void name_stl_solids(const Options& options)
     name_by_labels(2, "solid");
 }
 
-// Entities of the physical groups of options.surfaces.
-std::set<int> wanted_surfaces(const Options& options, int dimension)
+// Entities of the physical groups of options.surfaces, but for bodies that are physical volumes: nothing stands in for those.
+std::set<int> wanted_surfaces(Options options, int dimension)
 {
   std::set<int> result;
   gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, dimension + 1);
+  for (const auto& [dim, tag] : groups) {
+    std::string name;
+    gmsh::model::getPhysicalName(dim, tag, name);
+    options.surfaces.erase(name);
+  }
   gmsh::model::getPhysicalGroups(groups, dimension);
   for (const auto& [dim, tag] : groups) {
     std::string name;

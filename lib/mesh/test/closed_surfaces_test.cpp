@@ -337,5 +337,22 @@ TEST(ClosedSurfaces, OfGeometriesStandBesideVolumes)
   EXPECT_THROW(read_boxes({{"volumes", 1}}, {{"hollow", {"hollow"}}}, {}), Error);
 }
 
+// A volume in the cavity of a body that has cells, all of its sides in a surface of the body's name: it is forgotten, not left
+// out.
+TEST(ClosedSurfaces, StandInForNoVolumeThatIsThere)
+{
+  std::ofstream(path("filled.geo")) << R"(
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 3, 3, 3};
+Box(2) = {1, 1, 1, 1, 1, 1};
+BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+Mesh.MeshSizeMax = 1;
+inner() = Boundary{ Volume{2}; };
+Physical Volume("hollow") = {3};
+Physical Surface("hollow") = {inner()};
+)";
+  EXPECT_THROW(read_surfaces(path("filled.geo"), {{"hollow", {}}}), Error);
+}
+
 }  // namespace
 }  // namespace mortise::mesh
