@@ -66,6 +66,9 @@ int main(int argc, char** argv)
           stderr);
     return machine;
   }
+  /* Without mpirun, Open MPI would start a daemon for one process, and look for networks: 0.4 s of every run. */
+  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  if (getenv("OMPI_COMM_WORLD_SIZE") == NULL && getenv("PMIX_RANK") == NULL) setenv("OMPI_MCA_pml", "ob1", 0);
   execv(program, argv);
   fprintf(stderr, "mortise: %s: cannot be started: %s\n", program, strerror(errno));
   return machine;

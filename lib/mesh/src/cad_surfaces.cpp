@@ -2,13 +2,12 @@
 // programs write cylinders as splines. What fits all places is that surface.
 #include "cad_surfaces.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
+#include "gmsh_library.hpp"
 #include "mesh/curved_surface.hpp"
 
 namespace mortise::mesh {
@@ -38,7 +37,7 @@ std::vector<Point> points(const std::vector<double>& coordinates)
 std::vector<double> parameters(int dimension, int tag)
 {
   std::vector<double> low, high, result;
-  gmsh::model::getParametrizationBounds(dimension, tag, low, high);
+  library().getParametrizationBounds(dimension, tag, low, high);
   if (low.size() != static_cast<std::size_t>(dimension) || high.size() != low.size()) return {};
   for (std::size_t d = 0; d < low.size(); ++d)
     if (!(std::abs(low[d]) < 1e30 && std::abs(high[d]) < 1e30 && high[d] > low[d])) return {};
@@ -55,13 +54,13 @@ Samples sample(int dimension, int tag)
   const auto at = parameters(dimension, tag);
   if (at.empty()) return {};
   std::vector<double> coordinates;
-  gmsh::model::getValue(dimension, tag, at, coordinates);
+  library().getValue(dimension, tag, at, coordinates);
   Samples samples{points(coordinates), {}, 0};
   for (const auto& x : samples.x) samples.size = std::max(samples.size, (x - samples.x[0]).norm());
   if (dimension == 1) return samples;
   std::vector<double> most, least, direction, other, normal;
-  gmsh::model::getNormal(tag, at, normal);
-  gmsh::model::getPrincipalCurvatures(tag, at, most, least, direction, other);
+  library().getNormal(tag, at, normal);
+  library().getPrincipalCurvatures(tag, at, most, least, direction, other);
   const auto normals = points(normal);
   if (normals.size() != samples.x.size() || most.size() != samples.x.size() || least.size() != samples.x.size()) return {};
   for (std::size_t i = 0; i < samples.x.size(); ++i) {
@@ -120,7 +119,7 @@ CurvedSurface circle_through(const std::vector<Point>& x)
 std::optional<CurvedSurface> shape_of(int dimension, int tag)
 {
   std::string type;
-  gmsh::model::getType(dimension, tag, type);
+  library().getType(dimension, tag, type);
   if (type.rfind("Plane", 0) == 0 || type.rfind("Line", 0) == 0 || type.find("iscrete") != std::string::npos) return {};
   const auto samples = sample(dimension, tag);
   if (samples.x.size() < places_along) return {};
@@ -147,7 +146,7 @@ std::vector<Point> nodes_on(int dimension, int tag)
 {
   std::vector<std::size_t> tags;
   std::vector<double> coordinates, parametric;
-  gmsh::model::mesh::getNodes(tags, coordinates, parametric, dimension, tag, true, false);
+  library().getNodes(tags, coordinates, parametric, dimension, tag, true, false);
   return points(coordinates);
 }
 
@@ -156,13 +155,13 @@ std::vector<Point> nodes_on(int dimension, int tag)
 void mark_curved_surfaces(int dimension)
 {
   gmsh::vectorpair faces;
-  gmsh::model::getEntities(faces, dimension - 1);
+  library().getEntities(faces, dimension - 1);
   std::map<std::string, std::vector<int>> named;
   for (const auto& [dim, tag] : faces)
     if (const auto shape = shape_of(dim, tag); shape && fits(*shape, nodes_on(dim, tag), nearly_on_surface))
       named[name_of(*shape)].push_back(tag);
   for (const auto& [name, tags] : named)
-    gmsh::model::setPhysicalName(dimension - 1, gmsh::model::addPhysicalGroup(dimension - 1, tags), name);
+    library().setPhysicalName(dimension - 1, library().addPhysicalGroup(dimension - 1, tags, -1), name);
 }
 
 }  // namespace mortise::mesh

@@ -1,7 +1,6 @@
 #include "gmsh_file.hpp"
 
 #include <fmt/format.h>
-#include <gmsh.h>
 
 #include <algorithm>
 #include <cctype>
@@ -13,6 +12,7 @@
 #include "cad_surfaces.hpp"
 #include "child.hpp"
 #include "file_kind.hpp"
+#include "gmsh_library.hpp"
 
 namespace mortise::mesh {
 
@@ -32,11 +32,11 @@ GmshSession::GmshSession(const std::map<std::string, double>& constants)
   }
   std::vector<char*> arguments;
   for (auto& word : words) arguments.push_back(word.data());
-  gmsh::initialize(static_cast<int>(arguments.size()), arguments.data(), false);
-  gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::option::setNumber("General.NumThreads", 1);
-  gmsh::option::setNumber("Mesh.SaveAll", 1);  // what is in no group is to be seen, and refused
-  gmsh::logger::start();
+  library().initialize(static_cast<int>(arguments.size()), arguments.data(), false);
+  library().setNumber("General.Terminal", 0);
+  library().setNumber("General.NumThreads", 1);
+  library().setNumber("Mesh.SaveAll", 1);  // what is in no group is to be seen, and refused
+  library().startLogger();
 }
 
 namespace {
@@ -46,7 +46,7 @@ namespace {
 std::string logged_error()
 {
   std::vector<std::string> log;
-  gmsh::logger::get(log);
+  library().getLog(log);
   std::string first, warning;
   std::size_t more = 0;
   const auto text = [](const std::string& line) {
@@ -87,7 +87,7 @@ void checked(const std::string& file, const char* otherwise, const Call& call)
 std::string label_of(int dimension, int tag)
 {
   std::string label;
-  gmsh::model::getEntityName(dimension, tag, label);
+  library().getEntityName(dimension, tag, label);
   label = label.substr(label.find_last_of('/') + 1);
   for (const char* standard : {"Open CASCADE", "SOLID", "COMPOUND", "SHELL", "FACE"})
     if (label.rfind(standard, 0) == 0) return "";
@@ -102,7 +102,7 @@ std::string label_of(int dimension, int tag)
 void name_by_labels(int dimension, const std::string& word)
 {
   gmsh::vectorpair solids;
-  gmsh::model::getEntities(solids, dimension);
+  library().getEntities(solids, dimension);
   std::map<std::string, std::vector<int>> named;
   for (std::size_t i = 0; i < solids.size(); ++i) {
     auto label = label_of(dimension, solids[i].second);
@@ -110,7 +110,7 @@ void name_by_labels(int dimension, const std::string& word)
     named[label].push_back(solids[i].second);
   }
   for (const auto& [label, tags] : named)
-    gmsh::model::setPhysicalName(dimension, gmsh::model::addPhysicalGroup(dimension, tags), label);
+    library().setPhysicalName(dimension, library().addPhysicalGroup(dimension, tags, -1), label);
 }
 
 // Whether the deck speaks of a surface of this name.
@@ -126,10 +126,10 @@ bool is_wanted(const Options& options, const std::string& name)
 void name_stl_solids(const Options& options)
 {
   gmsh::vectorpair solids;
-  gmsh::model::getEntities(solids, 2);
+  library().getEntities(solids, 2);
   const auto stem = std::filesystem::path(options.file).stem().string();
   if (solids.size() == 1 && !is_wanted(options, label_of(2, solids[0].second)) && is_wanted(options, stem))
-    gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {solids[0].second}), stem);
+    library().setPhysicalName(2, library().addPhysicalGroup(2, {solids[0].second}, -1), stem);
   else
     name_by_labels(2, "solid");
 }
@@ -139,19 +139,19 @@ std::set<int> wanted_surfaces(Options options, int dimension)
 {
   std::set<int> result;
   gmsh::vectorpair groups;
-  gmsh::model::getPhysicalGroups(groups, dimension + 1);
+  library().getPhysicalGroups(groups, dimension + 1);
   for (const auto& [dim, tag] : groups) {
     std::string name;
-    gmsh::model::getPhysicalName(dim, tag, name);
+    library().getPhysicalName(dim, tag, name);
     options.surfaces.erase(name);
   }
-  gmsh::model::getPhysicalGroups(groups, dimension);
+  library().getPhysicalGroups(groups, dimension);
   for (const auto& [dim, tag] : groups) {
     std::string name;
     std::vector<int> entities;
-    gmsh::model::getPhysicalName(dim, tag, name);
+    library().getPhysicalName(dim, tag, name);
     if (!is_wanted(options, name)) continue;
-    gmsh::model::getEntitiesForPhysicalGroup(dim, tag, entities);
+    library().getEntitiesForPhysicalGroup(dim, tag, entities);
     result.insert(entities.begin(), entities.end());
   }
   return result;
@@ -161,7 +161,7 @@ std::set<int> wanted_surfaces(Options options, int dimension)
 std::vector<gmsh::vectorpair> nameless_volumes(int dimension)
 {
   gmsh::vectorpair volumes;
-  gmsh::model::getEntities(volumes, dimension);
+  library().getEntities(volumes, dimension);
   struct Part {
     gmsh::vectorpair volumes;
     std::set<int> sides;
@@ -169,9 +169,9 @@ std::vector<gmsh::vectorpair> nameless_volumes(int dimension)
   std::vector<Part> parts;
   for (const auto& volume : volumes) {
     std::vector<int> physical, above, sides;
-    gmsh::model::getPhysicalGroupsForEntity(volume.first, volume.second, physical);
+    library().getPhysicalGroupsForEntity(volume.first, volume.second, physical);
     if (!physical.empty()) continue;
-    gmsh::model::getAdjacencies(volume.first, volume.second, above, sides);
+    library().getAdjacencies(volume.first, volume.second, above, sides);
     Part joined{{volume}, {sides.begin(), sides.end()}};
     std::erase_if(parts, [&](const Part& part) {
       const bool touches = std::any_of(sides.begin(), sides.end(), [&](int side) { return part.sides.contains(side); });
@@ -194,10 +194,10 @@ void leave_out_enclosed(const Options& options, int dimension)
   const auto wanted = wanted_surfaces(options, dimension - 1);
   for (const auto& volumes : nameless_volumes(dimension)) {
     gmsh::vectorpair border;
-    gmsh::model::getBoundary(volumes, border, true, false, false);
+    library().getBoundary(volumes, border, true, false, false);
     if (!border.empty() &&
         std::all_of(border.begin(), border.end(), [&](const auto& side) { return wanted.contains(side.second); }))
-      gmsh::model::removeEntities(volumes, false);
+      library().removeEntities(volumes, false);
   }
 }
 
@@ -205,17 +205,17 @@ void leave_out_enclosed(const Options& options, int dimension)
 
 void GmshSession::set_sizes(const Options& options)
 {
-  if (options.size.max) gmsh::option::setNumber("Mesh.MeshSizeMax", *options.size.max / options.scale);
-  if (options.size.min) gmsh::option::setNumber("Mesh.MeshSizeMin", *options.size.min / options.scale);
-  if (options.size.curvature) gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", *options.size.curvature);
+  if (options.size.max) library().setNumber("Mesh.MeshSizeMax", *options.size.max / options.scale);
+  if (options.size.min) library().setNumber("Mesh.MeshSizeMin", *options.size.min / options.scale);
+  if (options.size.curvature) library().setNumber("Mesh.MeshSizeFromCurvature", *options.size.curvature);
   if (!options.order) return;
-  gmsh::option::setNumber("Mesh.ElementOrder", *options.order);
-  gmsh::option::setNumber("Mesh.HighOrderOptimize", 1);  // cells that curved surfaces turn inside out
+  library().setNumber("Mesh.ElementOrder", *options.order);
+  library().setNumber("Mesh.HighOrderOptimize", 1);  // cells that curved surfaces turn inside out
 }
 
 void GmshSession::open(const std::string& file) const
 {
-  checked(file, "gmsh cannot load it: the file is cut off or damaged", [&] { gmsh::open(file); });
+  checked(file, "gmsh cannot load it: the file is cut off or damaged", [&] { library().open(file); });
 }
 
 void GmshSession::mesh(const Options& options, int dimension) const
@@ -223,11 +223,11 @@ void GmshSession::mesh(const Options& options, int dimension) const
   checked(options.file, "gmsh gave up meshing it without a word", [&] {
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+    library().getNodes(tags, coordinates, parameters, -1, -1, false, true);
     if (is_cad(kind_of(options.file))) name_by_labels(dimension, dimension == 3 ? "solid" : "surface");
     if (!tags.empty()) return;
     if (!options.surfaces.empty()) leave_out_enclosed(options, dimension);
-    gmsh::model::mesh::generate(options.dimension.value_or(dimension));
+    library().generate(options.dimension.value_or(dimension));
     mark_curved_surfaces(dimension);
   });
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gmsh.h>
 
 #include <algorithm>
 #include <map>
@@ -11,6 +10,7 @@
 #include "deck/document.hpp"
 #include "file_kind.hpp"
 #include "gmsh_file.hpp"
+#include "gmsh_library.hpp"
 #include "mesh/curved_surface.hpp"
 #include "mesh/topology.hpp"
 #include "raw_mesh.hpp"
@@ -29,12 +29,12 @@ std::vector<Group> groups(int dimension)
 {
   std::vector<Group> result;
   gmsh::vectorpair list;
-  gmsh::model::getPhysicalGroups(list, dimension);
+  library().getPhysicalGroups(list, dimension);
   for (const auto& [dim, tag] : list) {
     Group group;
-    gmsh::model::getPhysicalName(dim, tag, group.name);
+    library().getPhysicalName(dim, tag, group.name);
     if (group.name.empty()) group.name = std::to_string(tag);
-    gmsh::model::getEntitiesForPhysicalGroup(dim, tag, group.entities);
+    library().getEntitiesForPhysicalGroup(dim, tag, group.entities);
     result.push_back(std::move(group));
   }
   return result;
@@ -51,7 +51,7 @@ CellType cell_type(const std::string& file, int gmsh_type)
   std::string name;
   int dimension = 0, order = 0, nodes = 0, primary = 0;
   std::vector<double> coordinates;
-  gmsh::model::mesh::getElementProperties(gmsh_type, name, dimension, order, nodes, coordinates, primary);
+  library().getElementProperties(gmsh_type, name, dimension, order, nodes, coordinates, primary);
   fail(file,
        fmt::format("has cells of type \"{}\"; known are lines, triangles, quadrilaterals, tetrahedra, hexahedra and prisms of "
                    "first and second order: mesh {}",
@@ -64,7 +64,7 @@ void for_each_element(const std::string& file, int dimension, int entity, const 
 {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;
-  gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+  library().getElements(types, tags, nodes, dimension, entity);
   for (std::size_t t = 0; t < types.size(); ++t) {
     const CellType type = cell_type(file, types[t]);
     const auto count = static_cast<std::size_t>(node_count(type));
@@ -90,7 +90,7 @@ NumberedNodes read_nodes(const Options& options, int dimension)
 {
   std::vector<std::size_t> tags;
   std::vector<double> coordinates, parameters;
-  gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+  library().getNodes(tags, coordinates, parameters, -1, -1, false, true);
   if (tags.empty()) fail(options.file, "holds no mesh");
   std::vector<std::size_t> order(tags.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -119,7 +119,7 @@ bool has_cells(int dimension, const Group& group)
   return std::any_of(group.entities.begin(), group.entities.end(), [&](int entity) {
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+    library().getElements(types, tags, nodes, dimension, entity);
     return !types.empty();
   });
 }
@@ -128,7 +128,7 @@ std::vector<int> border_of(int dimension, const std::vector<int>& entities)
 {
   gmsh::vectorpair solids, border;
   for (const int entity : entities) solids.emplace_back(dimension, entity);
-  gmsh::model::getBoundary(solids, border, true, false, false);
+  library().getBoundary(solids, border, true, false, false);
   std::vector<int> result;
   for (const auto& [dim, entity] : border) result.push_back(std::abs(entity));
   return result;
@@ -225,7 +225,7 @@ void read_cells(const Options& options, int dimension, const std::vector<Group>&
         fail(options.file, fmt::format("entity {} belongs to two bodies, \"{}\" and \"{}\"", entity,
                                        bodies[static_cast<std::size_t>(at->second)].name, bodies[g].name));
   gmsh::vectorpair entities;
-  gmsh::model::getEntities(entities, dimension);
+  library().getEntities(entities, dimension);
   for (const auto& [dim, entity] : entities) {
     const auto body = owner.find(entity);
     add_cells(options, dimension, entity, body == owner.end() ? -1 : body->second, solids ? entity : -1, nodes, raw);
@@ -261,7 +261,7 @@ void add_cad_faces(const Options& options, int dimension, const std::vector<Grou
     for (std::size_t i = 0; i < body.entities.size(); ++i) {
       const auto solid = body.entities.size() == 1 ? body.name : fmt::format("{}.{}", body.name, i + 1);
       std::vector<int> above, faces;
-      gmsh::model::getAdjacencies(dimension, body.entities[i], above, faces);
+      library().getAdjacencies(dimension, body.entities[i], above, faces);
       std::sort(faces.begin(), faces.end());
       faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
       for (std::size_t k = 0; k < faces.size(); ++k) {

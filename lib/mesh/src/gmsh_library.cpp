@@ -1,0 +1,37 @@
+#include "gmsh_library.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "base/error.hpp"
+
+namespace mortise::mesh {
+
+namespace {
+
+// Beside the program, or where it was built.
+std::string file_of_library()
+{
+  const std::filesystem::path built = MORTISE_GMSH_LIBRARY;
+  std::error_code none;
+  const auto beside = std::filesystem::read_symlink("/proc/self/exe", none).parent_path() / built.filename();
+  return std::filesystem::exists(beside, none) ? beside.string() : built.string();
+}
+
+}  // namespace
+
+const GmshLibrary& library()
+{
+  static const GmshLibrary* const loaded = [] {
+    const auto file = file_of_library();
+    void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* const get = handle == nullptr ? nullptr : dlsym(handle, "mortise_gmsh_library");
+    if (get == nullptr) throw Error(ExitStatus::machine, fmt::format("cannot load gmsh's library: {}", dlerror()));
+    return reinterpret_cast<GetGmshLibrary*>(get)();
+  }();
+  return *loaded;
+}
+
+}  // namespace mortise::mesh
