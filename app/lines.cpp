@@ -49,8 +49,29 @@ void print_unresolved_contact(const io::StateSummary& summary, Log& log)
   }
 }
 
+void print_couplings(const io::StateSummary& s, Log& log)
+{
+  // Components that are rounding beside the others are zero.
+  const auto pair = [](const std::array<double, 3>& a, const char* between, const std::array<double, 3>& b) {
+    double largest = 0;
+    for (const auto& x : {a, b})
+      for (const double c : x) largest = std::max(largest, std::abs(c));
+    const auto print = [&](const std::array<double, 3>& x) {
+      const auto clean = [&](double c) { return std::abs(c) < 1e-9 * largest ? 0.0 : c; };
+      return fmt::format("({:.5g}, {:.5g}, {:.5g})", clean(x[0]), clean(x[1]), clean(x[2]));
+    };
+    return print(a) + between + print(b);
+  };
+  for (const auto& c : s.couplings) {
+    log.line("  coupling {}: its point moves {}", c.name, pair(c.displacement, ", turns ", c.rotation));
+    log.line("    force on the boundary {}{}", pair(c.force, ", moment about the point ", c.moment),
+             c.held ? "; supports react with " + pair(c.reaction_force, ", ", c.reaction_moment) : "");
+  }
+}
+
 void print_contacts(const io::StateSummary& s, Log& log)
 {
+  print_couplings(s, log);
   for (const auto& c : s.contacts) {
     std::string pressure;
     if (c.max_pressure > 0 || !(c.max_tension > 0))

@@ -23,6 +23,19 @@ void add_unresolved_contact(const friction::Result& solved, const model::Contact
                              s.of});
 }
 
+void add_couplings(const model::Deck& deck, const post::Results& results, io::StateSummary& summary)
+{
+  const auto head = [](const std::array<double, 6>& x) { return std::array{x[0], x[1], x[2]}; };
+  const auto tail = [](const std::array<double, 6>& x) { return std::array{x[3], x[4], x[5]}; };
+  auto state = results.couplings.begin();
+  for (const auto& [name, options] : deck.couplings) {
+    const auto& [motion, action, reaction] = *state++;
+    const bool held = std::any_of(deck.supports.begin(), deck.supports.end(), [&](const auto& s) { return s.coupling == name; });
+    summary.couplings.push_back(
+        {name, options.boundary, head(motion), tail(motion), head(action), tail(action), head(reaction), tail(reaction), held});
+  }
+}
+
 void add_contacts(const model::Contacts& contacts, const analysis::StepState& state, const post::Results& results,
                   const Communicator& comm, io::StateSummary& summary)
 {
@@ -112,7 +125,9 @@ io::Summary summarise(const model::Model& model, const feti::DualProblem& proble
   summary.max_von_mises = results.stress.largest_von_mises.value;
   summary.max_displacement = results.max_displacement;
   for (std::size_t s = 0; s < results.reactions.size(); ++s)
-    summary.reactions.push_back({model.deck().supports[s].boundary, results.reactions[s]});
+    if (const auto& support = model.deck().supports[s]; support.coupling.empty())
+      summary.reactions.push_back({support.boundary, results.reactions[s]});
+  add_couplings(model.deck(), results, summary);
   add_contacts(model.contacts(), state, results, comm, summary);
   add_unresolved_contact(solved, model.contacts(), summary);
   return summary;

@@ -64,6 +64,7 @@ std::vector<post::SupportLoad> support_loads(const model::Model& model, const po
   const auto& deck = model.deck();
   std::vector<post::SupportLoad> result;
   for (std::size_t i = 0; i < deck.supports.size(); ++i) {
+    if (deck.supports[i].boundary.empty()) continue;
     const auto facts = model.facts(deck.supports[i].boundary, comm);
     auto force = results.reactions[i];
     if (deck.axisymmetric()) force[0] = 0;  // what holds a ring together is no resultant

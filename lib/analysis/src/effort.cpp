@@ -49,10 +49,13 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
     if (!contacts.bonded[i]) closing += 1 + static_cast<double>(contacts.nodes[i].tangents.size());
   closing = comm.sum(closing);
   // Many supports along axes are eliminated with the stiffness, by factors of their own.
-  const Global along_axes = comm.sum(static_cast<long long>(constraints.prescribed.size()));
+  const auto coupled = std::count_if(constraints.prescribed.begin(), constraints.prescribed.end(),
+                                     [](const constraint::PrescribedDof& h) { return h.unknown; });
+  const Global along_axes = comm.sum(static_cast<long long>(constraints.prescribed.size()) - coupled);
   const bool eliminated = along_axes > feti::few_supports;
-  const auto prescribed =
-      static_cast<double>(comm.sum(static_cast<long long>(constraints.skew_supports.size())) + (eliminated ? 0 : along_axes));
+  const auto prescribed = static_cast<double>(
+      comm.sum(static_cast<long long>(constraints.skew_supports.size() + constraints.mean_motions.size()) + coupled) +
+      (eliminated ? 0 : along_axes));
   const double all = prescribed + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size())));
   const double free = all - closing;
 

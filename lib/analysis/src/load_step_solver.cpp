@@ -179,6 +179,8 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
     const auto scope = context.timers.scope("stresses");
     return post::evaluate(equilibrium, bodies, comm);
   }();
+  const auto motions = assembly.model().motions_of_points(state.displacement, comm);
+  for (std::size_t i = 0; i < motions.size(); ++i) results.couplings[i].motion = motions[i];
   if (results.verdict.status == ExitStatus::no_equilibrium) throw Error(results.verdict.status, results.verdict.reason);
   if (deck.output.interior.any()) {
     const auto scope = context.timers.scope("interior");

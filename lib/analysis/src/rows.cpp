@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "constraint/coupling.hpp"
 #include "constraint/normals.hpp"
 #include "constraint/pretension.hpp"
 #include "constraint/right_hand_sides.hpp"
@@ -21,6 +22,28 @@ void find_pretension_sections(const model::Model& model, const std::vector<doubl
       rows.constraints.contacts, model.preloads(rows.acts, shortenings), model.deck().axisymmetric(), comm);
 }
 
+// What supports and rigid couplings prescribe, but for unknown motions.
+std::vector<constraint::PrescribedDof> prescribed_components(const model::Model& model,
+                                                             std::span<const constraint::SupportOptions> supports,
+                                                             std::span<const constraint::Coupling> couplings,
+                                                             std::vector<constraint::PrescribedDof> aligned,
+                                                             const Communicator& comm)
+{
+  const int dimension = model.deck().dimension();
+  if (!couplings.empty()) {
+    const auto coupled = constraint::coupled_rows(couplings, model.coupling_surfaces(), model.first_coupling(), dimension, comm);
+    aligned.insert(aligned.end(), coupled.begin(), coupled.end());
+  }
+  return constraint::dirichlet_rows(supports, model.support_nodes(comm), dimension, comm, aligned);
+}
+
+// Rows of contacts keep their entries at nodes of couplings, which may move.
+std::vector<constraint::PrescribedDof> held_by_supports(std::vector<constraint::PrescribedDof> prescribed)
+{
+  std::erase_if(prescribed, [](const constraint::PrescribedDof& h) { return h.coupling >= 0; });
+  return prescribed;
+}
+
 }  // namespace
 
 Rows make_rows(const model::Model& model, const model::LoadState& acts, const std::vector<double>& shortenings,
@@ -33,10 +56,13 @@ Rows make_rows(const model::Model& model, const model::LoadState& acts, const st
   auto normals = constraint::node_normals(rows.supports, model.support_surfaces(), comm);
   const auto aligned = constraint::take_axis_aligned(rows.supports, normals);
   auto& constraints = rows.constraints;
-  constraints.prescribed = constraint::dirichlet_rows(rows.supports, model.support_nodes(comm), deck.dimension(), comm, aligned);
+  constraints.couplings = model.couplings(acts, comm);
+  constraints.mean_motions = model.mean_motions(constraints.couplings, comm);
+  constraints.prescribed = prescribed_components(model, rows.supports, constraints.couplings, aligned, comm);
   constraints.skew_supports = constraint::skew_support_rows(rows.supports, normals, constraints.prescribed, comm);
-  constraints.contacts = contact::discretize(rows.pairs, constraints.prescribed, deck.kinematics, comm, constraints.skew_supports,
-                                             model::curved_faces(deck, model.decomposition(), rows.pairs), &rows.initial_gaps);
+  constraints.contacts =
+      contact::discretize(rows.pairs, held_by_supports(constraints.prescribed), deck.kinematics, comm, constraints.skew_supports,
+                          model::curved_faces(deck, model.decomposition(), rows.pairs), &rows.initial_gaps);
   find_pretension_sections(model, shortenings, comm, rows);
   return rows;
 }
@@ -62,13 +88,16 @@ std::optional<Rows> with_new_bounds(Rows rows, const model::Model& model, const 
   const bool moved = !std::equal(supports.begin(), supports.end(), rows.supports.begin(), [](const auto& a, const auto& b) {
     return a.displacement == b.displacement && a.normal == b.normal;
   });
-  if (moved) {
+  auto couplings = model.couplings(acts, comm);
+  if (!constraint::same_unknowns(couplings, rows.constraints.couplings)) return {};
+  if (moved || !couplings.empty()) {
     // What is prescribed along normals may stand in many rows.
     if (std::any_of(deck.supports.begin(), deck.supports.end(), [](const auto& s) { return s.normal.has_value(); })) return {};
-    auto prescribed =
-        feti::distribute_rows(constraint::dirichlet_rows(supports, model.support_nodes(comm), deck.dimension(), comm),
-                              model.decomposition(), directory, comm);
+    auto prescribed = feti::distribute_rows(prescribed_components(model, supports, couplings, {}, comm), model.decomposition(),
+                                            directory, comm);
     if (!constraint::update_rhs(rows.constraints, std::move(prescribed), supports, rows.supports, comm)) return {};
+    rows.constraints.mean_motions = model.mean_motions(couplings, comm);
+    rows.constraints.couplings = std::move(couplings);
   }
   const auto& contacts = model.contacts();
   for (std::size_t c = 0; c < contacts.size(); ++c) {

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "constraint/supports.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace mortise::constraint {
@@ -195,6 +196,8 @@ std::vector<SkewSupport> skew_support_rows(std::span<const SupportOptions> suppo
       const auto first = std::lower_bound(prescribed.begin(), prescribed.end(), begin->node,
                                           [](const PrescribedDof& h, Global node) { return h.node < node; });
       const auto last = std::find_if(first, prescribed.end(), [&](const PrescribedDof& h) { return h.node != begin->node; });
+      if (const auto free = std::find_if(first, last, [](const PrescribedDof& h) { return h.unknown; }); free != last)
+        throw_held_coupling(supports, free->support, begin->support);
       Directions directions(supports, {first, last});
       for (auto normal = begin; normal != end; ++normal) directions.add(*normal);
       result.insert(result.end(), directions.skew_supports().begin(), directions.skew_supports().end());

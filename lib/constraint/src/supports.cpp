@@ -10,10 +10,20 @@
 
 namespace mortise::constraint {
 
+void throw_held_coupling(std::span<const SupportOptions> supports, int coupling, int support)
+{
+  throw Error(ExitStatus::bad_input,
+              fmt::format("the {}, which is rigid, and supports[{}] (boundary \"{}\") share nodes, which cannot follow both; "
+                          "prescribe the same motion of the coupling's point, as on a plane of symmetry, or make it distributing",
+                          supports[static_cast<std::size_t>(coupling)].boundary, support,
+                          supports[static_cast<std::size_t>(support)].boundary));
+}
+
 namespace {
 
 void check_agreement(const PrescribedDof& a, const PrescribedDof& b, std::span<const SupportOptions> supports)
 {
+  if (a.unknown || b.unknown) throw_held_coupling(supports, a.unknown ? a.support : b.support, a.unknown ? b.support : a.support);
   if (std::abs(a.value - b.value) <= 1e-12 * std::max(std::abs(a.value), std::abs(b.value))) return;
   throw Error(
       ExitStatus::bad_input,

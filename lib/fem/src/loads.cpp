@@ -63,6 +63,23 @@ Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
                    result.area += normal.norm();
                    result.first += normal.norm() * x;
                    result.normal += normal;
+                   result.second += normal.norm() * x * x.transpose();
+                 });
+  return result;
+}
+
+Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
+{
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(4, static_cast<Eigen::Index>(mesh.node_count()));
+  for_each_point(mesh, boundary, kinematics,
+                 [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
+                   Point x = Point::Zero();
+                   for (std::size_t i = 0; i < nodes.size(); ++i)
+                     x += shape[static_cast<Eigen::Index>(i)] * mesh.points[static_cast<std::size_t>(nodes[i])];
+                   for (std::size_t i = 0; i < nodes.size(); ++i) {
+                     const double weight = shape[static_cast<Eigen::Index>(i)] * normal.norm();
+                     result.col(nodes[i]) += weight * Eigen::Vector4d(1, x[0], x[1], x[2]);
+                   }
                  });
   return result;
 }

@@ -133,19 +133,32 @@ void describe(deck::Description<BodyOptions>& d)
 
 void describe(deck::Description<LoadOptions>& d)
 {
-  d.help("One load: pressure, traction or force on a boundary; acceleration or temperature change of a body.");
-  d.key("name", &LoadOptions::name, "To refer to it; the boundary or body if not given.");
+  d.help(
+      "One load: pressure, traction or force on a boundary; acceleration or temperature change of a body; force and moment at "
+      "the "
+      "point of a coupling.");
+  d.key("name", &LoadOptions::name, "To refer to it; the boundary, body or coupling if not given.");
+  d.key("coupling", &LoadOptions::coupling, "Coupling whose point is loaded.");
   d.key("boundary", &LoadOptions::boundary, "Boundary that is loaded.");
   d.key("body", &LoadOptions::body, "Body that is accelerated or heated.");
   d.key("pressure", &LoadOptions::pressure, "Force an area, positive into the body.");
   d.key("traction", &LoadOptions::traction, "Force an area, as a vector.");
   d.key("force", &LoadOptions::force,
         "Resultant, spread evenly over the boundary (plane models: a thickness; axisymmetric: of the whole turn).");
+  d.key("moment", &LoadOptions::moment, "Of a coupling: about its point, as a vector (plane models: [0, 0, m], a thickness).");
   d.key("acceleration", &LoadOptions::acceleration, "Body force is density times this.");
   d.key("temperature_change", &LoadOptions::temperature_change,
         "Degrees that the body is warmer than when it had no stress; its material has a thermal_expansion. Several on one body "
         "add.");
   d.check([](const LoadOptions& load, const std::string& path, deck::Document& document) {
+    if (!load.coupling.empty()) {
+      if (!load.boundary.empty() || !load.body.empty()) document.error(path, "expected one of `coupling`, `boundary` and `body`");
+      if (!load.force && !load.moment) document.error(path, "a coupling takes a `force`, a `moment`, or both");
+      if (load.pressure || load.traction || load.acceleration || load.temperature_change)
+        document.error(path, "a coupling takes a `force` and a `moment` alone");
+      return;
+    }
+    if (load.moment) document.error(path + ".moment", "a moment acts on a `coupling`; couple the boundary to a point first");
     const bool on_body = load.acceleration.has_value() || load.temperature_change.has_value();
     const int given = load.pressure.has_value() + load.traction.has_value() + load.force.has_value() +
                       load.acceleration.has_value() + load.temperature_change.has_value();

@@ -57,17 +57,32 @@ Eigen::VectorXd kernel_coordinates(const Clusters& clusters, const std::vector<E
   return result;
 }
 
-SparseMatrix with_pretension_rows(const SparseMatrix& g, std::span<const constraint::PretensionSection> pretension_sections,
-                                  const JumpOperator& jump)
+std::vector<Unknown> unknowns(const constraint::Constraints& constraints, const JumpOperator& jump, int dimension)
+{
+  std::vector<Unknown> result;
+  int group = 0;
+  for (const auto& section : constraints.pretension_sections) {
+    if (!section.preload.force) continue;
+    Unknown unknown{group++, *section.preload.force, {}};
+    for (const auto& [row, part] : section.rows)
+      unknown.parts.push_back({jump.ranges().contacts + static_cast<Local>(row), part});
+    result.push_back(std::move(unknown));
+  }
+  for (const auto& motion : constraint::unknown_motions(constraints, dimension)) {
+    Unknown unknown{group + motion.coupling, motion.force, {}};
+    for (const auto& [row, part] : motion.rows)
+      unknown.parts.push_back({jump.ranges().dirichlet + static_cast<Local>(row), part});
+    result.push_back(std::move(unknown));
+  }
+  return result;
+}
+
+SparseMatrix with_unknowns(const SparseMatrix& g, std::span<const Unknown> unknowns, const JumpOperator& jump)
 {
   std::vector<Eigen::Triplet<double>> triplets;
   auto height = static_cast<int>(g.rows());
-  for (const auto& section : pretension_sections) {
-    if (!section.preload.force) continue;
-    for (const auto& [row, part] : section.rows) {
-      const auto column = jump.ranges().contacts + static_cast<Local>(row);
-      triplets.emplace_back(height, column, jump.scaled(column, part));
-    }
+  for (const auto& unknown : unknowns) {
+    for (const auto& [row, part] : unknown.parts) triplets.emplace_back(height, row, jump.scaled(row, part));
     ++height;
   }
   SparseMatrix added(height, g.cols()), result = g;

@@ -44,8 +44,9 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
       load_(std::move(load)),
       comm_(context.comm)
 {
-  jump_ = std::make_unique<JumpOperator>(decomposition, directory, interface, constraints_.prescribed, constraints_.skew_supports,
-                                         constraints_.contacts, std::span<const SubdomainRow>(), comm_);
+  jump_ =
+      std::make_unique<JumpOperator>(decomposition, directory, interface, constraints_.prescribed, constraints_.skew_supports,
+                                     constraints_.contacts, std::span<const SubdomainRow>(), comm_, constraints_.mean_motions);
   gauge_rigid_modes(directory, interface, sliding_surfaces, context);
   hessian_ = std::make_unique<DualOperator>(*jump_, system.clusters, context.timers);
   if (options.preconditioner != "none") {
@@ -62,18 +63,12 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
 
 void DualProblem::make_equality(SparseMatrix g)
 {
-  if (tightened() > 0) {
-    g = with_pretension_rows(g, constraints_.pretension_sections, *jump_);
-    pretension_multipliers_ = std::make_unique<Vector>(jump_->rows());
+  if (const auto more = unknowns(constraints_, *jump_, dimension()); !more.empty()) {
+    g = with_unknowns(g, more, *jump_);
+    balancing_multipliers_ = std::make_unique<Vector>(jump_->rows());
   }
   const auto size = g.rows();
   equality_ = std::make_unique<qp::EqualityConstraint>(std::move(g), Eigen::VectorXd::Zero(size), comm_);
-}
-
-Eigen::Index DualProblem::tightened() const
-{
-  return std::count_if(constraints_.pretension_sections.begin(), constraints_.pretension_sections.end(),
-                       [](const constraint::PretensionSection& section) { return section.preload.force.has_value(); });
 }
 
 void DualProblem::make_rhs()
@@ -99,16 +94,15 @@ void DualProblem::make_rhs()
   Eigen::VectorXd e = kernel_coordinates(system_.clusters, load_, comm_);
   const auto kernels = e.size();
   std::vector<double> forces;
-  for (const auto& section : constraints_.pretension_sections)
-    if (section.preload.force) forces.push_back(-*section.preload.force);
+  for (const auto& unknown : unknowns(constraints_, *jump_, dimension())) forces.push_back(-unknown.force);
   const auto count = static_cast<Eigen::Index>(forces.size());
   e.conservativeResize(kernels + count);
   e.tail(count) = Eigen::Map<const Eigen::VectorXd>(forces.data(), count);
-  if (pretension_multipliers_) {
+  if (balancing_multipliers_) {
     Eigen::VectorXd alone = Eigen::VectorXd::Zero(e.size());
     alone.tail(count) = e.tail(count);
-    pretension_multipliers_->putScalar(0);
-    equality_->add_transpose(1, equality_->solve(alone), *pretension_multipliers_);
+    balancing_multipliers_->putScalar(0);
+    equality_->add_transpose(1, equality_->solve(alone), *balancing_multipliers_);
   }
   equality_->set_right_side(std::move(e));
 }
@@ -122,6 +116,8 @@ bool DualProblem::driven(const FreeMotion& motion, double work)
 
 bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load)
 {
+  // What loads at the points of couplings work on a motion is not among the loads of the subdomains.
+  if (!gauged_.empty() && !constraints.couplings.empty()) return false;
   const auto frames = body_frames(decomposition_, comm_);
   std::string loaded;
   for (const auto& motion : gauged_) {
@@ -132,7 +128,7 @@ bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Ei
   if (!loaded.empty()) throw_driven(loaded);
   constraints_ = std::move(constraints);
   load_ = std::move(load);
-  jump_->update_rhs(constraints_.prescribed, constraints_.skew_supports, constraints_.contacts);
+  jump_->update_rhs(constraints_.prescribed, constraints_.skew_supports, constraints_.contacts, constraints_.mean_motions);
   make_rhs();
   return true;
 }
@@ -142,7 +138,7 @@ void DualProblem::gauge_rigid_modes(const partition::NodeDirectory& directory, c
 {
   SparseMatrix g = coarse_rows(*jump_, system_.clusters, comm_);
   const auto motions = find_free_motions(decomposition_, *jump_, system_.clusters, system_.kinematics, g, constraints_.contacts,
-                                         constraints_.pretension_sections, sliding_surfaces, load_, comm_);
+                                         unknowns(constraints_, *jump_, dimension()), sliding_surfaces, load_, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;
@@ -168,8 +164,9 @@ void DualProblem::gauge_rigid_modes(const partition::NodeDirectory& directory, c
   if (silent > 0) context.log.line("  ... and {} more free rigid motions", silent);
   if (!loaded.empty()) throw_driven(loaded);
   if (!gauges.empty()) {
-    jump_ = std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.prescribed,
-                                           constraints_.skew_supports, constraints_.contacts, gauges, comm_);
+    jump_ =
+        std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.prescribed, constraints_.skew_supports,
+                                       constraints_.contacts, gauges, comm_, constraints_.mean_motions);
     g = coarse_rows(*jump_, system_.clusters, comm_);
   }
   make_equality(std::move(g));

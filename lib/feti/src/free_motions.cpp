@@ -149,20 +149,29 @@ std::vector<std::vector<int>> units(const SparseMatrix& row_values, const constr
   return result;
 }
 
-// Takes out of `row_values` what a pretension section that is tightened to a force gives way to, part * s with the s that is
-// nearest to each motion, and adds what the force works on it. `first`: the first contact row of `row_values`.
-void release(const constraint::PretensionSection& section, Local first, Bodies& bodies, SparseMatrix& row_values,
-             const Communicator& comm)
+// Takes out of `row_values` what the unknowns of one group give way to, part * s with the s that are nearest to each motion, and
+// adds what their forces work on it. `first`: the first owned row of `row_values`.
+void release(std::span<const Unknown> group, Local first, Bodies& bodies, SparseMatrix& row_values, const Communicator& comm)
 {
-  SparseMatrix parts(row_values.rows(), 1);
-  for (const auto& [row, part] : section.rows) parts.insert(first + static_cast<Local>(row), 0) = part;
-  Eigen::VectorXd shortening = Eigen::MatrixXd(row_values.transpose() * parts);
-  comm.sum_in_place({shortening.data(), static_cast<std::size_t>(shortening.size())});
-  shortening /= comm.sum(parts.squaredNorm());
-  row_values -= SparseMatrix(parts * SparseMatrix(shortening.sparseView(1.0, 1e-12)).transpose());
-  bodies.generalised += *section.preload.force * shortening;
-  for (Eigen::Index b = 0; b < bodies.force.size(); ++b)
-    if (shortening.segment(b * bodies.modes, bodies.modes).norm() > 1e-6) bodies.force[b] += *section.preload.force;
+  const auto count = static_cast<Eigen::Index>(group.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index k = 0; k < count; ++k)
+    for (const auto& [row, part] : group[static_cast<std::size_t>(k)].parts) entries.emplace_back(row - first, k, part);
+  SparseMatrix parts(row_values.rows(), count);
+  parts.setFromTriplets(entries.begin(), entries.end());
+  Eigen::MatrixXd nearest(count, row_values.cols()), gram = Eigen::MatrixXd(SparseMatrix(parts.transpose() * parts));
+  nearest = Eigen::MatrixXd(SparseMatrix(parts.transpose() * row_values));
+  comm.sum_in_place({nearest.data(), static_cast<std::size_t>(nearest.size())});
+  comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
+  nearest = gram.ldlt().solve(nearest).eval();
+  row_values -= SparseMatrix(parts * SparseMatrix(nearest.sparseView(1.0, 1e-12)));
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double force = group[static_cast<std::size_t>(k)].force;
+    const Eigen::VectorXd motion = nearest.row(k);
+    bodies.generalised += force * motion;
+    for (Eigen::Index b = 0; b < bodies.force.size(); ++b)
+      if (motion.segment(b * bodies.modes, bodies.modes).norm() > 1e-6) bodies.force[b] += std::abs(force);
+  }
 }
 
 // Turns an orthonormal basis so that the loads drive its first vector alone, and in its own sense: of many motions together, that
@@ -256,8 +265,7 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clus
 
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
-                                          const constraint::Contacts& contacts,
-                                          std::span<const constraint::PretensionSection> pretension_sections,
+                                          const constraint::Contacts& contacts, std::span<const Unknown> unknowns,
                                           std::span<const constraint::SlidingSurface> sliding_surfaces,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
@@ -270,8 +278,10 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   SparseMatrix row_values =
       unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
   const Local first_contact = jump.ranges().contacts - first;
-  for (const auto& section : pretension_sections)
-    if (section.preload.force) release(section, first_contact, bodies, row_values, comm);
+  for (std::size_t begin = 0, end = 0; begin < unknowns.size(); begin = end) {
+    while (end < unknowns.size() && unknowns[end].group == unknowns[begin].group) ++end;
+    release(unknowns.subspan(begin, end - begin), first, bodies, row_values, comm);
+  }
   Eigen::VectorXd weight_of_row = Eigen::VectorXd::Constant(count, support_weight);
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
     if (!contacts.bonded[i]) weight_of_row[first_contact + static_cast<Local>(contacts.nodes[i].row)] /= support_weight;

@@ -111,12 +111,13 @@ double total_weight(std::span<const partition::Copy> copies)
 JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                            const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
                            std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
-                           std::span<const SubdomainRow> extra, const Communicator& comm)
+                           std::span<const SubdomainRow> extra, const Communicator& comm,
+                           std::span<const constraint::MeanMotion> mean_motions)
 {
   const int dimension = decomposition.catalogue.dimension;
   Assembly assembly(decomposition, comm);
   const auto [glued, glued_total] = glue(decomposition, interface, dimension, comm, assembly);
-  const Numbering dirichlet_numbers = number(prescribed.size() + skew_supports.size(), comm);
+  const Numbering dirichlet_numbers = number(prescribed.size() + skew_supports.size() + mean_motions.size(), comm);
   const Numbering contact_numbers = number(contacts.rows.size(), comm);
   const Global dirichlet_base = glued_total, contact_base = dirichlet_base + dirichlet_numbers.total,
                extra_base = contact_base + contact_numbers.total;
@@ -145,29 +146,44 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
     owned.push_back(row);
     scale.push_back(factor);
   }
+  const std::size_t means_at = owned.size();
+  for (std::size_t m = 0; m < mean_motions.size(); ++m)
+    owned.push_back(dirichlet_base + dirichlet_numbers.start + static_cast<Global>(prescribed.size() + skew_supports.size() + m));
   ranges_.contacts = static_cast<Local>(owned.size());
 
   nodes.clear();
   for (const auto& entry : contacts.rows.entries) nodes.push_back(entry.node);
+  for (const auto& mean : mean_motions)
+    for (const auto& entry : mean.entries) nodes.push_back(entry.node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const auto contact_copies = directory.find(nodes, comm);
   const auto copies_of = [&](Global node) {
     return contact_copies[static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin())];
   };
+  // What makes a row a unit vector in D^-1, the copies' averages taken together.
+  const auto unit_factor = [&](std::span<const constraint::Entry> entries) {
+    double square = 0;
+    for (const auto& entry : entries) square += entry.coefficient * entry.coefficient / total_weight(copies_of(entry.node));
+    return 1 / std::sqrt(square);
+  };
+  const auto add_entries = [&](std::span<const constraint::Entry> entries, Global row, double factor) {
+    for (const auto& entry : entries) {
+      const auto copies = copies_of(entry.node);
+      const double share = factor * entry.coefficient / total_weight(copies);
+      for (const auto& copy : copies)
+        assembly.add({copy.subdomain, row, copy.node * dimension + entry.component, share * copy.weight});
+    }
+  };
+  for (std::size_t m = 0; m < mean_motions.size(); ++m) {
+    scale.push_back(unit_factor(mean_motions[m].entries));
+    add_entries(mean_motions[m].entries, owned[means_at + m], scale.back());
+  }
   for (const auto& point : contacts.nodes) {
-    double square = 0;  // of the normal row in D^-1, the copies' averages taken together
-    for (const auto& entry : contacts.rows[point.row])
-      square += entry.coefficient * entry.coefficient / total_weight(copies_of(entry.node));
-    const double factor = 1 / std::sqrt(square);
+    const double factor = unit_factor(contacts.rows[point.row]);
     for (std::size_t r = point.row; r <= point.row + point.tangents.size(); ++r) {
       const Global row = contact_base + contact_numbers.start + static_cast<Global>(r);
-      for (const auto& entry : contacts.rows[r]) {
-        const auto copies = copies_of(entry.node);
-        const double share = factor * entry.coefficient / total_weight(copies);
-        for (const auto& copy : copies)
-          assembly.add({copy.subdomain, row, copy.node * dimension + entry.component, share * copy.weight});
-      }
+      add_entries(contacts.rows[r], row, factor);
       owned.push_back(row);
       scale.push_back(factor);
     }
@@ -191,7 +207,7 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   }
   ranges_.end = static_cast<Local>(owned.size());
   scale_ = Eigen::Map<const Eigen::VectorXd>(scale.data(), static_cast<Eigen::Index>(scale.size()));
-  update_rhs(prescribed, skew_supports, contacts);
+  update_rhs(prescribed, skew_supports, contacts, mean_motions);
 
   // The rows that this rank's subdomains take part in, and their blocks.
   const auto pieces = assembly.receive();
@@ -226,12 +242,14 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
 }
 
 void JumpOperator::update_rhs(std::span<const constraint::PrescribedDof> prescribed,
-                              std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts)
+                              std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
+                              std::span<const constraint::MeanMotion> mean_motions)
 {
   bound_ = Eigen::VectorXd::Zero(ranges_.end);
   Local row = ranges_.dirichlet;
   for (const auto& h : prescribed) bound_[row++] = h.value;
   for (const auto& i : skew_supports) bound_[row++] = i.value;
+  for (const auto& mean : mean_motions) bound_[row++] = mean.value;
   for (std::size_t r = 0; r < contacts.rows.size(); ++r)
     bound_[ranges_.contacts + static_cast<Local>(r)] = contacts.rows.bound[r];
   bound_.array() *= scale_.array();

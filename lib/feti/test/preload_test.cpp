@@ -31,9 +31,9 @@ qp::Solution solve(const DualProblem& problem, const std::string& algorithm)
 {
   qp::Hessian hessian(problem.hessian(), 1000);
   Vector driven(problem.linear().getMap());
-  if (problem.pretension_multipliers()) hessian.apply(*problem.pretension_multipliers(), driven);
+  if (problem.balancing_multipliers()) hessian.apply(*problem.balancing_multipliers(), driven);
   const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set(),
-                              problem.pretension_multipliers() ? &driven : nullptr};
+                              problem.balancing_multipliers() ? &driven : nullptr};
   return algorithm == "smalse" ? qp::smalse(programme, {}, 1e-10, {})
                                : qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-10, {}}, nullptr, {});
 }
@@ -82,7 +82,7 @@ TEST_P(Preloads, AShorteningHasItsForce)
   const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.system,
                             column.load, {}, column.context);
   EXPECT_EQ(problem.equality().size(), 5 * 6);
-  EXPECT_EQ(problem.pretension_multipliers(), nullptr);
+  EXPECT_EQ(problem.balancing_multipliers(), nullptr);
   const auto solution = solve(problem, GetParam());
   ASSERT_TRUE(solution.converged);
   EXPECT_NEAR(tension(problem, solution.x), force, 1e-8 * force);

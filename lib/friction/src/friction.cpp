@@ -65,7 +65,7 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
       budget_(hessian_, solver.max_multiplications.value, qp::solver_kind(solver.algorithm).steady),
       driven_(problem.linear().getMap()),
       programme_{hessian_, problem.linear(), problem.equality(), problem.set(),
-                 problem.pretension_multipliers() ? &driven_ : nullptr}
+                 problem.balancing_multipliers() ? &driven_ : nullptr}
 {
   problem.set().set_coefficients(coefficients(problem, laws_));
   algorithm_ = qp::solver_kind(solver.algorithm).make(programme_, feti::means_of(problem, budget_));
@@ -223,7 +223,7 @@ Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy)
 {
   budget_.start(patience_);
   states_ = std::make_unique<StateRecord>();
-  if (problem_.pretension_multipliers()) hessian_.apply(*problem_.pretension_multipliers(), driven_);
+  if (problem_.balancing_multipliers()) hessian_.apply(*problem_.balancing_multipliers(), driven_);
   Run run;
   if (tolerance_) {
     run.goal.residual = *tolerance_;

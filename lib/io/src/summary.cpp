@@ -71,6 +71,16 @@ void add_state(const StateSummary& s, Json& json)
   json["max_displacement"] = number(s.max_displacement);
   json["reactions"] = Json::array();
   for (const auto& r : s.reactions) json["reactions"].push_back({{"boundary", r.boundary}, {"force", vector(r.force)}});
+  if (!s.couplings.empty()) json["couplings"] = Json::array();
+  for (const auto& c : s.couplings)
+    json["couplings"].push_back({{"name", c.name},
+                                 {"boundary", c.boundary},
+                                 {"displacement", vector(c.displacement)},
+                                 {"rotation", vector(c.rotation)},
+                                 {"force", vector(c.force)},
+                                 {"moment", vector(c.moment)},
+                                 {"reaction_force", vector(c.reaction_force)},
+                                 {"reaction_moment", vector(c.reaction_moment)}});
   json["contacts"] = Json::array();
   for (const auto& c : s.contacts) {
     json["contacts"].push_back({{"name", c.name},

@@ -155,12 +155,18 @@ void check_vectors(const Deck& deck, deck::Document& document)
     flat(deck.loads[i].traction, path + "traction");
     flat(deck.loads[i].force, path + "force");
     flat(deck.loads[i].acceleration, path + "acceleration");
+    if (const auto& moment = deck.loads[i].moment; moment && ((*moment)[0] != 0 || (*moment)[1] != 0))
+      document.error(path + "moment", "in a plane model a moment turns about z alone; expected [0, 0, m]");
     if (deck.axisymmetric() && deck.loads[i].acceleration && (*deck.loads[i].acceleration)[0] != 0)
       document.error(path + "acceleration", "an axisymmetric body is accelerated along its axis, y, alone; expected 0 for x");
   }
-  for (std::size_t i = 0; i < deck.supports.size(); ++i)
+  for (std::size_t i = 0; i < deck.supports.size(); ++i) {
     if (deck.supports[i].displacement[2])
       document.error(fmt::format("supports[{}].displacement.z", i), "a plane model has no z component");
+    for (const std::size_t c : {0, 1})
+      if (deck.supports[i].rotation[c])
+        document.error(fmt::format("supports[{}].rotation.{}", i, "xy"[c]), "in a plane model points turn about z alone");
+  }
   const auto& interior = deck.output.interior;
   for (std::size_t i = 0; i < interior.points.size(); ++i) flat(interior.points[i], fmt::format("output.interior.points[{}]", i));
   if (!interior.planes.empty()) document.error("output.interior.planes", "sections are for models of dimension 3");
@@ -171,6 +177,34 @@ void check_vectors(const Deck& deck, deck::Document& document)
           fmt::format("the inside of boundary elements, of the body \"{}\", is evaluated in models of dimension 3 alone; "
                       "take its `method: finite_elements`",
                       name));
+}
+
+void check_couplings(const Deck& deck, deck::Document& document)
+{
+  const auto check = [&](const std::string& name, const std::string& path) {
+    if (!name.empty() && !deck.couplings.contains(name))
+      document.error(path, fmt::format("there is no coupling \"{}\"{}", name, deck::suggestion(name, keys_of(deck.couplings))));
+  };
+  for (std::size_t i = 0; i < deck.supports.size(); ++i)
+    check(deck.supports[i].coupling, fmt::format("supports[{}].coupling", i));
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) check(deck.loads[i].coupling, fmt::format("loads[{}].coupling", i));
+  for (const auto& [name, coupling] : deck.couplings) {
+    if (deck.axisymmetric())
+      document.error("couplings." + name,
+                     "couplings are not for axisymmetric models, where a `force` on the boundary is that of the whole turn");
+    if (deck.dimension() == 2 && coupling.point[2] != 0)
+      document.error("couplings." + name + ".point", "a plane model has no z component");
+    for (std::size_t i = 0; i < deck.supports.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        if (deck.supports[i].coupling != name || deck.supports[k].coupling != name) continue;
+        for (std::size_t c = 0; c < 3; ++c)
+          if ((deck.supports[i].displacement[c] && deck.supports[k].displacement[c]) ||
+              (deck.supports[i].rotation[c] && deck.supports[k].rotation[c]))
+            document.error(
+                fmt::format("supports[{}]", i),
+                fmt::format("supports[{}] prescribes a component of the motion of \"{}\", too; name it once", k, name));
+      }
+  }
 }
 
 }  // namespace
@@ -268,6 +302,7 @@ void describe(deck::Description<Deck>& d)
   d.key("materials", &Deck::materials, "Materials by name.").required();
   d.key("bodies", &Deck::bodies, "One entry for each physical volume (plane models: surface) of the mesh, by its name.")
       .required();
+  d.key("couplings", &Deck::couplings, "Boundaries coupled to points, by names that loads and supports refer to.");
   d.key("supports", &Deck::supports, "Prescribed displacements.");
   d.key("loads", &Deck::loads, "Loads.");
   d.custom(
@@ -296,13 +331,14 @@ Deck read_deck(deck::Document& document, const std::string& output)
                                        : contact.secondary + "/" +
                                              (contact.obstacle ? contact::shape_name(*contact.obstacle) : contact.primary);
   for (auto& support : deck.supports)
-    if (support.name.empty()) support.name = support.boundary;
+    if (support.name.empty()) support.name = support.coupling.empty() ? support.boundary : support.coupling;
   for (auto& load : deck.loads)
-    if (load.name.empty()) load.name = load.boundary.empty() ? load.body : load.boundary;
+    if (load.name.empty()) load.name = !load.coupling.empty() ? load.coupling : load.boundary.empty() ? load.body : load.boundary;
   check_bodies(deck, document);
   describe_assembly(deck, document);
   check_decomposition(deck, document);
   check_vectors(deck, document);
+  check_couplings(deck, document);
   check_contacts(as_written(deck), deck.kinematics, document);
   check_steps(deck, document);
   auto& decomposition = deck.decomposition;
@@ -361,8 +397,9 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
   const auto check = [&](const std::string& name, const std::string& path) {
     if (const auto why = missing(name, catalogue); !why.empty()) document.error(path, why);
   };
+  for (const auto& [name, coupling] : deck.couplings) check(coupling.boundary, "couplings." + name + ".boundary");
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
-    check(deck.supports[i].boundary, fmt::format("supports[{}].boundary", i));
+    if (!deck.supports[i].boundary.empty()) check(deck.supports[i].boundary, fmt::format("supports[{}].boundary", i));
   for (std::size_t i = 0; i < deck.loads.size(); ++i) {
     const auto& load = deck.loads[i];
     if (!load.boundary.empty()) check(load.boundary, fmt::format("loads[{}].boundary", i));

@@ -157,6 +157,8 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
   std::vector<std::pair<std::string, std::string>> named;  // boundary, key
   for (std::size_t i = 0; i < deck_.supports.size(); ++i)
     named.emplace_back(deck_.supports[i].boundary, fmt::format("supports[{}].boundary", i));
+  for (const auto& [name, coupling] : deck_.couplings) named.emplace_back(coupling.boundary, "couplings." + name + ".boundary");
+  const std::size_t before_contacts = named.size();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     named.emplace_back(contacts_[i].secondary, contacts_.path(i) + ".secondary");
     named.emplace_back(contacts_[i].obstacle ? "" : contacts_[i].primary, contacts_.path(i) + ".primary");
@@ -164,7 +166,7 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
   std::vector<double> faces, common;  // of each; of each contact's two sides
   std::vector<Global> before;
   for (std::size_t i = 0; i < named.size(); ++i) {
-    if (named[i].first.empty()) {  // an obstacle
+    if (named[i].first.empty()) {  // an obstacle, or the point of a coupling
       faces.push_back(1);
       common.push_back(0);
       continue;
@@ -172,10 +174,10 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
     const auto [index, on_body] = select(named[i].first);
     auto ids = partition::boundary_surface(decomposition_, index, on_body).face_id;
     faces.push_back(static_cast<double>(ids.size()));
-    if (i < deck_.supports.size()) continue;
+    if (i < before_contacts) continue;
     std::sort(ids.begin(), ids.end());
     std::vector<Global> both;
-    if ((i - deck_.supports.size()) % 2 == 1) {
+    if ((i - before_contacts) % 2 == 1) {
       std::set_intersection(before.begin(), before.end(), ids.begin(), ids.end(), std::back_inserter(both));
       common.push_back(static_cast<double>(both.size()));
     }
@@ -251,7 +253,7 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
     const auto& load = deck_.loads[i];
     const double factor = state.load[i];
-    if (factor == 0 || load.temperature_change) continue;
+    if (factor == 0 || load.temperature_change || !load.coupling.empty()) continue;
     if (load.acceleration) {
       const auto on_body = bodies_named(load.body);
       for (std::size_t s = 0; s < f.size(); ++s)
@@ -274,6 +276,7 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
       if (load.force) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, factor * point(*load.force) / area, f[s]);
     }
   }
+  add_distributed(couplings(state, comm), f, comm);
   return f;
 }
 
@@ -294,6 +297,10 @@ std::vector<constraint::SupportOptions> Model::supports(const LoadState& state) 
     supports.emplace_back().boundary = "the axis of revolution";
     supports.back().displacement[0] = 0.0;
   }
+  for (const auto& [name, coupling] : deck_.couplings) {
+    supports.emplace_back().boundary = "coupling " + name;
+    supports.back().name = name;
+  }
   return supports;
 }
 
@@ -301,9 +308,12 @@ std::vector<std::vector<Global>> Model::support_nodes(const Communicator& comm) 
 {
   std::vector<std::vector<Global>> nodes;
   for (const auto& support : deck_.supports) {
+    nodes.emplace_back();
+    if (support.boundary.empty()) continue;
     const auto [boundary, on_body] = select(support.boundary);
-    nodes.push_back(partition::boundary_surface(decomposition_, boundary, on_body).node_id);
+    nodes.back() = partition::boundary_surface(decomposition_, boundary, on_body).node_id;
   }
+  nodes.resize(nodes.size() + deck_.couplings.size());
   if (!deck_.axisymmetric()) return nodes;
   nodes.emplace_back();
   const double rounding = on_the_axis * radius(comm);
@@ -322,6 +332,7 @@ std::vector<mesh::Surface> Model::support_surfaces() const
     const auto [boundary, on_body] = select(support.boundary);
     surfaces.back() = partition::boundary_surface(decomposition_, boundary, on_body);
   }
+  surfaces.resize(surfaces.size() + deck_.couplings.size());
   if (deck_.axisymmetric()) surfaces.emplace_back();
   return surfaces;
 }
@@ -350,7 +361,8 @@ std::vector<bool> Model::supported(const Communicator& comm) const
 {
   std::vector<double> faces(decomposition_.catalogue.bodies.size(), 0.0);
   for (const auto& support : deck_.supports) {
-    const auto [boundary, on_body] = select(support.boundary);
+    const auto [boundary, on_body] =
+        select(support.coupling.empty() ? support.boundary : deck_.couplings.at(support.coupling).boundary);
     for (const int body : partition::boundary_surface(decomposition_, boundary, on_body).body)
       faces[static_cast<std::size_t>(body)] += 1;
   }

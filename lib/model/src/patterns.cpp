@@ -190,6 +190,7 @@ Contacts resolve_patterns(const Deck& deck, deck::Document& document, partition:
     any = any || is_pattern(name);
     with_bodies = with_bodies || (is_pattern(name) && name.find(':') != std::string::npos);
   };
+  for (const auto& [name, coupling] : deck.couplings) note(coupling.boundary);
   for (const auto& support : deck.supports) note(support.boundary);
   for (const auto& load : deck.loads) note(load.boundary);
   for (const auto& contact : deck.contacts) {
@@ -216,6 +217,7 @@ Contacts resolve_patterns(const Deck& deck, deck::Document& document, partition:
     if (places.empty()) report_no_match(name, path, known, document);
     define_boundary(name, places, decomposition);
   };
+  for (const auto& [name, coupling] : deck.couplings) resolve(coupling.boundary, "couplings." + name + ".boundary");
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
     resolve(deck.supports[i].boundary, fmt::format("supports[{}].boundary", i));
   for (std::size_t i = 0; i < deck.loads.size(); ++i) resolve(deck.loads[i].boundary, fmt::format("loads[{}].boundary", i));

@@ -23,8 +23,9 @@ std::vector<std::array<double, 3>> reactions(const feti::DualProblem& problem, c
   const auto& ranges = problem.jump().ranges();
   const auto& prescribed = problem.constraints().prescribed;
   for (std::size_t i = 0; i < prescribed.size(); ++i)
-    sums[static_cast<std::size_t>(prescribed[i].support) * 3 + static_cast<std::size_t>(prescribed[i].component)] -=
-        forces[ranges.dirichlet + static_cast<Local>(i)];
+    if (prescribed[i].coupling < 0)
+      sums[static_cast<std::size_t>(prescribed[i].support) * 3 + static_cast<std::size_t>(prescribed[i].component)] -=
+          forces[ranges.dirichlet + static_cast<Local>(i)];
   const auto& skew_supports = problem.constraints().skew_supports;
   for (std::size_t i = 0; i < skew_supports.size(); ++i) {
     const auto row = ranges.dirichlet + static_cast<Local>(prescribed.size() + i);
@@ -37,6 +38,41 @@ std::vector<std::array<double, 3>> reactions(const feti::DualProblem& problem, c
   problem.communicator().sum_in_place(sums);
   std::vector<std::array<double, 3>> result;
   for (std::size_t s = 0; s < supports; ++s) result.push_back({sums[3 * s], sums[3 * s + 1], sums[3 * s + 2]});
+  return result;
+}
+
+std::vector<CouplingState> coupling_states(const feti::DualProblem& problem, const Vector& lambda)
+{
+  const auto& constraints = problem.constraints();
+  const Eigen::VectorXd forces = problem.forces(lambda);
+  const auto first = problem.jump().ranges().dirichlet;
+  std::vector<double> sums(6 * constraints.couplings.size(), 0.0);
+  for (std::size_t i = 0; i < constraints.prescribed.size(); ++i) {
+    const auto& row = constraints.prescribed[i];
+    if (row.coupling < 0) continue;
+    const Point force = -forces[first + static_cast<Local>(i)] * Point::Unit(row.component);
+    const Point moment = Point(row.arm[0], row.arm[1], row.arm[2]).cross(force);
+    double* const sum = &sums[6 * static_cast<std::size_t>(row.coupling)];
+    for (int c = 0; c < 3; ++c) sum[c] += force[c], sum[3 + c] += moment[c];
+  }
+  const auto means = first + static_cast<Local>(constraints.prescribed.size() + constraints.skew_supports.size());
+  for (std::size_t i = 0; i < constraints.mean_motions.size(); ++i) {
+    const auto& row = constraints.mean_motions[i];
+    const auto coupling = static_cast<std::size_t>(row.coupling);
+    const double length = row.component < 3 ? 1 : constraints.couplings[coupling].arm;
+    sums[6 * coupling + static_cast<std::size_t>(row.component)] -= length * forces[means + static_cast<Local>(i)];
+  }
+  problem.communicator().sum_in_place(sums);
+  std::vector<CouplingState> result;
+  for (std::size_t i = 0; i < constraints.couplings.size(); ++i) {
+    const auto& coupling = constraints.couplings[i];
+    auto& state = result.emplace_back();
+    std::copy_n(&sums[6 * i], 6, state.action.begin());
+    for (std::size_t k = 0; k < 6; ++k) {
+      if (!coupling.rigid) state.action[k] += coupling.load[k];
+      state.reaction[k] = state.action[k] - coupling.load[k];
+    }
+  }
   return result;
 }
 
@@ -57,7 +93,7 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
 
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const std::array<double, 3>> reactions,
                 std::span<const contact::Resultant> contacts, std::span<const contact::Pair> pairs, bool axisymmetric,
-                const Rounding& rounding)
+                std::span<const CouplingState> couplings, const Rounding& rounding)
 {
   const auto& comm = problem.communicator();
   const auto counted = [&](const auto& f) { return Point(axisymmetric ? 0 : f[0], f[1], f[2]); };
@@ -70,6 +106,11 @@ Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::spa
   Balance b;
   b.applied = counted(applied);
   for (const auto& force : reactions) b.supports += counted(force);
+  for (std::size_t i = 0; i < couplings.size(); ++i) {
+    const auto& coupling = problem.constraints().couplings[i];
+    if (coupling.rigid) b.applied += counted(coupling.load);
+    b.supports += counted(couplings[i].reaction);
+  }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& options = pairs[c].options;
     if (const auto rotation = contact::rotation_of(options))
@@ -78,6 +119,7 @@ Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::spa
   }
   b.largest = std::max({b.applied.norm(), b.supports.norm(), rounding.force, part_of_loads * applied[3], 1e-300});
   for (const auto& r : contacts) b.largest = std::max(b.largest, r.force.norm());
+  for (const auto& c : couplings) b.largest = std::max(b.largest, std::hypot(c.action[0], c.action[1], c.action[2]));
   for (const auto& force : reactions) b.largest = std::max(b.largest, std::hypot(force[0], force[1], force[2]));
   b.gauges = problem.gauge_force(lambda);
   b.difference = (b.applied + b.supports + b.obstacles + b.neighbours + b.gauges).norm() / b.largest;

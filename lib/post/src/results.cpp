@@ -57,8 +57,9 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   estimate_errors(solved, rounding, comm, results);
   results.contact = contact_results(problem, lambda, nu, displacement, pairs);
   results.reactions = reactions(problem, lambda, supports);
+  results.couplings = coupling_states(problem, lambda);
   results.balance = balance(problem, lambda, results.reactions, results.contact.resultants, pairs,
-                            bodies.kinematics == fem::Kinematics::axisymmetric, rounding);
+                            bodies.kinematics == fem::Kinematics::axisymmetric, results.couplings, rounding);
   results.shortenings = problem.shortenings(nu);
 
   auto& residuals = results.residuals;

@@ -49,6 +49,11 @@ struct PrescribedDof {
   int component;
   double value;
   int support;  ///< index into the deck's supports, for messages and reactions
+  /// Of a rigid coupling: which one, whether its motion moves this component by something unknown besides `value`, and the node's
+  /// place from its point.
+  int coupling = -1;
+  bool unknown = false;
+  std::array<double, 3> arm{};
 };
 
 /// A node is prescribed at `value` along a direction that is no axis: orthogonal to the components that are prescribed there and
@@ -138,12 +143,32 @@ struct PretensionSection {
   std::vector<Row> rows;  ///< those of this rank
 };
 
+/// A boundary that is coupled to a point, in one load state; see constraint/coupling.hpp. Components: the motion U of the point,
+/// then its angles T.
+struct Coupling {
+  std::string name;
+  bool rigid = false;
+  Point point = Point::Zero();
+  std::array<std::optional<double>, 6> motion;  ///< what supports prescribe of it
+  std::array<double, 6> load{};                 ///< force and moment at the point
+  double arm = 1;                               ///< how far the boundary is from the point, root mean square
+};
+
+/// The mean motion of a distributing coupling is prescribed in one component: sum c u = value, an angle times Coupling::arm.
+struct MeanMotion {
+  int coupling, component;
+  double value;
+  std::vector<Entry> entries;
+};
+
 /// All constraints of an assembly, in mesh numbering.
 struct Constraints {
   std::vector<PrescribedDof> prescribed;  ///< each pair (node, component) once over all ranks
   Contacts contacts;
   std::vector<SkewSupport> skew_supports = {};              ///< of this rank; each once over all ranks
   std::vector<PretensionSection> pretension_sections = {};  ///< the same on every rank, but for their rows
+  std::vector<Coupling> couplings = {};                     ///< the same on every rank
+  std::vector<MeanMotion> mean_motions = {};                ///< of this rank; each once over all ranks
 };
 
 }  // namespace mortise::constraint

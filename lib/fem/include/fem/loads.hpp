@@ -31,12 +31,16 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double dens
 void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, double temperature_change,
                    Eigen::VectorXd& f);
 
-/// Of the facets of a boundary in this piece: area (as area()), integral of x, and integral of the outward normal.
+/// Of the facets of a boundary in this piece: area (as area()), integrals of x, of x x' and of the outward normal.
 struct Moments {
   double area = 0;
   Point first = Point::Zero();
   Point normal = Point::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
 };
 Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
+
+/// Column n of the result: the integrals of N_n and of N_n x over the boundary, of each node of the piece, 4 x nodes.
+Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
 
 }  // namespace mortise::fem

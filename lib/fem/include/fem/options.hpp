@@ -49,7 +49,8 @@ struct BodyOptions {
   Formulation formulation = Formulation::standard;  ///< of finite elements
 };
 
-/// One load; exactly one of the five quantities is given, `boundary` for the first three and `body` for the others.
+/// One load; exactly one of the five quantities is given, `boundary` for the first three and `body` for the others. On a coupling
+/// a force, a moment, or both.
 struct LoadOptions {
   std::string boundary;
   std::string body;
@@ -58,7 +59,9 @@ struct LoadOptions {
   std::optional<std::array<double, 3>> force;         ///< resultant, spread evenly over the boundary (plane: a thickness)
   std::optional<std::array<double, 3>> acceleration;  ///< body force is density times this
   std::optional<double> temperature_change = {};      ///< degrees; several on one body add
-  std::string name = {};                              ///< default: the boundary or the body
+  std::string name = {};                              ///< default: the boundary, the body or the coupling
+  std::string coupling = {};                          ///< its point takes `force` and `moment`
+  std::optional<std::array<double, 3>> moment = {};   ///< about the point; in a plane z alone, a thickness
 };
 
 /// The keywords.

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "constraint/constraints.hpp"
+#include "constraint/coupling.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/clusters.hpp"
 #include "feti/jump_operator.hpp"
@@ -18,9 +18,23 @@ SparseMatrix coarse_rows(const JumpOperator& jump, const Clusters& clusters, con
 /// R_c'v_c of every cluster, on every rank: e for v = f. Collective.
 Eigen::VectorXd kernel_coordinates(const Clusters& clusters, const std::vector<Eigen::VectorXd>& v, const Communicator& comm);
 
-/// G with one more row for each pretension section that is tightened to a force, over the same columns: its parts of the (scaled)
-/// contact rows.
-SparseMatrix with_pretension_rows(const SparseMatrix& g, std::span<const constraint::PretensionSection> pretension_sections,
-                                  const JumpOperator& jump);
+/// An unknown s besides the displacements and kernels, on which `force` works: what a pretension section that is tightened to a
+/// force is drawn together by, or a component of the motion of a rigid coupling's point. Rows give way to it, row . u = bound +
+/// part s.
+struct Unknown {
+  int group;  ///< unknowns of one group may share rows
+  double force;
+  struct Part {
+    Local row;  ///< owned, of B
+    double part;
+  };
+  std::vector<Part> parts;  ///< of the rows as they were given
+};
+
+/// All of them, the same on every rank but for their parts: pretension sections, then couplings.
+std::vector<Unknown> unknowns(const constraint::Constraints& constraints, const JumpOperator& jump, int dimension);
+
+/// G with one more row for each unknown, over the same columns: its parts of the (scaled) rows.
+SparseMatrix with_unknowns(const SparseMatrix& g, std::span<const Unknown> unknowns, const JumpOperator& jump);
 
 }  // namespace mortise::feti

@@ -5,8 +5,8 @@
 //     F = B K^+ B',  d = B K^+ f - c,  G = R'B',  e = R'f,     u = K^+ (f - B' lambda) - R nu,
 //
 // where K^+ and R are those of clusters of subdomains, or of each subdomain alone, nu are the multipliers of G lambda = e [Dostal
-// et al., DD20, section 3]. Each pretension section that is tightened to a force adds a row to G, sum of part * lambda = -force,
-// and its shortening to nu.
+// et al., DD20, section 3]. Each pretension section that is tightened to a force, and each component of the motion of a rigid
+// coupling's point that is unknown, adds a row to G, sum of part * lambda = -force, and its shortening or motion to nu.
 #pragma once
 
 #include <memory>
@@ -71,9 +71,9 @@ class DualProblem {
   /// Rows of B, and the sum of the kernels' dimensions, over all ranks.
   Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
   int kernel_dimension() const { return system_.clusters.kernel_dimension(); }
-  /// The least-norm multipliers that give all pretension sections their forces and move no body, and have nothing to do with
-  /// linear(): what else drives the problem. Null if no pretension section is tightened to a force.
-  const Vector* pretension_multipliers() const { return pretension_multipliers_.get(); }
+  /// The least-norm multipliers that balance the forces on pretension sections and points of rigid couplings and move no body,
+  /// and have nothing to do with linear(): what else drives the problem. Null if there is no such unknown.
+  const Vector* balancing_multipliers() const { return balancing_multipliers_.get(); }
   /// The shortening of each of constraints().pretension_sections, given or found.
   std::vector<double> shortenings(const Eigen::VectorXd& nu) const;
 
@@ -100,7 +100,6 @@ class DualProblem {
   void gauge_rigid_modes(const partition::NodeDirectory& directory, const partition::Interface& interface,
                          std::span<const constraint::SlidingSurface> sliding_surfaces, const Context& context);
   void make_equality(SparseMatrix g);
-  Eigen::Index tightened() const;  // pretension sections with a force
   void make_set();
   void make_rhs();
   static bool driven(const FreeMotion& motion, double work);
@@ -113,7 +112,7 @@ class DualProblem {
   std::unique_ptr<JumpOperator> jump_;
   std::unique_ptr<DualOperator> hessian_;
   std::unique_ptr<Preconditioner> preconditioner_;
-  std::unique_ptr<Vector> linear_, pretension_multipliers_;
+  std::unique_ptr<Vector> linear_, balancing_multipliers_;
   std::unique_ptr<qp::EqualityConstraint> equality_;
   qp::FeasibleSet set_;
   std::vector<NodeRows> node_rows_;

@@ -27,12 +27,13 @@ struct SubdomainRow {
 /// Heavy: moves, does not copy.
 class JumpOperator {
  public:
-  /// `prescribed`, `skew_supports` and `contacts`: this rank's rows. Owned rows are numbered on each rank: gluing, Dirichlet
-  /// (skew ones last), contacts, extra. Collective.
+  /// `prescribed`, `skew_supports`, `mean_motions` and `contacts`: this rank's rows. Owned rows are numbered on each rank:
+  /// gluing, Dirichlet (skew ones after the others, mean motions last), contacts, extra. Collective.
   JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
                std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
-               std::span<const SubdomainRow> extra, const Communicator& comm);
+               std::span<const SubdomainRow> extra, const Communicator& comm,
+               std::span<const constraint::MeanMotion> mean_motions = {});
 
   /// The dual space: each row on one rank.
   Teuchos::RCP<const Map> rows() const { return rows_; }
@@ -57,7 +58,7 @@ class JumpOperator {
   const Eigen::VectorXd& bound() const { return bound_; }
   /// c anew, of the same rows with other bounds.
   void update_rhs(std::span<const constraint::PrescribedDof> prescribed, std::span<const constraint::SkewSupport> skew_supports,
-                  const constraint::Contacts& contacts);
+                  const constraint::Contacts& contacts, std::span<const constraint::MeanMotion> mean_motions = {});
 
   /// f_s = B_s' lambda for each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> apply_transpose(const Vector& lambda) const;

@@ -30,6 +30,13 @@ struct StateSummary {
     std::array<double, 3> force;
   };
   std::vector<Reaction> reactions;
+  /// The point of a coupling: how it moves, what it does to the boundary, and what of that is the reaction of supports.
+  struct Coupling {
+    std::string name, boundary;
+    std::array<double, 3> displacement, rotation, force, moment, reaction_force, reaction_moment;
+    bool held;  ///< by a support
+  };
+  std::vector<Coupling> couplings;
   struct Contact {
     std::string name;
     std::array<double, 3> force;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "constraint/coupling.hpp"
 #include "constraint/options.hpp"
 #include "contact/options.hpp"
 #include "deck/document.hpp"
@@ -33,6 +34,7 @@ struct Deck {
   mesh::Options mesh;
   std::map<std::string, fem::Material> materials;
   std::map<std::string, fem::BodyOptions> bodies;
+  std::map<std::string, constraint::CouplingOptions> couplings;
   std::vector<constraint::SupportOptions> supports;
   std::vector<fem::LoadOptions> loads;
   std::vector<contact::Options> contacts;

@@ -48,6 +48,7 @@ class Model {
   /// Consistent loads of every subdomain; of boundary elements those on the surface alone. Collective.
   std::vector<Eigen::VectorXd> loads(const LoadState& state, const Communicator& comm) const;
   /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways. Those that do not act hold nothing.
+  /// Each coupling stands for one more, of its name, without displacements.
   std::vector<constraint::SupportOptions> supports(const LoadState& state) const;
   /// Nodes of this rank on the boundary of each of supports(). Collective.
   std::vector<std::vector<Global>> support_nodes(const Communicator& comm) const;
@@ -63,6 +64,19 @@ class Model {
   };
   /// Collective.
   Facts facts(const std::string& boundary, const Communicator& comm) const;
+  /// The deck's couplings by name, with what loads and supports make of them. Collective.
+  std::vector<constraint::Coupling> couplings(const LoadState& state, const Communicator& comm) const;
+  /// This rank's faces of the rigid ones; the others are empty.
+  std::vector<mesh::Surface> coupling_surfaces() const;
+  /// The rows of the distributing ones whose points supports hold, on rank 0. Collective.
+  std::vector<constraint::MeanMotion> mean_motions(const std::vector<constraint::Coupling>& couplings,
+                                                   const Communicator& comm) const;
+  /// How the points of all couplings move, U and T: the mean motion of the boundary. `displacement`: of each subdomain.
+  /// Collective.
+  std::vector<std::array<double, 6>> motions_of_points(const std::vector<Eigen::VectorXd>& displacement,
+                                                       const Communicator& comm) const;
+  /// The number of the first coupling among supports().
+  int first_coupling() const { return static_cast<int>(deck_.supports.size()); }
   std::vector<contact::Pair> contact_pairs(const LoadState& state) const;
   std::vector<friction::Law> friction_laws() const;
   /// Of the preloaded contacts. Those that are locked are prescribed at `shortenings`, one for each, of the state before.
@@ -75,6 +89,10 @@ class Model {
   };
   Selection select(const std::string& name) const;
   std::vector<bool> bodies_named(const std::string& name) const;
+  void add_distributed(const std::vector<constraint::Coupling>& couplings, std::vector<Eigen::VectorXd>& f,
+                       const Communicator& comm) const;
+  struct Area;  // of a coupling's boundary
+  Area area_of(const constraint::CouplingOptions& coupling, const Communicator& comm) const;
   double radius(const Communicator& comm) const;
   void require_formulations(deck::Document& document) const;
   void require_axis(deck::Document& document, double rounding) const;

@@ -15,6 +15,14 @@ namespace mortise::post {
 /// revolution are none of them. Collective.
 std::vector<std::array<double, 3>> reactions(const feti::DualProblem& problem, const Vector& lambda, std::size_t supports);
 
+/// Of a coupling: how its point moves and turns, and what it does to the boundary, forces and then moments about the point: the
+/// loads at the point and the reaction of the supports that hold it.
+struct CouplingState {
+  std::array<double, 6> motion{}, action{}, reaction{};
+};
+/// All but the motions. Collective.
+std::vector<CouplingState> coupling_states(const feti::DualProblem& problem, const Vector& lambda);
+
 /// Sums of forces; in axisymmetry those along the axis alone, since what pushes a ring outwards needs no support.
 struct Balance {
   Point applied = Point::Zero(), supports = Point::Zero();
@@ -34,9 +42,9 @@ struct Rounding {
 Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<std::vector<double>>& nodal_stiffness,
                   int dimension, const Communicator& comm);
 
-/// `reactions` and `contacts`: of each support and contact. Collective.
+/// `reactions`, `contacts` and `couplings`: of each support, contact and coupling. Collective.
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const std::array<double, 3>> reactions,
                 std::span<const contact::Resultant> contacts, std::span<const contact::Pair> pairs, bool axisymmetric,
-                const Rounding& rounding);
+                std::span<const CouplingState> couplings, const Rounding& rounding);
 
 }  // namespace mortise::post

@@ -17,6 +17,7 @@ struct Results {
   Interior interior;  ///< see evaluate_interior()
   ContactResults contact;
   std::vector<std::array<double, 3>> reactions;  ///< of each support
+  std::vector<CouplingState> couplings;          ///< of each coupling, by name
   Balance balance;
   std::vector<double> shortenings;  ///< of each pretension section, given or found
   Residuals residuals;
