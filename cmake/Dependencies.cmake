@@ -34,6 +34,7 @@ find_library(METIS_LIBRARY metis REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(GMSH_LIBRARY gmsh REQUIRED)
+find_library(MUPARSER_LIBRARY muparser REQUIRED)
 
 # The reference BLAS makes everything several times slower: refuse it while it can still be mended. CHOLMOD loads
 # libblas.so.3, which Debian's alternatives resolve to one of several libraries.

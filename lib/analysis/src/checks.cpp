@@ -51,8 +51,9 @@ std::vector<post::AppliedStress> applied_stresses(const model::Model& model, con
     if (load.boundary.empty() || state.load[i] == 0) continue;
     const auto facts = model.facts(load.boundary, comm);
     double stress = 0;
-    if (load.pressure) stress = std::abs(*load.pressure);
-    if (load.traction) stress = length(*load.traction);
+    if (load.pressure) stress = std::abs(load.pressure->constant());  // 0 of a formula
+    if (load.traction)
+      stress = length({(*load.traction)[0].constant(), (*load.traction)[1].constant(), (*load.traction)[2].constant()});
     if (load.force) stress = facts.area > 0 ? length(*load.force) / facts.area : 0;
     result.push_back({load.boundary, std::abs(state.load[i]) * stress, facts.young_modulus});
   }

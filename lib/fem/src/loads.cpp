@@ -42,6 +42,14 @@ void add(const Eigen::VectorXd& shape, const Point& force, std::span<const Local
     f.segment(nodes[i] * dimension, dimension) += shape[static_cast<Eigen::Index>(i)] * force.head(dimension);
 }
 
+Point place(const mesh::Mesh& mesh, const Eigen::VectorXd& shape, std::span<const Local> nodes)
+{
+  Point x = Point::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    x += shape[static_cast<Eigen::Index>(i)] * mesh.points[static_cast<std::size_t>(nodes[i])];
+  return x;
+}
+
 }  // namespace
 
 double area(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
@@ -57,9 +65,7 @@ Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
   Moments result;
   for_each_point(mesh, boundary, kinematics,
                  [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
-                   Point x = Point::Zero();
-                   for (std::size_t i = 0; i < nodes.size(); ++i)
-                     x += shape[static_cast<Eigen::Index>(i)] * mesh.points[static_cast<std::size_t>(nodes[i])];
+                   const Point x = place(mesh, shape, nodes);
                    result.area += normal.norm();
                    result.first += normal.norm() * x;
                    result.normal += normal;
@@ -73,9 +79,7 @@ Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics k
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(4, static_cast<Eigen::Index>(mesh.node_count()));
   for_each_point(mesh, boundary, kinematics,
                  [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
-                   Point x = Point::Zero();
-                   for (std::size_t i = 0; i < nodes.size(); ++i)
-                     x += shape[static_cast<Eigen::Index>(i)] * mesh.points[static_cast<std::size_t>(nodes[i])];
+                   const Point x = place(mesh, shape, nodes);
                    for (std::size_t i = 0; i < nodes.size(); ++i) {
                      const double weight = shape[static_cast<Eigen::Index>(i)] * normal.norm();
                      result.col(nodes[i]) += weight * Eigen::Vector4d(1, x[0], x[1], x[2]);
@@ -84,23 +88,35 @@ Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics k
   return result;
 }
 
-void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, double pressure, Eigen::VectorXd& f)
+void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const ScalarField& pressure, Eigen::VectorXd& f)
 {
   for_each_point(mesh, boundary, kinematics,
                  [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
-                   add(shape, -pressure * normal, nodes, dimension(kinematics), f);
+                   add(shape, -pressure(place(mesh, shape, nodes)) * normal, nodes, dimension(kinematics), f);
+                 });
+}
+
+void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, double pressure, Eigen::VectorXd& f)
+{
+  add_pressure(
+      mesh, boundary, kinematics, [pressure](const Point&) { return pressure; }, f);
+}
+
+void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const VectorField& traction, Eigen::VectorXd& f)
+{
+  for_each_point(mesh, boundary, kinematics,
+                 [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
+                   add(shape, normal.norm() * traction(place(mesh, shape, nodes)), nodes, dimension(kinematics), f);
                  });
 }
 
 void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& traction, Eigen::VectorXd& f)
 {
-  for_each_point(mesh, boundary, kinematics,
-                 [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
-                   add(shape, normal.norm() * traction, nodes, dimension(kinematics), f);
-                 });
+  add_traction(
+      mesh, boundary, kinematics, [&traction](const Point&) { return traction; }, f);
 }
 
-void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Materials& materials, const Point& acceleration,
+void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Materials& materials, const VectorField& acceleration,
                       Eigen::VectorXd& f)
 {
   CellGeometry cell(kinematics);
@@ -108,9 +124,19 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Mater
     cell.gather(mesh, c);
     cell.evaluate();
     const double density = materials[materials.index(c)].density;
-    for (std::size_t q = 0; q < cell.volumes().size(); ++q)
-      add(cell.element().shape[q], density * cell.volumes()[q] * acceleration, mesh.cells[c], dimension(kinematics), f);
+    for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+      const auto& shape = cell.element().shape[q];
+      add(shape, density * cell.volumes()[q] * acceleration(place(mesh, shape, mesh.cells[c])), mesh.cells[c],
+          dimension(kinematics), f);
+    }
   }
+}
+
+void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Materials& materials, const Point& acceleration,
+                      Eigen::VectorXd& f)
+{
+  add_acceleration(
+      mesh, kinematics, materials, [&acceleration](const Point&) { return acceleration; }, f);
 }
 
 void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, double temperature_change,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -131,22 +132,44 @@ void describe(deck::Description<BodyOptions>& d)
   });
 }
 
+void describe(deck::Description<Centrifugal>& d)
+{
+  d.help("A body that turns about an axis: what it feels of its mass.");
+  d.key("axis", &Centrifugal::axis, "Direction of the axis: [0, 0, 1] in planes, [0, 1, 0] in axisymmetric models.").required();
+  d.key("point", &Centrifugal::point, "A point of the axis; the origin if not given.");
+  d.key("speed", &Centrifugal::speed, "Angle a unit of time, in radians: 2 pi times the turns.").required();
+  d.check([](const Centrifugal& load, const std::string& path, deck::Document& document) {
+    if (!(std::hypot(load.axis[0], load.axis[1], load.axis[2]) > 0))
+      document.error(deck::join(path, "axis"), "expected a direction, found a vector without length");
+  });
+}
+
+Point centrifugal_acceleration(const Centrifugal& load, const Point& x)
+{
+  const Point axis = Point(load.axis[0], load.axis[1], load.axis[2]).normalized();
+  const Point arm = x - Point(load.point[0], load.point[1], load.point[2]);
+  return load.speed * load.speed * (arm - axis * axis.dot(arm));
+}
+
 void describe(deck::Description<LoadOptions>& d)
 {
   d.help(
-      "One load: pressure, traction or force on a boundary; acceleration or temperature change of a body; force and moment at "
+      "One load: pressure, traction or force on a boundary; acceleration, turning or temperature change of a body; force and "
+      "moment at "
       "the "
       "point of a coupling.");
   d.key("name", &LoadOptions::name, "To refer to it; the boundary, body or coupling if not given.");
   d.key("coupling", &LoadOptions::coupling, "Coupling whose point is loaded.");
   d.key("boundary", &LoadOptions::boundary, "Boundary that is loaded.");
-  d.key("body", &LoadOptions::body, "Body that is accelerated or heated.");
-  d.key("pressure", &LoadOptions::pressure, "Force an area, positive into the body.");
-  d.key("traction", &LoadOptions::traction, "Force an area, as a vector.");
+  d.key("body", &LoadOptions::body, "Body that is accelerated, turns or is heated.");
+  d.key("pressure", &LoadOptions::pressure,
+        "Force an area, positive into the body: a number, or a formula in x, y, z, r, theta, t.");
+  d.key("traction", &LoadOptions::traction, "Force an area, as a vector of numbers or formulas.");
   d.key("force", &LoadOptions::force,
         "Resultant, spread evenly over the boundary (plane models: a thickness; axisymmetric: of the whole turn).");
   d.key("moment", &LoadOptions::moment, "Of a coupling: about its point, as a vector (plane models: [0, 0, m], a thickness).");
   d.key("acceleration", &LoadOptions::acceleration, "Body force is density times this.");
+  d.key("centrifugal", &LoadOptions::centrifugal, "Of a body: it turns about an axis, {axis, speed, point}.");
   d.key("temperature_change", &LoadOptions::temperature_change,
         "Degrees that the body is warmer than when it had no stress; its material has a thermal_expansion. Several on one body "
         "add.");
@@ -154,21 +177,24 @@ void describe(deck::Description<LoadOptions>& d)
     if (!load.coupling.empty()) {
       if (!load.boundary.empty() || !load.body.empty()) document.error(path, "expected one of `coupling`, `boundary` and `body`");
       if (!load.force && !load.moment) document.error(path, "a coupling takes a `force`, a `moment`, or both");
-      if (load.pressure || load.traction || load.acceleration || load.temperature_change)
+      if (load.pressure || load.traction || load.acceleration || load.centrifugal || load.temperature_change)
         document.error(path, "a coupling takes a `force` and a `moment` alone");
       return;
     }
     if (load.moment) document.error(path + ".moment", "a moment acts on a `coupling`; couple the boundary to a point first");
-    const bool on_body = load.acceleration.has_value() || load.temperature_change.has_value();
+    const bool on_body = load.acceleration || load.centrifugal || load.temperature_change;
     const int given = load.pressure.has_value() + load.traction.has_value() + load.force.has_value() +
-                      load.acceleration.has_value() + load.temperature_change.has_value();
+                      load.acceleration.has_value() + load.centrifugal.has_value() + load.temperature_change.has_value();
     if (given != 1)
       document.error(
           path,
-          fmt::format("expected exactly one of pressure, traction, force, acceleration and temperature_change, found {}", given));
+          fmt::format(
+              "expected exactly one of pressure, traction, force, acceleration, centrifugal and temperature_change, found {}",
+              given));
     if (load.boundary.empty() != on_body || load.body.empty() == on_body)
       document.error(path, !on_body            ? "this load acts on a `boundary`"
                            : load.acceleration ? "an acceleration acts on a `body`"
+                           : load.centrifugal  ? "a centrifugal load acts on a `body`"
                                                : "a change of temperature acts on a `body`");
   });
 }

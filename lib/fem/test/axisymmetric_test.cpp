@@ -80,7 +80,7 @@ TEST_P(Axisymmetric, PassesThePatchTest)
   const std::vector<std::string> sides{"xmin", "xmax", "ymin", "ymax"};
   for (int side = 0; side < 4; ++side)
     add_traction(block.mesh, block.boundary(sides[static_cast<std::size_t>(side)]), kinematics,
-                 (side % 2 == 0 ? -1 : 1) * stress.col(side / 2), load);
+                 Point((side % 2 == 0 ? -1 : 1) * stress.col(side / 2)), load);
   EXPECT_LT((force - load).norm(), 1e-12 * load.norm());
 
   const auto field = stresses(block.mesh, steel(), kinematics, u, GetParam().formulation);

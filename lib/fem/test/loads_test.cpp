@@ -121,7 +121,7 @@ TEST(Loads, TractionsBalanceTheStiffnessOfALinearField)
     for (int axis = 0; axis < d; ++axis)
       for (int side = 0; side < 2; ++side)
         add_traction(block.mesh, block.boundary(sides[static_cast<std::size_t>(2 * axis + side)]), kinematics,
-                     (side == 0 ? -1 : 1) * stress.col(axis), f);
+                     Point((side == 0 ? -1 : 1) * stress.col(axis)), f);
     const auto u = sample(block.mesh, d, [&](const Point& x) { return Point(gradient * x); });
     EXPECT_LT((dense(stiffness(block.mesh, steel(), kinematics)) * u - f).norm(), 1e-12 * f.norm()) << name;
   }

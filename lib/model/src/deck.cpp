@@ -152,7 +152,17 @@ void check_vectors(const Deck& deck, deck::Document& document)
   };
   for (std::size_t i = 0; i < deck.loads.size(); ++i) {
     const auto path = fmt::format("loads[{}].", i);
-    flat(deck.loads[i].traction, path + "traction");
+    if (const auto& traction = deck.loads[i].traction;
+        traction && !((*traction)[2].is_constant() && (*traction)[2].constant() == 0))
+      document.error(path + "traction", "a plane model has no z component");
+    if (const auto& turning = deck.loads[i].centrifugal) {
+      const auto& axis = turning->axis;
+      const auto& at = turning->point;
+      if (deck.axisymmetric() ? axis[0] != 0 || axis[2] != 0 || at[0] != 0 || at[2] != 0 : axis[0] != 0 || axis[1] != 0)
+        document.error(path + "centrifugal", deck.axisymmetric()
+                                                 ? "an axisymmetric body turns about its axis; expected axis: [0, 1, 0]"
+                                                 : "a plane model turns about z; expected axis: [0, 0, 1]");
+    }
     flat(deck.loads[i].force, path + "force");
     flat(deck.loads[i].acceleration, path + "acceleration");
     if (const auto& moment = deck.loads[i].moment; moment && ((*moment)[0] != 0 || (*moment)[1] != 0))
@@ -415,7 +425,12 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
       const auto of_body = [&](const auto& material) { return is_made_of(entry->second, material.first); };
       const auto light = std::find_if(deck.materials.begin(), deck.materials.end(),
                                       [&](const auto& material) { return of_body(material) && !(material.second.density > 0); });
-      if (load.acceleration && light != deck.materials.end()) {
+      if (load.centrifugal && entry->second.method == fem::Method::boundary_elements) {
+        document.error(
+            at, fmt::format("centrifugal loads are for finite elements, and the body \"{}\" is of boundary elements", body.name));
+        break;
+      }
+      if ((load.acceleration || load.centrifugal) && light != deck.materials.end()) {
         document.error(at, fmt::format("an acceleration needs a density > 0 of the material \"{}\"", light->first));
         break;
       }

@@ -259,7 +259,17 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
       for (std::size_t s = 0; s < f.size(); ++s)
         if (const auto& subdomain = decomposition_.subdomains[s];
             on_body[static_cast<std::size_t>(subdomain.body)] && !subdomain.skin)
-          fem::add_acceleration(subdomain.mesh, deck_.kinematics, materials(subdomain), factor * point(*load.acceleration), f[s]);
+          fem::add_acceleration(subdomain.mesh, deck_.kinematics, materials(subdomain), Point(factor * point(*load.acceleration)),
+                                f[s]);
+      continue;
+    }
+    if (load.centrifugal) {
+      const auto on_body = bodies_named(load.body);
+      for (std::size_t s = 0; s < f.size(); ++s)
+        if (const auto& subdomain = decomposition_.subdomains[s]; on_body[static_cast<std::size_t>(subdomain.body)])
+          fem::add_acceleration(
+              subdomain.mesh, deck_.kinematics, materials(subdomain),
+              [&](const Point& x) { return Point(factor * fem::centrifugal_acceleration(*load.centrifugal, x)); }, f[s]);
       continue;
     }
     const auto [boundary, on_body] = select(load.boundary);
@@ -271,9 +281,26 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
     for (std::size_t s = 0; s < f.size(); ++s) {
       const auto& subdomain = decomposition_.subdomains[s];
       if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
-      if (load.pressure) fem::add_pressure(subdomain.mesh, boundary, deck_.kinematics, factor * *load.pressure, f[s]);
-      if (load.traction) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, factor * point(*load.traction), f[s]);
-      if (load.force) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, factor * point(*load.force) / area, f[s]);
+      const auto value = [&](const deck::Formula& formula, const Point& x) {
+        const double found = formula(x, state.time);
+        if (!std::isfinite(found))
+          throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: \"{}\" is no number at ({:.6g}, {:.6g}, {:.6g}), t = {:.6g}",
+                                                         i, formula.text(), x[0], x[1], x[2], state.time));
+        return factor * found;
+      };
+      if (load.pressure)
+        fem::add_pressure(
+            subdomain.mesh, boundary, deck_.kinematics, [&](const Point& x) { return value(*load.pressure, x); }, f[s]);
+      if (load.traction)
+        fem::add_traction(
+            subdomain.mesh, boundary, deck_.kinematics,
+            [&](const Point& x) {
+              const auto& t = *load.traction;
+              return Point(value(t[0], x), value(t[1], x), value(t[2], x));
+            },
+            f[s]);
+      if (load.force)
+        fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, Point(factor * point(*load.force) / area), f[s]);
     }
   }
   add_distributed(couplings(state, comm), f, comm);

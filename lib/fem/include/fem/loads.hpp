@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "fem/materials.hpp"
 #include "mesh/mesh.hpp"
@@ -12,13 +13,21 @@ namespace mortise::fem {
 /// Area of the facets of a boundary in this piece: in a plane their length times the thickness.
 double area(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
 
+/// A quantity by place.
+using ScalarField = std::function<double(const Point&)>;
+using VectorField = std::function<Point(const Point&)>;
+
 /// f_i += integral of -p n N_i over the boundary: pressure pushes into the body.
+void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const ScalarField& pressure, Eigen::VectorXd& f);
 void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, double pressure, Eigen::VectorXd& f);
 
 /// f_i += integral of t N_i over the boundary.
+void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const VectorField& traction, Eigen::VectorXd& f);
 void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& traction, Eigen::VectorXd& f);
 
 /// f_i += integral of density a N_i over all cells.
+void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Materials& materials, const VectorField& acceleration,
+                      Eigen::VectorXd& f);
 void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Materials& materials, const Point& acceleration,
                       Eigen::VectorXd& f);
 /// The same for one density.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "deck/description.hpp"
+#include "deck/formula.hpp"
 #include "mesh/cell.hpp"
 #include "mesh/instances.hpp"
 
@@ -49,24 +50,35 @@ struct BodyOptions {
   Formulation formulation = Formulation::standard;  ///< of finite elements
 };
 
-/// One load; exactly one of the five quantities is given, `boundary` for the first three and `body` for the others. On a coupling
+/// A body turns about an axis: in planes one along z, in axisymmetry that of revolution, y.
+struct Centrifugal {
+  std::array<double, 3> axis{0, 0, 1}, point{0, 0, 0};
+  double speed = 0;  ///< angle a time, in radians
+};
+
+/// The acceleration that keeps x from its circle: speed^2 (x - its place on the axis).
+Point centrifugal_acceleration(const Centrifugal& load, const Point& x);
+
+/// One load; exactly one of the six quantities is given, `boundary` for the first three and `body` for the others. On a coupling
 /// a force, a moment, or both.
 struct LoadOptions {
   std::string boundary;
   std::string body;
-  std::optional<double> pressure;                     ///< force an area, positive into the body
-  std::optional<std::array<double, 3>> traction;      ///< force an area
-  std::optional<std::array<double, 3>> force;         ///< resultant, spread evenly over the boundary (plane: a thickness)
-  std::optional<std::array<double, 3>> acceleration;  ///< body force is density times this
-  std::optional<double> temperature_change = {};      ///< degrees; several on one body add
-  std::string name = {};                              ///< default: the boundary, the body or the coupling
-  std::string coupling = {};                          ///< its point takes `force` and `moment`
-  std::optional<std::array<double, 3>> moment = {};   ///< about the point; in a plane z alone, a thickness
+  std::optional<deck::Formula> pressure;                 ///< force an area, positive into the body
+  std::optional<std::array<deck::Formula, 3>> traction;  ///< force an area
+  std::optional<std::array<double, 3>> force;            ///< resultant, spread evenly over the boundary (plane: a thickness)
+  std::optional<std::array<double, 3>> acceleration;     ///< body force is density times this
+  std::optional<Centrifugal> centrifugal = {};    ///< body force is density times speed squared times the distance from the axis
+  std::optional<double> temperature_change = {};  ///< degrees; several on one body add
+  std::string name = {};                          ///< default: the boundary, the body or the coupling
+  std::string coupling = {};                      ///< its point takes `force` and `moment`
+  std::optional<std::array<double, 3>> moment = {};  ///< about the point; in a plane z alone, a thickness
 };
 
 /// The keywords.
 void describe(deck::Description<Material>& d);
 void describe(deck::Description<BodyOptions>& d);
+void describe(deck::Description<Centrifugal>& d);
 void describe(deck::Description<LoadOptions>& d);
 
 }  // namespace mortise::fem

@@ -1,0 +1,85 @@
+#include "deck/formula.hpp"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace mortise::deck {
+
+struct Formula::Parser {
+  std::string text;
+  double x = 0, y = 0, z = 0, r = 0, theta = 0, t = 0;
+  mu::Parser parser;
+
+  explicit Parser(const std::string& formula) : text(formula)
+  {
+    for (const auto& [name, variable] : {std::pair("x", &x), std::pair("y", &y), std::pair("z", &z), std::pair("r", &r),
+                                         std::pair("theta", &theta), std::pair("t", &t)})
+      parser.DefineVar(name, variable);
+    parser.DefineConst("pi", std::numbers::pi);
+    parser.SetExpr(text);
+    int results = 0;
+    parser.Eval(results);
+    if (results != 1) throw mu::ParserError("expected one value, found several");
+  }
+};
+
+Formula::Formula(const std::string& text)
+{
+  try {
+    parser_ = std::make_shared<Parser>(text);
+  } catch (const mu::ParserError& error) {
+    throw std::invalid_argument(error.GetMsg());
+  }
+}
+
+double Formula::operator()(const Point& x, double time) const
+{
+  if (!parser_) return constant_;
+  parser_->x = x[0];
+  parser_->y = x[1];
+  parser_->z = x[2];
+  parser_->r = std::hypot(x[0], x[1]);
+  parser_->theta = std::atan2(x[1], x[0]);
+  parser_->t = time;
+  return parser_->parser.Eval();
+}
+
+const std::string& Formula::text() const
+{
+  static const std::string none;
+  return parser_ ? parser_->text : none;
+}
+
+void Codec<Formula>::read(Formula& value, const YAML::Node& node, const std::string& path, Document& document,
+                          const Limits& limits)
+{
+  double number = 0;
+  if (!node.IsScalar() || node.Scalar().empty() || YAML::convert<double>::decode(node, number)) {
+    Codec<double>::read(number, node, path, document, limits);
+    value = number;
+    return;
+  }
+  try {
+    value = Formula(node.Scalar());
+  } catch (const std::invalid_argument& error) {
+    document.error(
+        path, fmt::format("expected a number, or a formula in x, y, z, r, theta, t such as \"10 * (1 - z / 5)\", found {}: {}",
+                          found(node), error.what()));
+  }
+}
+
+YAML::Node Codec<Formula>::write(const Formula& value)
+{
+  return value.is_constant() ? Codec<double>::write(value.constant()) : YAML::Node(value.text());
+}
+
+nlohmann::ordered_json Codec<Formula>::schema(const Limits& limits)
+{
+  return {{"anyOf", {Codec<double>::schema(limits), {{"type", "string"}}}}};
+}
+
+}  // namespace mortise::deck
