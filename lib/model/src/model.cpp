@@ -272,39 +272,46 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
               [&](const Point& x) { return Point(factor * fem::centrifugal_acceleration(*load.centrifugal, x)); }, f[s]);
       continue;
     }
-    const auto [boundary, on_body] = select(load.boundary);
-    double area = 0;
-    for (const auto& subdomain : decomposition_.subdomains)
-      if (on_body[static_cast<std::size_t>(subdomain.body)]) area += fem::area(subdomain.mesh, boundary, deck_.kinematics);
-    area = comm.sum(area);
-    if (area == 0) throw Error(ExitStatus::bad_input, "the loaded boundary \"" + load.boundary + "\" has no area");
+    add_boundary_load(i, state, f, comm);
+  }
+  add_distributed(couplings(state, comm), f, comm);
+  return f;
+}
+
+// Pressure, traction or force of loads[index].
+void Model::add_boundary_load(std::size_t index, const LoadState& state, std::vector<Eigen::VectorXd>& f,
+                              const Communicator& comm) const
+{
+  const auto& load = deck_.loads[index];
+  const double factor = state.load[index];
+  const auto [boundary, on_body] = select(load.boundary);
+  double area = 0;
+  for (const auto& subdomain : decomposition_.subdomains)
+    if (on_body[static_cast<std::size_t>(subdomain.body)]) area += fem::area(subdomain.mesh, boundary, deck_.kinematics);
+  area = comm.sum(area);
+  if (area == 0) throw Error(ExitStatus::bad_input, "the loaded boundary \"" + load.boundary + "\" has no area");
+  const auto value = [&](const deck::Formula& formula, const Point& x) {
+    const double found = formula(x, state.time);
+    if (!std::isfinite(found))
+      throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: \"{}\" is no number at ({:.6g}, {:.6g}, {:.6g}), t = {:.6g}",
+                                                     index, formula.text(), x[0], x[1], x[2], state.time));
+    return factor * found;
+  };
+  collectively(comm, [&] {
     for (std::size_t s = 0; s < f.size(); ++s) {
       const auto& subdomain = decomposition_.subdomains[s];
       if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
-      const auto value = [&](const deck::Formula& formula, const Point& x) {
-        const double found = formula(x, state.time);
-        if (!std::isfinite(found))
-          throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: \"{}\" is no number at ({:.6g}, {:.6g}, {:.6g}), t = {:.6g}",
-                                                         i, formula.text(), x[0], x[1], x[2], state.time));
-        return factor * found;
-      };
       if (load.pressure)
         fem::add_pressure(
             subdomain.mesh, boundary, deck_.kinematics, [&](const Point& x) { return value(*load.pressure, x); }, f[s]);
       if (load.traction)
         fem::add_traction(
             subdomain.mesh, boundary, deck_.kinematics,
-            [&](const Point& x) {
-              const auto& t = *load.traction;
-              return Point(value(t[0], x), value(t[1], x), value(t[2], x));
-            },
-            f[s]);
+            [&, t = *load.traction](const Point& x) { return Point(value(t[0], x), value(t[1], x), value(t[2], x)); }, f[s]);
       if (load.force)
         fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, Point(factor * point(*load.force) / area), f[s]);
     }
-  }
-  add_distributed(couplings(state, comm), f, comm);
-  return f;
+  });
 }
 
 std::vector<constraint::SupportOptions> Model::supports(const LoadState& state) const

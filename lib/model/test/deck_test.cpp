@@ -168,7 +168,7 @@ TEST(Decks, SectionsAreCheckedAgainstEachOther)
   expect_complaint("decomposition: {method: grid, counts: {a: [2, 2, 2], b: [3, 1, 1]}}\n",
                    "expected 1 to 2 subdomains along x, found 3");
   expect_complaint("loads: [{boundary: a.xmax, pressure: 1, force: [1, 0, 0]}]\n",
-                   "exactly one of pressure, traction, force, acceleration and temperature_change, found 2");
+                   "exactly one of pressure, traction, force, acceleration, centrifugal and temperature_change, found 2");
   expect_complaint("loads: [{boundary: a.xmax, acceleration: [1, 0, 0]}]\n", "an acceleration acts on a `body`");
   expect_complaint("loads: [{boundary: a.xmax, force: [1, 0]}]\n",
                    "deck.yaml:7: loads[0].force: expected 3 entries, since `dimension` is 3, found 2");

@@ -89,6 +89,8 @@ class Model {
   };
   Selection select(const std::string& name) const;
   std::vector<bool> bodies_named(const std::string& name) const;
+  void add_boundary_load(std::size_t index, const LoadState& state, std::vector<Eigen::VectorXd>& f,
+                         const Communicator& comm) const;
   void add_distributed(const std::vector<constraint::Coupling>& couplings, std::vector<Eigen::VectorXd>& f,
                        const Communicator& comm) const;
   struct Area;  // of a coupling's boundary
