@@ -29,6 +29,7 @@ class Entry:
     hint: str  # name of the set or surface that it was given to; "" where numbers stand
     card: object
     line: int
+    hints: tuple = ()  # of a support: all sets that say the same
 
 
 @dataclasses.dataclass
@@ -214,7 +215,9 @@ class History:
                     self.model.leave_out(card, "FIXED: a node is held where it is, which the deck can do for tightened bolts alone", line)
                     break
                 for axis in axes:
-                    now.supports[node, axis] = Entry(value, hint, card, line)
+                    old = now.supports.get((node, axis))
+                    before = old.hints if old is not None and old.value == value else ()
+                    now.supports[node, axis] = Entry(value, hint, card, line, tuple(dict.fromkeys((*before, hint))))
 
     def read_forces(self, card, now, touched, factor):
         if "FOLLOWER" in card.parameters:

@@ -57,7 +57,8 @@ class Scope:
     def __init__(self, name=""):
         self.name = name
         self.nodes, self.elements = {}, {}
-        self.node_sets, self.element_sets, self.surfaces = {}, {}, {}
+        self.node_sets, self.element_sets = {}, {}
+        self.surfaces, self.node_surfaces = {}, {}  # one name may stand for one of each
         self.sections = []  # (card, scope)
 
     def set_of(self, sets, name):
@@ -115,8 +116,8 @@ class Model:
     def _members(self, card, line, scope, sets, word, look_up, what):
         found = sets.get(word.upper())
         if found is None:
-            if what == "nodes" and word.upper() in scope.surfaces and scope.surfaces[word.upper()].nodal:
-                return self.nodes_of_surface(scope.surfaces[word.upper()])
+            if what == "nodes" and word.upper() in scope.node_surfaces:
+                return self.nodes_of_surface(scope.node_surfaces[word.upper()])
             raise card.error(f'there is no set of {what} "{word}"', line)
         if found.members is None:
             if found.open:
@@ -152,9 +153,10 @@ class Model:
 
     def surface(self, card, line, name, scope=None):
         scope, word = self._scope(card, scope or self.assembly, name)
-        if word.upper() not in scope.surfaces:
-            raise card.error(f'there is no surface "{name}"', line)
-        return scope.surfaces[word.upper()]
+        for surfaces in (scope.surfaces, scope.node_surfaces):
+            if word.upper() in surfaces:
+                return surfaces[word.upper()]
+        raise card.error(f'there is no surface "{name}"', line)
 
     def nodes_of_surface(self, surface):
         result = []
@@ -344,7 +346,8 @@ class Builder:
         if kind not in ("ELEMENT", "NODE") or "COMBINE" in card.parameters:
             self.model.leave_out(card, f'the surface "{name}" ({card.get("COMBINE") or kind}) is not made of faces or nodes that are named')
             return
-        surface = scope.surfaces.setdefault(name.upper(), Surface(name, card, scope, kind == "NODE"))
+        surfaces = scope.node_surfaces if kind == "NODE" else scope.surfaces
+        surface = surfaces.setdefault(name.upper(), Surface(name, card, scope, kind == "NODE"))
         surface.items += [(card, line, words) for line, words in card.rows() if words]
 
     def resolve_elements(self):

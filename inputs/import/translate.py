@@ -130,6 +130,7 @@ class Translation:
         "DISTRIBUTING": "the deck has no couplings to a point", "DISTRIBUTINGCOUPLING": "the deck has no couplings to a point",
         "RIGIDBODY": "the deck has no rigid bodies but obstacles of contacts", "EMBEDDEDELEMENT": "the deck has no embedded elements",
         "MODELCHANGE": "contacts and elements of the deck are there in every step", "CHANGEFRICTION": "the deck has one law a contact for all steps",
+        "FRICTION": "belongs to *CHANGE FRICTION", "SURFACEBEHAVIOR": "belongs to *CHANGE SURFACE BEHAVIOR",
         "CHANGESURFACEBEHAVIOR": "the deck has one law a contact for all steps", "CHANGEMATERIAL": "materials do not change",
         "CONTACTINTERFERENCE": "overlaps act in every step; say it by `interference` of the contact and its factors in `steps`",
         "PRE-TENSIONSECTION": "", "CFLUX": "there is no flow of heat", "DFLUX": "there is no flow of heat", "FILM": "there is no flow of heat",
@@ -178,7 +179,7 @@ class Translation:
         cuts = {c["name"].upper() for c in inner.values()}
         for scope in (self.model.assembly, *self.model.instances.values()):
             for surface in scope.surfaces.values():
-                if surface.nodal or surface.name.upper() in cuts:
+                if surface.name.upper() in cuts:
                     continue
                 keys, lost = self.expand(self.model.sides_of_surface(surface))
                 if keys and not lost:
@@ -253,7 +254,8 @@ class Translation:
             key = (tuple(values), axis - 1)
             group = groups.setdefault(key, {})
             for n in (node, copies[node]) if node in copies else (node,):
-                group.setdefault(entry.hint, {})[n] = entry
+                for hint in entry.hints:
+                    group.setdefault(hint, {})[n] = entry
         for (_, _, reason, changes), entry in odd.items():
             self.model.leave_out(entry.card, reason, entry.line, changes=changes)
         self.drop_transformed(groups)
@@ -315,7 +317,7 @@ class Translation:
             for hint, entries in by_hint.items():
                 for n in [n for n in entries if n in self.transforms]:
                     if len(held[n, values]) < self.axes or any(values):
-                        entry = entries.pop(n)
+                        entry = entries.pop(n)  # every set that has it forgets it
                         if (id(entry.card), entry.line) not in told:
                             told.add((id(entry.card), entry.line))
                             self.model.leave_out(entry.card, "along axes of *TRANSFORM; a boundary can be held along its `normal`", entry.line)
