@@ -7,6 +7,7 @@ import interactions
 import materials
 import pretension
 from bodies import Bodies, clean, unique
+from model import rotated
 from reader import InputError
 
 AXES = ("x", "y", "z")
@@ -386,17 +387,32 @@ class Translation:
             group.setdefault(node, (np.zeros(3), entry))[0][axis - 1] = base
         merged = {}
         for (hint, card, course), forces in groups.items():
-            if not self.try_force(hint, course, forces, exact=True):
+            if not self.try_force(hint, course, forces):
                 merged.setdefault(course, []).append((hint, forces))
         for course, parts in merged.items():
             together = {}
-            for _, forces in parts:
+            for hint, forces in parts:
                 for n, (f, entry) in forces.items():
                     together.setdefault(n, (np.zeros(3), entry))[0][:] += f
-            if len(parts) > 1 and self.try_force("", course, together, exact=True):
-                continue
+            for nodes in self.patches(together):
+                if self.try_force("", course, {n: together[n] for n in nodes}):
+                    for n in nodes:
+                        del together[n]
             for hint, forces in parts:
-                self.approximate_force(hint, course, forces)
+                left = {n: v for n, v in forces.items() if n in together}
+                if left:
+                    self.approximate_force(hint, course, left)
+
+    def patches(self, forces):
+        """Loaded nodes that hang together by loaded faces."""
+        groups = []
+        for key in self.loaded_faces(forces):
+            nodes = {n for n in self.bodies.nodes(key) if n in forces}
+            for group in [g for g in groups if g & nodes]:
+                groups.remove(group)
+                nodes |= group
+            groups.append(nodes)
+        return groups
 
     def loaded_faces(self, forces):
         """Faces whose nodes with a share in a uniform traction are loaded: on triangles of second order the middle ones."""
@@ -420,7 +436,8 @@ class Translation:
                 shares[n] = shares.get(n, 0.0) + a
         return shares
 
-    def try_force(self, hint, course, forces, exact):
+    def try_force(self, hint, course, forces):
+        """Adds the forces if they are those of a uniform traction on whole faces."""
         keys = self.loaded_faces(forces)
         shares = self.shares(keys) if keys else None
         if not shares:
@@ -572,14 +589,28 @@ class Translation:
                 if key in contact:
                     item[key] = contact[key]
             if contact.get("tied"):
-                item["clearance"] = 0.0
                 if contact.get("tolerance"):
                     item["search_distance"] = contact["tolerance"]
-            elif sides and "cyclic" not in contact:
+            elif "cyclic" in contact:
+                item["cyclic"] = self.turned_right(contact["cyclic"], sides)
+            elif sides:
                 distance = self.far_apart(sides)
                 if distance:
                     item["search_distance"] = distance
             self.contacts.append(item)
+
+    def turned_right(self, cyclic, sides):
+        """The turn brings the primary side to the secondary one."""
+        secondary, primary = (np.mean([self.model.points[n] for key in self.boundaries[s] for n in self.bodies.nodes(key)], axis=0) for s in sides)
+        angle = 360 / int(cyclic["angle"].split("/")[1])
+        line = [*cyclic["center"], *np.add(cyclic["center"], cyclic["axis"])]
+        off = [np.linalg.norm(rotated(primary[None], [*line, sign * angle])[0] - secondary) for sign in (1, -1)]
+        result = dict(cyclic, angle=cyclic["angle"] if off[0] <= off[1] else "-" + cyclic["angle"])
+        if self.plane:
+            if abs(cyclic["axis"][2]) < 0.99 * np.linalg.norm(cyclic["axis"]):
+                raise InputError("a cyclic plane model turns about z")
+            result["center"] = cyclic["center"][:2]
+        return result
 
     def far_apart(self, sides):
         """Twice the gap of two sides that are farther apart than the deck's own search distance, else None."""

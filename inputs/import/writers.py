@@ -80,7 +80,7 @@ def scalar(value):
         return text
     if isinstance(value, int):
         return str(value)
-    if (PLAIN.fullmatch(value) or re.fullmatch(r"360/\d+", value)) and value.lower() not in WORDS:
+    if (PLAIN.fullmatch(value) or re.fullmatch(r"-?360/\d+", value)) and value.lower() not in WORDS:
         return value
     return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
