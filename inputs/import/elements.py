@@ -1,6 +1,7 @@
 """Elements of Abaqus and CalculiX: their cells, faces and integration, and the order of nodes in gmsh's files."""
 
 import dataclasses
+import functools
 import re
 
 import numpy as np
@@ -84,16 +85,23 @@ def face_shape(shape, corners):
     return {2: ("line2", "line3"), 3: ("tri3", "tri6"), 4: ("quad4", "quad8")}[corners][second]
 
 
-def face_nodes(shape, nodes, face):
-    """(shape, nodes) of face number `face` (from 0) of a cell, in Abaqus' order: corners, then middles."""
+@functools.lru_cache(None)
+def face_places(shape, face):
+    """(shape, places of its nodes in the cell) of face number `face` (from 0), in Abaqus' order: corners, then middles."""
     of = family(shape)
     corners = FACES[of][face]
-    result = [nodes[c] for c in corners]
-    if NODES[shape] == CORNERS[of]:
-        return face_shape(shape, len(corners)), result
-    middle = {frozenset(pair): CORNERS[of] + i for i, pair in enumerate(EDGES[of])}
-    ring = [corners] if len(corners) == 2 else [(corners[i], corners[(i + 1) % len(corners)]) for i in range(len(corners))]
-    return face_shape(shape, len(corners)), result + [nodes[middle[frozenset(pair)]] for pair in ring]
+    result = list(corners)
+    if NODES[shape] != CORNERS[of]:
+        middle = {frozenset(pair): CORNERS[of] + i for i, pair in enumerate(EDGES[of])}
+        ring = [corners] if len(corners) == 2 else [(corners[i], corners[(i + 1) % len(corners)]) for i in range(len(corners))]
+        result += [middle[frozenset(pair)] for pair in ring]
+    return face_shape(shape, len(corners)), tuple(result)
+
+
+def face_nodes(shape, nodes, face):
+    """(shape, nodes) of a face of the cell with these nodes."""
+    own, places = face_places(shape, face)
+    return own, [nodes[k] for k in places]
 
 
 def to_gmsh(shape):

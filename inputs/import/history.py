@@ -120,6 +120,8 @@ class History:
             return before, time
         if head.get("NLGEOM", "YES" if "NLGEOM" in head.parameters else "NO").upper() != "NO":
             self.model.leave_out(head, f"NLGEOM of step {number}: displacements and slip are taken as small", keyword="*STEP, NLGEOM")
+        if "RIKS" in static.parameters:
+            self.model.leave_out(static, "RIKS: loads reach their values")
         period = 1.0
         if static.rows() and len(static.rows()[0][1]) > 1:
             period = static.value(static.rows()[0][1][1], static.rows()[0][0], 1.0)

@@ -69,5 +69,5 @@ def read_sections(model, materials):
         t = card.value(rows[0][1][0], rows[0][0], 1.0) if rows and rows[0][1] else 1.0
         for e in model.elements_of(card, card.line, name, scope):
             of[e] = (material, name)
-            thickness[e] = t
+            thickness[e] = t or 1.0
     return of, thickness, used

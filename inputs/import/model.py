@@ -170,7 +170,12 @@ class Model:
         for card, line, words in surface.items:
             label = words[1].upper() if len(words) > 1 else ""
             for e in self.elements_of(card, line, words[0], surface.scope):
-                result.append((e, self.face_number(card, line, e, label)))
+                if self.elements[e].shape:
+                    result.append((e, self.face_number(card, line, e, label)))
+                else:
+                    reason = f'the surface "{surface.name}" has faces of elements of type {self.elements[e].type}'
+                    if not any(f.line == line and f.reason == reason for f in self.findings):
+                        self.leave_out(card, reason, line)
         return result
 
     def face_number(self, card, line, e, label):

@@ -51,6 +51,11 @@ class Card:
 
 def real(text):
     """A number as Fortran writes it: 1.5D+3, 1.5+3 as well. Throws ValueError, also for inf and nan."""
+    if text and text[-1] in "0123456789." and "_" not in text:
+        try:
+            return float(text)
+        except ValueError:
+            pass
     plain = text.strip().lower().replace("d", "e")
     plain = re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", plain)
     if not re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", plain):

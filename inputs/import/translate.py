@@ -553,6 +553,9 @@ class Translation:
         for n, (values, entry) in self.series("temperatures").items():
             base = initial.get(n, 0.0)
             changes[n] = ([0.0 if v is None else v - base for v in values], entry)
+        if any(any(values) for values, _ in changes.values()):
+            for material in [self.materials[m] for m in self.used if not self.materials[m].get("thermal_expansion")]:
+                self.model.note(material["card"], f'"{material["name"]}" has no *EXPANSION: its temperature changes nothing')
         expanding = {b for b, body in enumerate(self.bodies.bodies) if any(self.materials[m].get("thermal_expansion") for m, _ in body.volumes.values())}
         of_body = {b: [n for n in self.bodies.nodes_of_body(b)] for b in expanding}
         for n in list(changes):
@@ -585,6 +588,9 @@ class Translation:
                 continue
             if contact.get("name"):
                 item["name"] = self.name_of(clean(contact["name"]))
+            if contact.get("adjust") == 0:
+                self.model.note(card, "ADJUST=0: Abaqus removes initial overlaps, the deck takes them as they are", line)
+                del contact["adjust"]
             for key in ("friction", "cyclic", "adjust", "clearance"):
                 if key in contact:
                     item[key] = contact[key]
@@ -648,7 +654,7 @@ class Translation:
                     self.model.leave_out(card, "a compression: the deck's preload is a tension")
                     self.contacts.append(item)
                     continue
-                item["preload"] = {"force": base}
+                item["preload"] = {"force": base / self.thickness}
                 item["course"] = [None if k > 0 and (f is None or node in states[k].locked) else (f or 0.0) / base for k, f in enumerate(forces)]
                 for k, value in enumerate(lengths):
                     if value is not None and forces[k] is None:

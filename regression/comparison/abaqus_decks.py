@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 """Imports input files of Abaqus or CalculiX, solves them with Mortise and with CalculiX, and prints how far the displacements agree.
 
-    abaqus_decks.py MORTISE FILE.inp ... [--points 400] [--timeout 120] [--markdown]
+    abaqus_decks.py MORTISE FILE.inp ... [--points 400] [--timeout 120] [--quiet]
 
-CalculiX solves the file as it stands but for NLGEOM, which is taken out, so that both solve the linear problem, and once more with
-10 times the penalty of its contacts and full integration of cells of second order; what is left out by the import is printed below the table. Displacements are compared at nodes at the end of the last static step: the largest difference over the
-largest displacement. Needs calculix-ccx, python3-yaml, python3-numpy.
+CalculiX solves a file without NLGEOM, so that both solve the linear problem, and once more with 10 times the penalty of its contacts and full
+integration of cells of second order. Displacements are compared at nodes at the end of the last static step: the largest difference over the
+largest displacement; FILE.dat.ref as well where it is there (calculix-ccx-test has them packed). The last column is the difference of the
+largest contact force, with the stiffer penalty. What the import leaves out is printed below the table. Needs calculix-ccx, python3-yaml,
+python3-numpy.
 """
 
 import argparse
@@ -52,17 +54,34 @@ def calculix_input(path, target, factor):
     every = "*NSET,NSET=ALLOFTHEM\n" + "".join(f"{n},\n" for n in numbers)
     at = re.search(r"(?im)^\s*\*\s*step", text)
     text = text[: at.start()] + every + text[at.start() :]
-    text = re.sub(r"(?im)^\s*\*\s*end\s*step", "*NODE PRINT,NSET=ALLOFTHEM,FREQUENCY=100000\nU\n*END STEP", text)
+    wanted = "*NODE PRINT,NSET=ALLOFTHEM,FREQUENCY=100000\nU\n"
+    for pair in re.finditer(r"(?im)^\s*\*\s*contact\s*pair.*surface\s*to\s*surface.*\n\s*([^,\s]+)\s*,\s*([^,\s]+)", text):
+        wanted += f"*CONTACT PRINT,SLAVE={pair[1]},MASTER={pair[2]},FREQUENCY=100000\nCF\n"
+    text = re.sub(r"(?im)^\s*\*\s*end\s*step", wanted + "*END STEP", text)
     target.write_text(text)
     return dict.fromkeys(int(n) for n in numbers)
 
 
-def last_displacements(path):
-    """Node -> displacement, of the last block of displacements of all nodes in a .dat file."""
+def contact_forces(path):
+    """The last force of each contact in a .dat file: lengths of vectors, by the names of the surfaces in capitals."""
+    found, pair, expected = {}, None, False
+    for line in path.read_text().splitlines():
+        if match := re.search(r"slave set (\S+?), *master set (\S+?) and time", line):
+            pair = (match[1].upper(), match[2].upper())
+        elif "total surface force" in line:
+            expected = True
+        elif expected and pair and len(line.split()) >= 3:
+            found[pair] = float(np.linalg.norm([float(w) for w in line.split()[:3]]))
+            expected = False
+    return found
+
+
+def last_displacements(path, of="ALLOFTHEM"):
+    """Node -> displacement, of the last block of displacements of a set in a .dat file; of="": any set."""
     blocks, current = [], None
     for line in path.read_text().splitlines():
         if line.strip().startswith("displacements"):
-            current = {} if "ALLOFTHEM" in line else None
+            current = {} if of in line else None
             if current is not None:
                 blocks.append(current)
         elif current is not None:
@@ -107,7 +126,7 @@ def interior(path):
 
 def compare(mortise, path, most, timeout, directory):
     """A row of the table: dict of texts."""
-    row = {"file": path.name, "nodes": "", "left out": "", "of them NLGEOM": "", "status": "", "difference": "", "stiffer": "", "largest": "", "findings": []}
+    row = {"file": path.name, "nodes": "", "left out": "", "of them NLGEOM": "", "status": "", "difference": "", "stiffer": "", "stored": "", "force": "", "largest": "", "findings": []}
     target = directory / "deck.yaml"
     try:
         result = import_deck.import_file(path, target, json.loads(import_deck.SCHEMA.read_text()))
@@ -129,22 +148,43 @@ def compare(mortise, path, most, timeout, directory):
         row["findings"].append("Mortise: " + " ".join(text[-3:]))
         return row
     found = interior(directory / "out/interior.csv")
+    stored = pathlib.Path(f"{path.with_suffix('')}.dat.ref")
+    if stored.exists():
+        row["stored"] = difference(row, last_displacements(stored, ""), result, chosen, points, found)
     for key, factor in (("difference", 1), ("stiffer", 10)):
-        row[key] = difference(row, path, factor, result, chosen, points, found, timeout, directory)
+        values, row["force"] = solve(path, factor, timeout, directory, result)
+        row[key] = values if isinstance(values, str) else difference(row, values, result, chosen, points, found)
     return row
 
 
-def difference(row, path, factor, result, chosen, points, found, timeout, directory):
-    """The largest difference over the largest displacement, as text."""
+def force_difference(theirs, result, summary):
+    """Of the largest force of a contact of surfaces, as text."""
+    own = {}
+    for contact, item in zip(summary["contacts"], result.deck["contacts"]):
+        own[item.get("secondary", "").upper(), item.get("primary", "").upper()] = float(np.linalg.norm(contact["force"]))
+    common = {pair: (force, own[pair]) for pair, force in theirs.items() if pair in own}
+    if not common:
+        return ""
+    force, ours = max(common.values())
+    return f"{100 * abs(ours - force) / force:.2g} % of {force:.4g}" if force > 0 else ""
+
+
+def solve(path, factor, timeout, directory, result):
+    """(displacements or what went wrong, how far the contact force of Mortise is off) of CalculiX."""
     for old in directory.glob("theirs.*"):
         old.unlink()
     calculix_input(path, directory / "theirs.inp", factor)
     theirs = run(["ccx", "theirs"], directory, timeout)
     if theirs is None:
-        return "too long"
+        return "too long", ""
     values = last_displacements(directory / "theirs.dat") if (directory / "theirs.dat").exists() else {}
     if theirs.returncode != 0 or not values:
-        return "no result"
+        return "no result", ""
+    return values, force_difference(contact_forces(directory / "theirs.dat"), result, json.loads((directory / "out/summary.json").read_text()))
+
+
+def difference(row, values, result, chosen, points, found):
+    """The largest difference over the largest displacement, as text."""
     pairs = []
     for (label, _, body), p in zip(chosen, points):
         key = (tuple(round(c, 7) for c in (*p, 0.0)[:3]), body)
@@ -154,7 +194,7 @@ def difference(row, path, factor, result, chosen, points, found, timeout, direct
         return "no common node"
     a, b = (np.array(x) for x in zip(*pairs))
     largest = np.abs(a).max()
-    row["largest"] = f"{largest:.4g}"
+    row["largest"] = row["largest"] or f"{largest:.4g}"
     return f"{100 * np.abs(a - b).max() / largest:.2g} %" if largest > 0 else "0"
 
 
@@ -166,13 +206,13 @@ def main():
     parser.add_argument("--timeout", type=float, default=120)
     parser.add_argument("--quiet", action="store_true", help="the table alone")
     given = parser.parse_args()
-    print("| file | nodes | left out | NLGEOM | exit status | largest displacement | difference | penalty x 10, full integration |\n|---|---|---|---|---|---|---|---|")
+    print("| file | nodes | left out | NLGEOM | exit status | largest displacement | stored result | difference | penalty x 10, full integration | contact force |\n|---|---|---|---|---|---|---|---|---|---|")
     every = []
     for path in given.files:
         with tempfile.TemporaryDirectory(prefix="mortise_decks_") as name:
             row = compare(str(given.mortise.resolve()), path, given.points, given.timeout, pathlib.Path(name))
         every.append(row)
-        print("| " + " | ".join(str(row[k]) for k in ("file", "nodes", "left out", "of them NLGEOM", "status", "largest", "difference", "stiffer")) + " |", flush=True)
+        print("| " + " | ".join(str(row[k]) for k in ("file", "nodes", "left out", "of them NLGEOM", "status", "largest", "stored", "difference", "stiffer", "force")) + " |", flush=True)
     if not given.quiet:
         for row in every:
             if row["findings"]:
