@@ -108,7 +108,7 @@ class Interactions:
             clearance = self.clearances.pop((words[0].upper(), words[1].upper()), None)
             if clearance:
                 contact["clearance"] = clearance[0]
-            if law.get("bonded"):
+            if law.get("bonded") or "TIED" in card.parameters:
                 contact["friction"] = {"bonded": True}
             elif law.get("friction"):
                 contact["friction"] = {"coulomb": law["friction"]}

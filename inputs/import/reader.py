@@ -1,6 +1,7 @@
 """The cards of an Abaqus or CalculiX input file: keyword, parameters, data lines, and where each stands."""
 
 import dataclasses
+import math
 import pathlib
 import re
 
@@ -31,8 +32,8 @@ class Card:
         return self.get(key)
 
     def rows(self):
-        """Data lines as fields; fields are stripped, empty ones at the end are gone."""
-        return self.data
+        """(line, fields) of the data lines that hold any; fields are stripped, empty ones at the end are gone."""
+        return [row for row in self.data if row[1]]
 
     def number(self, text, line):
         try:
@@ -50,17 +51,17 @@ class Card:
 
 
 def real(text):
-    """A number as Fortran writes it: 1.5D+3, 1.5+3 as well. Throws ValueError, also for inf and nan."""
-    if text and text[-1] in "0123456789." and "_" not in text:
-        try:
-            return float(text)
-        except ValueError:
-            pass
-    plain = text.strip().lower().replace("d", "e")
-    plain = re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", plain)
-    if not re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", plain):
+    """A number as Fortran writes it: 1.5D+3, 1.5+3 as well. Throws ValueError, also for what is not finite."""
+    plain = text
+    if not text or text[-1] not in "0123456789." or "_" in text or not re.fullmatch(r"[\d.eE+-]+", text) or re.search(r"[\d.][+-]", text):
+        plain = text.strip().lower().replace("d", "e")
+        plain = re.sub(r"(?<=[\d.])([+-]\d+)$", r"e\1", plain)
+        if not re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", plain):
+            raise ValueError(text)
+    value = float(plain)
+    if not math.isfinite(value):
         raise ValueError(text)
-    return float(plain)
+    return value
 
 
 def is_number(text):

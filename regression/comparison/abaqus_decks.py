@@ -149,8 +149,8 @@ def compare(mortise, path, most, timeout, directory):
         return row
     found = interior(directory / "out/interior.csv")
     stored = pathlib.Path(f"{path.with_suffix('')}.dat.ref")
-    if stored.exists():
-        row["stored"] = difference(row, last_displacements(stored, ""), result, chosen, points, found)
+    if stored.exists() and (values := last_displacements(stored, "")):
+        row["stored"] = difference(row, values, result, chosen, points, found)
     for key, factor in (("difference", 1), ("stiffer", 10)):
         values, row["force"] = solve(path, factor, timeout, directory, result)
         row[key] = values if isinstance(values, str) else difference(row, values, result, chosen, points, found)
@@ -165,7 +165,8 @@ def force_difference(theirs, result, summary):
     common = {pair: (force, own[pair]) for pair, force in theirs.items() if pair in own}
     if not common:
         return ""
-    force, ours = max(common.values())
+    wedge = 180 if result.bodies.dimension == "axisymmetric" else 1  # CalculiX turns two degrees
+    force, ours = (f * s for f, s in zip(max(common.values()), (wedge, 1)))
     return f"{100 * abs(ours - force) / force:.2g} % of {force:.4g}" if force > 0 else ""
 
 

@@ -112,7 +112,7 @@ class Cards(Import):
 
     def test_numbers_of_fortran(self):
         self.assertEqual([real(t) for t in ("1.5D+3", "1.5+3", ".5", "2.", "-1e-2")], [1500, 1500, 0.5, 2, -0.01])
-        for text in ("nan", "inf", "1,5", "", "0x10"):
+        for text in ("nan", "inf", "1,5", "", "0x10", "1e400", "1_0", "--1"):
             self.assertRaises(ValueError, real, text)
 
 
