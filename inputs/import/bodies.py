@@ -154,7 +154,7 @@ class Bodies:
 
 def clean(name):
     """A name without what the deck's patterns and gmsh's files give a meaning to."""
-    return "".join("_" if c in ':*"\'\\' or c.isspace() else c for c in name)
+    return "".join("_" if c in ":*\"'\\" or c.isspace() else c for c in name)
 
 
 def unique(name, taken):

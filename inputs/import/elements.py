@@ -7,10 +7,34 @@ import re
 import numpy as np
 
 CORNERS = {"tet": 4, "prism": 6, "hex": 8, "tri": 3, "quad": 4, "line": 2}
-NODES = {"tet4": 4, "tet10": 10, "prism6": 6, "prism15": 15, "hex8": 8, "hex20": 20, "tri3": 3, "tri6": 6, "quad4": 4, "quad8": 8,
-         "line2": 2, "line3": 3}
-GMSH_TYPE = {"line2": 1, "tri3": 2, "quad4": 3, "tet4": 4, "hex8": 5, "prism6": 6, "line3": 8, "tri6": 9, "tet10": 11, "quad8": 16,
-             "hex20": 17, "prism15": 18}
+NODES = {
+    "tet4": 4,
+    "tet10": 10,
+    "prism6": 6,
+    "prism15": 15,
+    "hex8": 8,
+    "hex20": 20,
+    "tri3": 3,
+    "tri6": 6,
+    "quad4": 4,
+    "quad8": 8,
+    "line2": 2,
+    "line3": 3,
+}
+GMSH_TYPE = {
+    "line2": 1,
+    "tri3": 2,
+    "quad4": 3,
+    "tet4": 4,
+    "hex8": 5,
+    "prism6": 6,
+    "line3": 8,
+    "tri6": 9,
+    "tet10": 11,
+    "quad8": 16,
+    "hex20": 17,
+    "prism15": 18,
+}
 # Corners of each node in the middle of an edge, in the order of Abaqus and in that of gmsh.
 EDGES = {
     "line": [(0, 1)],

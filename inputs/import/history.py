@@ -5,22 +5,92 @@ import re
 
 from reader import is_number
 
-FREE = {"ENCASTRE": (1, 2, 3), "PINNED": (1, 2, 3), "XSYMM": (1,), "YSYMM": (2,), "ZSYMM": (3,), "XASYMM": (2, 3), "YASYMM": (1, 3),
-        "ZASYMM": (1, 2), "NOWARP": (), "NOOVAL": (), "NODEFORM": ()}
+FREE = {
+    "ENCASTRE": (1, 2, 3),
+    "PINNED": (1, 2, 3),
+    "XSYMM": (1,),
+    "YSYMM": (2,),
+    "ZSYMM": (3,),
+    "XASYMM": (2, 3),
+    "YASYMM": (1, 3),
+    "ZASYMM": (1, 2),
+    "NOWARP": (),
+    "NOOVAL": (),
+    "NODEFORM": (),
+}
 # Keywords that leave the answer as it is: what is printed, how it is solved, what it is called.
 HARMLESS = {
-    "HEADING", "PREPRINT", "RESTART", "NODEPRINT", "NODEFILE", "NODEOUTPUT", "ELPRINT", "ELFILE", "ELEMENTOUTPUT", "OUTPUT", "CONTACTPRINT",
-    "CONTACTFILE", "CONTACTOUTPUT", "ENERGYOUTPUT", "ENERGYPRINT", "ENERGYFILE", "SECTIONPRINT", "MONITOR", "FILEOUTPUT", "FILEFORMAT",
-    "TIMEPOINTS", "CONTROLS", "CONTACTCONTROLS", "SOLUTIONTECHNIQUE", "ENDSTEP", "ENDPART", "ENDASSEMBLY", "PHYSICALCONSTANTS", "NSET", "ELSET",
-    "SURFACE", "INTEGRATEDOUTPUT", "NONSTRUCTURALMASS", "COLOR", "DISPLAYBODY", "FILTER", "STATIC", "STEP", "AMPLITUDE", "NETWORKMPC",
-    "SECTIONCONTROLS", "HOURGLASSSTIFFNESS", "PRINT", "DIAGNOSTICS",
+    "HEADING",
+    "PREPRINT",
+    "RESTART",
+    "NODEPRINT",
+    "NODEFILE",
+    "NODEOUTPUT",
+    "ELPRINT",
+    "ELFILE",
+    "ELEMENTOUTPUT",
+    "OUTPUT",
+    "CONTACTPRINT",
+    "CONTACTFILE",
+    "CONTACTOUTPUT",
+    "ENERGYOUTPUT",
+    "ENERGYPRINT",
+    "ENERGYFILE",
+    "SECTIONPRINT",
+    "MONITOR",
+    "FILEOUTPUT",
+    "FILEFORMAT",
+    "TIMEPOINTS",
+    "CONTROLS",
+    "CONTACTCONTROLS",
+    "SOLUTIONTECHNIQUE",
+    "ENDSTEP",
+    "ENDPART",
+    "ENDASSEMBLY",
+    "PHYSICALCONSTANTS",
+    "NSET",
+    "ELSET",
+    "SURFACE",
+    "INTEGRATEDOUTPUT",
+    "NONSTRUCTURALMASS",
+    "COLOR",
+    "DISPLAYBODY",
+    "FILTER",
+    "STATIC",
+    "STEP",
+    "AMPLITUDE",
+    "NETWORKMPC",
+    "SECTIONCONTROLS",
+    "HOURGLASSSTIFFNESS",
+    "PRINT",
+    "DIAGNOSTICS",
 }
 QUIET = HARMLESS - {"NONSTRUCTURALMASS", "DISPLAYBODY", "NETWORKMPC", "SECTIONCONTROLS", "HOURGLASSSTIFFNESS"}
 PROCEDURES = {
-    "VISCO", "DYNAMIC", "FREQUENCY", "COMPLEXFREQUENCY", "BUCKLE", "HEATTRANSFER", "COUPLEDTEMPERATURE-DISPLACEMENT",
-    "UNCOUPLEDTEMPERATURE-DISPLACEMENT", "MODALDYNAMIC", "STEADYSTATEDYNAMICS", "RANDOMRESPONSE", "RESPONSESPECTRUM", "SUBSTRUCTUREGENERATE",
-    "GREEN", "SENSITIVITY", "FEASIBLEDIRECTION", "CFD", "ELECTROMAGNETICS", "ELECTROMAGNETIC", "SOILS", "ANNEAL", "CRACKPROPAGATION",
-    "ROBUSTDESIGN", "DIRECTCYCLIC",
+    "VISCO",
+    "DYNAMIC",
+    "FREQUENCY",
+    "COMPLEXFREQUENCY",
+    "BUCKLE",
+    "HEATTRANSFER",
+    "COUPLEDTEMPERATURE-DISPLACEMENT",
+    "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
+    "MODALDYNAMIC",
+    "STEADYSTATEDYNAMICS",
+    "RANDOMRESPONSE",
+    "RESPONSESPECTRUM",
+    "SUBSTRUCTUREGENERATE",
+    "GREEN",
+    "SENSITIVITY",
+    "FEASIBLEDIRECTION",
+    "CFD",
+    "ELECTROMAGNETICS",
+    "ELECTROMAGNETIC",
+    "SOILS",
+    "ANNEAL",
+    "CRACKPROPAGATION",
+    "ROBUSTDESIGN",
+    "DIRECTCYCLIC",
 }
 
 
@@ -47,8 +117,13 @@ class State:
     temperatures: dict = dataclasses.field(default_factory=dict)
     locked: set = dataclasses.field(default_factory=set)  # nodes of *PRE-TENSION SECTION whose bolts keep their length
 
-    TABLES = {"BOUNDARY": ("supports",), "CLOAD": ("forces",), "DLOAD": ("pressures", "tractions", "accelerations"),
-              "DSLOAD": ("pressures", "tractions"), "TEMPERATURE": ("temperatures",)}
+    TABLES = {
+        "BOUNDARY": ("supports",),
+        "CLOAD": ("forces",),
+        "DLOAD": ("pressures", "tractions", "accelerations"),
+        "DSLOAD": ("pressures", "tractions"),
+        "TEMPERATURE": ("temperatures",),
+    }
 
 
 class Amplitudes:
@@ -64,8 +139,11 @@ class Amplitudes:
             relative = card.get("VALUE", "RELATIVE").upper() != "ABSOLUTE"
             table = sorted(zip(values[::2], values[1::2]), key=lambda p: p[0]) if known else None
             shift = card.value(card.get("SHIFTX") or "0", card.line)
-            self.tables[card.need("NAME").upper()] = (table and [(t + shift, v) for t, v in table],
-                                                      card.get("TIME").upper().replace(" ", "") == "TOTALTIME", relative)
+            self.tables[card.need("NAME").upper()] = (
+                table and [(t + shift, v) for t, v in table],
+                card.get("TIME").upper().replace(" ", "") == "TOTALTIME",
+                relative,
+            )
 
     def of(self, card, begin, end):
         """(factors at the start and the end of a step, whether it runs straight between them), or None."""
@@ -87,8 +165,10 @@ class Amplitudes:
 
         start, stop = at(first), at(last)
         inside = [(t, v) for t, v in table if first < t < last]
-        straight = all(abs(v - (start + (stop - start) * (t - first) / (last - first))) <= 1e-6 * max(map(abs, (start, stop, v, 1e-300)))
-                       for t, v in inside)
+        straight = all(
+            abs(v - (start + (stop - start) * (t - first) / (last - first))) <= 1e-6 * max(map(abs, (start, stop, v, 1e-300)))
+            for t, v in inside
+        )
         return start, stop, straight
 
 
@@ -126,8 +206,12 @@ class History:
         period = 1.0
         if static.rows() and len(static.rows()[0][1]) > 1:
             period = static.value(static.rows()[0][1][1], static.rows()[0][0], 1.0)
-        now = State(head.get("NAME") or str(number), head, *(dict(getattr(before, t)) for t in (
-            "supports", "forces", "pressures", "tractions", "accelerations", "temperatures")), set(before.locked))
+        now = State(
+            head.get("NAME") or str(number),
+            head,
+            *(dict(getattr(before, t)) for t in ("supports", "forces", "pressures", "tractions", "accelerations", "temperatures")),
+            set(before.locked),
+        )
         fresh = {}
         for card in cards:
             if card.get("OP").upper() == "NEW":
@@ -271,13 +355,17 @@ class History:
                     face = (e, self.model.face_number(card, line, e, label))
                     self.add(now.pressures, touched, "pressure", face, Entry(value, hint, card, line))
             else:
-                self.model.leave_out(card, f"{label}: the deck has pressures, tractions and uniform accelerations", line, keyword=f"*DLOAD, {label}")
+                self.model.leave_out(
+                    card, f"{label}: the deck has pressures, tractions and uniform accelerations", line, keyword=f"*DLOAD, {label}"
+                )
 
     def read_surface_loads(self, card, now, touched, factor):
         for line, words in card.rows():
             label = words[1].upper() if len(words) > 1 else ""
             if label not in ("P", "TRVEC"):
-                self.model.leave_out(card, f"{label}: the deck has pressures and tractions along one vector", line, keyword=f"*DSLOAD, {label}")
+                self.model.leave_out(
+                    card, f"{label}: the deck has pressures and tractions along one vector", line, keyword=f"*DSLOAD, {label}"
+                )
                 continue
             surface = self.model.surface(card, line, words[0])
             value = factor * card.value(words[2] if len(words) > 2 else "", line, 0.0)

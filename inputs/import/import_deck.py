@@ -70,8 +70,10 @@ def main(arguments=None):
         print("Otherwise than in the file:", *noted, sep="\n  ")
     if lost:
         print("Left out, and the answer is another one for it:", *lost, sep="\n  ")
-    print(f"{target}: {len(result.bodies.bodies)} bodies, {len(result.boundaries)} boundaries, {len(result.supports)} supports, "
-          f"{len(result.loads)} loads, {len(result.contacts)} contacts, {len(result.history.states)} steps")
+    print(
+        f"{target}: {len(result.bodies.bodies)} bodies, {len(result.boundaries)} boundaries, {len(result.supports)} supports, "
+        f"{len(result.loads)} loads, {len(result.contacts)} contacts, {len(result.history.states)} steps"
+    )
     return 1 if lost and not given.partial else 0
 
 

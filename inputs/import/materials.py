@@ -3,15 +3,40 @@
 IGNORED = {"CONDUCTIVITY", "SPECIFICHEAT", "LATENTHEAT", "ELECTRICALCONDUCTIVITY", "DAMPING", "DEPVAR", "INELASTICHEATFRACTION"}
 PROPERTIES = IGNORED | {"MATERIAL", "ELASTIC", "EXPANSION", "DENSITY"}
 LEFT_OUT = {
-    "PLASTIC": "the material stays elastic", "CYCLICHARDENING": "the material stays elastic", "CREEP": "the material does not creep",
-    "HYPERELASTIC": "the deck has linear elasticity alone", "HYPERFOAM": "the deck has linear elasticity alone",
-    "VISCOELASTIC": "the deck has linear elasticity alone", "USERMATERIAL": "the deck has linear elasticity alone",
-    "MOHRCOULOMB": "the material stays elastic", "DRUCKERPRAGER": "the material stays elastic", "DEFORMATIONPLASTICITY": "the material stays elastic",
-    "CASTIRONPLASTICITY": "the material stays elastic", "CONCRETEDAMAGEDPLASTICITY": "the material stays elastic", "HYPOELASTIC": "the deck has linear elasticity alone",
+    "PLASTIC": "the material stays elastic",
+    "CYCLICHARDENING": "the material stays elastic",
+    "CREEP": "the material does not creep",
+    "HYPERELASTIC": "the deck has linear elasticity alone",
+    "HYPERFOAM": "the deck has linear elasticity alone",
+    "VISCOELASTIC": "the deck has linear elasticity alone",
+    "USERMATERIAL": "the deck has linear elasticity alone",
+    "MOHRCOULOMB": "the material stays elastic",
+    "DRUCKERPRAGER": "the material stays elastic",
+    "DEFORMATIONPLASTICITY": "the material stays elastic",
+    "CASTIRONPLASTICITY": "the material stays elastic",
+    "CONCRETEDAMAGEDPLASTICITY": "the material stays elastic",
+    "HYPOELASTIC": "the deck has linear elasticity alone",
 }
-OTHER_SECTIONS = {"SHELLSECTION", "BEAMSECTION", "BEAMGENERALSECTION", "MEMBRANESECTION", "TRUSSSECTION", "SHELLGENERALSECTION", "SURFACESECTION",
-                  "COHESIVESECTION", "GASKETSECTION", "FLUIDSECTION", "CONNECTORSECTION", "SPRING", "DASHPOT", "MASS", "GAP", "ROTARYINERTIA",
-                  "FRAMESECTION", "EULERIANSECTION"}
+OTHER_SECTIONS = {
+    "SHELLSECTION",
+    "BEAMSECTION",
+    "BEAMGENERALSECTION",
+    "MEMBRANESECTION",
+    "TRUSSSECTION",
+    "SHELLGENERALSECTION",
+    "SURFACESECTION",
+    "COHESIVESECTION",
+    "GASKETSECTION",
+    "FLUIDSECTION",
+    "CONNECTORSECTION",
+    "SPRING",
+    "DASHPOT",
+    "MASS",
+    "GAP",
+    "ROTARYINERTIA",
+    "FRAMESECTION",
+    "EULERIANSECTION",
+}
 
 
 def read_materials(model):

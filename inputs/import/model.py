@@ -336,8 +336,9 @@ class Builder:
                 raise card.error(f"element {pending[0]} has {len(pending) - 1} nodes, its type {name} needs {count}", begun)
             if pending[0] in scope.elements:
                 raise card.error(f"element {pending[0]} is given twice", begun)
-            element = Element(pending[0], name, pending[1:], card, begun, scope, kind.shape if kind else "",
-                              kind.formulation if kind else "")
+            element = Element(
+                pending[0], name, pending[1:], card, begun, scope, kind.shape if kind else "", kind.formulation if kind else ""
+            )
             scope.elements[pending[0]] = len(self.model.elements)
             self.model.elements.append(element)
             if definition:

@@ -82,14 +82,19 @@ class Translation:
         self.thickness = max(values)
         if len(values) > 1:
             card = self.model.elements[self.bodies.solid[0]].card
-            self.model.leave_out(card, f"sections of different thickness ({', '.join(f'{v:g}' for v in sorted(values))}): the deck has one, 1")
+            self.model.leave_out(
+                card, f"sections of different thickness ({', '.join(f'{v:g}' for v in sorted(values))}): the deck has one, 1"
+            )
 
     def report_hinges(self):
         for (a, b), nodes in self.bodies.shared_nodes().items():
             first, second = self.bodies.bodies[a], self.bodies.bodies[b]
             element = self.model.elements[second.elements[0]]
-            self.model.leave_out(element.card, f'"{first.name}" and "{second.name}" share {len(nodes)} nodes but no face: in the deck they are apart',
-                                 element.line)
+            self.model.leave_out(
+                element.card,
+                f'"{first.name}" and "{second.name}" share {len(nodes)} nodes but no face: in the deck they are apart',
+                element.line,
+            )
 
     def read_transforms(self):
         """Nodes with axes of their own."""
@@ -112,30 +117,49 @@ class Translation:
         for value, card in self.interactions.clearances.values():
             self.model.leave_out(card, "there is no *CONTACT PAIR of these surfaces")
         if not self.model.steps:
-            self.model.leave_out(self.model.cards[-1] if self.model.cards else self.model.elements[0].card,
-                                 "the file has no *STEP: the deck has no loads", keyword="end of the file")
+            self.model.leave_out(
+                self.model.cards[-1] if self.model.cards else self.model.elements[0].card,
+                "the file has no *STEP: the deck has no loads",
+                keyword="end of the file",
+            )
         elif not self.history.states:
             self.model.leave_out(self.model.steps[0][0], "no step of the file is *STATIC: the deck has no loads")
         if self.history.bent and any("coulomb" in c.get("friction", {}) for c in self.contacts):
             for card in self.history.bent:
-                self.model.leave_out(card, "AMPLITUDE: with friction the way matters; the deck goes straight to the value at the end of the step")
+                self.model.leave_out(
+                    card, "AMPLITUDE: with friction the way matters; the deck goes straight to the value at the end of the step"
+                )
         for e in self.used:
             material = self.materials[e]
             shapes = {self.model.elements[i].shape for i in self.bodies.solid}
             if material["poisson_ratio"] >= 0.45 and shapes & {"hex8", "quad4", "prism6"}:
-                self.model.note(material["card"], f'nearly incompressible: Abaqus averages volumes in such cells; `formulation: bbar` of the bodies of "{material["name"]}" does so')
+                self.model.note(
+                    material["card"],
+                    f'nearly incompressible: Abaqus averages volumes in such cells; `formulation: bbar` of the bodies of "{material["name"]}" does so',
+                )
 
     REASONS = {
-        "EQUATION": "the deck has no equations between displacements", "MPC": "the deck has no equations between displacements",
-        "COUPLING": "the deck has no couplings to a point", "KINEMATIC": "the deck has no couplings to a point",
-        "DISTRIBUTING": "the deck has no couplings to a point", "DISTRIBUTINGCOUPLING": "the deck has no couplings to a point",
-        "RIGIDBODY": "the deck has no rigid bodies but obstacles of contacts", "EMBEDDEDELEMENT": "the deck has no embedded elements",
-        "MODELCHANGE": "contacts and elements of the deck are there in every step", "CHANGEFRICTION": "the deck has one law a contact for all steps",
-        "FRICTION": "belongs to *CHANGE FRICTION", "SURFACEBEHAVIOR": "belongs to *CHANGE SURFACE BEHAVIOR",
-        "CHANGESURFACEBEHAVIOR": "the deck has one law a contact for all steps", "CHANGEMATERIAL": "materials do not change",
+        "EQUATION": "the deck has no equations between displacements",
+        "MPC": "the deck has no equations between displacements",
+        "COUPLING": "the deck has no couplings to a point",
+        "KINEMATIC": "the deck has no couplings to a point",
+        "DISTRIBUTING": "the deck has no couplings to a point",
+        "DISTRIBUTINGCOUPLING": "the deck has no couplings to a point",
+        "RIGIDBODY": "the deck has no rigid bodies but obstacles of contacts",
+        "EMBEDDEDELEMENT": "the deck has no embedded elements",
+        "MODELCHANGE": "contacts and elements of the deck are there in every step",
+        "CHANGEFRICTION": "the deck has one law a contact for all steps",
+        "FRICTION": "belongs to *CHANGE FRICTION",
+        "SURFACEBEHAVIOR": "belongs to *CHANGE SURFACE BEHAVIOR",
+        "CHANGESURFACEBEHAVIOR": "the deck has one law a contact for all steps",
+        "CHANGEMATERIAL": "materials do not change",
         "CONTACTINTERFERENCE": "overlaps act in every step; say it by `interference` of the contact and its factors in `steps`",
-        "PRE-TENSIONSECTION": "", "CFLUX": "there is no flow of heat", "DFLUX": "there is no flow of heat", "FILM": "there is no flow of heat",
-        "RADIATE": "there is no flow of heat", "GAP": "the deck has contact of surfaces alone",
+        "PRE-TENSIONSECTION": "",
+        "CFLUX": "there is no flow of heat",
+        "DFLUX": "there is no flow of heat",
+        "FILM": "there is no flow of heat",
+        "RADIATE": "there is no flow of heat",
+        "GAP": "the deck has contact of surfaces alone",
     }
 
     def leave_out(self, card):
@@ -197,7 +221,9 @@ class Translation:
                 self.model.leave_out(card, f'the nodes of the surface "{name}" hold no whole face of a body', line)
                 return None
             if lost:
-                self.model.leave_out(card, f'{len(lost)} of the {len(nodes)} nodes of the surface "{name}" belong to no face that it holds', line)
+                self.model.leave_out(
+                    card, f'{len(lost)} of the {len(nodes)} nodes of the surface "{name}" belong to no face that it holds', line
+                )
         else:
             keys, lost = self.expand(self.model.sides_of_surface(surface))
             if not keys:
@@ -321,7 +347,9 @@ class Translation:
                         entry = entries.pop(n)  # every set that has it forgets it
                         if (id(entry.card), entry.line) not in told:
                             told.add((id(entry.card), entry.line))
-                            self.model.leave_out(entry.card, "along axes of *TRANSFORM; a boundary can be held along its `normal`", entry.line)
+                            self.model.leave_out(
+                                entry.card, "along axes of *TRANSFORM; a boundary can be held along its `normal`", entry.line
+                            )
 
     def report_uncovered(self, uncovered, found):
         """Nodes that are held but lie on no face that is: inside a body that is held all over they change nothing."""
@@ -349,8 +377,12 @@ class Translation:
             nodes = set().union(*axes.values())
             x = self.model.points[min(nodes)]
             what = f'of "{entry.hint}" ' if entry.hint else ""
-            self.model.leave_out(entry.card, f"{len(nodes)} node{'s' * (len(nodes) > 1)} {what}held along {', '.join(AXES[a] for a in sorted(axes))}, "
-                                 f"as at ({x[0]:.6g}, {x[1]:.6g}, {x[2]:.6g}), span no whole outer face: the deck holds boundaries", entry.line)
+            self.model.leave_out(
+                entry.card,
+                f"{len(nodes)} node{'s' * (len(nodes) > 1)} {what}held along {', '.join(AXES[a] for a in sorted(axes))}, "
+                f"as at ({x[0]:.6g}, {x[1]:.6g}, {x[2]:.6g}), span no whole outer face: the deck holds boundaries",
+                entry.line,
+            )
 
     def quiet_bodies(self, implied):
         """Bodies that are held at 0 all over their surface, without weight and temperature: nothing moves inside."""
@@ -375,8 +407,11 @@ class Translation:
                 self.model.leave_out(entry.card, "a force on a node that belongs to no solid", entry.line)
                 continue
             if axis > self.axes:
-                self.model.leave_out(entry.card, f"degree of freedom {axis} of a solid's node has no force" if axis > 3 else "a force out of the plane",
-                                     entry.line)
+                self.model.leave_out(
+                    entry.card,
+                    f"degree of freedom {axis} of a solid's node has no force" if axis > 3 else "a force out of the plane",
+                    entry.line,
+                )
                 continue
             if node in self.transforms:
                 self.model.leave_out(entry.card, "a force along axes of *TRANSFORM", entry.line)
@@ -464,7 +499,9 @@ class Translation:
         covered = {n for key in keys for n in self.bodies.nodes(key)}
         if keys and set(forces) <= covered and np.abs(total).max() > 0:
             self.add_force(hint, course, keys, total)
-            self.model.leave_out(entry.card, f"{what}: not those of a uniform traction; the deck spreads their resultant evenly over the faces", entry.line)
+            self.model.leave_out(
+                entry.card, f"{what}: not those of a uniform traction; the deck spreads their resultant evenly over the faces", entry.line
+            )
         else:
             self.model.leave_out(entry.card, f"{what}: they span no whole outer faces, and the deck has no forces on nodes", entry.line)
 
@@ -556,7 +593,11 @@ class Translation:
         if any(any(values) for values, _ in changes.values()):
             for material in [self.materials[m] for m in self.used if not self.materials[m].get("thermal_expansion")]:
                 self.model.note(material["card"], f'"{material["name"]}" has no *EXPANSION: its temperature changes nothing')
-        expanding = {b for b, body in enumerate(self.bodies.bodies) if any(self.materials[m].get("thermal_expansion") for m, _ in body.volumes.values())}
+        expanding = {
+            b
+            for b, body in enumerate(self.bodies.bodies)
+            if any(self.materials[m].get("thermal_expansion") for m, _ in body.volumes.values())
+        }
         of_body = {b: [n for n in self.bodies.nodes_of_body(b)] for b in expanding}
         for n in list(changes):
             if not any(changes[n][0]):
@@ -607,7 +648,9 @@ class Translation:
 
     def turned_right(self, cyclic, sides):
         """The turn brings the primary side to the secondary one."""
-        secondary, primary = (np.mean([self.model.points[n] for key in self.boundaries[s] for n in self.bodies.nodes(key)], axis=0) for s in sides)
+        secondary, primary = (
+            np.mean([self.model.points[n] for key in self.boundaries[s] for n in self.bodies.nodes(key)], axis=0) for s in sides
+        )
         angle = 360 / int(cyclic["angle"].split("/")[1])
         line = [*cyclic["center"], *np.add(cyclic["center"], cyclic["axis"])]
         off = [np.linalg.norm(rotated(primary[None], [*line, sign * angle])[0] - secondary) for sign in (1, -1)]
@@ -655,11 +698,17 @@ class Translation:
                     self.contacts.append(item)
                     continue
                 item["preload"] = {"force": base / self.thickness}
-                item["course"] = [None if k > 0 and (f is None or node in states[k].locked) else (f or 0.0) / base for k, f in enumerate(forces)]
+                item["course"] = [
+                    None if k > 0 and (f is None or node in states[k].locked) else (f or 0.0) / base for k, f in enumerate(forces)
+                ]
                 for k, value in enumerate(lengths):
                     if value is not None and forces[k] is None:
-                        self.model.leave_out(states[k].supports[node, 1].card, "a bolt that is tightened by a force first, then by a length: it keeps its length",
-                                             states[k].supports[node, 1].line, changes=value != 0)
+                        self.model.leave_out(
+                            states[k].supports[node, 1].card,
+                            "a bolt that is tightened by a force first, then by a length: it keeps its length",
+                            states[k].supports[node, 1].line,
+                            changes=value != 0,
+                        )
             elif any(lengths):
                 base = self.largest(lengths)
                 item["preload"] = {"shortening": base}
@@ -679,7 +728,13 @@ class Translation:
             if card.name == "COUPLING":
                 node = self.model.nodes_of(card, card.line, card.need("REFNODE"))[0]
                 surface = self.model.surface(card, card.line, card.need("SURFACE"))
-                open_one = {"name": card.get("CONSTRAINTNAME") or "coupling", "surface": surface, "kind": "rigid", "card": card, "node": node}
+                open_one = {
+                    "name": card.get("CONSTRAINTNAME") or "coupling",
+                    "surface": surface,
+                    "kind": "rigid",
+                    "card": card,
+                    "node": node,
+                }
                 result[node] = open_one
                 self.coupling_cards.add(id(card))
             elif card.name in ("KINEMATIC", "DISTRIBUTING") and open_one:
@@ -797,8 +852,11 @@ class Translation:
         label = {}
         for m in used:
             label[m] = clean(self.materials[m]["name"])
-            deck["materials"][label[m]] = {k: self.materials[m][k] for k in ("young_modulus", "poisson_ratio", "density", "thermal_expansion")
-                                           if k in self.materials[m]}
+            deck["materials"][label[m]] = {
+                k: self.materials[m][k]
+                for k in ("young_modulus", "poisson_ratio", "density", "thermal_expansion")
+                if k in self.materials[m]
+            }
         deck["bodies"] = {}
         for body in self.bodies.bodies:
             if len(body.volumes) == 1:
@@ -834,7 +892,9 @@ class Translation:
             return "standard"
         fits = {"incompatible": {"hex8", "quad4"}, "bbar": {"hex8", "quad4", "prism6"}}[wanted[0]]
         if len(found) > 1 and not shapes <= fits or not shapes <= fits:
-            self.model.note(self.model.elements[found[wanted[0]]].card, f'the body "{body.name}" has other cells as well: full integration of all')
+            self.model.note(
+                self.model.elements[found[wanted[0]]].card, f'the body "{body.name}" has other cells as well: full integration of all'
+            )
             return "standard"
         if len(found) > 1:
             self.model.note(self.model.elements[found[wanted[0]]].card, f'the body "{body.name}" has one formulation: {wanted[0]}')

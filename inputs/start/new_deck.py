@@ -27,8 +27,10 @@ def listing(mortise, mesh, dimension):
     """({body: text}, {boundary: text}, what the program said) of a mesh."""
     with tempfile.TemporaryDirectory(prefix="mortise_new_") as folder:
         probe = pathlib.Path(folder) / "probe.yaml"
-        probe.write_text(f"dimension: {dimension}\nmesh: {{file: {scalar(str(mesh.resolve()))}}}\nmaterials: {{any: {{young_modulus: 1, poisson_ratio: 0}}}}\n"
-                         "bodies: {body that no mesh has: {material: any}}\n")
+        probe.write_text(
+            f"dimension: {dimension}\nmesh: {{file: {scalar(str(mesh.resolve()))}}}\nmaterials: {{any: {{young_modulus: 1, poisson_ratio: 0}}}}\n"
+            "bodies: {body that no mesh has: {material: any}}\n"
+        )
         done = subprocess.run([str(mortise), str(probe), "--check"], capture_output=True, text=True, check=False)
     found = {"body": {}, "boundary": {}}
     for line in done.stdout.splitlines():
@@ -51,19 +53,38 @@ def deck_text(mesh, folder, dimension, bodies, boundaries):
         f"mesh: {{file: {scalar(file)}}}",
     ]
     if mesh.suffix.lower() in CAD:
-        lines.append("# mesh: {file: ..., size: {max: 2, curvature: 24}, order: 2}    # finer, round curves, and of second order; scale: 0.001 multiplies coordinates")
-    lines += ["", "# In any consistent set of units: mm, N, MPa here. density for weight, thermal_expansion for warmth.", "materials:",
-              "  steel: {young_modulus: 2.1e5, poisson_ratio: 0.3}", "", "bodies:"]
+        lines.append(
+            "# mesh: {file: ..., size: {max: 2, curvature: 24}, order: 2}    # finer, round curves, and of second order; scale: 0.001 multiplies coordinates"
+        )
+    lines += [
+        "",
+        "# In any consistent set of units: mm, N, MPa here. density for weight, thermal_expansion for warmth.",
+        "materials:",
+        "  steel: {young_modulus: 2.1e5, poisson_ratio: 0.3}",
+        "",
+        "bodies:",
+    ]
     width = max(len(scalar(b)) for b in bodies)
     lines += [f"  {scalar(name)}: {{material: steel}}{' ' * (width - len(scalar(name)))}   # {text}" for name, text in bodies.items()]
     lines += ["", "# Boundaries:" if boundaries else "# The file names no boundaries."]
     lines += [f"#   {name}: {text}" for name, text in boundaries.items()]
-    lines += ["", "# Components that are not named are free; `normal` is along the boundary's own.", "# supports:",
-              f"#   - {{boundary: {scalar(first)}, displacement: {{{components}}}}}", "",
-              "# pressure (into the body), traction or force of a boundary; acceleration or temperature_change of a body.", "# loads:",
-              f"#   - {{boundary: {scalar(last)}, pressure: 1.0}}", ""]
+    lines += [
+        "",
+        "# Components that are not named are free; `normal` is along the boundary's own.",
+        "# supports:",
+        f"#   - {{boundary: {scalar(first)}, displacement: {{{components}}}}}",
+        "",
+        "# pressure (into the body), traction or force of a boundary; acceleration or temperature_change of a body.",
+        "# loads:",
+        f"#   - {{boundary: {scalar(last)}, pressure: 1.0}}",
+        "",
+    ]
     if len(bodies) > 1:
-        lines += ["# All bodies that face each other; or pairs: - {secondary: ..., primary: ..., friction: {coulomb: 0.2}}", "contacts: auto", ""]
+        lines += [
+            "# All bodies that face each other; or pairs: - {secondary: ..., primary: ..., friction: {coulomb: 0.2}}",
+            "contacts: auto",
+            "",
+        ]
     return "\n".join(lines + ["# ./mortise explain contacts tells what else there is.", ""])
 
 

@@ -126,7 +126,19 @@ def interior(path):
 
 def compare(mortise, path, most, timeout, directory):
     """A row of the table: dict of texts."""
-    row = {"file": path.name, "nodes": "", "left out": "", "of them NLGEOM": "", "status": "", "difference": "", "stiffer": "", "stored": "", "force": "", "largest": "", "findings": []}
+    row = {
+        "file": path.name,
+        "nodes": "",
+        "left out": "",
+        "of them NLGEOM": "",
+        "status": "",
+        "difference": "",
+        "stiffer": "",
+        "stored": "",
+        "force": "",
+        "largest": "",
+        "findings": [],
+    }
     target = directory / "deck.yaml"
     try:
         result = import_deck.import_file(path, target, json.loads(import_deck.SCHEMA.read_text()))
@@ -134,12 +146,22 @@ def compare(mortise, path, most, timeout, directory):
         return dict(row, status="refused", findings=[str(error)])
     lost = [f for f in result.model.findings if f.changes]
     small = [f for f in lost if "NLGEOM" in f.keyword]
-    row.update({"nodes": len(result.model.points), "left out": len(lost) - len(small), "of them NLGEOM": len(small),
-                "findings": [f"{f.file.name}:{f.line}: {f.keyword}: {f.reason}" for f in lost if f not in small]})
+    row.update(
+        {
+            "nodes": len(result.model.points),
+            "left out": len(lost) - len(small),
+            "of them NLGEOM": len(small),
+            "findings": [f"{f.file.name}:{f.line}: {f.keyword}: {f.reason}" for f in lost if f not in small],
+        }
+    )
     chosen = probes(result, most)
     points = [[float(f"{c:.9g}") for c in result.model.points[n][: result.axes]] for _, n, _ in chosen]
     (directory / "points.csv").write_text("".join(" ".join(map(str, p)) + "\n" for p in points))
-    ours = run([mortise, "deck.yaml", "--output", "out", "--set", "output.interior.points=points.csv", "--set", "solver.tolerance=1e-8"], directory, timeout)
+    ours = run(
+        [mortise, "deck.yaml", "--output", "out", "--set", "output.interior.points=points.csv", "--set", "solver.tolerance=1e-8"],
+        directory,
+        timeout,
+    )
     if ours is None:
         return dict(row, status="too long")
     row["status"] = str(ours.returncode)
@@ -181,7 +203,9 @@ def solve(path, factor, timeout, directory, result):
     values = last_displacements(directory / "theirs.dat") if (directory / "theirs.dat").exists() else {}
     if theirs.returncode != 0 or not values:
         return "no result", ""
-    return values, force_difference(contact_forces(directory / "theirs.dat"), result, json.loads((directory / "out/summary.json").read_text()))
+    return values, force_difference(
+        contact_forces(directory / "theirs.dat"), result, json.loads((directory / "out/summary.json").read_text())
+    )
 
 
 def difference(row, values, result, chosen, points, found):
@@ -207,13 +231,23 @@ def main():
     parser.add_argument("--timeout", type=float, default=120)
     parser.add_argument("--quiet", action="store_true", help="the table alone")
     given = parser.parse_args()
-    print("| file | nodes | left out | NLGEOM | exit status | largest displacement | stored result | difference | penalty x 10, full integration | contact force |\n|---|---|---|---|---|---|---|---|---|---|")
+    print(
+        "| file | nodes | left out | NLGEOM | exit status | largest displacement | stored result | difference | penalty x 10, full integration | contact force |\n|---|---|---|---|---|---|---|---|---|---|"
+    )
     every = []
     for path in given.files:
         with tempfile.TemporaryDirectory(prefix="mortise_decks_") as name:
             row = compare(str(given.mortise.resolve()), path, given.points, given.timeout, pathlib.Path(name))
         every.append(row)
-        print("| " + " | ".join(str(row[k]) for k in ("file", "nodes", "left out", "of them NLGEOM", "status", "largest", "stored", "difference", "stiffer", "force")) + " |", flush=True)
+        print(
+            "| "
+            + " | ".join(
+                str(row[k])
+                for k in ("file", "nodes", "left out", "of them NLGEOM", "status", "largest", "stored", "difference", "stiffer", "force")
+            )
+            + " |",
+            flush=True,
+        )
     if not given.quiet:
         for row in every:
             if row["findings"]:

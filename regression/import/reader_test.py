@@ -139,9 +139,13 @@ class Mesh(Import):
 
     def test_sets_of_sets_before_they_are_given(self):
         text = CUBE + STEEL + "*BOUNDARY\nOuter, 1, 3\n*NSET, NSET=OUTER\ninner, 4\n*NSET, NSET=INNER, GENERATE\n1, 3, 1\n"
-        self.assertEqual(self.deck(text + step("*DLOAD\nCUBE, P2, 5.\n"))["supports"],
-                         [{"boundary": "Outer", "displacement": {"x": 0, "y": 0, "z": 0}}])
-        self.assertIn("holds itself", self.refused(text.replace("1, 3, 1", "1, 3\n").replace(", GENERATE", "").replace("1, 3\n\n", "OUTER\n") + step("")))
+        self.assertEqual(
+            self.deck(text + step("*DLOAD\nCUBE, P2, 5.\n"))["supports"], [{"boundary": "Outer", "displacement": {"x": 0, "y": 0, "z": 0}}]
+        )
+        self.assertIn(
+            "holds itself",
+            self.refused(text.replace("1, 3, 1", "1, 3\n").replace(", GENERATE", "").replace("1, 3\n\n", "OUTER\n") + step("")),
+        )
 
     def test_bodies_are_what_hangs_together(self):
         deck = self.deck(MODEL + SECOND + step("*DLOAD\nUPPER, P2, 5.\n"))
@@ -156,11 +160,18 @@ class Mesh(Import):
         part = "*PART, NAME=Block\n" + CUBE + "*NSET, NSET=BOTTOM\n1,2,3,4\n*SURFACE, NAME=TOP\nCUBE, S2\n*SURFACE, NAME=FOOT\nCUBE, S1\n"
         part += "*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n*END PART\n"
         assembly = "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Low, PART=Block\n*END INSTANCE\n*INSTANCE, NAME=High, PART=BLOCK\n0.,0.,1.\n"
-        assembly += "0.,0.,1., 0.,0.,2., 90.\n*END INSTANCE\n*NSET, NSET=GROUND, INSTANCE=Low\nBOTTOM\n*SURFACE, NAME=PRESSED\nHigh.TOP_SET, S2\n"
+        assembly += (
+            "0.,0.,1., 0.,0.,2., 90.\n*END INSTANCE\n*NSET, NSET=GROUND, INSTANCE=Low\nBOTTOM\n*SURFACE, NAME=PRESSED\nHigh.TOP_SET, S2\n"
+        )
         assembly += "*ELSET, ELSET=X, INSTANCE=High\n1\n*END ASSEMBLY\n"
         assembly = assembly.replace("High.TOP_SET", "X")
         steel = STEEL.replace("*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n", "")
-        text = part + assembly + steel + "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\nHigh.FOOT, Low.TOP\n*BOUNDARY\nGROUND, PINNED\n"
+        text = (
+            part
+            + assembly
+            + steel
+            + "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\nHigh.FOOT, Low.TOP\n*BOUNDARY\nGROUND, PINNED\n"
+        )
         result = self.translate(text + step("*DSLOAD\nPRESSED, P, 3.\n"))
         self.assertEqual([f for f in result.model.findings if f.changes], [])
         self.assertEqual(list(result.deck["bodies"]), ["Low", "High"])
@@ -203,20 +214,38 @@ class Loads(Import):
 
     def test_supports_at_common_edges(self):
         """A node that two sets hold belongs to the faces of both, and one that a face holds already needs no more."""
-        text = CUBE + STEEL + "*NSET, NSET=X0\n1, 4, 5, 8\n*NSET, NSET=Y0\n1, 2, 5, 6\n*BOUNDARY\nX0, XSYMM\nY0, 1, 2\n1, 1\n" + step("*DLOAD\n1, P2, 1.\n")
-        self.assertEqual([(s["boundary"], s["displacement"]) for s in self.deck(text)["supports"]],
-                         [("X0", {"x": 0}), ("Y0", {"x": 0, "y": 0})])
+        text = (
+            CUBE
+            + STEEL
+            + "*NSET, NSET=X0\n1, 4, 5, 8\n*NSET, NSET=Y0\n1, 2, 5, 6\n*BOUNDARY\nX0, XSYMM\nY0, 1, 2\n1, 1\n"
+            + step("*DLOAD\n1, P2, 1.\n")
+        )
+        self.assertEqual(
+            [(s["boundary"], s["displacement"]) for s in self.deck(text)["supports"]], [("X0", {"x": 0}), ("Y0", {"x": 0, "y": 0})]
+        )
 
     def test_steps(self):
-        text = MODEL + step("*DLOAD\nCUBE, P2, 10.\n*BOUNDARY\nTOP, 1, 1, 0.1\n") + step("*DLOAD\nCUBE, P2, 20.\n*BOUNDARY, OP=NEW\nBOTTOM, 1, 3\n")
+        text = (
+            MODEL
+            + step("*DLOAD\nCUBE, P2, 10.\n*BOUNDARY\nTOP, 1, 1, 0.1\n")
+            + step("*DLOAD\nCUBE, P2, 20.\n*BOUNDARY, OP=NEW\nBOTTOM, 1, 3\n")
+        )
         deck = self.deck(text + step("*DLOAD, OP=NEW\n"))
         self.assertEqual(deck["loads"], [{"boundary": "TOP", "pressure": 20.0, "name": "pressure_TOP"}])
-        self.assertEqual(deck["steps"], [{"name": "1", "scale": {"pressure_TOP": 0.5}}, {"name": "2", "scale": {"pressure_TOP": 1.0}, "off": ["TOP"]},
-                                         {"name": "3", "scale": {"pressure_TOP": 0.0}}])
+        self.assertEqual(
+            deck["steps"],
+            [
+                {"name": "1", "scale": {"pressure_TOP": 0.5}},
+                {"name": "2", "scale": {"pressure_TOP": 1.0}, "off": ["TOP"]},
+                {"name": "3", "scale": {"pressure_TOP": 0.0}},
+            ],
+        )
 
     def test_amplitudes_count_at_the_end(self):
         table = "*AMPLITUDE, NAME=A\n0., 0., 2., 1.\n"
-        self.assertEqual(self.deck(MODEL + table + step("*DLOAD, AMPLITUDE=A\nCUBE, P2, 10.\n"))["loads"], [{"boundary": "CUBE_P2", "pressure": 5.0}])
+        self.assertEqual(
+            self.deck(MODEL + table + step("*DLOAD, AMPLITUDE=A\nCUBE, P2, 10.\n"))["loads"], [{"boundary": "CUBE_P2", "pressure": 5.0}]
+        )
 
 
 class Contacts(Import):
@@ -235,22 +264,35 @@ class Contacts(Import):
         self.assertEqual(tie["contacts"], [{**sides, "name": "T", "friction": {"bonded": True}}])
 
     def test_bodies_do_not_touch_themselves(self):
-        text = MODEL + SECOND.replace("2,11,12,13,14,15", "2,5,6,7,8,15").replace("UPPER, S1", "UPPER, S3") + self.PAIR.format(law="", more="")
+        text = (
+            MODEL + SECOND.replace("2,11,12,13,14,15", "2,5,6,7,8,15").replace("UPPER, S1", "UPPER, S3") + self.PAIR.format(law="", more="")
+        )
         self.assertTrue(any("*CONTACTPAIR" == k for _, k, _ in self.left_out(text + step(""))))
 
     def test_bolts(self):
         bolt = MODEL.replace("*BOUNDARY", "*NODE\n99, 0., 0., 9.\n*BOUNDARY", 1)
-        long = bolt + SECOND.replace("2,11,12,13,14,15", "2,5,6,7,8,15").replace("CUBE, S2", "1, S2").replace("*SURFACE, NAME=UPPER_BOTTOM\nUPPER, S1\n", "")
-        text = long + "*PRE-TENSION SECTION, SURFACE=CUBE_TOP, NODE=99\n" + step("*CLOAD\n99, 1, 50.\n") + step("*BOUNDARY, FIXED\n99, 1\n*DLOAD\nUPPER, P2, 1.\n")
+        long = bolt + SECOND.replace("2,11,12,13,14,15", "2,5,6,7,8,15").replace("CUBE, S2", "1, S2").replace(
+            "*SURFACE, NAME=UPPER_BOTTOM\nUPPER, S1\n", ""
+        )
+        text = (
+            long
+            + "*PRE-TENSION SECTION, SURFACE=CUBE_TOP, NODE=99\n"
+            + step("*CLOAD\n99, 1, 50.\n")
+            + step("*BOUNDARY, FIXED\n99, 1\n*DLOAD\nUPPER, P2, 1.\n")
+        )
         deck = self.deck(text)
         self.assertEqual(len(deck["bodies"]), 2)
         self.assertEqual(deck["contacts"][0]["preload"], {"force": 50.0})
-        self.assertEqual(deck["steps"], [{"name": "1", "scale": {"pressure_UPPER_P2": 0.0}}, {"name": "2", "scale": {"pressure_UPPER_P2": 1.0}}])
+        self.assertEqual(
+            deck["steps"], [{"name": "1", "scale": {"pressure_UPPER_P2": 0.0}}, {"name": "2", "scale": {"pressure_UPPER_P2": 1.0}}]
+        )
 
 
 class LeftOut(Import):
     def test_nothing_is_dropped_silently(self):
-        text = MODEL + "*WHATEVER\n1, 2\n*EQUATION\n2\n5,1,1.,6,1,-1.\n" + step("*FOUNDATION\nCUBE, F2, 1.\n*NODE FILE\nU\n", "*STEP, NLGEOM")
+        text = (
+            MODEL + "*WHATEVER\n1, 2\n*EQUATION\n2\n5,1,1.,6,1,-1.\n" + step("*FOUNDATION\nCUBE, F2, 1.\n*NODE FILE\nU\n", "*STEP, NLGEOM")
+        )
         self.assertEqual([k for _, k, _ in self.left_out(text)], ["*WHATEVER", "*EQUATION", "*STEP, NLGEOM", "*FOUNDATION"])
         written = (self.folder / "deck.yaml").read_text()
         self.assertIn("#   model.inp:26: *WHATEVER", written)
@@ -269,7 +311,10 @@ class LeftOut(Import):
         self.assertEqual(import_deck.main([str(path), "--force", "--partial"]), 0)
 
     def test_couplings_where_the_deck_has_them(self):
-        text = MODEL + "*NODE\n50, .5, .5, 2.\n*SURFACE, NAME=GRIP\nCUBE, S2\n*COUPLING, REF NODE=50, SURFACE=GRIP, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 3\n"
+        text = (
+            MODEL
+            + "*NODE\n50, .5, .5, 2.\n*SURFACE, NAME=GRIP\nCUBE, S2\n*COUPLING, REF NODE=50, SURFACE=GRIP, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 3\n"
+        )
         text += step("*CLOAD\n50, 1, 7.\n50, 5, 3.\n")
         self.schema["properties"].pop("couplings", None)
         self.assertIn("*COUPLING", [k for _, k, _ in self.left_out(text)])

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """docs/schema.json is what the program prints, `explain` knows every key of it, and `new` writes decks that pass --check.
 
-    start_test.py MORTISE
+start_test.py MORTISE
 """
 
 import contextlib
@@ -65,8 +65,11 @@ def paths(node, above=""):
 
 class Schema(unittest.TestCase):
     def test_it_is_what_the_program_prints(self):
-        self.assertEqual(json.loads(run("--schema").stdout), json.loads(explain.SCHEMA.read_text()),
-                         "renew it: build/release/app/mortise --schema > docs/schema.json")
+        self.assertEqual(
+            json.loads(run("--schema").stdout),
+            json.loads(explain.SCHEMA.read_text()),
+            "renew it: build/release/app/mortise --schema > docs/schema.json",
+        )
 
     def test_every_key_is_explained(self):
         schema = json.loads(explain.SCHEMA.read_text())
