@@ -1,0 +1,384 @@
+"""What acts at the end of each step: supports, forces, pressures, accelerations, temperatures."""
+
+import dataclasses
+import re
+
+from reader import is_number
+
+FREE = {
+    "ENCASTRE": (1, 2, 3),
+    "PINNED": (1, 2, 3),
+    "XSYMM": (1,),
+    "YSYMM": (2,),
+    "ZSYMM": (3,),
+    "XASYMM": (2, 3),
+    "YASYMM": (1, 3),
+    "ZASYMM": (1, 2),
+    "NOWARP": (),
+    "NOOVAL": (),
+    "NODEFORM": (),
+}
+# Keywords that leave the answer as it is: what is printed, how it is solved, what it is called.
+HARMLESS = {
+    "HEADING",
+    "PREPRINT",
+    "RESTART",
+    "NODEPRINT",
+    "NODEFILE",
+    "NODEOUTPUT",
+    "ELPRINT",
+    "ELFILE",
+    "ELEMENTOUTPUT",
+    "OUTPUT",
+    "CONTACTPRINT",
+    "CONTACTFILE",
+    "CONTACTOUTPUT",
+    "ENERGYOUTPUT",
+    "ENERGYPRINT",
+    "ENERGYFILE",
+    "SECTIONPRINT",
+    "MONITOR",
+    "FILEOUTPUT",
+    "FILEFORMAT",
+    "TIMEPOINTS",
+    "CONTROLS",
+    "CONTACTCONTROLS",
+    "SOLUTIONTECHNIQUE",
+    "ENDSTEP",
+    "ENDPART",
+    "ENDASSEMBLY",
+    "PHYSICALCONSTANTS",
+    "NSET",
+    "ELSET",
+    "SURFACE",
+    "INTEGRATEDOUTPUT",
+    "NONSTRUCTURALMASS",
+    "COLOR",
+    "DISPLAYBODY",
+    "FILTER",
+    "STATIC",
+    "STEP",
+    "AMPLITUDE",
+    "NETWORKMPC",
+    "SECTIONCONTROLS",
+    "HOURGLASSSTIFFNESS",
+    "PRINT",
+    "DIAGNOSTICS",
+}
+QUIET = HARMLESS - {"NONSTRUCTURALMASS", "DISPLAYBODY", "NETWORKMPC", "SECTIONCONTROLS", "HOURGLASSSTIFFNESS"}
+PROCEDURES = {
+    "VISCO",
+    "DYNAMIC",
+    "FREQUENCY",
+    "COMPLEXFREQUENCY",
+    "BUCKLE",
+    "HEATTRANSFER",
+    "COUPLEDTEMPERATURE-DISPLACEMENT",
+    "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
+    "MODALDYNAMIC",
+    "STEADYSTATEDYNAMICS",
+    "RANDOMRESPONSE",
+    "RESPONSESPECTRUM",
+    "SUBSTRUCTUREGENERATE",
+    "GREEN",
+    "SENSITIVITY",
+    "FEASIBLEDIRECTION",
+    "CFD",
+    "ELECTROMAGNETICS",
+    "ELECTROMAGNETIC",
+    "SOILS",
+    "ANNEAL",
+    "CRACKPROPAGATION",
+    "ROBUSTDESIGN",
+    "DIRECTCYCLIC",
+}
+
+
+@dataclasses.dataclass
+class Entry:
+    value: object
+    hint: str  # name of the set or surface that it was given to; "" where numbers stand
+    card: object
+    line: int
+    hints: tuple = ()  # of a support: all sets that say the same
+
+
+@dataclasses.dataclass
+class State:
+    """Of one kept step. Keys: (node, axis), (element, face), (set, its elements), node."""
+
+    name: str
+    card: object
+    supports: dict = dataclasses.field(default_factory=dict)
+    forces: dict = dataclasses.field(default_factory=dict)
+    pressures: dict = dataclasses.field(default_factory=dict)
+    tractions: dict = dataclasses.field(default_factory=dict)
+    accelerations: dict = dataclasses.field(default_factory=dict)
+    temperatures: dict = dataclasses.field(default_factory=dict)
+    locked: set = dataclasses.field(default_factory=set)  # nodes of *PRE-TENSION SECTION whose bolts keep their length
+
+    TABLES = {
+        "BOUNDARY": ("supports",),
+        "CLOAD": ("forces",),
+        "DLOAD": ("pressures", "tractions", "accelerations"),
+        "DSLOAD": ("pressures", "tractions"),
+        "TEMPERATURE": ("temperatures",),
+    }
+
+
+class Amplitudes:
+    def __init__(self, cards):
+        self.tables = {}
+        for card in cards:
+            if card.name != "AMPLITUDE":
+                continue
+            words = [(line, w) for line, row in card.rows() for w in row]
+            values = [card.value(w, line) for line, w in words]
+            form = card.get("DEFINITION", "TABULAR").upper()
+            known = form in ("TABULAR", "SMOOTHSTEP", "SMOOTH STEP") and len(values) % 2 == 0 and values
+            relative = card.get("VALUE", "RELATIVE").upper() != "ABSOLUTE"
+            table = sorted(zip(values[::2], values[1::2]), key=lambda p: p[0]) if known else None
+            shift = card.value(card.get("SHIFTX") or "0", card.line)
+            self.tables[card.need("NAME").upper()] = (
+                table and [(t + shift, v) for t, v in table],
+                card.get("TIME").upper().replace(" ", "") == "TOTALTIME",
+                relative,
+            )
+
+    def of(self, card, begin, end):
+        """(factors at the start and the end of a step, whether it runs straight between them), or None."""
+        name = card.get("AMPLITUDE").upper()
+        if name not in self.tables:
+            raise card.error(f'there is no *AMPLITUDE "{card.get("AMPLITUDE")}"')
+        table, total, relative = self.tables[name]
+        if table is None:
+            return None
+        first, last = (begin, end) if total else (0.0, end - begin)
+
+        def at(t):
+            if t <= table[0][0]:
+                return table[0][1]
+            for (t0, v0), (t1, v1) in zip(table, table[1:]):
+                if t <= t1:
+                    return v1 if t1 == t0 else v0 + (v1 - v0) * (t - t0) / (t1 - t0)
+            return table[-1][1]
+
+        start, stop = at(first), at(last)
+        inside = [(t, v) for t, v in table if first < t < last]
+        straight = all(
+            abs(v - (start + (stop - start) * (t - first) / (last - first))) <= 1e-6 * max(map(abs, (start, stop, v, 1e-300)))
+            for t, v in inside
+        )
+        return start, stop, straight
+
+
+class History:
+    """States of the static steps of a model; what else its steps hold goes to the model's findings."""
+
+    def __init__(self, model, special):
+        """special: nodes that are no part of the mesh (couplings, *PRE-TENSION SECTION)."""
+        self.model, self.special = model, special
+        self.amplitudes = Amplitudes([*model.cards, *(c for step in model.steps for c in step)])
+        self.states, self.others = [], []
+        self.initial = {}
+        self.with_rotations = set()
+        self.bent = []  # cards whose amplitude is no straight line
+        before = State("", None)
+        for card in model.cards:
+            if card.name == "BOUNDARY":
+                self.read_supports(card, before, {}, 1.0)
+        time, now = 0.0, before
+        for number, cards in enumerate(model.steps, 1):
+            now, time = self.step(number, cards, now, time)
+
+    def step(self, number, cards, before, time):
+        head = cards[0]
+        procedure = next((c for c in cards if c.name in PROCEDURES), None)
+        static = next((c for c in cards if c.name == "STATIC"), None)
+        if procedure is not None or static is None or "PERTURBATION" in head.parameters:
+            what = "a perturbation" if "PERTURBATION" in head.parameters else f"*{procedure.name}" if procedure else "without *STATIC"
+            self.model.leave_out(head, f"step {number} is {what}: static equilibria alone are solved; all that the step holds is left out")
+            return before, time
+        if head.get("NLGEOM", "YES" if "NLGEOM" in head.parameters else "NO").upper() != "NO":
+            self.model.leave_out(head, f"NLGEOM of step {number}: displacements and slip are taken as small", keyword="*STEP, NLGEOM")
+        if "RIKS" in static.parameters:
+            self.model.leave_out(static, "RIKS: loads reach their values")
+        period = 1.0
+        if static.rows() and len(static.rows()[0][1]) > 1:
+            period = static.value(static.rows()[0][1][1], static.rows()[0][0], 1.0)
+        now = State(
+            head.get("NAME") or str(number),
+            head,
+            *(dict(getattr(before, t)) for t in ("supports", "forces", "pressures", "tractions", "accelerations", "temperatures")),
+            set(before.locked),
+        )
+        fresh = {}
+        for card in cards:
+            if card.get("OP").upper() == "NEW":
+                for table in State.TABLES.get(card.name, ()):
+                    if (card.name, table) not in fresh:
+                        fresh[card.name, table] = True
+                        self.clear(now, card, table)
+        touched = {}
+        for card in cards:
+            if card.name in State.TABLES:
+                self.read(card, now, touched, time, time + period)
+            elif card.name not in QUIET:
+                self.others.append(card)
+        self.states.append(now)
+        return now, time + period
+
+    def clear(self, now, card, table):
+        own = getattr(now, table)
+        if table in ("pressures", "tractions"):  # *DLOAD and *DSLOAD share tables, but each forgets its own
+            for key in [k for k, e in own.items() if e.card.name == card.name]:
+                del own[key]
+        else:
+            own.clear()
+
+    def read(self, card, now, touched, begin, end):
+        factor = 1.0
+        for key in ("USER", "SUBMODEL", "SECTOR", "LOADCASE", "REGION", "TIMEDELAY", "FILE", "MASSFLOW", "BCASE", "FIXEDDOF"):
+            if key in card.parameters and not (key in ("LOADCASE", "SECTOR") and card.get(key) == "1"):
+                self.model.leave_out(card, f"{key} is not understood")
+                return
+        if card.get("AMPLITUDE"):
+            course = self.amplitudes.of(card, begin, end)
+            if course is None:
+                self.model.leave_out(card, f'the amplitude "{card.get("AMPLITUDE")}" is no table')
+                return
+            factor = course[1]
+            if not course[2] or abs(course[0]) > 0:
+                self.bent.append(card)
+        if card.name == "BOUNDARY":
+            self.read_supports(card, now, touched, factor)
+        elif card.name == "CLOAD":
+            self.read_forces(card, now, touched, factor)
+        elif card.name == "TEMPERATURE":
+            self.read_temperatures(card, now.temperatures, factor)
+        elif card.name == "DLOAD":
+            self.read_distributed(card, now, touched, factor)
+        elif card.name == "DSLOAD":
+            self.read_surface_loads(card, now, touched, factor)
+
+    @staticmethod
+    def add(table, touched, name, key, entry):
+        """Within a step loads add, from step to step the new one replaces the old one."""
+        if (name, key) in touched:
+            old = table[key]
+            value = old.value + entry.value if not isinstance(entry.value, tuple) else tuple(a + b for a, b in zip(old.value, entry.value))
+            entry = Entry(value, old.hint, entry.card, entry.line)
+        touched[name, key] = True
+        table[key] = entry
+
+    def read_supports(self, card, now, touched, factor):
+        kind = card.get("TYPE", "DISPLACEMENT").upper()
+        if kind != "DISPLACEMENT":
+            self.model.leave_out(card, f"TYPE={kind}: displacements alone are prescribed")
+            return
+        fixed = "FIXED" in card.parameters
+        for line, words in card.rows():
+            nodes = self.model.nodes_of(card, line, words[0])
+            hint = "" if is_number(words[0].split(".")[-1]) else words[0]
+            word = words[1].upper() if len(words) > 1 else ""
+            if word and not re.fullmatch(r"\d+", word):
+                if word not in FREE:
+                    raise card.error(f'expected a degree of freedom or one of {", ".join(FREE)}, found "{words[1]}"', line)
+                axes, value = FREE[word] + ((4, 5, 6) if word == "ENCASTRE" else ()), 0.0
+                if not FREE[word]:
+                    self.model.leave_out(card, f"{word} concerns pipes and shells", line)
+            else:
+                first = card.number(words[1], line) if word else 1
+                last = card.number(words[2], line) if len(words) > 2 and words[2] else first if word else 3
+                axes = range(first, last + 1)
+                value = factor * card.value(words[3] if len(words) > 3 else "", line, 0.0)
+            for node in nodes:
+                if node in self.special:
+                    if fixed:
+                        now.locked.add(node)
+                        now.forces.pop((node, 1), None)
+                        continue
+                elif fixed:
+                    self.model.leave_out(card, "FIXED: a node is held where it is, which the deck can do for tightened bolts alone", line)
+                    break
+                for axis in axes:
+                    old = now.supports.get((node, axis))
+                    before = old.hints if old is not None and old.value == value else ()
+                    now.supports[node, axis] = Entry(value, hint, card, line, tuple(dict.fromkeys((*before, hint))))
+
+    def read_forces(self, card, now, touched, factor):
+        if "FOLLOWER" in card.parameters:
+            self.model.leave_out(card, "FOLLOWER: forces keep their direction")
+        for line, words in card.rows():
+            if len(words) < 2:
+                raise card.error("expected a node or a set, a direction and a value", line)
+            hint = "" if is_number(words[0].split(".")[-1]) else words[0]
+            axis = card.number(words[1], line)
+            value = factor * card.value(words[2] if len(words) > 2 else "", line, 0.0)
+            for node in self.model.nodes_of(card, line, words[0]):
+                self.add(now.forces, touched, "force", (node, axis), Entry(value, hint, card, line))
+                if node in self.special:
+                    now.locked.discard(node)
+
+    def read_temperatures(self, card, table, factor):
+        for line, words in card.rows():
+            if len(words) < 2:
+                raise card.error("expected a node or a set and a temperature", line)
+            if len(words) > 2:
+                self.model.leave_out(card, "gradients over the thickness belong to shells and beams", line)
+            for node in self.model.nodes_of(card, line, words[0]):
+                table[node] = Entry(factor * card.value(words[1], line), words[0], card, line)
+
+    def read_distributed(self, card, now, touched, factor):
+        for line, words in card.rows():
+            if len(words) < 2:
+                raise card.error("expected an element or a set, the label of a load and a value", line)
+            label = words[1].upper()
+            if label == "GRAV":
+                numbers = [card.value(w, line, 0.0) for w in words[2:6]] + [0.0] * (6 - len(words))
+                length = sum(g * g for g in numbers[1:]) ** 0.5
+                if length == 0:
+                    raise card.error("GRAV needs a direction", line)
+                vector = tuple(factor * numbers[0] * g / length for g in numbers[1:])
+                of = self.model.elements_of(card, line, words[0]) if words[0] else range(len(self.model.elements))
+                for e in of:
+                    self.add(now.accelerations, touched, "gravity", e, Entry(vector, words[0], card, line))
+            elif re.fullmatch(r"P\d?", label):
+                value = factor * card.value(words[2] if len(words) > 2 else "", line, 0.0)
+                hint = "" if is_number(words[0].split(".")[-1]) else f"{words[0]}_{label}"
+                for e in self.model.elements_of(card, line, words[0]):
+                    if not self.model.elements[e].shape:
+                        self.model.leave_out(card, f"element {self.model.elements[e].number} is no solid", line)
+                        continue
+                    if label == "P":
+                        raise card.error("a pressure on a solid needs the number of its face: P1, P2, ...", line)
+                    face = (e, self.model.face_number(card, line, e, label))
+                    self.add(now.pressures, touched, "pressure", face, Entry(value, hint, card, line))
+            else:
+                self.model.leave_out(
+                    card, f"{label}: the deck has pressures, tractions and uniform accelerations", line, keyword=f"*DLOAD, {label}"
+                )
+
+    def read_surface_loads(self, card, now, touched, factor):
+        for line, words in card.rows():
+            label = words[1].upper() if len(words) > 1 else ""
+            if label not in ("P", "TRVEC"):
+                self.model.leave_out(
+                    card, f"{label}: the deck has pressures and tractions along one vector", line, keyword=f"*DSLOAD, {label}"
+                )
+                continue
+            surface = self.model.surface(card, line, words[0])
+            value = factor * card.value(words[2] if len(words) > 2 else "", line, 0.0)
+            if surface.nodal:
+                raise card.error(f'the surface "{words[0]}" is one of nodes', line)
+            if label == "TRVEC":
+                direction = [card.value(w, line, 0.0) for w in words[3:6]] + [0.0] * (6 - len(words))
+                length = sum(g * g for g in direction) ** 0.5
+                if length == 0:
+                    raise card.error("TRVEC needs a direction", line)
+                value = tuple(value * g / length for g in direction)
+                if card.get("FOLLOWER", "YES").upper() != "NO":
+                    self.model.note(card, "the traction keeps its direction", line)
+            table, name = (now.pressures, "pressure") if label == "P" else (now.tractions, "traction")
+            for face in self.model.sides_of_surface(surface):
+                self.add(table, touched, name, face, Entry(value, words[0], card, line))

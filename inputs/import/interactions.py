@@ -1,0 +1,170 @@
+"""Contact: surface interactions, contact pairs, ties, cyclic symmetry."""
+
+import numpy as np
+
+CARDS = {
+    "CONTACTPAIR",
+    "SURFACEINTERACTION",
+    "SURFACEBEHAVIOR",
+    "FRICTION",
+    "CLEARANCE",
+    "TIE",
+    "CYCLICSYMMETRYMODEL",
+    "CONTACT",
+    "CONTACTINCLUSIONS",
+    "CONTACTPROPERTYASSIGNMENT",
+    "GAPCONDUCTANCE",
+    "GAPHEATGENERATION",
+    "CONTACTDAMPING",
+}
+
+
+class Interactions:
+    def __init__(self, model):
+        self.model = model
+        self.laws, self.contacts = {}, []
+        self.clearances, self.cyclic = {}, {}
+        current = None
+        for card in model.cards:
+            if card.name == "SURFACEINTERACTION":
+                current = self.laws.setdefault(card.need("NAME").upper(), {})
+            elif card.name in ("SURFACEBEHAVIOR", "FRICTION", "GAPCONDUCTANCE", "GAPHEATGENERATION", "CONTACTDAMPING"):
+                if current is None:
+                    model.leave_out(card, "stands outside of a *SURFACE INTERACTION")
+                else:
+                    self.read_law(card, current)
+            elif card.name == "CLEARANCE":
+                self.read_clearance(card)
+            elif card.name == "CYCLICSYMMETRYMODEL":
+                self.read_cyclic(card)
+        for card in model.cards:
+            if card.name == "CONTACTPAIR":
+                self.read_pair(card)
+            elif card.name == "TIE":
+                self.read_tie(card)
+        self.read_general()
+
+    def read_law(self, card, law):
+        if card.name in ("GAPCONDUCTANCE", "GAPHEATGENERATION", "CONTACTDAMPING"):
+            self.model.note(card, "without influence on a static equilibrium at given temperatures")
+            return
+        if card.name == "FRICTION":
+            rows = card.rows()
+            if "ROUGH" in card.parameters:
+                self.model.leave_out(card, "ROUGH: the deck has Coulomb's law; what never slips is bonded there")
+                return
+            if card.get("TAUMAX") or "ANISOTROPIC" in card.parameters or "USER" in card.parameters:
+                self.model.leave_out(card, "TAUMAX, ANISOTROPIC and USER: the deck has Coulomb's law with one coefficient")
+            if not rows or not rows[0][1]:
+                return
+            law["friction"] = card.value(rows[0][1][0], rows[0][0])
+            if len(rows) > 1:
+                self.model.leave_out(card, "a coefficient that depends on pressure, rate or temperature; the first line is taken")
+            if "EXPONENTIALDECAY" in card.parameters:
+                self.model.leave_out(card, "EXPONENTIAL DECAY: the static coefficient is taken")
+            return
+        kind = card.get("PRESSURE-OVERCLOSURE", "HARD").upper()
+        if kind == "TIED":
+            law["bonded"] = True
+        if "NOSEPARATION" in card.parameters:
+            self.model.leave_out(card, "NO SEPARATION: the sides may part in the deck")
+        if kind in ("LINEAR", "EXPONENTIAL", "TABULAR", "TIED"):
+            self.model.note(card, f"PRESSURE-OVERCLOSURE={kind}: sides in contact do not overlap at all, instead of by a penalty")
+        elif kind != "HARD":
+            self.model.leave_out(card, f"PRESSURE-OVERCLOSURE={kind}: sides in contact do not overlap")
+
+    def read_clearance(self, card):
+        key = (card.get("SLAVE").upper(), card.get("MASTER").upper())
+        if not card.get("VALUE") or not all(key):
+            self.model.leave_out(card, "expected SLAVE=, MASTER= and VALUE=")
+            return
+        value = card.value(card.get("VALUE"), card.line)
+        if value < 0:
+            self.model.leave_out(card, "a negative clearance: say it by `interference` of the contact")
+        else:
+            self.clearances[key] = (value, card)
+
+    def read_cyclic(self, card):
+        rows = card.rows()
+        numbers = [card.value(w, line, 0.0) for line, words in rows[:1] for w in words]
+        if len(numbers) != 6:
+            raise card.error("expected two points on the axis")
+        start, end = np.array(numbers[:3]), np.array(numbers[3:])
+        n = card.number(card.need("N"), card.line)
+        self.cyclic[card.get("TIE").upper()] = {"axis": (end - start).tolist(), "angle": f"360/{n}", "center": start.tolist()}
+
+    def pair(self, card, line, words):
+        if len(words) < 2:
+            if len(words) == 1:
+                self.model.leave_out(card, "a surface in contact with itself", line)
+                return None
+            raise card.error("expected the slave and the master surface", line)
+        return {"card": card, "line": line, "secondary": words[0], "primary": words[1]}
+
+    def read_pair(self, card):
+        name = card.need("INTERACTION").upper()
+        if name not in self.laws:
+            raise card.error(f'there is no *SURFACE INTERACTION "{card.get("INTERACTION")}"')
+        law = self.laws[name]
+        for line, words in card.rows():
+            contact = self.pair(card, line, words)
+            if contact is None:
+                continue
+            adjust = card.get("ADJUST")
+            if adjust:
+                try:
+                    value = card.value(adjust, card.line)
+                except Exception:
+                    self.model.leave_out(card, f'ADJUST={adjust}: nodes of a set are not moved; "adjust" of the contact is a length')
+                else:
+                    contact["adjust"] = value
+            clearance = self.clearances.pop((words[0].upper(), words[1].upper()), None)
+            if clearance:
+                contact["clearance"] = clearance[0]
+            if law.get("bonded") or "TIED" in card.parameters:
+                contact["friction"] = {"bonded": True}
+            elif law.get("friction"):
+                contact["friction"] = {"coulomb": law["friction"]}
+            self.contacts.append(contact)
+
+    def read_tie(self, card):
+        cyclic = "CYCLICSYMMETRY" in card.parameters
+        if "MULTISTAGE" in card.parameters or "FLUIDPERIODIC" in card.parameters:
+            self.model.leave_out(card, "MULTISTAGE and FLUID PERIODIC")
+            return
+        for line, words in card.rows():
+            contact = self.pair(card, line, words)
+            if contact is None:
+                continue
+            contact["name"], contact["friction"] = card.get("NAME"), {"bonded": True}
+            if cyclic:
+                found = self.cyclic.get(card.get("NAME").upper()) or self.cyclic.get("")
+                if found is None:
+                    self.model.leave_out(card, "has no *CYCLIC SYMMETRY MODEL", line)
+                    continue
+                contact["cyclic"] = found
+            else:
+                contact["tied"] = True
+                if card.get("POSITIONTOLERANCE"):
+                    contact["tolerance"] = card.value(card.get("POSITIONTOLERANCE"), card.line)
+            self.contacts.append(contact)
+
+    def read_general(self):
+        """*CONTACT with all exterior faces: the entry that finds contacts."""
+        for card in [c for c in self.model.cards if c.name == "CONTACTINCLUSIONS"]:
+            if "ALLEXTERIOR" not in card.parameters:
+                for line, words in card.rows():
+                    contact = self.pair(card, line, words)
+                    if contact:
+                        self.contacts.append(contact)
+                continue
+            entry = {"card": card, "line": card.line, "auto": True}
+            for other in [c for c in self.model.cards if c.name == "CONTACTPROPERTYASSIGNMENT"]:
+                rows = other.rows()
+                if len(rows) == 1 and len(rows[0][1]) == 3 and not any(rows[0][1][:2]) and rows[0][1][2].upper() in self.laws:
+                    friction = self.laws[rows[0][1][2].upper()].get("friction")
+                    if friction:
+                        entry["friction"] = {"coulomb": friction}
+                else:
+                    self.model.leave_out(other, "expected one line that is meant for all surfaces")
+            self.contacts.append(entry)

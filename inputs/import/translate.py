@@ -1,0 +1,901 @@
+"""From a model and its history to a deck: what the sections of the deck say, and the boundaries that they name."""
+
+import numpy as np
+
+import history
+import interactions
+import materials
+import pretension
+from bodies import Bodies, clean, unique
+from model import rotated
+from reader import InputError
+
+AXES = ("x", "y", "z")
+MODEL_CARDS = {"SOLIDSECTION", "AMPLITUDE", "BOUNDARY", "INITIALCONDITIONS", "PRE-TENSIONSECTION", "ORIENTATION", "SURFACE"}
+COUPLINGS = {"COUPLING", "DISTRIBUTING", "KINEMATIC", "DISTRIBUTINGCOUPLING", "RIGIDBODY"}
+SAME_FORCES = 1e-3  # of the largest one: how far forces on nodes may be from those of a uniform traction
+
+
+class Translation:
+    def __init__(self, model, schema, title):
+        self.model, self.schema = model, schema
+        self.boundaries, self.names = {}, set()
+        self.deck = {"title": title}
+        self.materials, done = materials.read_materials(model)
+        of, thickness, used = materials.read_sections(model, self.materials)
+        for e in model.elements:
+            if not e.shape:
+                model.leave_out(e.card, f"elements of type {e.type}: the deck has solids alone")
+        self.drop_repeated()
+        self.without_section(of)
+        solid = [i for i, e in enumerate(model.elements) if e.shape and i in of]
+        self.sections = pretension.apply(model, solid)
+        self.bodies = Bodies(model, of)
+        self.plane = self.bodies.dimension != "3"
+        self.axes = 2 if self.plane else 3
+        self.set_thickness(of, thickness)
+        self.report_hinges()
+        self.couplings = self.find_couplings()
+        special = set(self.sections) | set(self.couplings)
+        self.history = history.History(model, special)
+        self.interactions = interactions.Interactions(model)
+        self.transforms = self.read_transforms()
+        self.used = used
+        self.surfaces()
+        self.supports, self.loads, self.contacts = [], [], []
+        self.make_supports()
+        self.make_forces()
+        self.make_face_loads("pressures", "pressure")
+        self.make_face_loads("tractions", "traction")
+        self.make_accelerations()
+        self.make_temperatures()
+        self.make_contacts()
+        self.make_preloads()
+        self.make_coupled()
+        self.report_rest(done)
+        self.assemble()
+
+    # What the file holds beside the mesh.
+    def drop_repeated(self):
+        """One finding for each card, not for each element."""
+        seen, kept = set(), []
+        for f in self.model.findings:
+            key = (f.file, f.line, f.reason)
+            if key not in seen:
+                seen.add(key)
+                kept.append(f)
+        self.model.findings[:] = kept
+
+    def without_section(self, of):
+        lost = {}
+        for i, e in enumerate(self.model.elements):
+            if e.shape and i not in of:
+                lost.setdefault(id(e.card), (e.card, []))[1].append(e.number)
+        for card, numbers in lost.values():
+            self.model.leave_out(card, f"{len(numbers)} elements, the first of which is {numbers[0]}, have no *SOLID SECTION")
+
+    def set_thickness(self, of, thickness):
+        self.thickness = 1.0
+        if self.bodies.dimension not in ("plane_strain", "plane_stress"):
+            return
+        values = {thickness[i] for i in self.bodies.solid}
+        self.thickness = max(values)
+        if len(values) > 1:
+            card = self.model.elements[self.bodies.solid[0]].card
+            self.model.leave_out(
+                card, f"sections of different thickness ({', '.join(f'{v:g}' for v in sorted(values))}): the deck has one, 1"
+            )
+
+    def report_hinges(self):
+        for (a, b), nodes in self.bodies.shared_nodes().items():
+            first, second = self.bodies.bodies[a], self.bodies.bodies[b]
+            element = self.model.elements[second.elements[0]]
+            self.model.leave_out(
+                element.card,
+                f'"{first.name}" and "{second.name}" share {len(nodes)} nodes but no face: in the deck they are apart',
+                element.line,
+            )
+
+    def read_transforms(self):
+        """Nodes with axes of their own."""
+        result = {}
+        for card in [c for c in self.model.cards if c.name == "TRANSFORM"]:
+            for n in self.model.nodes_of(card, card.line, card.need("NSET")):
+                result[n] = card
+        return result
+
+    def report_rest(self, done):
+        known = history.QUIET | interactions.CARDS | MODEL_CARDS | {"TRANSFORM"}
+        for card in self.model.cards:
+            if id(card) in done or card.name in known or card.name in COUPLINGS and id(card) in self.coupling_cards:
+                continue
+            self.leave_out(card)
+        for card in self.history.others:
+            self.leave_out(card)
+        for card in [c for c in self.model.cards if c.name == "TRANSFORM"]:
+            self.model.note(card, "axes of nodes matter for supports and forces alone, which are listed where they have them")
+        for value, card in self.interactions.clearances.values():
+            self.model.leave_out(card, "there is no *CONTACT PAIR of these surfaces")
+        if not self.model.steps:
+            self.model.leave_out(
+                self.model.cards[-1] if self.model.cards else self.model.elements[0].card,
+                "the file has no *STEP: the deck has no loads",
+                keyword="end of the file",
+            )
+        elif not self.history.states:
+            self.model.leave_out(self.model.steps[0][0], "no step of the file is *STATIC: the deck has no loads")
+        if self.history.bent and any("coulomb" in c.get("friction", {}) for c in self.contacts):
+            for card in self.history.bent:
+                self.model.leave_out(
+                    card, "AMPLITUDE: with friction the way matters; the deck goes straight to the value at the end of the step"
+                )
+        for e in self.used:
+            material = self.materials[e]
+            shapes = {self.model.elements[i].shape for i in self.bodies.solid}
+            if material["poisson_ratio"] >= 0.45 and shapes & {"hex8", "quad4", "prism6"}:
+                self.model.note(
+                    material["card"],
+                    f'nearly incompressible: Abaqus averages volumes in such cells; `formulation: bbar` of the bodies of "{material["name"]}" does so',
+                )
+
+    REASONS = {
+        "EQUATION": "the deck has no equations between displacements",
+        "MPC": "the deck has no equations between displacements",
+        "COUPLING": "the deck has no couplings to a point",
+        "KINEMATIC": "the deck has no couplings to a point",
+        "DISTRIBUTING": "the deck has no couplings to a point",
+        "DISTRIBUTINGCOUPLING": "the deck has no couplings to a point",
+        "RIGIDBODY": "the deck has no rigid bodies but obstacles of contacts",
+        "EMBEDDEDELEMENT": "the deck has no embedded elements",
+        "MODELCHANGE": "contacts and elements of the deck are there in every step",
+        "CHANGEFRICTION": "the deck has one law a contact for all steps",
+        "FRICTION": "belongs to *CHANGE FRICTION",
+        "SURFACEBEHAVIOR": "belongs to *CHANGE SURFACE BEHAVIOR",
+        "CHANGESURFACEBEHAVIOR": "the deck has one law a contact for all steps",
+        "CHANGEMATERIAL": "materials do not change",
+        "CONTACTINTERFERENCE": "overlaps act in every step; say it by `interference` of the contact and its factors in `steps`",
+        "PRE-TENSIONSECTION": "",
+        "CFLUX": "there is no flow of heat",
+        "DFLUX": "there is no flow of heat",
+        "FILM": "there is no flow of heat",
+        "RADIATE": "there is no flow of heat",
+        "GAP": "the deck has contact of surfaces alone",
+    }
+
+    def leave_out(self, card):
+        if card.name in materials.OTHER_SECTIONS:
+            self.model.leave_out(card, "the deck has solids alone")
+        elif card.name in ("CFLUX", "DFLUX", "FILM", "RADIATE", "VIEWFACTOR", "COUPLEDHEAT"):
+            self.model.note(card, "without influence on a static equilibrium at given temperatures")
+        elif card.name in history.HARMLESS:
+            self.model.note(card, "without influence on a static equilibrium")
+        else:
+            self.model.leave_out(card, self.REASONS.get(card.name, "the deck has nothing like it, or this program does not know it"))
+
+    # Boundaries.
+    def add_boundary(self, name, keys):
+        """A name for these faces: that of a boundary that has them already, or a new one like `name`."""
+        keys = tuple(sorted(set(keys)))
+        for known, faces in self.boundaries.items():
+            if faces == keys:
+                return known
+        name = unique(clean(name), self.names)
+        self.boundaries[name] = keys
+        return name
+
+    def expand(self, sides):
+        """Outer faces of sides; (element, None) are all of an element's."""
+        result, lost = [], 0
+        for side in sides:
+            if side[1] is None:
+                result += [key for key in self.element_faces(side[0]) if key in self.bodies.outer]
+            elif side in self.bodies.outer:
+                result.append(side)
+            else:
+                lost += 1
+        return sorted(set(result)), lost
+
+    def element_faces(self, e):
+        return [(e, f) for f in range(6)]
+
+    def surfaces(self):
+        """Those of the file that are outer faces become boundaries, under their names."""
+        inner = {id(s["card"]): s for s in self.sections.values()}
+        cuts = {c["name"].upper() for c in inner.values()}
+        for scope in (self.model.assembly, *self.model.instances.values()):
+            for surface in scope.surfaces.values():
+                if surface.name.upper() in cuts:
+                    continue
+                keys, lost = self.expand(self.model.sides_of_surface(surface))
+                if keys and not lost:
+                    self.add_boundary(f"{scope.name}.{surface.name}" if scope.name else surface.name, keys)
+
+    def faces_of(self, card, line, name):
+        """Boundary of a surface that a contact names, or None; node surfaces are the faces between their nodes."""
+        surface = self.model.surface(card, line, name)
+        if surface.nodal:
+            nodes = self.with_copies(self.model.nodes_of_surface(surface))
+            keys = self.bodies.faces_within(nodes)
+            lost = set(nodes) - {n for key in keys for n in self.bodies.nodes(key)}
+            if not keys:
+                self.model.leave_out(card, f'the nodes of the surface "{name}" hold no whole face of a body', line)
+                return None
+            if lost:
+                self.model.leave_out(
+                    card, f'{len(lost)} of the {len(nodes)} nodes of the surface "{name}" belong to no face that it holds', line
+                )
+        else:
+            keys, lost = self.expand(self.model.sides_of_surface(surface))
+            if not keys:
+                self.model.leave_out(card, f'the surface "{name}" has no outer face of a solid', line)
+                return None
+            if lost:
+                self.model.leave_out(card, f'{lost} faces of the surface "{name}" are no outer faces of a solid', line)
+        return self.add_boundary(name, keys)
+
+    def with_copies(self, nodes):
+        copies = getattr(self.model, "copies", {})
+        return list(nodes) + [copies[n] for n in nodes if n in copies]
+
+    # Items of the deck with their values over the steps.
+    def series(self, table):
+        """key -> (values over the states or None where it does not act, the entry that says most)."""
+        result = {}
+        states = self.history.states
+        for s, state in enumerate(states):
+            for key, entry in getattr(state, table).items():
+                values, _ = result.setdefault(key, ([None] * len(states), entry))
+                values[s] = entry.value
+                result[key] = (values, entry)
+        return result
+
+    @staticmethod
+    def largest(values):
+        return max((v for v in values if v is not None), key=abs)
+
+    def name_of(self, wanted):
+        self.item_names = getattr(self, "item_names", set())
+        return unique(wanted, self.item_names)
+
+    # Supports.
+    def make_supports(self):
+        in_body = set().union(*(self.bodies.nodes_of_body(b) for b in range(len(self.bodies.bodies))))
+        groups, odd = {}, {}
+        copies = getattr(self.model, "copies", {})
+        for (node, axis), (values, entry) in self.series("supports").items():
+            if node in self.sections or node in self.couplings:
+                continue
+            if node not in in_body:
+                odd.setdefault((id(entry.card), entry.line, "nodes that belong to no solid: nothing is held there", False), entry)
+                continue
+            if axis > self.axes:
+                if axis == 3 and any(values):
+                    odd.setdefault((id(entry.card), entry.line, "a displacement out of the plane", True), entry)
+                elif axis == 11:
+                    odd.setdefault((id(entry.card), entry.line, "a temperature is no unknown here", False), entry)
+                elif axis > 6:
+                    odd.setdefault((id(entry.card), entry.line, f"degree of freedom {axis}", True), entry)
+                elif axis > 3 and any(values):
+                    odd.setdefault((id(entry.card), entry.line, "a rotation of a solid's node", True), entry)
+                continue
+            key = (tuple(values), axis - 1)
+            group = groups.setdefault(key, {})
+            for n in (node, copies[node]) if node in copies else (node,):
+                for hint in entry.hints:
+                    group.setdefault(hint, {})[n] = entry
+        for (_, _, reason, changes), entry in odd.items():
+            self.model.leave_out(entry.card, reason, entry.line, changes=changes)
+        self.drop_transformed(groups)
+        found = {}  # (boundary, acting) -> {axis: values}
+        uncovered = {}
+        for (values, axis), by_hint in groups.items():
+            every = {n: e for entries in by_hint.values() for n, e in entries.items()}
+            covered = set()
+            rest = set(self.bodies.faces_within(every))
+            for hint, entries in by_hint.items():
+                keys = self.bodies.faces_within(entries) if hint else []
+                if keys:
+                    self.hold(found, self.add_boundary(hint, keys), axis, values)
+                    rest -= set(keys)
+                    covered |= {n for key in keys for n in self.bodies.nodes(key)}
+            if rest:
+                self.hold(found, self.add_boundary("held", sorted(rest)), axis, values)
+                covered |= {n for key in rest for n in self.bodies.nodes(key)}
+            left = {n: e for n, e in every.items() if n not in covered}
+            for n, e in left.items():
+                uncovered.setdefault((n, axis), (values, e))
+        self.report_uncovered(uncovered, found)
+        for (boundary, acting), axes in found.items():
+            displacement, factors = {}, {}
+            for axis, values in sorted(axes.items()):
+                base = self.largest(values)
+                displacement.setdefault(tuple(self.factors(values, base)), {})[AXES[axis]] = base + 0.0
+            for course, components in displacement.items():
+                name = self.name_of(boundary)
+                item = {"boundary": boundary, "displacement": components}
+                if name != boundary:
+                    item["name"] = name
+                self.supports.append((item, name, course, acting))
+
+    @staticmethod
+    def factors(values, base):
+        return [None if v is None else 1.0 if base == 0 else v / base for v in values]
+
+    @staticmethod
+    def hold(found, boundary, axis, values):
+        acting = tuple(v is not None for v in values)
+        axes = found.setdefault((boundary, acting), {})
+        if axis in axes and axes[axis] != values:
+            raise InputError(f'the boundary "{boundary}" has two displacements along {AXES[axis]}')
+        axes[axis] = values
+
+    def drop_transformed(self, groups):
+        """Supports along axes of a node's own, but where all axes are held at 0 alike."""
+        if not self.transforms:
+            return
+        held = {}
+        for (values, axis), by_hint in groups.items():
+            for entries in by_hint.values():
+                for n in entries:
+                    if n in self.transforms:
+                        held.setdefault((n, values), set()).add(axis)
+        told = set()
+        for (values, axis), by_hint in groups.items():
+            for hint, entries in by_hint.items():
+                for n in [n for n in entries if n in self.transforms]:
+                    if len(held[n, values]) < self.axes or any(values):
+                        entry = entries.pop(n)  # every set that has it forgets it
+                        if (id(entry.card), entry.line) not in told:
+                            told.add((id(entry.card), entry.line))
+                            self.model.leave_out(
+                                entry.card, "along axes of *TRANSFORM; a boundary can be held along its `normal`", entry.line
+                            )
+
+    def report_uncovered(self, uncovered, found):
+        """Nodes that are held but lie on no face that is: inside a body that is held all over they change nothing."""
+        implied = {}
+        for (boundary, acting), axes in found.items():
+            nodes = {n for key in self.boundaries[boundary] for n in self.bodies.nodes(key)}
+            for axis, values in axes.items():
+                for n in nodes:
+                    implied.setdefault((n, axis), set()).add(values)
+        surface = set(self.bodies.faces_of_node)
+        quiet = self.quiet_bodies(implied)
+        body_of = {n: b for b in range(len(self.bodies.bodies)) for n in self.bodies.nodes_of_body(b)}
+        told = {}
+        for (n, axis), (values, entry) in uncovered.items():
+            if values in implied.get((n, axis), ()) or n not in surface and body_of[n] in quiet and not any(values):
+                continue
+            told.setdefault((id(entry.card), entry.line), (entry, {}))[1].setdefault(axis, set()).add(n)
+        merged = {}
+        for entry, axes in told.values():
+            key = (id(entry.card), tuple(sorted(axes))) if not entry.hint else (id(entry.card), entry.line, entry.hint)
+            old = merged.setdefault(key, (entry, {}))[1]
+            for axis, nodes in axes.items():
+                old.setdefault(axis, set()).update(nodes)
+        for entry, axes in merged.values():
+            nodes = set().union(*axes.values())
+            x = self.model.points[min(nodes)]
+            what = f'of "{entry.hint}" ' if entry.hint else ""
+            self.model.leave_out(
+                entry.card,
+                f"{len(nodes)} node{'s' * (len(nodes) > 1)} {what}held along {', '.join(AXES[a] for a in sorted(axes))}, "
+                f"as at ({x[0]:.6g}, {x[1]:.6g}, {x[2]:.6g}), span no whole outer face: the deck holds boundaries",
+                entry.line,
+            )
+
+    def quiet_bodies(self, implied):
+        """Bodies that are held at 0 all over their surface, without weight and temperature: nothing moves inside."""
+        if any(state.accelerations or state.temperatures for state in self.history.states):
+            return set()
+        result = set()
+        zero = {tuple(0.0 for _ in self.history.states)}
+        for b in range(len(self.bodies.bodies)):
+            nodes = {n for key, of in self.bodies.outer.items() if of == b for n in self.bodies.nodes(key)}
+            if all(implied.get((n, a), set()) & zero for n in nodes for a in range(self.axes)):
+                result.add(b)
+        return result
+
+    # Forces on nodes.
+    def make_forces(self):
+        groups = {}
+        in_body = set().union(*(self.bodies.nodes_of_body(b) for b in range(len(self.bodies.bodies))))
+        for (node, axis), (values, entry) in self.series("forces").items():
+            if node in self.sections or node in self.couplings or not any(values):
+                continue
+            if node not in in_body:
+                self.model.leave_out(entry.card, "a force on a node that belongs to no solid", entry.line)
+                continue
+            if axis > self.axes:
+                self.model.leave_out(
+                    entry.card,
+                    f"degree of freedom {axis} of a solid's node has no force" if axis > 3 else "a force out of the plane",
+                    entry.line,
+                )
+                continue
+            if node in self.transforms:
+                self.model.leave_out(entry.card, "a force along axes of *TRANSFORM", entry.line)
+                continue
+            base = self.largest(values)
+            course = tuple(round(v / base, 9) if v is not None else 0.0 for v in values)
+            group = groups.setdefault((entry.hint, id(entry.card) if not entry.hint else 0, course), {})
+            group.setdefault(node, (np.zeros(3), entry))[0][axis - 1] = base
+        merged = {}
+        for (hint, card, course), forces in groups.items():
+            if not self.try_force(hint, course, forces):
+                merged.setdefault(course, []).append((hint, forces))
+        for course, parts in merged.items():
+            together = {}
+            for hint, forces in parts:
+                for n, (f, entry) in forces.items():
+                    together.setdefault(n, (np.zeros(3), entry))[0][:] += f
+            for nodes in self.patches(together):
+                if self.try_force("", course, {n: together[n] for n in nodes}):
+                    for n in nodes:
+                        del together[n]
+            for hint, forces in parts:
+                left = {n: v for n, v in forces.items() if n in together}
+                if left:
+                    self.approximate_force(hint, course, left)
+
+    def patches(self, forces):
+        """Loaded nodes that hang together by loaded faces."""
+        groups = []
+        for key in self.loaded_faces(forces):
+            nodes = {n for n in self.bodies.nodes(key) if n in forces}
+            for group in [g for g in groups if g & nodes]:
+                groups.remove(group)
+                nodes |= group
+            groups.append(nodes)
+        return groups
+
+    def loaded_faces(self, forces):
+        """Faces whose nodes with a share in a uniform traction are loaded: on triangles of second order the middle ones."""
+        keys = {key for n in forces for key in self.bodies.faces_of_node.get(n, ())}
+        result = []
+        for key in sorted(keys):
+            nodes = self.bodies.nodes(key)
+            needed = nodes[3:] if self.bodies.shape(key) == "tri6" else nodes
+            if set(needed) <= set(forces):
+                result.append(key)
+        return result
+
+    def shares(self, keys):
+        """Node -> its part of the area of faces; None where a face has no rule."""
+        shares = {}
+        for key in keys:
+            own = self.bodies.areas(key)
+            if own is None:
+                return None
+            for n, a in zip(*own):
+                shares[n] = shares.get(n, 0.0) + a
+        return shares
+
+    def try_force(self, hint, course, forces):
+        """Adds the forces if they are those of a uniform traction on whole faces."""
+        keys = self.loaded_faces(forces)
+        shares = self.shares(keys) if keys else None
+        if not shares:
+            return False
+        total = sum(f for f, _ in forces.values())
+        area = sum(shares.values())
+        largest = max(np.abs(f).max() for f, _ in forces.values())
+        for n in set(shares) | set(forces):
+            own = forces[n][0] if n in forces else np.zeros(3)
+            if np.abs(own - total * shares.get(n, 0.0) / area).max() > SAME_FORCES * largest:
+                return False
+        self.add_force(hint, course, keys, total)
+        return True
+
+    def add_force(self, hint, course, keys, total):
+        boundary = self.add_boundary(hint or "loaded", keys)
+        self.add_load({"boundary": boundary, "force": self.vector(total / self.thickness)}, f"force_{boundary}", course)
+
+    def approximate_force(self, hint, course, forces):
+        entry = next(iter(forces.values()))[1]
+        total = sum(f for f, _ in forces.values())
+        what = f"forces on {len(forces)} node{'s' * (len(forces) > 1)}{f' of {hint}' if hint else ''}, ({', '.join(f'{v:.6g}' for v in total)}) in all"
+        keys = self.loaded_faces(forces)
+        covered = {n for key in keys for n in self.bodies.nodes(key)}
+        if keys and set(forces) <= covered and np.abs(total).max() > 0:
+            self.add_force(hint, course, keys, total)
+            self.model.leave_out(
+                entry.card, f"{what}: not those of a uniform traction; the deck spreads their resultant evenly over the faces", entry.line
+            )
+        else:
+            self.model.leave_out(entry.card, f"{what}: they span no whole outer faces, and the deck has no forces on nodes", entry.line)
+
+    def vector(self, v):
+        return [float(f"{c:.12g}") + 0.0 for c in list(v)[: self.axes]]
+
+    def add_load(self, item, name, course):
+        name = self.name_of(name)
+        self.loads.append((dict(item, name=name), name, course))
+
+    # Loads on faces and bodies.
+    def make_face_loads(self, table, key):
+        groups = {}
+        for (e, face), (values, entry) in self.series(table).items():
+            if not any(np.any(v) for v in values if v is not None):
+                continue
+            course = tuple(values)
+            groups.setdefault((course, entry.hint), ([], entry))[0].append((e, face))
+        for (course, hint), (sides, entry) in groups.items():
+            keys, lost = self.expand(sides)
+            if lost:
+                self.model.leave_out(entry.card, f"{lost} loaded faces are no outer faces of a solid", entry.line)
+            if not keys:
+                continue
+            boundary = self.add_boundary(hint or "loaded", keys)
+            if key == "pressure":
+                base = self.largest(course)
+                factors = tuple(0.0 if v is None else v / base for v in course)
+                self.add_load({"boundary": boundary, key: base}, f"pressure_{boundary}", factors)
+            else:
+                self.add_vector({"boundary": boundary}, key, f"traction_{boundary}", course, entry)
+
+    def add_vector(self, item, key, name, course, entry):
+        base = max((v for v in course if v is not None), key=lambda v: np.linalg.norm(v))
+        factors = []
+        for v in course:
+            factor = 0.0 if v is None else float(np.dot(v, base) / np.dot(base, base))
+            if v is not None and np.linalg.norm(np.array(v) - factor * np.array(base)) > 1e-9 * np.linalg.norm(base):
+                for s, own in enumerate(course):  # the direction changes: one load for each step
+                    if own is not None and np.any(own):
+                        self.add_load(dict(item, **{key: self.vector(own)}), name, tuple(float(s == k) for k in range(len(course))))
+                return
+            factors.append(factor)
+        if self.plane and abs(base[2]) > 1e-12 * np.linalg.norm(base):
+            self.model.leave_out(entry.card, "a load out of the plane", entry.line)
+        self.add_load(dict(item, **{key: self.vector(base)}), name, tuple(factors))
+
+    def whole_bodies(self, series, values_of, what):
+        """(body, values, entry) of bodies all of whose members have the same; others are left out."""
+        told = set()
+        for b, body in enumerate(self.bodies.bodies):
+            members = values_of(b)
+            own = {m: series[m] for m in members if m in series}
+            acting = {m: v for m, v in own.items() if any(np.any(x) for x in v[0] if x is not None)}
+            if not acting:
+                continue
+            entry = next(iter(acting.values()))[1]
+            courses = {tuple(v[0]) for v in own.values()}
+            if len(own) == len(members) and len(courses) == 1:
+                yield body, courses.pop(), entry
+            elif (id(entry.card), entry.line, body.name) not in told:
+                told.add((id(entry.card), entry.line, body.name))
+                self.model.leave_out(entry.card, f'{what} is not the same all over the body "{body.name}"', entry.line)
+
+    def make_accelerations(self):
+        series = self.series("accelerations")
+        for body, course, entry in self.whole_bodies(series, lambda b: self.bodies.bodies[b].elements, "the acceleration"):
+            if any("density" not in self.materials[m] for m, _ in body.volumes.values()):
+                self.model.leave_out(entry.card, f'the material of "{body.name}" has no *DENSITY: no weight', entry.line, changes=False)
+                continue
+            self.add_vector({"body": body.name}, "acceleration", f"weight_{body.name}", course, entry)
+
+    def make_temperatures(self):
+        initial = {}
+        for card in [c for c in self.model.cards if c.name == "INITIALCONDITIONS"]:
+            kind = card.get("TYPE").upper()
+            if kind != "TEMPERATURE":
+                self.model.leave_out(card, f"TYPE={kind}", changes=kind not in ("VELOCITY", "FLUIDVELOCITY", "TOTALPRESSURE"))
+                continue
+            for line, words in card.rows():
+                value = card.value(words[1] if len(words) > 1 else "", line, 0.0)
+                for n in self.model.nodes_of(card, line, words[0]):
+                    initial[n] = value
+        changes = {}
+        states = self.history.states
+        for n, (values, entry) in self.series("temperatures").items():
+            base = initial.get(n, 0.0)
+            changes[n] = ([0.0 if v is None else v - base for v in values], entry)
+        if any(any(values) for values, _ in changes.values()):
+            for material in [self.materials[m] for m in self.used if not self.materials[m].get("thermal_expansion")]:
+                self.model.note(material["card"], f'"{material["name"]}" has no *EXPANSION: its temperature changes nothing')
+        expanding = {
+            b
+            for b, body in enumerate(self.bodies.bodies)
+            if any(self.materials[m].get("thermal_expansion") for m, _ in body.volumes.values())
+        }
+        of_body = {b: [n for n in self.bodies.nodes_of_body(b)] for b in expanding}
+        for n in list(changes):
+            if not any(changes[n][0]):
+                changes[n] = ([0.0] * len(states), changes[n][1])
+        for n in set().union(*of_body.values()) if of_body else ():
+            if n not in changes and changes:
+                changes[n] = ([0.0] * len(states), next(iter(changes.values()))[1])
+        for body, course, entry in self.whole_bodies(changes, lambda b: of_body.get(b, []), "the change of temperature"):
+            base = self.largest(course)
+            self.add_load({"body": body.name, "temperature_change": base}, f"warmth_{body.name}", tuple(v / base for v in course))
+
+    # Contacts.
+    def make_contacts(self):
+        for contact in self.interactions.contacts:
+            card, line = contact["card"], contact["line"]
+            item = {}
+            if contact.get("auto"):
+                item["auto"] = True
+                sides = None
+            else:
+                sides = [self.faces_of(card, line, contact[side]) for side in ("secondary", "primary")]
+                if None in sides:
+                    continue
+                item["secondary"], item["primary"] = sides
+            own = [{self.bodies.outer[key] for key in self.boundaries[s]} for s in sides] if sides else [set(), set()]
+            if own[0] & own[1] and "cyclic" not in contact:
+                names = ", ".join(self.bodies.bodies[b].name for b in sorted(own[0] & own[1]))
+                self.model.leave_out(card, f"both sides belong to one body ({names}): bodies of the deck do not touch themselves", line)
+                continue
+            if contact.get("name"):
+                item["name"] = self.name_of(clean(contact["name"]))
+            if contact.get("adjust") == 0:
+                self.model.note(card, "ADJUST=0: Abaqus removes initial overlaps, the deck takes them as they are", line)
+                del contact["adjust"]
+            for key in ("friction", "cyclic", "adjust", "clearance"):
+                if key in contact:
+                    item[key] = contact[key]
+            if contact.get("tied"):
+                if contact.get("tolerance"):
+                    item["search_distance"] = contact["tolerance"]
+            elif "cyclic" in contact:
+                item["cyclic"] = self.turned_right(contact["cyclic"], sides)
+            elif sides:
+                distance = self.far_apart(sides)
+                if distance:
+                    item["search_distance"] = distance
+            self.contacts.append(item)
+
+    def turned_right(self, cyclic, sides):
+        """The turn brings the primary side to the secondary one."""
+        secondary, primary = (
+            np.mean([self.model.points[n] for key in self.boundaries[s] for n in self.bodies.nodes(key)], axis=0) for s in sides
+        )
+        angle = 360 / int(cyclic["angle"].split("/")[1])
+        line = [*cyclic["center"], *np.add(cyclic["center"], cyclic["axis"])]
+        off = [np.linalg.norm(rotated(primary[None], [*line, sign * angle])[0] - secondary) for sign in (1, -1)]
+        result = dict(cyclic, angle=cyclic["angle"] if off[0] <= off[1] else "-" + cyclic["angle"])
+        if self.plane:
+            if abs(cyclic["axis"][2]) < 0.99 * np.linalg.norm(cyclic["axis"]):
+                raise InputError("a cyclic plane model turns about z")
+            result["center"] = cyclic["center"][:2]
+        return result
+
+    def far_apart(self, sides):
+        """Twice the gap of two sides that are farther apart than the deck's own search distance, else None."""
+        a, b = (np.array([self.model.points[n] for n in {n for key in self.boundaries[s] for n in self.bodies.nodes(key)}]) for s in sides)
+        reach = 0.1 * min(np.ptp(a, axis=0).max(), np.ptp(b, axis=0).max())
+        box = max(np.maximum(b.min(axis=0) - a.max(axis=0), a.min(axis=0) - b.max(axis=0)).max(), 0.0)
+        return float(f"{2 * box:.3g}") if box > 0.5 * reach else None
+
+    # Bolts.
+    def make_preloads(self):
+        states = self.history.states
+        for node, section in self.sections.items():
+            card = section["card"]
+            sides = []
+            for side, tail in (("secondary", "cut_1"), ("primary", "cut_2")):
+                keys, lost = self.expand(section[side])
+                if lost:
+                    raise card.error("the cut is not whole")
+                sides.append(self.add_boundary(f"{section['name']}_{tail}", keys))
+            own = [{self.bodies.outer[key] for key in self.boundaries[s]} for s in sides]
+            item = {"name": self.name_of(clean(section["name"])), "secondary": sides[0], "primary": sides[1], "friction": {"bonded": True}}
+            forces = [s.forces[node, 1].value if (node, 1) in s.forces else None for s in states]
+            lengths = [s.supports[node, 1].value if (node, 1) in s.supports else None for s in states]
+            if own[0] & own[1]:
+                self.model.leave_out(card, "the surface does not cut a bolt in two bodies: a bolt of the deck is two bodies")
+                self.contacts.append(item)
+                continue
+            for s in states:
+                for n, axis in [*s.forces, *s.supports]:
+                    if n == node and axis != 1:
+                        self.model.leave_out(card, "a shear of the section", changes=False)
+            if any(forces):
+                base = self.largest(forces)
+                if base < 0:
+                    self.model.leave_out(card, "a compression: the deck's preload is a tension")
+                    self.contacts.append(item)
+                    continue
+                item["preload"] = {"force": base / self.thickness}
+                item["course"] = [
+                    None if k > 0 and (f is None or node in states[k].locked) else (f or 0.0) / base for k, f in enumerate(forces)
+                ]
+                for k, value in enumerate(lengths):
+                    if value is not None and forces[k] is None:
+                        self.model.leave_out(
+                            states[k].supports[node, 1].card,
+                            "a bolt that is tightened by a force first, then by a length: it keeps its length",
+                            states[k].supports[node, 1].line,
+                            changes=value != 0,
+                        )
+            elif any(lengths):
+                base = self.largest(lengths)
+                item["preload"] = {"shortening": base}
+                item["course"] = [None if v is None else v / base for v in lengths]
+            else:
+                self.model.note(card, "is not tightened: the two sides are bonded")
+            self.contacts.append(item)
+
+    # Couplings to points.
+    def find_couplings(self):
+        """Reference node -> {name, nodes, kind, card}; empty if the deck has no couplings. Sets coupling_cards."""
+        self.coupling_cards = set()
+        if "couplings" not in self.schema.get("properties", {}):
+            return {}
+        result, open_one = {}, None
+        for card in self.model.cards:
+            if card.name == "COUPLING":
+                node = self.model.nodes_of(card, card.line, card.need("REFNODE"))[0]
+                surface = self.model.surface(card, card.line, card.need("SURFACE"))
+                open_one = {
+                    "name": card.get("CONSTRAINTNAME") or "coupling",
+                    "surface": surface,
+                    "kind": "rigid",
+                    "card": card,
+                    "node": node,
+                }
+                result[node] = open_one
+                self.coupling_cards.add(id(card))
+            elif card.name in ("KINEMATIC", "DISTRIBUTING") and open_one:
+                self.coupling_cards.add(id(card))
+                open_one["kind"] = "rigid" if card.name == "KINEMATIC" else "distributing"
+                axes = {a for line, words in card.rows() for a in range(card.number(words[0], line), card.number(words[-1], line) + 1)}
+                if axes and not {1, 2, 3} <= axes:
+                    self.model.leave_out(card, "a coupling of some directions alone: all are coupled")
+            elif card.name == "RIGIDBODY" and card.get("REFNODE") and (card.get("NSET") or card.get("ELSET")):
+                node = self.model.nodes_of(card, card.line, card.get("REFNODE"))[0]
+                if card.get("NSET"):
+                    nodes = self.model.nodes_of(card, card.line, card.get("NSET"))
+                else:
+                    nodes = [n for e in self.model.elements_of(card, card.line, card.get("ELSET")) for n in self.model.elements[e].nodes]
+                result[node] = {"name": card.get("NSET") or card.get("ELSET"), "nodes": nodes, "kind": "rigid", "card": card, "node": node}
+                if card.get("ROTNODE"):
+                    turn = self.model.nodes_of(card, card.line, card.get("ROTNODE"))[0]
+                    result[turn] = {"rotation_of": node, "card": card}
+                self.coupling_cards.add(id(card))
+            else:
+                open_one = None
+        return result
+
+    def make_coupled(self):
+        self.deck_couplings = {}
+        names = {}
+        for node, coupling in self.couplings.items():
+            if "rotation_of" in coupling:
+                continue
+            card = coupling["card"]
+            if "surface" in coupling:
+                boundary = self.faces_of(card, card.line, coupling["surface"].name)
+            else:
+                nodes = [n for n in dict.fromkeys(coupling["nodes"]) if n != node]
+                keys = self.bodies.faces_within(nodes)
+                lost = {n for n in nodes if n in self.bodies.faces_of_node} - {n for key in keys for n in self.bodies.nodes(key)}
+                boundary = self.add_boundary(coupling["name"], keys) if keys else None
+                if not keys or lost:
+                    self.model.leave_out(card, f"{len(lost) or 'the'} nodes of the rigid body span no whole outer face")
+            if boundary is None:
+                continue
+            name = unique(clean(coupling["name"]), self.names)
+            names[node] = name
+            self.deck_couplings[name] = {"boundary": boundary, "point": self.vector(self.model.points[node]), "kind": coupling["kind"]}
+        turns = {n: c["rotation_of"] for n, c in self.couplings.items() if "rotation_of" in c}
+        self.coupled_loads(names, turns)
+        self.coupled_supports(names, turns)
+
+    def coupled_loads(self, names, turns):
+        groups = {}
+        for (node, axis), (values, entry) in self.series("forces").items():
+            owner = turns.get(node, node)
+            if owner in names and any(values):
+                kind, a = ("moment", axis - 1 if node in turns else axis - 4) if node in turns or axis > 3 else ("force", axis - 1)
+                base = self.largest(values)
+                course = tuple((v or 0.0) / base for v in values)
+                groups.setdefault((owner, course), {}).setdefault(kind, np.zeros(3))[a] = base
+        for (owner, course), parts in groups.items():
+            item = {"coupling": names[owner]}
+            for kind, vector in parts.items():
+                item[kind] = self.vector(vector) if kind == "force" or not self.plane else [float(vector[2])]
+            self.add_load(item, f"load_{names[owner]}", course)
+
+    def coupled_supports(self, names, turns):
+        groups = {}
+        for (node, axis), (values, entry) in self.series("supports").items():
+            owner = turns.get(node, node)
+            if owner not in names:
+                continue
+            rotation = node in turns or axis > 3
+            a = axis - 1 if node in turns or axis <= 3 else axis - 4
+            if self.plane and ((a == 2) != rotation):
+                continue
+            base = self.largest(values)
+            course = tuple(self.factors(values, base))
+            key = (owner, course, tuple(v is not None for v in values))
+            groups.setdefault(key, {}).setdefault("rotation" if rotation else "displacement", {})[AXES[a]] = base + 0.0
+        for (owner, course, acting), parts in groups.items():
+            name = self.name_of(f"held_{names[owner]}")
+            self.supports.append(({"coupling": names[owner], **parts, "name": name}, name, course, acting))
+
+    # The deck.
+    def steps(self):
+        states = self.history.states
+        result = []
+        names = set()
+        for s, state in enumerate(states):
+            step, scale, on, off = {"name": unique(clean(state.name), names)}, {}, [], []
+            for _, name, course in self.loads:
+                before = course[s - 1] if s else 1.0
+                if course[s] != before:
+                    scale[name] = course[s]
+            for _, name, course, acting in self.supports:
+                known = [c for c in course[:s] if c is not None]
+                before = known[-1] if known else 1.0
+                if course[s] is not None and course[s] != before:
+                    scale[name] = course[s]
+                if acting[s] != (acting[s - 1] if s else True):
+                    (on if acting[s] else off).append(name)
+            for item in self.contacts:
+                course = item.get("course")
+                if course and course[s] is not None and (s or course[s] != 1.0):
+                    scale[item["name"]] = course[s]
+            for key, value in (("scale", scale), ("off", off), ("on", on)):
+                if value:
+                    step[key] = value
+            result.append(step)
+        return result
+
+    def assemble(self):
+        deck = self.deck
+        deck["dimension"] = self.bodies.dimension if self.plane else 3
+        used = [m for m in self.materials if m in self.used]
+        deck["materials"] = {}
+        label = {}
+        for m in used:
+            label[m] = clean(self.materials[m]["name"])
+            deck["materials"][label[m]] = {
+                k: self.materials[m][k]
+                for k in ("young_modulus", "poisson_ratio", "density", "thermal_expansion")
+                if k in self.materials[m]
+            }
+        deck["bodies"] = {}
+        for body in self.bodies.bodies:
+            if len(body.volumes) == 1:
+                entry = {"material": label[next(iter(body.volumes.values()))[0]]}
+            else:
+                entry = {"volumes": {name: label[m] for name, (m, _) in body.volumes.items()}}
+            formulation = self.formulation(body)
+            if formulation != "standard":
+                entry["formulation"] = formulation
+            deck["bodies"][body.name] = entry
+        if self.deck_couplings:
+            deck["couplings"] = self.deck_couplings
+        steps = self.steps() if len(self.history.states) > 1 else []
+        if not steps and self.history.states:
+            single = self.steps()[0]
+            scale = single.get("scale", {})
+            if any(value != 1.0 for value in scale.values()) or "off" in single:
+                steps = [single]
+        deck["supports"] = [item for item, *_ in self.supports]
+        deck["loads"] = [item if steps else {k: v for k, v in item.items() if k != "name"} for item, *_ in self.loads]
+        deck["contacts"] = [{k: v for k, v in item.items() if k != "course"} for item in self.contacts]
+        deck["steps"] = steps
+        self.drop_repeated()
+        self.model.findings.sort(key=lambda f: (str(f.file), f.line))
+
+    def formulation(self, body):
+        found = {}
+        shapes = {self.model.elements[i].shape for i in body.elements}
+        for i in body.elements:
+            found.setdefault(self.model.elements[i].formulation, i)
+        wanted = [f for f in found if f != "standard"]
+        if not wanted:
+            return "standard"
+        fits = {"incompatible": {"hex8", "quad4"}, "bbar": {"hex8", "quad4", "prism6"}}[wanted[0]]
+        if len(found) > 1 and not shapes <= fits or not shapes <= fits:
+            self.model.note(
+                self.model.elements[found[wanted[0]]].card, f'the body "{body.name}" has other cells as well: full integration of all'
+            )
+            return "standard"
+        if len(found) > 1:
+            self.model.note(self.model.elements[found[wanted[0]]].card, f'the body "{body.name}" has one formulation: {wanted[0]}')
+        return wanted[0]

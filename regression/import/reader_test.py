@@ -1,0 +1,328 @@
+#!/usr/bin/python3
+"""Cards, sets, parts, loads, steps: what ./mortise import makes of an input file, without the program."""
+
+import contextlib
+import io
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "inputs" / "import"))
+import elements  # noqa: E402
+import import_deck  # noqa: E402
+from reader import InputError, read_cards, real  # noqa: E402
+
+CUBE = """*NODE, NSET=ALL
+1,0,0,0
+2,1,0,0
+3,1,1,0
+4,0,1,0
+5,0,0,1
+6,1,0,1
+7,1,1,1
+8,0,1,1
+*ELEMENT, TYPE=C3D8, ELSET=CUBE
+1,1,2,3,4,5,6,7,8
+"""
+SECOND = """*NODE
+11,0,0,1
+12,1,0,1
+13,1,1,1
+14,0,1,1
+15,0,0,2
+16,1,0,2
+17,1,1,2
+18,0,1,2
+*ELEMENT, TYPE=C3D8, ELSET=UPPER
+2,11,12,13,14,15,16,17,18
+*SOLID SECTION, ELSET=UPPER, MATERIAL=STEEL
+*SURFACE, NAME=CUBE_TOP
+CUBE, S2
+*SURFACE, NAME=UPPER_BOTTOM
+UPPER, S1
+"""
+STEEL = """*MATERIAL, NAME=STEEL
+*ELASTIC
+210000., .3
+*DENSITY
+2.
+*EXPANSION
+1.E-5
+*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL
+"""
+HELD = "*NSET, NSET=BOTTOM, GENERATE\n1, 4\n*NSET, NSET=TOP\n5, 6, 7, 8\n*BOUNDARY\nBOTTOM, ENCASTRE\n"
+MODEL = CUBE + STEEL + HELD
+
+
+def step(text, head="*STEP"):
+    return f"{head}\n*STATIC\n{text}*END STEP\n"
+
+
+class Import(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="mortise_import_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.schema = json.loads(import_deck.SCHEMA.read_text())
+
+    def translate(self, text, **files):
+        for name, content in files.items():
+            (self.folder / f"{name}.txt").write_text(content)
+        (self.folder / "model.inp").write_text(text)
+        return import_deck.import_file(self.folder / "model.inp", self.folder / "deck.yaml", self.schema)
+
+    def deck(self, text, **files):
+        """The deck of a file of which nothing is left out."""
+        result = self.translate(text, **files)
+        self.assertEqual([f.reason for f in result.model.findings if f.changes], [])
+        return result.deck
+
+    def left_out(self, text):
+        return [(f.line, f.keyword, f.reason) for f in self.translate(text).model.findings if f.changes]
+
+    def refused(self, text):
+        with self.assertRaises(InputError) as caught:
+            self.translate(text)
+        return str(caught.exception)
+
+
+class Cards(Import):
+    def cards(self, text, **files):
+        for name, content in files.items():
+            (self.folder / f"{name}.txt").write_text(content)
+        (self.folder / "model.inp").write_text(text)
+        return read_cards(self.folder / "model.inp")
+
+    def test_case_blanks_comments_and_lines_that_go_on(self):
+        found = self.cards('** first\n*Solid Section,\n  elset = "My Set",\n** between\n material=St\n 1. ,\n\n** after\n*STEP\n')
+        self.assertEqual([c.name for c in found], ["SOLIDSECTION", "STEP"])
+        self.assertEqual(found[0].parameters, {"ELSET": "My Set", "MATERIAL": "St"})
+        self.assertEqual((found[0].line, found[0].data), (2, [(6, ["1."])]))
+
+    def test_includes_cards_and_data(self):
+        found = self.cards("*NODE\n*INCLUDE, INPUT=more.txt\n2,1,1,1\n", more="1,0,0,0\n*NSET, NSET=A\n1,\n")
+        self.assertEqual([(c.name, len(c.data)) for c in found], [("NODE", 1), ("NSET", 2)])
+        with self.assertRaisesRegex(InputError, "includes itself"):
+            self.cards("*INCLUDE, INPUT=a.txt\n", a="*INCLUDE, INPUT=a.txt\n")
+        with self.assertRaisesRegex(InputError, r'model.inp:2: there is no file "b.txt"'):
+            self.cards("*HEADING\n*INCLUDE, INPUT=b.txt\n")
+
+    def test_numbers_of_fortran(self):
+        self.assertEqual([real(t) for t in ("1.5D+3", "1.5+3", ".5", "2.", "-1e-2")], [1500, 1500, 0.5, 2, -0.01])
+        for text in ("nan", "inf", "1,5", "", "0x10", "1e400", "1_0", "--1"):
+            self.assertRaises(ValueError, real, text)
+
+
+class Mesh(Import):
+    def test_faces_have_the_areas_of_a_traction(self):
+        square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0, 0), (1, 0.5, 0), (0.5, 1, 0), (0, 0.5, 0)]
+        for shape, expected in (("quad4", [1 / 4] * 4), ("quad8", [-1 / 12] * 4 + [1 / 3] * 4)):
+            for value, right in zip(elements.nodal_areas(shape, square[: elements.NODES[shape]]), expected):
+                self.assertAlmostEqual(value, right)
+        triangle = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.5, 0, 0), (0.5, 0.5, 0), (0, 0.5, 0)]
+        for value, right in zip(elements.nodal_areas("tri6", triangle), [0] * 3 + [1 / 6] * 3):
+            self.assertAlmostEqual(value, right)
+        for value, right in zip(elements.nodal_areas("line3", [(0, 0, 0), (3, 0, 0), (1.5, 0, 0)]), [0.5, 0.5, 2]):
+            self.assertAlmostEqual(value, right)
+
+    def test_middle_nodes_of_gmsh(self):
+        """Every node of a cell lies between the corners that gmsh expects."""
+        for shape in ("tet10", "hex20", "prism15"):
+            of = elements.family(shape)
+            corners = elements.CORNERS[of]
+            names = [{i} for i in range(corners)] + [set(pair) for pair in elements.EDGES[of]]
+            ours = [names[k] for k in elements.to_gmsh(shape)][corners:]
+            self.assertEqual(ours, [set(pair) for pair in elements.GMSH_EDGES[of]])
+
+    def test_sets_of_sets_before_they_are_given(self):
+        text = CUBE + STEEL + "*BOUNDARY\nOuter, 1, 3\n*NSET, NSET=OUTER\ninner, 4\n*NSET, NSET=INNER, GENERATE\n1, 3, 1\n"
+        self.assertEqual(
+            self.deck(text + step("*DLOAD\nCUBE, P2, 5.\n"))["supports"], [{"boundary": "Outer", "displacement": {"x": 0, "y": 0, "z": 0}}]
+        )
+        self.assertIn(
+            "holds itself",
+            self.refused(text.replace("1, 3, 1", "1, 3\n").replace(", GENERATE", "").replace("1, 3\n\n", "OUTER\n") + step("")),
+        )
+
+    def test_bodies_are_what_hangs_together(self):
+        deck = self.deck(MODEL + SECOND + step("*DLOAD\nUPPER, P2, 5.\n"))
+        self.assertEqual(list(deck["bodies"]), ["CUBE", "UPPER"])
+        joined = MODEL + SECOND.replace("2,11,12,13,14,15", "2,5,6,7,8,15")
+        body = self.deck(joined + step("*DLOAD\nUPPER, P2, 5.\n"))["bodies"]
+        self.assertEqual(list(body.values()), [{"volumes": {"CUBE_CUBE": "STEEL", "CUBE_UPPER": "STEEL"}}])
+        hinge = self.left_out(MODEL + SECOND.replace("2,11,12,13,14,15", "2,5,6,13,14,15") + step(""))
+        self.assertIn("share 2 nodes but no face", hinge[0][2])
+
+    def test_parts_are_placed(self):
+        part = "*PART, NAME=Block\n" + CUBE + "*NSET, NSET=BOTTOM\n1,2,3,4\n*SURFACE, NAME=TOP\nCUBE, S2\n*SURFACE, NAME=FOOT\nCUBE, S1\n"
+        part += "*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n*END PART\n"
+        assembly = "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Low, PART=Block\n*END INSTANCE\n*INSTANCE, NAME=High, PART=BLOCK\n0.,0.,1.\n"
+        assembly += (
+            "0.,0.,1., 0.,0.,2., 90.\n*END INSTANCE\n*NSET, NSET=GROUND, INSTANCE=Low\nBOTTOM\n*SURFACE, NAME=PRESSED\nHigh.TOP_SET, S2\n"
+        )
+        assembly += "*ELSET, ELSET=X, INSTANCE=High\n1\n*END ASSEMBLY\n"
+        assembly = assembly.replace("High.TOP_SET", "X")
+        steel = STEEL.replace("*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n", "")
+        text = (
+            part
+            + assembly
+            + steel
+            + "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I\nHigh.FOOT, Low.TOP\n*BOUNDARY\nGROUND, PINNED\n"
+        )
+        result = self.translate(text + step("*DSLOAD\nPRESSED, P, 3.\n"))
+        self.assertEqual([f for f in result.model.findings if f.changes], [])
+        self.assertEqual(list(result.deck["bodies"]), ["Low", "High"])
+        self.assertEqual(result.deck["contacts"], [{"secondary": "High.FOOT", "primary": "Low.TOP"}])
+        self.assertEqual([[round(c, 12) for c in p] for p in result.model.points[8:11]], [[0, 0, 1], [0, 1, 1], [-1, 1, 1]])
+
+    def test_what_is_wrong_says_where(self):
+        self.assertIn("model.inp:11: element 1 has 7 nodes", self.refused(MODEL.replace("6,7,8\n*", "6,7\n*", 1) + step("")))
+        self.assertIn("node 99, which does not exist", self.refused(MODEL.replace("6,7,8\n", "6,7,99\n", 1)))
+        self.assertIn('there is no set of nodes "NOWHERE"', self.refused(MODEL + "*BOUNDARY\nNOWHERE, 1\n"))
+        self.assertIn('has no face "P7"', self.refused(MODEL + step("*DLOAD\nCUBE, P7, 1.\n")))
+
+
+class Loads(Import):
+    def loads(self, text):
+        return self.deck(MODEL + step(text))["loads"]
+
+    def test_pressures_add_within_a_step(self):
+        self.assertEqual(self.loads("*DLOAD\n1, P2, 1.\nCUBE, P2, 2.\n"), [{"boundary": "loaded", "pressure": 3.0}])
+
+    def test_weight_and_warmth(self):
+        loads = self.loads("*DLOAD\nCUBE, GRAV, 9810., 0., 0., -2.\n*TEMPERATURE\nALL, 80.\n")
+        self.assertEqual(loads, [{"body": "CUBE", "acceleration": [0, 0, -9810]}, {"body": "CUBE", "temperature_change": 80}])
+        warm = self.deck(MODEL + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n" + step("*TEMPERATURE\nALL, 80.\n"))
+        self.assertEqual(warm["loads"], [{"body": "CUBE", "temperature_change": 60}])
+        self.assertIn("not the same all over", self.left_out(MODEL + step("*TEMPERATURE\nTOP, 80.\n"))[0][2])
+
+    def test_forces_of_a_uniform_traction(self):
+        self.assertEqual(self.loads("*CLOAD\nTOP, 3, -2.\n"), [{"boundary": "TOP", "force": [0, 0, -8]}])
+        uneven = self.translate(MODEL + step("*CLOAD\nTOP, 3, -2.\n5, 3, -1.\n"))
+        lost = [f.reason for f in uneven.model.findings if f.changes]
+        self.assertTrue(any("not those of a uniform traction" in reason or "span no whole outer faces" in reason for reason in lost))
+        single = self.left_out(MODEL + step("*CLOAD\n5, 3, -2.\n"))
+        self.assertEqual((single[0][0], single[0][1]), (29, "*CLOAD"))
+
+    def test_supports_that_are_no_faces(self):
+        lost = self.left_out(MODEL + "*BOUNDARY\n5, 1\n" + step("*DLOAD\nCUBE, P2, 1.\n"))
+        self.assertEqual(len(lost), 1)
+        self.assertIn("1 node held along x, as at (0, 0, 1)", lost[0][2])
+
+    def test_supports_at_common_edges(self):
+        """A node that two sets hold belongs to the faces of both, and one that a face holds already needs no more."""
+        text = (
+            CUBE
+            + STEEL
+            + "*NSET, NSET=X0\n1, 4, 5, 8\n*NSET, NSET=Y0\n1, 2, 5, 6\n*BOUNDARY\nX0, XSYMM\nY0, 1, 2\n1, 1\n"
+            + step("*DLOAD\n1, P2, 1.\n")
+        )
+        self.assertEqual(
+            [(s["boundary"], s["displacement"]) for s in self.deck(text)["supports"]], [("X0", {"x": 0}), ("Y0", {"x": 0, "y": 0})]
+        )
+
+    def test_steps(self):
+        text = (
+            MODEL
+            + step("*DLOAD\nCUBE, P2, 10.\n*BOUNDARY\nTOP, 1, 1, 0.1\n")
+            + step("*DLOAD\nCUBE, P2, 20.\n*BOUNDARY, OP=NEW\nBOTTOM, 1, 3\n")
+        )
+        deck = self.deck(text + step("*DLOAD, OP=NEW\n"))
+        self.assertEqual(deck["loads"], [{"boundary": "TOP", "pressure": 20.0, "name": "pressure_TOP"}])
+        self.assertEqual(
+            deck["steps"],
+            [
+                {"name": "1", "scale": {"pressure_TOP": 0.5}},
+                {"name": "2", "scale": {"pressure_TOP": 1.0}, "off": ["TOP"]},
+                {"name": "3", "scale": {"pressure_TOP": 0.0}},
+            ],
+        )
+
+    def test_amplitudes_count_at_the_end(self):
+        table = "*AMPLITUDE, NAME=A\n0., 0., 2., 1.\n"
+        self.assertEqual(
+            self.deck(MODEL + table + step("*DLOAD, AMPLITUDE=A\nCUBE, P2, 10.\n"))["loads"], [{"boundary": "CUBE_P2", "pressure": 5.0}]
+        )
+
+
+class Contacts(Import):
+    PAIR = "*SURFACE INTERACTION, NAME=I\n{law}*CONTACT PAIR, INTERACTION=I{more}\nUPPER_BOTTOM, CUBE_TOP\n"
+
+    def contact(self, law="", more="", extra=""):
+        text = MODEL + SECOND + self.PAIR.format(law=law, more=more) + extra
+        return self.deck(text + step("*DLOAD\nUPPER, P2, 5.\n"))["contacts"][0]
+
+    def test_laws(self):
+        sides = {"secondary": "UPPER_BOTTOM", "primary": "CUBE_TOP"}
+        self.assertEqual(self.contact(), sides)
+        self.assertEqual(self.contact("*FRICTION\n.3, 1000.\n", ", ADJUST=0.1"), {**sides, "friction": {"coulomb": 0.3}, "adjust": 0.1})
+        self.assertEqual(self.contact(extra="*CLEARANCE, SLAVE=UPPER_BOTTOM, MASTER=CUBE_TOP, VALUE=0.02\n"), {**sides, "clearance": 0.02})
+        tie = self.deck(MODEL + SECOND + "*TIE, NAME=T\nUPPER_BOTTOM, CUBE_TOP\n" + step("*DLOAD\nUPPER, P2, 5.\n"))
+        self.assertEqual(tie["contacts"], [{**sides, "name": "T", "friction": {"bonded": True}}])
+
+    def test_bodies_do_not_touch_themselves(self):
+        text = (
+            MODEL + SECOND.replace("2,11,12,13,14,15", "2,5,6,7,8,15").replace("UPPER, S1", "UPPER, S3") + self.PAIR.format(law="", more="")
+        )
+        self.assertTrue(any("*CONTACTPAIR" == k for _, k, _ in self.left_out(text + step(""))))
+
+    def test_bolts(self):
+        bolt = MODEL.replace("*BOUNDARY", "*NODE\n99, 0., 0., 9.\n*BOUNDARY", 1)
+        long = bolt + SECOND.replace("2,11,12,13,14,15", "2,5,6,7,8,15").replace("CUBE, S2", "1, S2").replace(
+            "*SURFACE, NAME=UPPER_BOTTOM\nUPPER, S1\n", ""
+        )
+        text = (
+            long
+            + "*PRE-TENSION SECTION, SURFACE=CUBE_TOP, NODE=99\n"
+            + step("*CLOAD\n99, 1, 50.\n")
+            + step("*BOUNDARY, FIXED\n99, 1\n*DLOAD\nUPPER, P2, 1.\n")
+        )
+        deck = self.deck(text)
+        self.assertEqual(len(deck["bodies"]), 2)
+        self.assertEqual(deck["contacts"][0]["preload"], {"force": 50.0})
+        self.assertEqual(
+            deck["steps"], [{"name": "1", "scale": {"pressure_UPPER_P2": 0.0}}, {"name": "2", "scale": {"pressure_UPPER_P2": 1.0}}]
+        )
+
+
+class LeftOut(Import):
+    def test_nothing_is_dropped_silently(self):
+        text = (
+            MODEL + "*WHATEVER\n1, 2\n*EQUATION\n2\n5,1,1.,6,1,-1.\n" + step("*FOUNDATION\nCUBE, F2, 1.\n*NODE FILE\nU\n", "*STEP, NLGEOM")
+        )
+        self.assertEqual([k for _, k, _ in self.left_out(text)], ["*WHATEVER", "*EQUATION", "*STEP, NLGEOM", "*FOUNDATION"])
+        written = (self.folder / "deck.yaml").read_text()
+        self.assertIn("#   model.inp:26: *WHATEVER", written)
+
+    def test_exit_status(self):
+        path = self.folder / "model.inp"
+        path.write_text(MODEL + step("*DLOAD\nCUBE, P2, 1.\n"))
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            self.statuses(path)
+
+    def statuses(self, path):
+        self.assertEqual(import_deck.main([str(path)]), 0)
+        self.assertEqual(import_deck.main([str(path)]), 1)  # the deck is there
+        path.write_text(MODEL + step("*DLOAD\nCUBE, CENTRIF, 1., 0., 0., 0., 0., 0., 1.\n"))
+        self.assertEqual(import_deck.main([str(path), "--force"]), 1)
+        self.assertEqual(import_deck.main([str(path), "--force", "--partial"]), 0)
+
+    def test_couplings_where_the_deck_has_them(self):
+        text = (
+            MODEL
+            + "*NODE\n50, .5, .5, 2.\n*SURFACE, NAME=GRIP\nCUBE, S2\n*COUPLING, REF NODE=50, SURFACE=GRIP, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 3\n"
+        )
+        text += step("*CLOAD\n50, 1, 7.\n50, 5, 3.\n")
+        self.schema["properties"].pop("couplings", None)
+        self.assertIn("*COUPLING", [k for _, k, _ in self.left_out(text)])
+        self.schema["properties"]["couplings"] = {}
+        deck = self.deck(text)
+        self.assertEqual(deck["couplings"], {"C": {"boundary": "GRIP", "point": [0.5, 0.5, 2.0], "kind": "distributing"}})
+        self.assertEqual(deck["loads"], [{"coupling": "C", "force": [7, 0, 0], "moment": [0, 3, 0]}])
+
+
+if __name__ == "__main__":
+    unittest.main()
