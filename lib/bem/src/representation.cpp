@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "bem/surface_stress.hpp"
 #include "panel_potentials.hpp"
+#include "recovered_stress.hpp"
 #include "rules.hpp"
 
 namespace mortise::bem {
@@ -79,7 +79,7 @@ Eigen::Matrix3d tangential(const Eigen::Matrix3d& gradient)
 }  // namespace
 
 // What one point gathers.
-struct Representation::Sum {
+struct Representation<3>::Sum {
   Lane3 displacement;
   std::array<Lane3, 3> gradient;
   // of panels in closed form
@@ -96,7 +96,7 @@ struct Representation::Sum {
   }
 };
 
-Representation::Representation(const Panels& panels, const fem::Material& material, double accuracy)
+Representation<3>::Representation(const Panels& panels, const fem::Material& material, double accuracy)
     : panels_(panels), material_(material), recovery_(panels, material)
 {
   for (std::size_t r = 0; r < rules; ++r)
@@ -141,7 +141,7 @@ Representation::Representation(const Panels& panels, const fem::Material& materi
   }
 }
 
-Representation::Nearest Representation::nearest(const Point& x) const
+Representation<3>::Nearest Representation<3>::nearest(const Point& x) const
 {
   // Some point of a panel is no farther than the panel's centre, and none nearer than that by its radius.
   std::vector<Lane> distance(blocks_.size());
@@ -168,7 +168,7 @@ Representation::Nearest Representation::nearest(const Point& x) const
   return result;
 }
 
-int Representation::rule_for(const Block& block, const Point& x) const
+int Representation<3>::rule_for(const Block& block, const Point& x) const
 {
   const auto& [c0, c1, c2] = block.centre;
   const double ratio = (block.radius.square() / ((c0 - x[0]).square() + (c1 - x[1]).square() + (c2 - x[2]).square())).maxCoeff();
@@ -177,7 +177,7 @@ int Representation::rule_for(const Block& block, const Point& x) const
   return rule;
 }
 
-Location Representation::locate(const Point& x) const
+Location Representation<3>::locate(const Point& x) const
 {
   const Nearest found = nearest(x);
   double angle = 0;
@@ -195,7 +195,7 @@ Location Representation::locate(const Point& x) const
   return {angle < -2 * std::numbers::pi, std::sqrt(found.squared_distance), found.panel};
 }
 
-std::vector<Representation::Fields> Representation::fields(const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
+std::vector<Representation<3>::Fields> Representation<3>::fields(const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
 {
   const double mu = material_.young_modulus / (2 * (1 + material_.poisson_ratio));
   std::vector<Fields> result(blocks_.size());
@@ -223,7 +223,7 @@ std::vector<Representation::Fields> Representation::fields(const Eigen::VectorXd
   return result;
 }
 
-void Representation::add_far(std::size_t index, int rule_index, const Fields& rest, const Point& x, Sum& sum) const
+void Representation<3>::add_far(std::size_t index, int rule_index, const Fields& rest, const Point& x, Sum& sum) const
 {
   const Block& block = blocks_[index];
   const auto& rule = triangle_rule(rule_index);
@@ -274,7 +274,7 @@ void Representation::add_far(std::size_t index, int rule_index, const Fields& re
   }
 }
 
-void Representation::add_near(const Block& block, const Fields& rest, const Point& x, Sum& sum) const
+void Representation<3>::add_near(const Block& block, const Fields& rest, const Point& x, Sum& sum) const
 {
   for (int l = 0; l < block.size; ++l) {
     const std::size_t p = block.panel[static_cast<std::size_t>(l)];
@@ -294,23 +294,11 @@ void Representation::add_near(const Block& block, const Fields& rest, const Poin
   }
 }
 
-InteriorField Representation::evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
+InteriorField Representation<3>::evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
 {
   const double nu = material_.poisson_ratio, mu = material_.young_modulus / (2 * (1 + nu));
   const auto all = fields(u, t);
-  std::vector<std::optional<LinearStress>> recovered(panels_.points.size());
-  // In x, whose nearest panel is p.
-  const auto recovered_at = [&](const Point& x, std::size_t p) {
-    const auto at = nearest_point(x, panels_.corner(p, 0), panels_.corner(p, 1), panels_.corner(p, 2));
-    fem::Stress stress = fem::Stress::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Local node = panels_.corners[p][k];
-      auto& fit = recovered[static_cast<std::size_t>(node)];
-      if (!fit) fit = recovery_.at(node, u, t);
-      stress += at[k] * (fit->constant + fit->slope * (x - panels_.corner(p, static_cast<int>(k))));
-    }
-    return stress;
-  };
+  RecoveredStress recovered(panels_, recovery_, u, t);
   InteriorField result{Eigen::MatrixXd(points.size(), 3), Eigen::MatrixXd(points.size(), 6)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& x = points[i];
@@ -346,8 +334,10 @@ InteriorField Representation::evaluate(std::span<const Point> points, const Eige
     }
     displacement = displacement / (4 * std::numbers::pi) + offset + linear * (x - origin);
     fem::Stress stress = components(hooke(material_, linear + gradient / (4 * std::numbers::pi)));
-    if (const double s = std::sqrt(squared_distance / (2 * panels_.area[p])); s < 1)
-      stress += (1 - s * s * (3 - 2 * s)) * (recovered_at(x, p) - stress);
+    if (const double s = std::sqrt(squared_distance / (2 * panels_.area[p])); s < 1) {
+      const auto at = nearest_point(x, panels_.corner(p, 0), panels_.corner(p, 1), panels_.corner(p, 2));
+      stress += share_of_recovered(s) * (recovered.at(x, p, at) - stress);
+    }
     result.displacement.row(static_cast<Eigen::Index>(i)) = displacement;
     result.stress.row(static_cast<Eigen::Index>(i)) = stress;
   }
