@@ -185,14 +185,18 @@ def plot(found, path):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot
-    figure, axes = pyplot.subplots(1, len(found), figsize=(3 * len(found), 3), squeeze=False, sharey=True)
+    figure, axes = pyplot.subplots(1, len(found), figsize=(2.8 * len(found), 3), squeeze=False, sharey=True)
     for axis, (case, results) in zip(axes[0], found.items()):
         for method, style in zip(METHODS, ("o-", "s--", "^:")):
             axis.loglog([r[2] for r in results[method].values()], [100 * r[1] for r in results[method].values()], style, label=method)
         axis.set_title(CASES[case][0], fontsize=10)
         axis.set_xlabel("CPU seconds")
+        axis.set_xlim(0.3, 30)
+        axis.set_xticks([0.5, 1, 2, 5, 10, 20], labels=["0.5", "1", "2", "5", "10", "20"])
+        axis.minorticks_off()
         axis.grid(True, which="major", linewidth=0.3)
     axes[0][0].set_ylabel("error of the stress, %")
+    axes[0][0].set_yticks([0.01, 0.1, 1, 10], labels=["0.01", "0.1", "1", "10"])
     axes[0][0].legend(fontsize=8)
     figure.tight_layout()
     figure.savefig(path, dpi=70)
