@@ -2,18 +2,21 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <tuple>
 
 #include "bem/boundary_operators.hpp"
 #include "bem/representation.hpp"
 #include "bem/surface_stress.hpp"
 #include "line_integrals.hpp"
-#include "recovered_stress.hpp"
 
 namespace mortise::bem {
 
 namespace {
 
-constexpr double on_a_node = 1e-12;  // of a panel's length: logarithms nearer to its ends are those of this distance
+constexpr double smooth = 0.8;          // cosine of the angle of neighbours at no corner
+constexpr double beside_a_node = 0.05;  // of the shorter panel's length: no logarithm of a jump grows nearer to a smooth node
+constexpr double on_surface = 1e-8;     // of a panel's length: points nearer to it are moved to this distance inside
 
 template <class Vector>
 Complex number(const Vector& v)
@@ -21,21 +24,22 @@ Complex number(const Vector& v)
   return {v[0], v[1]};
 }
 
-// From a, along a unit vector; the inside is at the left.
+// Along a unit vector; the inside is at the left.
 struct Segment {
-  Complex a, along;
+  Complex middle, along;
   double length;
+  std::array<double, 2> least{};  // see SegmentIntegrals
 };
 Segment segment(const PlanePanels& panels, std::size_t p)
 {
-  const Complex a = number(panels.corner(p, 0));
-  return {a, (number(panels.corner(p, 1)) - a) / panels.area[p], panels.area[p]};
+  const Complex a = number(panels.corner(p, 0)), b = number(panels.corner(p, 1));
+  return {(a + b) / 2.0, (b - a) / panels.area[p], panels.area[p], {}};
 }
 
-// x in the coordinates of a segment: along it from a, and to its left.
+// x in the coordinates of a segment: along it from its middle, and to its left.
 Complex place(const Segment& segment, Complex x)
 {
-  return (x - segment.a) * std::conj(segment.along);
+  return (x - segment.middle) * std::conj(segment.along);
 }
 
 Complex logarithm(Complex q)
@@ -43,28 +47,37 @@ Complex logarithm(Complex q)
   return {std::log(std::norm(q)) / 2, std::arg(q)};
 }
 
-// With q the place of x and s along the segment.
+// With q the place of x and s along the segment, from its middle.
 struct SegmentIntegrals {
-  Complex pole;       // I 1 / (q - s)
-  Complex moment;     // I s / (q - s) + length
-  double logarithm;   // I ln |q - s|
-  Complex turn;       // I (q - s) / conj(q - s)
-  Complex turn_rate;  // its derivative by conj(q), times -1
+  Complex angle, lever;            // I 1 / (q - s) and I s / (q - s)
+  std::array<Complex, 2> pole;     // the same, of derivatives
+  std::array<Complex, 2> squared;  // I 1 / (q - s)^2 and I s / (q - s)^2
+  double logarithm;                // I ln |q - s|
+  Complex turn;                    // I (q - s) / conj(q - s)
 };
-// q and q - length lie on the same side of the segment: the logarithms' branches are the same.
-SegmentIntegrals integrate(Complex q, double length)
+// q and its distances from the ends lie on the same side of the segment: the logarithms' branches are the same. `least`: nearer
+// to the begin and the end logarithms of derivatives grow no more.
+SegmentIntegrals integrate(Complex q, double length, const std::array<double, 2>& least)
 {
-  const auto end = [&](Complex at) { return std::abs(at) < on_a_node * length ? Complex(0, on_a_node * length) : at; };
-  const Complex from = end(q), to = end({q.real() - length, q.imag()});  // keeps the sign of a zero
+  const Complex from(q.real() + length / 2, q.imag()), to(q.real() - length / 2, q.imag());  // which keeps the sign of a zero
   const Complex at_begin = logarithm(from), at_end = logarithm(to), pole = at_begin - at_end;
   const Complex across(0, 2 * q.imag());
-  return {pole, q * pole, (from * at_begin - to * at_end).real() - length, length + across * std::conj(pole),
-          std::conj(pole) + across * std::conj(1.0 / to - 1.0 / from)};
+  const auto beyond = [](Complex at, double limit) {
+    return std::norm(at) < limit * limit ? std::log(limit / std::abs(at)) : 0.0;
+  };
+  const Complex limited = pole + beyond(from, least[0]) - beyond(to, least[1]);
+  return {pole,
+          q * pole - length,
+          {limited, q * limited - length},
+          {1.0 / to - 1.0 / from, length / 2 * (1.0 / to + 1.0 / from) - limited},
+          (from * at_begin - to * at_end).real() - length,
+          length + across * std::conj(pole)};
 }
 
-// Of a panel, less the linear field of another: t - 2 mu m, du / ds and u in its begin.
+// Of a panel, less the linear field of another: t - 2 mu m and du / ds in its middle and their slopes, and u in its middle.
 struct Rest {
-  Complex force, slope, u;
+  std::array<Complex, 2> force, slope;
+  Complex u;
 };
 
 // With d = x - y, 1 / (2 pi) left out; by x and its conjugate the derivatives, in whose sum over a closed curve m and the double
@@ -72,24 +85,80 @@ struct Rest {
 struct Gathered {
   Complex displacement, by_x, by_conjugate;
 
-  void add(const Segment& panel, const Rest& rest, Complex x, double diagonal, double scale, double log_of_unit)
+  // q: the place of x.
+  void add(const Segment& panel, const Rest& rest, Complex q, double diagonal, double scale, double log_of_unit)
   {
-    const Complex tau = panel.along, f = rest.force, g = rest.slope, unit(0, 1);
-    const auto of = integrate(place(panel, x), panel.length);
+    const Complex tau = panel.along, f = rest.force[0], g = rest.slope[0], unit(0, 1), across(0, 2 * q.imag());
+    const auto of = integrate(q, panel.length, panel.least);
     const double single = of.logarithm - panel.length * log_of_unit;
     displacement += scale * (-diagonal * f * single + (std::conj(f) * tau * tau * of.turn + f * panel.length) / 2.0) -
-                    unit * g * single - rest.u * of.pole.imag() - g * of.moment.imag();
-    const Complex conjugate = tau * std::conj(of.pole);
-    by_x += scale / 2 * (std::conj(f) * conjugate - diagonal * f * std::conj(conjugate));
-    by_conjugate -= scale / 2 * (diagonal * f * conjugate + std::conj(f) * tau * tau * tau * of.turn_rate) + unit * g * conjugate;
+                    unit * g * single - rest.u * of.angle.imag() - g * of.lever.imag();
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Complex force = rest.force[k], turned = std::conj(force), pole = of.pole[k], conjugate = tau * std::conj(pole);
+      by_x += scale / 2 * (turned * conjugate - diagonal * force * std::conj(tau) * pole);
+      by_conjugate -=
+          scale / 2 *
+              (diagonal * force * conjugate + turned * tau * tau * (conjugate + tau * across * std::conj(of.squared[k]))) +
+          unit * rest.slope[k] * conjugate;
+    }
   }
 };
+
+// Panels that end and begin in a node of no corner.
+struct Meeting {
+  std::size_t before, after;
+};
+std::vector<std::optional<Meeting>> smooth_nodes(const PlanePanels& panels)
+{
+  std::vector<Meeting> meetings(panels.points.size());
+  std::vector<int> count(panels.points.size(), 0);
+  for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+    const auto [begin, end] = panels.corners[p];
+    meetings[static_cast<std::size_t>(begin)].after = meetings[static_cast<std::size_t>(end)].before = p;
+    ++count[static_cast<std::size_t>(end)];
+  }
+  std::vector<std::optional<Meeting>> result;
+  for (std::size_t n = 0; n < meetings.size(); ++n) {
+    result.emplace_back();
+    const auto& [before, after] = meetings[n];
+    if (count[n] == 1 && panels.normal[before].dot(panels.normal[after]) > smooth) result.back() = meetings[n];
+  }
+  return result;
+}
+
+// How a gradient changes along each panel: from those of the panel and its neighbours, as far as the surface is smooth there, at
+// most twice the smaller one of the two differences, nothing at an extremum [van Leer, J. Comput. Phys. 23 (1977)].
+std::vector<Eigen::Matrix3d> changes(const PlanePanels& panels, const std::vector<std::optional<Meeting>>& nodes,
+                                     const std::vector<Eigen::Matrix3d>& gradients)
+{
+  std::vector<std::optional<Eigen::Matrix3d>> at_node;  // the difference over the distance of the middles
+  for (const auto& node : nodes) {
+    auto& difference = at_node.emplace_back();
+    if (node)
+      difference =
+          (gradients[node->after] - gradients[node->before]) / ((panels.area[node->after] + panels.area[node->before]) / 2);
+  }
+  std::vector<Eigen::Matrix3d> result;
+  for (const auto& [a, b] : panels.corners) {
+    const auto &first = at_node[static_cast<std::size_t>(a)], &second = at_node[static_cast<std::size_t>(b)];
+    auto& change = result.emplace_back(Eigen::Matrix3d::Zero());
+    if (first && second)
+      change = first->binaryExpr(*second, [](double l, double r) {
+        return l * r <= 0 ? 0.0 : std::copysign(std::min({std::abs(l + r) / 2, 2 * std::abs(l), 2 * std::abs(r)}), l);
+      });
+    else if (first || second)
+      change = first ? *first : *second;
+  }
+  return result;
+}
 
 }  // namespace
 
 Representation<2>::Representation(const PlanePanels& panels, const fem::Material& material)
-    : panels_(panels), material_(material), recovery_(panels, material), unit_(unit_of_length(panels))
+    : panels_(panels), material_(material), unit_(unit_of_length(panels)), around_(panels.points.size())
 {
+  for (std::size_t p = 0; p < panels.corners.size(); ++p)
+    for (const Local c : panels.corners[p]) around_[static_cast<std::size_t>(c)].push_back(p);
 }
 
 Representation<2>::Nearest Representation<2>::nearest(const Point& x) const
@@ -98,21 +167,43 @@ Representation<2>::Nearest Representation<2>::nearest(const Point& x) const
   for (std::size_t p = 0; p < panels_.corners.size(); ++p) {
     const Segment own = segment(panels_, p);
     const Complex q = place(own, number(x));
-    const double squared = std::norm(q - std::clamp(q.real(), 0.0, own.length));
+    const double squared = std::norm(q - std::clamp(q.real(), -own.length / 2, own.length / 2));
     if (squared < result.squared_distance) result = {p, squared};
   }
   return result;
 }
 
-Location Representation<2>::locate(const Point& x) const
+bool Representation<2>::encloses(const Point& x) const
 {
-  const auto [panel, squared_distance] = nearest(x);
   double angle = 0;
   for (std::size_t p = 0; p < panels_.corners.size(); ++p) {
     const Segment own = segment(panels_, p);
-    angle += integrate(place(own, number(x)), own.length).pole.imag();
+    const Complex q = place(own, number(x));
+    angle += std::arg(q + own.length / 2) - std::arg(q - own.length / 2);
   }
-  return {angle < -std::numbers::pi, std::sqrt(squared_distance), panel};
+  return angle < -std::numbers::pi;
+}
+
+Location Representation<2>::locate(const Point& x) const
+{
+  const auto [panel, squared_distance] = nearest(x);
+  return {encloses(x), std::sqrt(squared_distance), panel};
+}
+
+std::pair<Point, std::size_t> Representation<2>::evaluated_at(const Point& x) const
+{
+  const auto [p, squared_distance] = nearest(x);
+  const double length = panels_.area[p], distance = std::sqrt(squared_distance);
+  if (distance > on_surface * length && (distance > length || encloses(x))) return {x, p};
+  const double s =
+      std::clamp((x - panels_.corner(p, 0)).dot(panels_.corner(p, 1) - panels_.corner(p, 0)) / (length * length), 0.0, 1.0);
+  Point inward = -panels_.normal[p];
+  for (std::size_t k = 0; k < 2; ++k)
+    if (std::abs(s - static_cast<double>(k)) < on_surface)
+      for (const std::size_t other : around_[static_cast<std::size_t>(panels_.corners[p][k])])
+        if (other != p) inward -= panels_.normal[other];
+  const Point foot = panels_.corner(p, 0) + s * (panels_.corner(p, 1) - panels_.corner(p, 0));
+  return {foot + on_surface * length * inward.normalized(), p};
 }
 
 InteriorField Representation<2>::evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
@@ -122,44 +213,53 @@ InteriorField Representation<2>::evaluate(std::span<const Point> points, const E
   const std::size_t size = panels_.corners.size();
   const auto at_node = [&](std::size_t p, std::size_t k) { return number(u.segment<2>(2 * panels_.corners[p][k])); };
   std::vector<Segment> segments;
-  std::vector<Complex> slopes;
+  std::vector<Eigen::Matrix3d> gradients;
   for (std::size_t p = 0; p < size; ++p) {
     segments.push_back(segment(panels_, p));
-    slopes.push_back((at_node(p, 1) - at_node(p, 0)) / panels_.area[p]);
+    gradients.push_back(panel_gradient(panels_, material_, p, u, t));
   }
-  RecoveredStress recovered(panels_, recovery_, u, t);
+  const auto times = [](const Eigen::Matrix3d& tensor, const Point& v) { return number(Point(tensor * v)); };
+  const auto point = [](Complex z) { return Point(z.real(), z.imag(), 0); };
+  // What a gradient gives on a panel: du / ds and t - 2 mu m.
+  const auto on_panel = [&](const Eigen::Matrix3d& gradient, std::size_t p) {
+    const Complex slope = times(gradient, point(segments[p].along));
+    return std::pair(slope, times(hooke(material_, gradient), panels_.normal[p]) - 2 * mu * Complex(0, 1) * slope);
+  };
+  const auto nodes = smooth_nodes(panels_);
+  for (const auto& node : nodes)
+    if (node)
+      segments[node->before].least[1] = segments[node->after].least[0] =
+          beside_a_node * std::min(panels_.area[node->before], panels_.area[node->after]);
+  const auto change = changes(panels_, nodes, gradients);
+  std::vector<Rest> all(size);
+  for (std::size_t p = 0; p < size; ++p) {
+    all[p].u = (at_node(p, 0) + at_node(p, 1)) / 2.0;
+    for (std::size_t k = 0; k < 2; ++k)
+      std::tie(all[p].slope[k], all[p].force[k]) = on_panel(k == 0 ? gradients[p] : change[p], p);
+  }
   InteriorField result{Eigen::MatrixXd::Zero(points.size(), 3), Eigen::MatrixXd(points.size(), 6)};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point& x = points[i];
-    const auto [nearby, squared_distance] = nearest(x);
-    const Eigen::Matrix3d linear = panel_gradient(panels_, material_, nearby, u, t), stress_there = hooke(material_, linear);
-    const Complex origin = segments[nearby].a, offset = at_node(nearby, 0);
-    const auto times = [](const Eigen::Matrix3d& tensor, Complex v) {
-      return number(Point(tensor * Point(v.real(), v.imag(), 0)));
-    };
+    const auto [x, nearby] = evaluated_at(points[i]);
+    const Eigen::Matrix3d& linear = gradients[nearby];
+    const Complex origin = segments[nearby].middle, offset = all[nearby].u;
     Gathered sum{};
     for (std::size_t p = 0; p < size; ++p) {
-      if (p == nearby) continue;  // nothing is left of it
-      const Segment& own = segments[p];
-      Rest rest{number(t.segment<2>(2 * static_cast<Eigen::Index>(p))) - times(stress_there, number(panels_.normal[p])),
-                slopes[p] - times(linear, own.along), at_node(p, 0) - offset - times(linear, own.a - origin)};
-      rest.force -= 2 * mu * Complex(0, 1) * rest.slope;
-      sum.add(own, rest, number(x), diagonal, scale, log_of_unit);
+      Rest rest = all[p];
+      const auto [slope, force] = on_panel(linear, p);
+      rest.slope[0] -= slope;
+      rest.force[0] -= force;
+      rest.u -= offset + times(linear, point(segments[p].middle - origin));
+      sum.add(segments[p], rest, place(segments[p], number(x)), diagonal, scale, log_of_unit);
     }
-    const Complex displacement = sum.displacement / (2 * std::numbers::pi) + offset + times(linear, number(x) - origin);
+    const Complex displacement =
+        sum.displacement / (2 * std::numbers::pi) + offset + times(linear, point(number(points[i]) - origin));
     const Complex along_x = (sum.by_x + sum.by_conjugate) / (2 * std::numbers::pi),
                   along_y = Complex(0, 1) * (sum.by_x - sum.by_conjugate) / (2 * std::numbers::pi);
     Eigen::Matrix3d gradient = linear;
     gradient.topLeftCorner<2, 2>() += Eigen::Matrix2d{{along_x.real(), along_y.real()}, {along_x.imag(), along_y.imag()}};
-    fem::Stress stress = components(hooke(material_, gradient));
-    if (const double s = std::sqrt(squared_distance) / panels_.area[nearby]; s < 1) {
-      const Segment& own = segments[nearby];
-      const double at = std::clamp(place(own, number(x)).real() / own.length, 0.0, 1.0);
-      stress += share_of_recovered(s) * (recovered.at(x, nearby, {1 - at, at}) - stress);
-    }
     const auto row = static_cast<Eigen::Index>(i);
     result.displacement.row(row).head<2>() << displacement.real(), displacement.imag();
-    result.stress.row(row) = stress;
+    result.stress.row(row) = components(hooke(material_, gradient));
   }
   return result;
 }

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "bem/surface_stress.hpp"
 #include "panel_potentials.hpp"
-#include "recovered_stress.hpp"
 #include "rules.hpp"
 
 namespace mortise::bem {
@@ -298,7 +298,19 @@ InteriorField Representation<3>::evaluate(std::span<const Point> points, const E
 {
   const double nu = material_.poisson_ratio, mu = material_.young_modulus / (2 * (1 + nu));
   const auto all = fields(u, t);
-  RecoveredStress recovered(panels_, recovery_, u, t);
+  std::vector<std::optional<LinearStress>> recovered(panels_.points.size());
+  // In x, whose nearest panel is p.
+  const auto recovered_at = [&](const Point& x, std::size_t p) {
+    const auto at = nearest_point(x, panels_.corner(p, 0), panels_.corner(p, 1), panels_.corner(p, 2));
+    fem::Stress stress = fem::Stress::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Local node = panels_.corners[p][k];
+      auto& fit = recovered[static_cast<std::size_t>(node)];
+      if (!fit) fit = recovery_.at(node, u, t);
+      stress += at[k] * (fit->constant + fit->slope * (x - panels_.corner(p, static_cast<int>(k))));
+    }
+    return stress;
+  };
   InteriorField result{Eigen::MatrixXd(points.size(), 3), Eigen::MatrixXd(points.size(), 6)};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& x = points[i];
@@ -334,10 +346,8 @@ InteriorField Representation<3>::evaluate(std::span<const Point> points, const E
     }
     displacement = displacement / (4 * std::numbers::pi) + offset + linear * (x - origin);
     fem::Stress stress = components(hooke(material_, linear + gradient / (4 * std::numbers::pi)));
-    if (const double s = std::sqrt(squared_distance / (2 * panels_.area[p])); s < 1) {
-      const auto at = nearest_point(x, panels_.corner(p, 0), panels_.corner(p, 1), panels_.corner(p, 2));
-      stress += share_of_recovered(s) * (recovered.at(x, p, at) - stress);
-    }
+    if (const double s = std::sqrt(squared_distance / (2 * panels_.area[p])); s < 1)
+      stress += (1 - s * s * (3 - 2 * s)) * (recovered_at(x, p) - stress);
     result.displacement.row(static_cast<Eigen::Index>(i)) = displacement;
     result.stress.row(static_cast<Eigen::Index>(i)) = stress;
   }

@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bem/panels.hpp"
@@ -107,7 +108,11 @@ class Representation<2> {
 
   Location locate(const Point& x) const;
 
-  /// As in space, of u (2 n) and t (2 m), for points of the plane z = 0. The stress across the plane is that of plane strain.
+  /// As in space, of u (2 n) and t (2 m), for points of the plane z = 0; the stress across the plane is that of plane strain. For
+  /// stresses t and du / ds are made linear on each panel: the gradient that a panel has in its middle changes along it as
+  /// those of its neighbours tell, as far as there is no corner. So a linear stress is exact up to the surface, on it as well.
+  /// Where stresses jump from panel to panel all the same their logarithm is cut off at a twentieth of a panel from the node.
+  /// Outside, not farther than the nearest panel is long, what is found on that panel.
   InteriorField evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const;
 
  private:
@@ -116,11 +121,14 @@ class Representation<2> {
     double squared_distance;
   };
   Nearest nearest(const Point& x) const;
+  bool encloses(const Point& x) const;
+  // x, or where it is on the surface or beside it outside the nearest point a little inside; and the nearest panel.
+  std::pair<Point, std::size_t> evaluated_at(const Point& x) const;
 
   const PlanePanels& panels_;
   fem::Material material_;
-  StressRecovery<2> recovery_;
-  double unit_;  // of length
+  double unit_;                                   // of length
+  std::vector<std::vector<std::size_t>> around_;  // panels of each node
 };
 
 }  // namespace mortise::bem
