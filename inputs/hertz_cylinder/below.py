@@ -105,7 +105,7 @@ def picture(mortise, h, path):
             axis.contour(place[..., 0], place[..., 1], field, levels=levels[::2], colors="white", linewidths=0.4)
             if body == "block":
                 at = numpy.unravel_index(numpy.argmax(field), field.shape)
-                axis.plot(*place[at], "r+", markersize=11)
+                axis.plot(*place[at], "r+", markersize=11, clip_on=False)
                 where = f"{field[at]:.3f} p0 at {-place[at][1]:.2f} a"
         axis.set_aspect("equal")
         axis.set_title(f"{method.replace('_', ' ')}, h = a / {A / h:.1f}\n{summary['primal_unknowns']:,} unknowns; largest in the block: {where}",
@@ -113,7 +113,7 @@ def picture(mortise, h, path):
         axis.set_xlabel("x / a")
     axes[0].set_ylabel("y / a")
     figure.colorbar(shown, ax=axes, label="von Mises stress / p0", shrink=0.8, ticks=numpy.linspace(0, 0.6, 7))
-    figure.savefig(path, dpi=75)
+    figure.savefig(path, dpi=72)
 
 
 def main():
