@@ -15,7 +15,7 @@ namespace mortise::bem {
 namespace {
 
 constexpr double smooth = 0.8;          // cosine of the angle of neighbours at no corner
-constexpr double beside_a_node = 0.05;  // of the shorter panel's length: no logarithm of a jump grows nearer to a smooth node
+constexpr double beside_a_node = 0.05;  // of the shorter panel's length: no logarithm of a jump grows nearer to a node
 constexpr double on_surface = 1e-8;     // of a panel's length: points nearer to it are moved to this distance inside
 
 template <class Vector>
@@ -104,39 +104,25 @@ struct Gathered {
   }
 };
 
-// Panels that end and begin in a node of no corner.
-struct Meeting {
-  std::size_t before, after;
-};
-std::vector<std::optional<Meeting>> smooth_nodes(const PlanePanels& panels)
-{
-  std::vector<Meeting> meetings(panels.points.size());
-  std::vector<int> count(panels.points.size(), 0);
-  for (std::size_t p = 0; p < panels.corners.size(); ++p) {
-    const auto [begin, end] = panels.corners[p];
-    meetings[static_cast<std::size_t>(begin)].after = meetings[static_cast<std::size_t>(end)].before = p;
-    ++count[static_cast<std::size_t>(end)];
-  }
-  std::vector<std::optional<Meeting>> result;
-  for (std::size_t n = 0; n < meetings.size(); ++n) {
-    result.emplace_back();
-    const auto& [before, after] = meetings[n];
-    if (count[n] == 1 && panels.normal[before].dot(panels.normal[after]) > smooth) result.back() = meetings[n];
-  }
-  return result;
-}
-
 // How a gradient changes along each panel: from those of the panel and its neighbours, as far as the surface is smooth there, at
 // most twice the smaller one of the two differences, nothing at an extremum [van Leer, J. Comput. Phys. 23 (1977)].
-std::vector<Eigen::Matrix3d> changes(const PlanePanels& panels, const std::vector<std::optional<Meeting>>& nodes,
-                                     const std::vector<Eigen::Matrix3d>& gradients)
+std::vector<Eigen::Matrix3d> changes(const PlanePanels& panels, const std::vector<Eigen::Matrix3d>& gradients)
 {
+  struct Meeting {
+    std::size_t count = 0, before = 0, after = 0;
+  };
+  std::vector<Meeting> nodes(panels.points.size());
+  for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+    nodes[static_cast<std::size_t>(panels.corners[p][0])].after = p;
+    auto& end = nodes[static_cast<std::size_t>(panels.corners[p][1])];
+    end.before = p;
+    ++end.count;
+  }
   std::vector<std::optional<Eigen::Matrix3d>> at_node;  // the difference over the distance of the middles
-  for (const auto& node : nodes) {
+  for (const auto& [count, before, after] : nodes) {
     auto& difference = at_node.emplace_back();
-    if (node)
-      difference =
-          (gradients[node->after] - gradients[node->before]) / ((panels.area[node->after] + panels.area[node->before]) / 2);
+    if (count == 1 && panels.normal[before].dot(panels.normal[after]) > smooth)
+      difference = (gradients[after] - gradients[before]) / ((panels.area[after] + panels.area[before]) / 2);
   }
   std::vector<Eigen::Matrix3d> result;
   for (const auto& [a, b] : panels.corners) {
@@ -225,12 +211,14 @@ InteriorField Representation<2>::evaluate(std::span<const Point> points, const E
     const Complex slope = times(gradient, point(segments[p].along));
     return std::pair(slope, times(hooke(material_, gradient), panels_.normal[p]) - 2 * mu * Complex(0, 1) * slope);
   };
-  const auto nodes = smooth_nodes(panels_);
-  for (const auto& node : nodes)
-    if (node)
-      segments[node->before].least[1] = segments[node->after].least[0] =
-          beside_a_node * std::min(panels_.area[node->before], panels_.area[node->after]);
-  const auto change = changes(panels_, nodes, gradients);
+  for (std::size_t p = 0; p < size; ++p)
+    for (std::size_t k = 0; k < 2; ++k) {
+      double shortest = panels_.area[p];
+      for (const std::size_t other : around_[static_cast<std::size_t>(panels_.corners[p][k])])
+        shortest = std::min(shortest, panels_.area[other]);
+      segments[p].least[k] = beside_a_node * shortest;
+    }
+  const auto change = changes(panels_, gradients);
   std::vector<Rest> all(size);
   for (std::size_t p = 0; p < size; ++p) {
     all[p].u = (at_node(p, 0) + at_node(p, 1)) / 2.0;

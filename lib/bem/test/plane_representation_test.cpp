@@ -163,6 +163,12 @@ TEST(PlaneRepresentation, AgreesWithTheKernelsOfTextbooks)
   for (const auto& panels : {polygons({circle(1, 7), circle(0.1, 5, true)}, 1), uneven}) {
     const Eigen::VectorXd u = plane_noise(2 * panels.node_count(), 1), t = balanced(panels, plane_noise(2 * panels.size(), 2));
     const Representation inside(panels, material);
+    std::vector<double> shortest(panels.points.size(), 1e9);  // panel of each node
+    for (std::size_t p = 0; p < panels.corners.size(); ++p)
+      for (const Local n : panels.corners[p]) {
+        auto& own = shortest[static_cast<std::size_t>(n)];
+        own = std::min(own, panels.area[p]);
+      }
     for (const double distance : {0.5, 0.1, 1e-3, 1e-5}) {
       std::vector<Point> points;
       for (const auto& x : near_border(panels, distance))
@@ -174,9 +180,14 @@ TEST(PlaneRepresentation, AgreesWithTheKernelsOfTextbooks)
         const auto row = static_cast<Eigen::Index>(i);
         const auto [displacement, stress] = textbook(panels, material, points[i], u, t);
         EXPECT_LT((found.displacement.row(row).transpose() - displacement).norm(), 1e-8) << panels.size() << ", " << distance;
-        EXPECT_LT((found.stress.row(row).transpose() - components(stress)).norm(),
-                  (distance < 1e-4 ? 1e-5 : 1e-8) * stress.norm())
-            << i;
+        bool at_a_node = false;  // where logarithms are cut off
+        for (std::size_t n = 0; n < shortest.size(); ++n)
+          at_a_node = at_a_node || (panels.points[n] - points[i]).norm() < 0.051 * shortest[n];
+        if (!at_a_node) {
+          EXPECT_LT((found.stress.row(row).transpose() - components(stress)).norm(),
+                    (distance < 1e-4 ? 1e-5 : 1e-8) * stress.norm())
+              << i;
+        }
       }
     }
   }
