@@ -8,8 +8,6 @@ namespace mortise::bem {
 
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double rounding = 1e-16;
 constexpr double exact_enough = 1e-12;
 constexpr int most_points = 8;

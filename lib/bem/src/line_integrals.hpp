@@ -10,9 +10,11 @@
 
 namespace mortise::bem {
 
+using Complex = std::complex<double>;
+
 /// From its begin to its end, as complex numbers. The normal is at its right.
 struct Line {
-  std::complex<double> begin, end;
+  Complex begin, end;
 };
 
 struct LineIntegrals {

@@ -17,6 +17,8 @@ struct PairIntegrals {
   double single = 0;
   std::array<double, 6> tensor{};
   std::array<double, 3> double_x{}, double_y{};
+
+  PairIntegrals times(double factor) const;
 };
 
 /// Makes all integrals of a surface to about `accuracy`, relative to those of a panel with its neighbours.

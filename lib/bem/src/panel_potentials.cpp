@@ -15,6 +15,25 @@ double log_ratio(double a, double b, double at_a, double at_b, double squared)
   return std::log((b + at_b) * (at_a - a) / squared);
 }
 
+// The edge from corner k to the next, of a panel over whose plane x is at the height h. With s along it from x's projection:
+struct EdgeSeen {
+  Point tau, nu;           // along it; across it in the plane, outward
+  double length, p;        // of the edge; of x's projection from it, along nu
+  double s0, s1;           // of its ends
+  double squared, r0, r1;  // distance of x from its line, squared; from its ends
+  double f;                // I 1 / r along it
+};
+EdgeSeen edge_seen_from(const Point& x, double h, const Panels& panels, std::size_t panel, int k)
+{
+  const Point first = panels.corner(panel, k) - x, edge = panels.corner(panel, (k + 1) % 3) - panels.corner(panel, k);
+  const double length = edge.norm();
+  const Point tau = edge / length, nu = tau.cross(panels.normal[panel]);
+  const double p = nu.dot(first), s0 = tau.dot(first), s1 = s0 + length;
+  const double squared = std::max(p * p + h * h, 1e-24 * length * length);
+  const double r0 = std::sqrt(s0 * s0 + squared), r1 = std::sqrt(s1 * s1 + squared);
+  return {tau, nu, length, p, s0, s1, squared, r0, r1, log_ratio(s0, s1, r0, r1, squared)};
+}
+
 }  // namespace
 
 double solid_angle(const Panels& panels, std::size_t panel, const Point& x)
@@ -35,13 +54,7 @@ LayerPotentials layer_potentials(const Panels& panels, std::size_t panel, const 
   std::array<double, 3> beyond{};  // twice the area of x's projection with each edge
   std::array<Point, 3> normals;    // of the edges, as long as these
   for (int k = 0; k < 3; ++k) {
-    const Point first = panels.corner(panel, k) - x, edge = panels.corner(panel, (k + 1) % 3) - panels.corner(panel, k);
-    const double length = edge.norm();
-    const Point tau = edge / length, nu = tau.cross(n);
-    const double p = nu.dot(first), s0 = tau.dot(first), s1 = s0 + length;
-    const double squared = std::max(p * p + h * h, 1e-24 * length * length);
-    const double r0 = std::sqrt(s0 * s0 + squared), r1 = std::sqrt(s1 * s1 + squared);
-    const double f = log_ratio(s0, s1, r0, r1, squared);
+    const auto [tau, nu, length, p, s0, s1, squared, r0, r1, f] = edge_seen_from(x, h, panels, panel, k);
     single += p * f;
     b -= f * nu;
     edges += nu * (p * f * nu + (r1 - r0) * tau).transpose();
@@ -75,15 +88,9 @@ PanelPotentials panel_potentials(const Panels& panels, std::size_t panel, const 
   Point b = Point::Zero(), y = Point::Zero();
   Eigen::Matrix3d edges = Eigen::Matrix3d::Zero(), cross = angle * plane, cubic = Eigen::Matrix3d::Zero();
   for (int k = 0; k < 3; ++k) {
-    const Point first = panels.corner(panel, k) - x, edge = panels.corner(panel, (k + 1) % 3) - panels.corner(panel, k);
-    const double length = edge.norm();
-    const Point tau = edge / length, nu = tau.cross(n);
-    const double p = nu.dot(first), s0 = tau.dot(first), s1 = s0 + length;
-    const double squared = std::max(p * p + h * h, 1e-24 * length * length);
-    const double r0 = std::sqrt(s0 * s0 + squared), r1 = std::sqrt(s1 * s1 + squared);
-    // I 1 / r; r0^2 I 1 / r^3; I s / r^3 and I s^2 / r^3 along the edge
-    const double f = log_ratio(s0, s1, r0, r1, squared), w = s1 / r1 - s0 / r0, e1 = 1 / r0 - 1 / r1, e2 = f - w,
-                 e0 = w / squared;
+    const auto [tau, nu, length, p, s0, s1, squared, r0, r1, f] = edge_seen_from(x, h, panels, panel, k);
+    // r0^2 I 1 / r^3; I s / r^3 and I s^2 / r^3 along the edge
+    const double w = s1 / r1 - s0 / r0, e1 = 1 / r0 - 1 / r1, e2 = f - w, e0 = w / squared;
     single += p * f;
     b -= f * nu;
     edges += nu * (p * f * nu + (r1 - r0) * tau).transpose();

@@ -11,21 +11,31 @@ namespace {
 // Of the box round a surface. Beyond it -ln (r / unit) is positive, and so is V, whatever the surface.
 constexpr double sizes_a_unit = 4;
 
+struct Box {
+  Point low, high;
+};
 struct Scaled {
   std::vector<Line> lines;  // lengths over `unit`
   double unit;
 };
 
+Box box_round(const PlanePanels& panels)
+{
+  Box box{panels.points.front(), panels.points.front()};
+  for (const auto& x : panels.points) {
+    box.low = box.low.cwiseMin(x);
+    box.high = box.high.cwiseMax(x);
+  }
+  return box;
+}
+
 Scaled scaled_lines(const PlanePanels& panels)
 {
-  Point low = panels.points.front(), high = low;
-  for (const auto& x : panels.points) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  Scaled result{{}, sizes_a_unit * (high - low).norm()};
+  const auto [low, high] = box_round(panels);
+  Scaled result{{}, unit_of_length(panels)};
+  const Point middle = (low + high) / 2;
   const auto number = [&](const Point& x) {
-    const Point scaled = (x - (low + high) / 2) / result.unit;
+    const Point scaled = (x - middle) / result.unit;
     return std::complex<double>(scaled[0], scaled[1]);
   };
   for (std::size_t p = 0; p < panels.corners.size(); ++p)
@@ -89,6 +99,12 @@ Eigen::MatrixXd times_slope(const PlanePanels& panels, const Eigen::MatrixXd& a)
 }
 
 }  // namespace
+
+double unit_of_length(const PlanePanels& panels)
+{
+  const auto [low, high] = box_round(panels);
+  return sizes_a_unit * (high - low).norm();
+}
 
 BoundaryOperators boundary_operators(const PlanePanels& panels, const fem::Material& material, Operators which)
 {

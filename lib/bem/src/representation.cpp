@@ -79,7 +79,7 @@ Eigen::Matrix3d tangential(const Eigen::Matrix3d& gradient)
 }  // namespace
 
 // What one point gathers.
-struct Representation::Sum {
+struct Representation<3>::Sum {
   Lane3 displacement;
   std::array<Lane3, 3> gradient;
   // of panels in closed form
@@ -96,7 +96,7 @@ struct Representation::Sum {
   }
 };
 
-Representation::Representation(const Panels& panels, const fem::Material& material, double accuracy)
+Representation<3>::Representation(const Panels& panels, const fem::Material& material, double accuracy)
     : panels_(panels), material_(material), recovery_(panels, material)
 {
   for (std::size_t r = 0; r < rules; ++r)
@@ -141,7 +141,7 @@ Representation::Representation(const Panels& panels, const fem::Material& materi
   }
 }
 
-Representation::Nearest Representation::nearest(const Point& x) const
+Representation<3>::Nearest Representation<3>::nearest(const Point& x) const
 {
   // Some point of a panel is no farther than the panel's centre, and none nearer than that by its radius.
   std::vector<Lane> distance(blocks_.size());
@@ -168,7 +168,7 @@ Representation::Nearest Representation::nearest(const Point& x) const
   return result;
 }
 
-int Representation::rule_for(const Block& block, const Point& x) const
+int Representation<3>::rule_for(const Block& block, const Point& x) const
 {
   const auto& [c0, c1, c2] = block.centre;
   const double ratio = (block.radius.square() / ((c0 - x[0]).square() + (c1 - x[1]).square() + (c2 - x[2]).square())).maxCoeff();
@@ -177,7 +177,7 @@ int Representation::rule_for(const Block& block, const Point& x) const
   return rule;
 }
 
-Location Representation::locate(const Point& x) const
+Location Representation<3>::locate(const Point& x) const
 {
   const Nearest found = nearest(x);
   double angle = 0;
@@ -195,7 +195,7 @@ Location Representation::locate(const Point& x) const
   return {angle < -2 * std::numbers::pi, std::sqrt(found.squared_distance), found.panel};
 }
 
-std::vector<Representation::Fields> Representation::fields(const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
+std::vector<Representation<3>::Fields> Representation<3>::fields(const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
 {
   const double mu = material_.young_modulus / (2 * (1 + material_.poisson_ratio));
   std::vector<Fields> result(blocks_.size());
@@ -223,7 +223,7 @@ std::vector<Representation::Fields> Representation::fields(const Eigen::VectorXd
   return result;
 }
 
-void Representation::add_far(std::size_t index, int rule_index, const Fields& rest, const Point& x, Sum& sum) const
+void Representation<3>::add_far(std::size_t index, int rule_index, const Fields& rest, const Point& x, Sum& sum) const
 {
   const Block& block = blocks_[index];
   const auto& rule = triangle_rule(rule_index);
@@ -274,7 +274,7 @@ void Representation::add_far(std::size_t index, int rule_index, const Fields& re
   }
 }
 
-void Representation::add_near(const Block& block, const Fields& rest, const Point& x, Sum& sum) const
+void Representation<3>::add_near(const Block& block, const Fields& rest, const Point& x, Sum& sum) const
 {
   for (int l = 0; l < block.size; ++l) {
     const std::size_t p = block.panel[static_cast<std::size_t>(l)];
@@ -294,7 +294,7 @@ void Representation::add_near(const Block& block, const Fields& rest, const Poin
   }
 }
 
-InteriorField Representation::evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
+InteriorField Representation<3>::evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
 {
   const double nu = material_.poisson_ratio, mu = material_.young_modulus / (2 * (1 + nu));
   const auto all = fields(u, t);

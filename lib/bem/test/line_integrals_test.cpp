@@ -9,8 +9,6 @@
 namespace mortise::bem {
 namespace {
 
-using Complex = std::complex<double>;
-
 double largest_of(const LineIntegrals& a, const LineIntegrals& b, double lengths, double length)
 {
   double result = std::abs(a.single - b.single) / lengths;

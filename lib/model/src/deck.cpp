@@ -180,13 +180,6 @@ void check_vectors(const Deck& deck, deck::Document& document)
   const auto& interior = deck.output.interior;
   for (std::size_t i = 0; i < interior.points.size(); ++i) flat(interior.points[i], fmt::format("output.interior.points[{}]", i));
   if (!interior.planes.empty()) document.error("output.interior.planes", "sections are for models of dimension 3");
-  for (const auto& [name, body] : deck.bodies)
-    if (interior.any() && body.method == fem::Method::boundary_elements)
-      document.error(
-          "output.interior",
-          fmt::format("the inside of boundary elements, of the body \"{}\", is evaluated in models of dimension 3 alone; "
-                      "take its `method: finite_elements`",
-                      name));
 }
 
 void check_couplings(const Deck& deck, deck::Document& document)

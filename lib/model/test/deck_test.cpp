@@ -157,8 +157,13 @@ TEST(Decks, TheInsideOfBodiesIsAskedForByWordListOrFile)
          "output.interior.planes.a/b: the name goes into file");
   expect({"output.interior.planes={a: {point: [0, 0, 0], normal: [0, 0, 0]}}"}, "planes.a.normal: expected a direction");
   expect({"dimension=plane_strain", "output.interior.points=[[1, 2, 3]]"}, "output.interior.points[0]: a plane model has no z");
-  expect({"dimension=plane_strain", "output.interior=cells", "bodies.a.method=boundary_elements"},
-         "output.interior: the inside of boundary elements, of the body \"a\", is evaluated in models of dimension 3 alone");
+  expect({"dimension=plane_stress", "bodies.a.method=boundary_elements",
+          "output.interior.planes={a: {point: [0, 0, 0], normal: [0, 0, 1]}}"},
+         "output.interior.planes: sections are for models of dimension 3");
+  for (const std::string plane : {"plane_strain", "plane_stress"})
+    EXPECT_EQ(complaints(blocks, {"dimension=" + plane, "output.interior=cells", "bodies.a.method=boundary_elements"})
+                  .find("output.interior"),
+              std::string::npos);
 }
 
 TEST(Decks, SectionsAreCheckedAgainstEachOther)

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "bem/plane_state.hpp"
 #include "bem/representation.hpp"
 #include "boundary_stress.hpp"
 #include "fem/stress.hpp"
@@ -13,18 +14,29 @@ namespace mortise::post {
 namespace {
 
 // In a subdomain of boundary elements.
+template <int D>
 Values represent(const ElasticBodies& bodies, const StressField& stress, std::size_t s, std::span<const Point> points)
 {
-  const auto panels = bem::make_panels(bodies.decomposition.subdomains[s].mesh);
-  const bem::Representation inside(panels, bodies.constitution[s].materials[0]);
+  const auto& constitution = bodies.constitution[s];
+  const auto panels = bem::make_panels<D>(bodies.decomposition.subdomains[s].mesh);
+  const bem::Representation<D> inside(panels, bem::in_plane(constitution.materials[0], bodies.kinematics));
   auto found = inside.evaluate(points, stress.surface[s].displacement, stress.surface[s].traction);
   const auto particular = particular_solution(bodies, s);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     found.displacement.row(row) += particular.displacement(points[i]).transpose();
     found.stress.row(row) += particular.stress(points[i]).transpose();
+    if (D == 2)
+      found.stress(row, 2) =
+          bem::stress_across_plane(constitution, bodies.kinematics, found.stress(row, 0) + found.stress(row, 1));
   }
   return {std::move(found.displacement), std::move(found.stress)};
+}
+
+Values represent(const ElasticBodies& bodies, const StressField& stress, std::size_t s, std::span<const Point> points)
+{
+  return fem::dimension(bodies.kinematics) == 2 ? represent<2>(bodies, stress, s, points)
+                                                : represent<3>(bodies, stress, s, points);
 }
 
 void take_largest(const Values& values, std::span<const Point> points, Found& largest)

@@ -24,6 +24,24 @@ struct Candidate {
   Place place;
 };
 
+struct Located {
+  bool inside;
+  double distance, size;  // from the nearest panel, and of it
+};
+
+template <int D>
+std::vector<Located> locate(const mesh::Mesh& skin, std::span<const Point> points)
+{
+  const auto panels = bem::make_panels<D>(skin);
+  const bem::Representation<D> surface(panels, {.young_modulus = 1});  // of any material
+  std::vector<Located> result;
+  for (const auto& x : points) {
+    const auto [inside, distance, panel] = surface.locate(x);
+    result.push_back({inside, distance, D == 3 ? std::sqrt(2 * panels.area[panel]) : panels.area[panel]});
+  }
+  return result;
+}
+
 // The candidates of this rank, by point and body.
 std::map<std::pair<std::size_t, int>, Candidate> candidates(const partition::Decomposition& decomposition,
                                                             const std::vector<double>& sizes, std::span<const Point> points)
@@ -33,6 +51,7 @@ std::map<std::pair<std::size_t, int>, Candidate> candidates(const partition::Dec
   std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) { return points[a][0] < points[b][0]; });
   std::map<std::pair<std::size_t, int>, Candidate> result;
   std::vector<Point> nodes;
+  const bool flat = decomposition.catalogue.dimension == 2;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& mesh = solid(decomposition.subdomains[s]);
     const int body = decomposition.subdomains[s].body;
@@ -43,11 +62,10 @@ std::map<std::pair<std::size_t, int>, Candidate> candidates(const partition::Dec
       if (const double counts = distance <= within ? 0 : distance; counts < best.distance) best = {counts, place};
     };
     if (is_surface_alone(decomposition.subdomains[s])) {
-      const auto panels = bem::make_panels(mesh);
-      const bem::Representation surface(panels, {.young_modulus = 1});  // of any material
+      const auto located = flat ? locate<2>(mesh, points) : locate<3>(mesh, points);
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto [inside, distance, panel] = surface.locate(points[i]);
-        take(i, inside ? 0 : distance, off_the_mesh * std::sqrt(2 * panels.area[panel]), {s, 0, Point::Zero(), points[i]});
+        const auto [inside, distance, size] = located[i];
+        take(i, inside ? 0 : distance, off_the_mesh * size, {s, 0, Point::Zero(), points[i]});
       }
       continue;
     }

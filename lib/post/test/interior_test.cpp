@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bem/particular_solution.hpp"
+#include "bem/plane_state.hpp"
 #include "bem/steklov_poincare.hpp"
 #include "bem/surface_stress.hpp"
 #include "fem/stiffness.hpp"
@@ -20,9 +21,10 @@ const fem::Material steel{200, 0.3, 2, 1e-3};
 constexpr double warmer = 5;
 const Eigen::Matrix3d slope = (Eigen::Matrix3d() << 3, 2, -5, 7, -4, 1, 2.5, 9, 6).finished() * 1e-3;
 
-// A block of finite elements and one of boundary elements on it, which touch at z = 1. Both are warmed; the upper one, its field
-// being the sum of a particular solution and a linear one, has weight as well.
+// A block of finite elements and one of boundary elements on it, which touch at z = 1, in a plane at y = 1. Both are warmed; the
+// upper one, its field being the sum of a particular solution and a linear one, has weight as well.
 struct TwoMethods {
+  fem::Kinematics kinematics;
   Communicator comm;
   partition::Decomposition decomposition;
   std::unique_ptr<partition::NodeDirectory> directory;
@@ -32,21 +34,22 @@ struct TwoMethods {
   std::vector<std::shared_ptr<const feti::SubdomainOperator>> operators;
   std::vector<Eigen::VectorXd> displacement;
 
-  TwoMethods(const std::string& element, int parts)
+  TwoMethods(const std::string& element, int parts, fem::Kinematics kind = fem::Kinematics::solid) : kinematics(kind)
   {
+    const int d = fem::dimension(kinematics);
     mesh::Options mesh;
     for (const char* name : {"fe", "be"}) {
       mesh.blocks[name].size = {2, 1, 1};
       mesh.blocks[name].cells = {4, 2, 3};
       mesh.blocks[name].element = element;
     }
-    mesh.blocks["be"].origin = {0, 0, 1};
+    mesh.blocks["be"].origin[static_cast<std::size_t>(d) - 1] = 1;
     partition::Options options;
     options.method = "grid";
     options.counts["fe"] = options.counts["be"] = {parts, 1, 1};
     Timers timers;
     Log log(comm, nullptr);
-    decomposition = partition::decompose(mesh, options, 3, {comm, log, timers});
+    decomposition = partition::decompose(mesh, options, d, {comm, log, timers});
     decomposition = partition::skins(std::move(decomposition), {true, false}, true, comm);
     std::vector<std::vector<double>> weights;
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
@@ -57,27 +60,40 @@ struct TwoMethods {
       operators.emplace_back();
       if (subdomain.skin)
         operators.back() = std::make_shared<feti::DenseSubdomain>(
-            bem::steklov_poincare(bem::make_panels(subdomain.mesh), steel),
-            fem::rigid_motions(subdomain.mesh.points, fem::Kinematics::solid), subdomain.mesh.points, 3);
-      auto& u = displacement.emplace_back(3 * static_cast<Eigen::Index>(subdomain.mesh.node_count()));
+            d == 2 ? bem::steklov_poincare(bem::make_panels<2>(subdomain.mesh), in_plane())
+                   : bem::steklov_poincare(bem::make_panels(subdomain.mesh), steel),
+            fem::rigid_motions(subdomain.mesh.points, kinematics), subdomain.mesh.points, d);
+      auto& u = displacement.emplace_back(d * static_cast<Eigen::Index>(subdomain.mesh.node_count()));
       for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
-        u.segment<3>(3 * static_cast<Eigen::Index>(n)) = moved(subdomain.mesh.points[n], subdomain.skin);
+        u.segment(d * static_cast<Eigen::Index>(n), d) = moved(subdomain.mesh.points[n], subdomain.skin).head(d);
     }
     directory = std::make_unique<partition::NodeDirectory>(decomposition, weights, comm);
     interface = partition::find_interface(decomposition, *directory, comm);
   }
 
-  static fem::Constitution of(bool skin)
+  bool flat() const { return kinematics != fem::Kinematics::solid; }
+  fem::Material in_plane() const { return bem::in_plane(steel, kinematics); }
+  Eigen::Matrix3d gradient() const
   {
-    return {steel, fem::Formulation::standard, warmer, skin ? Point(3, 0, -10) : Point::Zero()};
+    Eigen::Matrix3d result = slope;
+    if (flat()) result.row(2).setZero(), result.col(2).setZero();
+    return result;
   }
-  static bem::ParticularSolution particular(bool skin) { return {of(skin), Point::Zero()}; }
-  static Point moved(const Point& x, bool skin) { return slope * x + particular(skin).displacement(x); }
-  static fem::Stress stress(const Point& x, bool skin)
+  bool upper(const Point& x) const { return x[flat() ? 1 : 2] > 1; }
+  fem::Constitution of(bool skin) const
   {
-    return bem::components(bem::hooke(steel, slope)) + particular(skin).stress(x);
+    const Point weight = flat() ? Point(3, -10, 0) : Point(3, 0, -10);
+    return {steel, fem::Formulation::standard, warmer, skin ? weight : Point::Zero()};
   }
-  ElasticBodies bodies() const { return {decomposition, interface, fem::Kinematics::solid, constitution, 1, copies, operators}; }
+  bem::ParticularSolution particular(bool skin) const { return {of(skin), Point::Zero(), kinematics}; }
+  Point moved(const Point& x, bool skin) const { return gradient() * x + particular(skin).displacement(x); }
+  fem::Stress stress(const Point& x, bool skin) const
+  {
+    fem::Stress result = bem::components(bem::hooke(in_plane(), gradient())) + particular(skin).stress(x);
+    if (flat()) result[2] = bem::stress_across_plane(of(skin), kinematics, result[0] + result[1]);
+    return result;
+  }
+  ElasticBodies bodies() const { return {decomposition, interface, kinematics, constitution, 1, copies, operators}; }
   void expect_exact(const Values& values, std::size_t i, const Point& x, bool skin) const
   {
     const auto row = static_cast<Eigen::Index>(i);
@@ -86,28 +102,22 @@ struct TwoMethods {
   }
 };
 
-std::vector<Point> random_points(int count)
+std::vector<Point> random_points(int count, bool flat)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<Point> result;
   for (int i = 0; i < count; ++i) {
     const double x = uniform(random), y = uniform(random), z = uniform(random);
-    result.emplace_back(2 * x, y, 2 * z);
+    result.push_back(flat ? Point(2 * x, 2 * y, 0) : Point(2 * x, y, 2 * z));
   }
   return result;
 }
 
-class Inside : public testing::TestWithParam<std::tuple<const char*, int>> {
- protected:
-  TwoMethods blocks() const { return {std::get<0>(GetParam()), std::get<1>(GetParam())}; }
-};
-
-TEST_P(Inside, ValuesAreExact)
+void expect_exact_values(const TwoMethods& model)
 {
-  const auto model = blocks();
-  const auto points = random_points(60);
-  auto found = find_points(model.decomposition, fem::Kinematics::solid, points, model.comm);
+  const auto points = random_points(60, model.flat());
+  auto found = find_points(model.decomposition, model.kinematics, points, model.comm);
   ASSERT_TRUE(found.lost.empty());
   EXPECT_EQ(found.rows, 60);
   EXPECT_EQ(model.comm.sum(static_cast<long long>(found.mine.size())), 60);
@@ -121,8 +131,8 @@ TEST_P(Inside, ValuesAreExact)
   EXPECT_GE(stress.largest_von_mises.value, largest.value);
   for (std::size_t i = 0; i < probes.points.size(); ++i) {
     const Point& x = points[probes.points[i].point];
-    EXPECT_EQ(probes.points[i].body, x[2] > 1 ? 0 : 1);
-    model.expect_exact(interior.points, i, x, x[2] > 1);
+    EXPECT_EQ(probes.points[i].body, model.upper(x) ? 0 : 1);
+    model.expect_exact(interior.points, i, x, model.upper(x));
   }
   long long nodes = 0;
   for (std::size_t s = 0; s < model.decomposition.subdomains.size(); ++s) {
@@ -146,10 +156,33 @@ TEST_P(Inside, ValuesAreExact)
   EXPECT_GT(model.comm.sum(nodes), 0);
 }
 
+class Inside : public testing::TestWithParam<std::tuple<const char*, int>> {};
+
+TEST_P(Inside, ValuesAreExact)
+{
+  expect_exact_values({std::get<0>(GetParam()), std::get<1>(GetParam())});
+}
+
 INSTANTIATE_TEST_SUITE_P(Cells, Inside,
                          testing::Combine(testing::Values("tet4", "hex8", "prism6", "hex20", "tet10"), testing::Values(1, 2)),
                          [](const auto& info) {
                            return std::get<0>(info.param) + std::string(std::get<1>(info.param) > 1 ? "_cut" : "");
+                         });
+
+class InsideThePlane : public testing::TestWithParam<std::tuple<const char*, int, fem::Kinematics>> {};
+
+TEST_P(InsideThePlane, ValuesAreExact)
+{
+  const auto [element, parts, kinematics] = GetParam();
+  expect_exact_values({element, parts, kinematics});
+}
+
+INSTANTIATE_TEST_SUITE_P(Cells, InsideThePlane,
+                         testing::Combine(testing::Values("quad4", "tri3", "quad8"), testing::Values(1, 2),
+                                          testing::Values(fem::Kinematics::plane_strain, fem::Kinematics::plane_stress)),
+                         [](const auto& info) {
+                           return std::get<0>(info.param) + std::string(std::get<1>(info.param) > 1 ? "_cut" : "") +
+                                  (std::get<2>(info.param) == fem::Kinematics::plane_strain ? "_strain" : "_stress");
                          });
 
 // The largest stress of a body under its weight is inside, where only the inside is asked.

@@ -56,6 +56,9 @@ BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& 
 /// In plane strain, from closed forms: 2 components instead of 3. For plane stress see plane_state.hpp.
 BoundaryOperators boundary_operators(const PlanePanels& panels, const fem::Material& material, Operators which = Operators::all);
 
+/// The unit of -ln r in a plane: four times the size of the surface.
+double unit_of_length(const PlanePanels& panels);
+
 /// Nodal forces of tractions that are constant on each panel: M't, D n.
 template <int D>
 Eigen::VectorXd nodal_forces(const PanelsIn<D>& panels, const Eigen::VectorXd& t);

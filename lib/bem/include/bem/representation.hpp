@@ -10,10 +10,14 @@
 // nothing is more singular than 1 / r^2, and t, m and the surface gradient of u are constant on a panel. Far panels are
 // integrated by rules, near ones in closed form, so that no distance from the surface is too small. The linear field that the
 // nearest panel has, which the formulas reproduce, is taken off before and added after: large rotations do no harm to stresses.
+//
+// In a plane -ln (r / unit) / (2 pi) stands for 1 / (4 pi r), d / (2 pi r^2) for d / (4 pi r^3); all panels are integrated in
+// closed form. Plane models: plane strain; for plane stress see plane_state.hpp.
 #pragma once
 
 #include <Eigen/Core>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bem/panels.hpp"
@@ -24,7 +28,7 @@ namespace mortise::bem {
 
 /// Where a point lies.
 struct Location {
-  bool inside;        ///< by the solid angle of the surface, 4 pi inside and 0 outside
+  bool inside;        ///< by the angle that the surface fills, 4 pi (in a plane 2 pi) inside and 0 outside
   double distance;    ///< from the surface, >= 0
   std::size_t panel;  ///< the nearest one
 };
@@ -34,7 +38,15 @@ struct InteriorField {
   Eigen::MatrixXd stress;        ///< points x 6, XX YY ZZ XY YZ XZ
 };
 
-class Representation {
+template <int D>
+class Representation;
+template <int D>
+Representation(const PanelsIn<D>&, const fem::Material&) -> Representation<D>;
+template <int D>
+Representation(const PanelsIn<D>&, const fem::Material&, double) -> Representation<D>;
+
+template <>
+class Representation<3> {
  public:
   /// Keeps a reference to `panels`. `accuracy` of the quadrature, relative to how far strains differ from those of the nearest
   /// panel.
@@ -86,6 +98,37 @@ class Representation {
   std::array<double, rules> largest_;  // radius / distance of a panel for each rule
   std::vector<Block> blocks_;
   std::array<std::vector<Lane3>, rules> points_;  // of the rules: block * points + point
+};
+
+template <>
+class Representation<2> {
+ public:
+  /// Keeps a reference to `panels`.
+  Representation(const PlanePanels& panels, const fem::Material& material);
+
+  Location locate(const Point& x) const;
+
+  /// As in space, of u (2 n) and t (2 m), for points of the plane z = 0; the stress across the plane is that of plane strain. For
+  /// stresses t and du / ds are made linear on each panel: the gradient that a panel has in its middle changes along it as
+  /// those of its neighbours tell, as far as there is no corner. So a linear stress is exact up to the surface, on it as well.
+  /// Where stresses jump from panel to panel all the same their logarithm is cut off at a twentieth of a panel from the node.
+  /// Outside, not farther than the nearest panel is long, what is found on that panel.
+  InteriorField evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const;
+
+ private:
+  struct Nearest {
+    std::size_t panel;
+    double squared_distance;
+  };
+  Nearest nearest(const Point& x) const;
+  bool encloses(const Point& x) const;
+  // x, or where it is on the surface or beside it outside the nearest point a little inside; and the nearest panel.
+  std::pair<Point, std::size_t> evaluated_at(const Point& x) const;
+
+  const PlanePanels& panels_;
+  fem::Material material_;
+  double unit_;                                   // of length
+  std::vector<std::vector<std::size_t>> around_;  // panels of each node
 };
 
 }  // namespace mortise::bem
