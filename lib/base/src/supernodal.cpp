@@ -37,17 +37,34 @@ std::size_t panel_values(const Piece& piece)
   return static_cast<std::size_t>(piece.tiles) * static_cast<std::size_t>(piece.width * tile);
 }
 
+// Vectors of doubles at any address: a reference to such a vector forgets, with some compilers, that it need not be aligned.
+template <int Lanes>
+struct Loose {
+  typedef double Lane __attribute__((vector_size(Lanes * sizeof(double))));
+  struct [[gnu::packed, gnu::may_alias]] Unaligned { Lane lane; };
+  [[gnu::always_inline]] static void load(Lane& lane, const double* from)
+  {
+    lane = reinterpret_cast<const Unaligned*>(from)->lane;
+  }
+  [[gnu::always_inline]] static void store(const Lane& lane, double* to) { reinterpret_cast<Unaligned*>(to)->lane = lane; }
+  [[gnu::always_inline]] static void subtract_at(double* at, const Lane& lane)
+  {
+    Lane value;
+    load(value, at);
+    value -= lane;
+    store(value, at);
+  }
+};
+
 // Arithmetic on tiles for Registers x Lanes right-hand sides, whose row i starts at y + i * count. Group rows of a tile at a
 // time: their sums, Group * Registers, must fit in registers. Everything is inlined into functions for one processor.
 template <int Lanes, int Registers, int Group>
 struct Tiles {
   static constexpr int count = Lanes * Registers;
-  typedef double Lane __attribute__((vector_size(Lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+  using Memory = Loose<Lanes>;
+  using Lane = typename Memory::Lane;
 
-  [[gnu::always_inline]] static Lane& lane(double* y, std::ptrdiff_t row, int n)
-  {
-    return *reinterpret_cast<Lane*>(y + row * count + n * Lanes);
-  }
+  [[gnu::always_inline]] static double* at(double* y, std::ptrdiff_t row, int n) { return y + row * count + n * Lanes; }
 
   // y[target(r)] -= sum_j values[j][r] x[j] for the 8 rows r.
   template <class Target>
@@ -64,7 +81,7 @@ struct Tiles {
       for (int j = 0; j < columns; ++j, value += tile) {
         Lane xj[Registers];
 #pragma GCC unroll 2
-        for (int n = 0; n < Registers; ++n) xj[n] = lane(x, j, n);
+        for (int n = 0; n < Registers; ++n) Memory::load(xj[n], at(x, j, n));
 #pragma GCC unroll 8
         for (int r = 0; r < Group; ++r)
 #pragma GCC unroll 2
@@ -73,7 +90,7 @@ struct Tiles {
 #pragma GCC unroll 8
       for (int r = 0; r < Group; ++r)
 #pragma GCC unroll 2
-        for (int n = 0; n < Registers; ++n) lane(y, target(g + r), n) -= sum[r][n];
+        for (int n = 0; n < Registers; ++n) Memory::subtract_at(at(y, target(g + r), n), sum[r][n]);
     }
   }
 
@@ -88,18 +105,18 @@ struct Tiles {
 #pragma GCC unroll 8
       for (int r = 0; r < Group; ++r)
 #pragma GCC unroll 2
-        for (int n = 0; n < Registers; ++n) z[r][n] = lane(y, source(g + r), n);
+        for (int n = 0; n < Registers; ++n) Memory::load(z[r][n], at(y, source(g + r), n));
       const double* value = values + g;
       for (int j = 0; j < columns; ++j, value += tile) {
         Lane xj[Registers];
 #pragma GCC unroll 2
-        for (int n = 0; n < Registers; ++n) xj[n] = lane(x, j, n);
+        for (int n = 0; n < Registers; ++n) Memory::load(xj[n], at(x, j, n));
 #pragma GCC unroll 8
         for (int r = 0; r < Group; ++r)
 #pragma GCC unroll 2
           for (int n = 0; n < Registers; ++n) xj[n] -= value[r] * z[r][n];
 #pragma GCC unroll 2
-        for (int n = 0; n < Registers; ++n) lane(x, j, n) = xj[n];
+        for (int n = 0; n < Registers; ++n) Memory::store(xj[n], at(x, j, n));
       }
     }
   }
@@ -108,10 +125,17 @@ struct Tiles {
   {
     for (int j = 0; j < tile; ++j) {
       Lane xj[Registers];
-      for (int n = 0; n < Registers; ++n) lane(x, j, n) = xj[n] = *values * lane(x, j, n);
+      for (int n = 0; n < Registers; ++n) {
+        Memory::load(xj[n], at(x, j, n));
+        xj[n] *= *values;
+        Memory::store(xj[n], at(x, j, n));
+      }
       ++values;
       for (int i = j + 1; i < tile; ++i, ++values)
-        for (int n = 0; n < Registers; ++n) lane(x, i, n) -= *values * xj[n];
+        for (int n = 0; n < Registers; ++n) {
+          const Lane part = *values * xj[n];
+          Memory::subtract_at(at(x, i, n), part);
+        }
     }
   }
 
@@ -121,10 +145,17 @@ struct Tiles {
     for (int j = tile - 1; j >= 0; --j) {
       values -= tile - j;
       Lane xj[Registers];
-      for (int n = 0; n < Registers; ++n) xj[n] = lane(x, j, n);
+      for (int n = 0; n < Registers; ++n) Memory::load(xj[n], at(x, j, n));
       for (int i = j + 1; i < tile; ++i)
-        for (int n = 0; n < Registers; ++n) xj[n] -= values[i - j] * lane(x, i, n);
-      for (int n = 0; n < Registers; ++n) lane(x, j, n) = *values * xj[n];
+        for (int n = 0; n < Registers; ++n) {
+          Lane xi;
+          Memory::load(xi, at(x, i, n));
+          xj[n] -= values[i - j] * xi;
+        }
+      for (int n = 0; n < Registers; ++n) {
+        xj[n] *= *values;
+        Memory::store(xj[n], at(x, j, n));
+      }
     }
   }
 
@@ -191,16 +222,21 @@ void solve_8(const SupernodalFactor& factor, double* y)
 // One right-hand side, registers along the rows.
 void solve_1(const SupernodalFactor& factor, double* y)
 {
-  typedef double Rows __attribute__((vector_size(tile * sizeof(double)), aligned(sizeof(double)), may_alias));
-  const auto at = [](const double* p) -> const Rows& { return *reinterpret_cast<const Rows*>(p); };
+  using Memory = Loose<tile>;
+  using Rows = Memory::Lane;
   const auto add_product = [&](const double* values, int columns, const double* x, Rows& even) {
-    Rows odd{};
+    Rows odd{}, value;
     int j = 0;
     for (; j + 1 < columns; j += 2) {
-      even += at(values + j * tile) * x[j];
-      odd += at(values + (j + 1) * tile) * x[j + 1];
+      Memory::load(value, values + j * tile);
+      even += value * x[j];
+      Memory::load(value, values + (j + 1) * tile);
+      odd += value * x[j + 1];
     }
-    if (j < columns) even += at(values + j * tile) * x[j];
+    if (j < columns) {
+      Memory::load(value, values + j * tile);
+      even += value * x[j];
+    }
     even += odd;
   };
   const auto total = [](const Rows& v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); };
@@ -211,7 +247,7 @@ void solve_1(const SupernodalFactor& factor, double* y)
     for (int b = 0; b < piece.width; b += tile) {
       Rows sum{};
       add_product(values, b, x, sum);
-      *reinterpret_cast<Rows*>(x + b) -= sum;
+      Memory::subtract_at(x + b, sum);
       values += b * tile;
       Tiles<1, 1, 8>::forwards(values, x + b);
       values += diagonal_values;
@@ -232,16 +268,24 @@ void solve_1(const SupernodalFactor& factor, double* y)
     for (int t = 0; t < piece.tiles; ++t) {
       values -= piece.width * tile;
       below -= tile;
-      Rows z;
+      Rows z, value;
       for (int r = 0; r < tile; ++r) z[r] = y[below[r]];
-      for (int j = 0; j < piece.width; ++j) sum[j] += at(values + j * tile) * z;
+      for (int j = 0; j < piece.width; ++j) {
+        Memory::load(value, values + j * tile);
+        sum[j] += value * z;
+      }
     }
     for (int j = 0; j < piece.width; ++j) x[j] -= total(sum[j]);
     for (int b = (blocks(piece.width) - 1) * tile; b >= 0; b -= tile) {
       values -= diagonal_values;
       Tiles<1, 1, 8>::backwards(values, x + b);
       values -= b * tile;
-      for (int j = 0; j < b; ++j) x[j] -= total(at(values + j * tile) * at(x + b));
+      Rows z, value;
+      Memory::load(z, x + b);
+      for (int j = 0; j < b; ++j) {
+        Memory::load(value, values + j * tile);
+        x[j] -= total(value * z);
+      }
     }
   }
 }

@@ -274,7 +274,7 @@ std::vector<SlidingSurface> sliding_surfaces(std::span<const Pair> pairs, const 
       e.tilt += w * tilt[f];
     }
   }
-  comm.sum_in_place({&extents.data()->area, extents.size() * 7});
+  comm.sum_in_place({reinterpret_cast<double*>(extents.data()), extents.size() * 7});
   std::vector<SlidingSurface> result;
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const auto& e = extents[k];

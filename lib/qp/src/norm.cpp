@@ -7,6 +7,8 @@ namespace mortise::qp {
 
 namespace {
 
+constexpr double nothing = 1e-10;  // part of a vector that G' y leaves of it where nothing is free: rounding
+
 // A number in (-1, 1) that depends on the global index alone, so that every number of ranks starts alike.
 double noise(Global index)
 {
@@ -26,9 +28,14 @@ double projected_norm(Hessian& a, const EqualityConstraint& equality, double acc
     auto values = view(v);
     for (Local i = 0; i < values.size(); ++i) values[i] = noise(map->getGlobalElement(i));
   }
+  Vector whole(v, Teuchos::Copy);
   equality.project(v);
-  const double start = v.norm2();
-  if (start == 0) return 0;
+  const double start = v.norm2(), size = whole.norm2();
+  if (size == 0) return 0;
+  if (!(start > nothing * size)) {
+    a.apply(whole, w);
+    return whole.dot(w) / (size * size);
+  }
   v.scale(1 / start);
 
   Eigen::VectorXd diagonal(max_steps), next(max_steps);

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <set>
 
 #include "qp/condensed_newton.hpp"
+#include "qp/norm.hpp"
 #include "random_programme.hpp"
 
 namespace mortise::qp {
@@ -178,6 +180,37 @@ TEST(Solvers, SmalseTakesOverWhereFaceNewtonCrawls)
       EXPECT_GE(of_smalse, 1);
     EXPECT_EQ(solution.outer_iterations, of_faces + of_smalse);
     EXPECT_LT(kkt(solution, programme.problem), 1e-8);  // what was reached stays
+  }
+}
+
+// As many equations as unknowns: P A P is rounding, and steps over it would drown a small right-hand side.
+TEST(Solvers, WhereTheEquationsLeaveNothingFreeTheyHoldToRounding)
+{
+  RandomProgramme programme;
+  const auto map = even_map(6, world());
+  const Eigen::MatrixXd root = programme.random(6, 6), dense = root * root.transpose() + Eigen::MatrixXd::Identity(6, 6);
+  const Eigen::MatrixXd g = programme.random(6, 6) + 4 * Eigen::MatrixXd::Identity(6, 6);
+  const Eigen::VectorXd e = 1e-9 * programme.random(6, 1);
+  DenseOperator a(dense, map, world());
+  const Vector b = local_part(programme.random(6, 1), map);
+  EqualityConstraint equality(local_columns(g, *map), e, world());
+  FeasibleSet set;
+  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues();
+  for (const auto* name : {"face_newton", "smalse"}) {
+    Hessian hessian(a, 1000);
+    const double norm = projected_norm(hessian, equality);
+    EXPECT_GE(norm, 0.99 * eigenvalues[0]);
+    EXPECT_LE(norm, 1.01 * eigenvalues[5]);
+    const Problem problem{hessian, b, equality, set};
+    Budget budget(hessian, {}, false);
+    const auto solver = solver_kind(name).make(problem, {budget, nullptr, {}});
+    Goal goal{1e-8};
+    std::optional<Solution> start;
+    solver->begin(start, goal, {});
+    const Solution solution = solver->solve(start, goal, {});
+    EXPECT_TRUE(solution.converged) << name;
+    EXPECT_LT((g * gathered(solution.x, world()) - e).norm(), 1e-13) << name;
+    EXPECT_LT(kkt(solution, problem), 1e-7) << name;
   }
 }
 
