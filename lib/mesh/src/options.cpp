@@ -10,7 +10,8 @@ void describe(deck::Description<BlockOptions>& d)
   d.help("A box of equal cells; the body NAME gets the boundaries NAME.xmin ... NAME.zmax.");
   d.key("origin", &BlockOptions::origin, "Lowest corner.");
   d.key("size", &BlockOptions::size, "Edge lengths.").required().at_least(0);
-  d.key("cells", &BlockOptions::cells, "Grid cells along each edge.").required().at_least(0);
+  constexpr double most = 1e9;  // places are counted in half cells, with 31 bits
+  d.key("cells", &BlockOptions::cells, "Grid cells along each edge.").required().at_least(0).below(most);
   d.key("element", &BlockOptions::element,
         "hex8, tet4, prism6, of second order hex20, hex27, tet10, prism15, prism18; plane models: quad4, tri3, quad8, quad9, "
         "tri6.")
