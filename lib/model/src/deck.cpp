@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <numeric>
 
@@ -182,6 +183,36 @@ void check_vectors(const Deck& deck, deck::Document& document)
   if (!interior.planes.empty()) document.error("output.interior.planes", "sections are for models of dimension 3");
 }
 
+// Whether a formula has a variable of this name.
+bool has_variable(const deck::Formula& formula, const std::string& name)
+{
+  const auto& text = formula.text();
+  const auto is_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const bool begins = at == 0 || !is_of_word(text[at - 1]);
+    const bool ends = at + name.size() == text.size() || !is_of_word(text[at + name.size()]);
+    if (begins && ends) return true;
+  }
+  return false;
+}
+
+// r and theta are polar coordinates of x and y, which are the radius and the axis there.
+void check_formulas_of_rings(const Deck& deck, deck::Document& document)
+{
+  if (!deck.axisymmetric()) return;
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    std::vector<deck::Formula> formulas;
+    if (deck.loads[i].pressure) formulas.push_back(*deck.loads[i].pressure);
+    if (const auto& traction = deck.loads[i].traction) formulas.insert(formulas.end(), traction->begin(), traction->end());
+    for (const auto& formula : formulas)
+      for (const char* name : {"r", "theta"})
+        if (has_variable(formula, name))
+          document.error(
+              fmt::format("loads[{}]", i),
+              fmt::format("\"{}\": in an axisymmetric model the radius is x and the axis is y; write x for r", formula.text()));
+  }
+}
+
 void check_couplings(const Deck& deck, deck::Document& document)
 {
   const auto check = [&](const std::string& name, const std::string& path) {
@@ -342,6 +373,7 @@ Deck read_deck(deck::Document& document, const std::string& output)
   check_decomposition(deck, document);
   check_vectors(deck, document);
   check_couplings(deck, document);
+  check_formulas_of_rings(deck, document);
   check_contacts(as_written(deck), deck.kinematics, document);
   check_steps(deck, document);
   auto& decomposition = deck.decomposition;
