@@ -222,6 +222,15 @@ void check_couplings(const Deck& deck, deck::Document& document)
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
     check(deck.supports[i].coupling, fmt::format("supports[{}].coupling", i));
   for (std::size_t i = 0; i < deck.loads.size(); ++i) check(deck.loads[i].coupling, fmt::format("loads[{}].coupling", i));
+  const auto is_rigid = [&](const std::string& boundary) {
+    return std::any_of(deck.couplings.begin(), deck.couplings.end(),
+                       [&](const auto& c) { return c.second.kind == "rigid" && c.second.boundary == boundary; });
+  };
+  for (std::size_t i = 0; i < deck.contacts.size(); ++i)
+    if (const auto& contact = deck.contacts[i]; is_rigid(contact.secondary) && (contact.obstacle || is_rigid(contact.primary)))
+      document.error(
+          fmt::format("contacts[{}]", i),
+          "both sides are rigid, so that nothing says how the force between them is spread; make a coupling distributing");
   for (const auto& [name, coupling] : deck.couplings) {
     if (deck.axisymmetric())
       document.error("couplings." + name,
