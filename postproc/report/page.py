@@ -4,14 +4,15 @@ import html
 import math
 
 STYLE = """
-body { font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; color: #1b1f24; max-width: 62em; margin: 2em auto; padding: 0 1em; }
+body { font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; color: #1b1f24; max-width: 78em; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.5em; margin-bottom: .2em; } h2 { font-size: 1.15em; margin-top: 2em; border-bottom: 1px solid #d5dae0; }
 table { border-collapse: collapse; margin: .6em 0; } th, td { padding: .2em .8em .2em 0; text-align: left; vertical-align: top; }
 th { font-weight: 600; color: #57606a; } td.n { text-align: right; font-variant-numeric: tabular-nums; } tr + tr td { border-top: 1px solid #eef1f4; }
 .state { padding: .7em 1em; border-radius: 6px; font-weight: 600; } .good { background: #dff3e4; } .bad { background: #ffd9d6; }
 .warning { background: #fff4cf; border-radius: 6px; padding: .5em 1em; margin: .5em 0; } .quiet { color: #57606a; }
 figure { margin: 1em 0; } figure img, figure svg { max-width: 100%; height: auto; } figcaption { color: #57606a; font-size: .92em; }
-@media print { body { margin: 0; max-width: none; } details { display: block; } h2 { break-after: avoid; } }
+h3 { font-size: 1em; margin: 1.4em 0 .2em; } .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 34em), 1fr)); gap: 1em 1.5em; } .pictures figure { margin: 0; }
+@media print { body { margin: 0; max-width: none; } details { display: block; } figure { break-inside: avoid; } h2 { break-after: avoid; } }
 """
 
 ENDS = {
@@ -68,6 +69,14 @@ def paragraph(words):
     return f"<p>{text(words)}</p>" if words else ""
 
 
+def gallery(groups, missing):
+    """Groups of pictures with headings; small ones stand beside each other."""
+    parts = []
+    for title, words, shown in groups:
+        parts += [f"<h3>{text(title)}</h3>", paragraph(words), f'<div class="pictures">{"".join(figure(*of) for of in shown)}</div>']
+    return section("Pictures", *parts, paragraph(missing))
+
+
 def figure(png, caption):
     data = base64.b64encode(png).decode()
     return f'<figure><img alt="{text(caption)}" src="data:image/png;base64,{data}"><figcaption>{text(caption)}</figcaption></figure>'
@@ -116,7 +125,9 @@ def results(state):
                        f"{percent(e.get('algebraic'))}. Stresses at single points may be off by more than the mesh's figure.")
     reactions = state.get("reactions", [])
     most = max((largest(r["force"]) for r in reactions), default=0)
-    forces = table(("support", "force on the bodies"), [(r["boundary"], vector(r["force"], most)) for r in reactions])
+    turn = max((largest(r["moment"]) for r in reactions if r.get("moment")), default=0)
+    forces = table(("support", "force on the bodies", "moment"),
+                   [(r.get("name") or r["boundary"], vector(r["force"], most), vector(r["moment"], turn) if r.get("moment") else "") for r in reactions])
     points = table(("coupling", "moves", "turns", "force on the boundary", "moment about the point", "supports' force", "supports' moment"),
                    [(c["name"], vector(c["displacement"], largest(c["rotation"])), vector(c["rotation"], largest(c["displacement"])),
                      *(vector(c[k], largest(c["force"] + c["moment"])) for k in ("force", "moment", "reaction_force", "reaction_moment")))
@@ -176,13 +187,13 @@ def solver(summary, rows):
                    table(("residual", "value"), [(k.replace("_", " "), v) for k, v in r.items()]), history(rows))
 
 
-def page(summary, deck, rows, pictures, no_pictures):
-    """`pictures`: pairs of PNG bytes and captions; `no_pictures`: why there are none, or ''."""
+def page(summary, deck, rows, pictures, missing):
+    """`pictures`: groups of pictures as pictures.of_run() gives them; `missing`: why some are not there, or ''."""
     solved = bool(summary.get("contacts") or summary.get("reactions") or summary.get("max_displacement"))
     parts = [head(summary)]
     if solved:
         parts += [section("Results", results(summary)), section("Contacts", contacts(summary)), steps(summary)]
-    parts.append(section("Pictures", *(figure(png, caption) for png, caption in pictures), paragraph(no_pictures)))
+    parts.append(gallery(pictures, missing))
     parts += [model(summary, deck), solver(summary, rows)]
     return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
             f"<title>{text(summary.get('title') or 'Mortise')}</title><style>{STYLE}</style></head><body>{''.join(parts)}"

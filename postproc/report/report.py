@@ -47,7 +47,9 @@ def main():
     if (directory / "history.csv").exists():
         with (directory / "history.csv").open(newline="") as lines:
             rows = list(csv.DictReader(lines))
-    drawn, why = ([], "") if arguments.no_pictures else pictures.of_run(directory)
+    drawn, why = ([], "") if arguments.no_pictures else pictures.of_run(
+        directory, [c["name"] for c in summary.get("contacts", [])], summary.get("body_names", [])
+    )
     target = arguments.output or directory / "report.html"
     part = target.with_name(target.name + ".part")
     part.write_text(page.page(summary, deck, rows, drawn, why), encoding="utf-8")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The page of a run: well-formed, with the numbers of summary.json, and what went wrong first. report_test.py MORTISE"""
 import html.parser
+import importlib.util
 import json
 import pathlib
 import subprocess
@@ -8,7 +9,13 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "postproc" / "report"))
+import raster  # noqa: E402
+
+DRAWS = all(importlib.util.find_spec(module) for module in ("vtk", "matplotlib"))
 MORTISE = sys.argv.pop(1) if len(sys.argv) > 1 else None
 CASES = ROOT / "regression" / "cases"
 VOID = {"meta", "img", "br", "line", "polyline"}
@@ -86,10 +93,85 @@ class Reports(unittest.TestCase):
         self.assertIn("did not converge", words[1])
         self.assertNotIn("Solved to the tolerance.", words)
 
+    @unittest.skipUnless(DRAWS, "needs python3-vtk9 and python3-matplotlib")
+    def test_pictures_of_the_whole_of_contacts_and_of_bodies(self):
+        directory, _ = self.run_deck(CASES / "coupling_cap.yaml")
+        done = report(directory)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        source = (directory / "report.html").read_text()
+        words = Page(source).words
+        summary = json.loads((directory / "summary.json").read_text())
+        self.assertEqual(source.count("data:image/png;base64,"), 3 + len(summary["contacts"]) + summary["bodies"])
+        self.assertLess(len(source), 5_000_000)
+        most = f"Largest at a node {summary['max_von_mises']:.4g}, in "
+        self.assertTrue(any(w.startswith(most) for w in words), words)
+        pressure = f"Largest at a node {summary['contacts'][0]['max_recovered_pressure']:.4g}."
+        self.assertTrue(any(w.startswith(pressure) for w in words), words)
+        for title in ("The whole", "Contacts", "Bodies"):
+            self.assertIn(title, words)
+
+    @unittest.skipUnless(DRAWS, "needs python3-vtk9 and python3-matplotlib")
+    def test_pictures_of_a_plane_model_and_of_many_bodies(self):
+        blocks = ", ".join(f"b{i}: {{origin: [{2 * i}, 0], size: [1, 1], cells: [2, 2], element: quad4}}" for i in range(15))
+        deck = pathlib.Path(self.scratch.name) / "many.yaml"
+        deck.write_text(
+            f"""dimension: plane_strain
+mesh: {{blocks: {{{blocks}}}}}
+materials: {{steel: {{young_modulus: 1000, poisson_ratio: 0.3}}}}
+bodies: {{b*: {{material: steel}}}}
+supports:
+  - {{boundary: "b*.xmin", displacement: {{x: 0}}}}
+loads:
+  - {{boundary: "b*.ymax", pressure: "1 + x"}}
+contacts:
+  - {{name: floor, secondary: "b*.ymin", primary: {{plane: {{point: [0, 0], normal: [0, 1]}}}}}}
+"""
+        )
+        directory, status = self.run_deck(deck)
+        self.assertEqual(status, 0)
+        done = report(directory)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        source = (directory / "report.html").read_text()
+        words = Page(source).words
+        self.assertIn("12 of 15 bodies have a picture here, those with the largest values.", words)
+        self.assertIn("12 of 15 contacts have a picture here, those with the largest values.", words)
+        self.assertEqual(source.count("data:image/png;base64,"), 2 + 12 + 12)
+
     def test_no_run_there(self):
         done = report(self.scratch.name)
         self.assertEqual(done.returncode, 1)
         self.assertIn("expected the output directory of a run", done.stderr)
+
+
+class Pixels(unittest.TestCase):
+    """The depth buffer, looked at along z: a square of side 1 is 50 pixels wide, 100 of the buffer."""
+
+    def setUp(self):
+        self.square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+        self.halves = np.array([[0, 1, 2], [0, 2, 3]])
+        self.buffer = raster.Buffer(raster.View([0, 0, 1], self.square, 100, 100, margin=0.25))
+
+    def grid(self, field):
+        return getattr(self.buffer, field).reshape(self.buffer.shape)
+
+    def test_a_square_covers_its_pixels_and_varies_linearly(self):
+        self.buffer.draw(self.square, self.halves, self.square[:, 0])
+        mesh, value = self.grid("mesh"), self.grid("value")
+        self.assertTrue((mesh[52:148, 52:148] == 0).all())
+        self.assertTrue((mesh[:48] == -1).all() and (mesh[152:] == -1).all() and (mesh[:, :48] == -1).all() and (mesh[:, 152:] == -1).all())
+        self.assertLess(abs((mesh == 0).sum() - 10_000), 500)
+        expected = (np.arange(52, 148) + 0.5 - 50) / 100
+        self.assertLess(np.abs(value[52:148, 52:148] - expected).max(), 0.011)  # a pixel
+
+    def test_what_is_nearer_hides_what_is_behind(self):
+        for order in ((0, 1), (1, 0)):
+            self.setUp()
+            for number in order:  # 1 is nearer, and covers the left half
+                points = self.square * ([1, 1, 1] if number == 0 else [0.5, 1, 1]) + [0, 0, number]
+                self.buffer.draw(points, self.halves, np.full(4, float(number)), number)
+            mesh = self.grid("mesh")
+            self.assertTrue((mesh[60:140, 55:95] == 1).all())
+            self.assertTrue((mesh[60:140, 105:145] == 0).all())
 
 
 if __name__ == "__main__":
