@@ -114,13 +114,14 @@ class State:
     pressures: dict = dataclasses.field(default_factory=dict)
     tractions: dict = dataclasses.field(default_factory=dict)
     accelerations: dict = dataclasses.field(default_factory=dict)
+    turning: dict = dataclasses.field(default_factory=dict)  # (element, point, axis): speed squared
     temperatures: dict = dataclasses.field(default_factory=dict)
     locked: set = dataclasses.field(default_factory=set)  # nodes of *PRE-TENSION SECTION whose bolts keep their length
 
     TABLES = {
         "BOUNDARY": ("supports",),
         "CLOAD": ("forces",),
-        "DLOAD": ("pressures", "tractions", "accelerations"),
+        "DLOAD": ("pressures", "tractions", "accelerations", "turning"),
         "DSLOAD": ("pressures", "tractions"),
         "TEMPERATURE": ("temperatures",),
     }
@@ -209,7 +210,7 @@ class History:
         now = State(
             head.get("NAME") or str(number),
             head,
-            *(dict(getattr(before, t)) for t in ("supports", "forces", "pressures", "tractions", "accelerations", "temperatures")),
+            *(dict(getattr(before, t)) for t in ("supports", "forces", "pressures", "tractions", "accelerations", "turning", "temperatures")),
             set(before.locked),
         )
         fresh = {}
@@ -343,6 +344,17 @@ class History:
                 of = self.model.elements_of(card, line, words[0]) if words[0] else range(len(self.model.elements))
                 for e in of:
                     self.add(now.accelerations, touched, "gravity", e, Entry(vector, words[0], card, line))
+            elif label == "CENTRIF":
+                numbers = [card.value(w, line, 0.0) for w in words[2:9]] + [0.0] * (9 - len(words))
+                length = sum(a * a for a in numbers[4:]) ** 0.5
+                if length == 0:
+                    raise card.error("CENTRIF needs a point of the axis and its direction", line)
+                if factor * numbers[0] < 0:
+                    raise card.error("CENTRIF takes the square of a speed, which is not negative", line)
+                axis = (tuple(numbers[1:4]), tuple(a / length for a in numbers[4:]))
+                of = self.model.elements_of(card, line, words[0]) if words[0] else range(len(self.model.elements))
+                for e in of:
+                    self.add(now.turning, touched, "turning", (e, *axis), Entry(factor * numbers[0], words[0], card, line))
             elif re.fullmatch(r"P\d?", label):
                 value = factor * card.value(words[2] if len(words) > 2 else "", line, 0.0)
                 hint = "" if is_number(words[0].split(".")[-1]) else f"{words[0]}_{label}"
@@ -356,7 +368,7 @@ class History:
                     self.add(now.pressures, touched, "pressure", face, Entry(value, hint, card, line))
             else:
                 self.model.leave_out(
-                    card, f"{label}: the deck has pressures, tractions and uniform accelerations", line, keyword=f"*DLOAD, {label}"
+                    card, f"{label}: the deck has pressures, tractions, uniform accelerations and turning", line, keyword=f"*DLOAD, {label}"
                 )
 
     def read_surface_loads(self, card, now, touched, factor):

@@ -6,6 +6,7 @@ import history
 import interactions
 import materials
 import pretension
+import springs
 from bodies import Bodies, clean, unique
 from model import rotated
 from reader import InputError
@@ -14,6 +15,7 @@ AXES = ("x", "y", "z")
 MODEL_CARDS = {"SOLIDSECTION", "AMPLITUDE", "BOUNDARY", "INITIALCONDITIONS", "PRE-TENSIONSECTION", "ORIENTATION", "SURFACE"}
 COUPLINGS = {"COUPLING", "DISTRIBUTING", "KINEMATIC", "DISTRIBUTINGCOUPLING", "RIGIDBODY"}
 SAME_FORCES = 1e-3  # of the largest one: how far forces on nodes may be from those of a uniform traction
+MOST_POINTS = 500  # with forces of their own that a deck lists
 
 
 class Translation:
@@ -23,14 +25,16 @@ class Translation:
         self.deck = {"title": title}
         self.materials, done = materials.read_materials(model)
         of, thickness, used = materials.read_sections(model, self.materials)
-        for e in model.elements:
-            if not e.shape:
-                model.leave_out(e.card, f"elements of type {e.type}: the deck has solids alone")
-        self.drop_repeated()
         self.without_section(of)
         solid = [i for i, e in enumerate(model.elements) if e.shape and i in of]
         self.sections = pretension.apply(model, solid)
         self.bodies = Bodies(model, of)
+        self.springs, of_springs, of_cards = springs.read(model, self.bodies)
+        done |= of_cards
+        for i, e in enumerate(model.elements):
+            if not e.shape and i not in of_springs:
+                model.leave_out(e.card, f"elements of type {e.type}: the deck has solids alone")
+        self.drop_repeated()
         self.plane = self.bodies.dimension != "3"
         self.axes = 2 if self.plane else 3
         self.set_thickness(of, thickness)
@@ -48,6 +52,7 @@ class Translation:
         self.make_face_loads("pressures", "pressure")
         self.make_face_loads("tractions", "traction")
         self.make_accelerations()
+        self.make_turning()
         self.make_temperatures()
         self.make_contacts()
         self.make_preloads()
@@ -362,9 +367,12 @@ class Translation:
         surface = set(self.bodies.faces_of_node)
         quiet = self.quiet_bodies(implied)
         body_of = {n: b for b in range(len(self.bodies.bodies)) for n in self.bodies.nodes_of_body(b)}
-        told = {}
+        told, alone = {}, {}
         for (n, axis), (values, entry) in uncovered.items():
             if values in implied.get((n, axis), ()) or n not in surface and body_of[n] in quiet and not any(values):
+                continue
+            if n in surface and (n, axis) not in implied:
+                alone.setdefault(n, {})[axis] = values
                 continue
             told.setdefault((id(entry.card), entry.line), (entry, {}))[1].setdefault(axis, set()).add(n)
         merged = {}
@@ -373,6 +381,7 @@ class Translation:
             old = merged.setdefault(key, (entry, {}))[1]
             for axis, nodes in axes.items():
                 old.setdefault(axis, set()).update(nodes)
+        self.hold_points(alone, body_of)
         for entry, axes in merged.values():
             nodes = set().union(*axes.values())
             x = self.model.points[min(nodes)]
@@ -380,13 +389,33 @@ class Translation:
             self.model.leave_out(
                 entry.card,
                 f"{len(nodes)} node{'s' * (len(nodes) > 1)} {what}held along {', '.join(AXES[a] for a in sorted(axes))}, "
-                f"as at ({x[0]:.6g}, {x[1]:.6g}, {x[2]:.6g}), span no whole outer face: the deck holds boundaries",
+                f"as at ({x[0]:.6g}, {x[1]:.6g}, {x[2]:.6g}), lie inside a body, or are held otherwise by a boundary: the deck holds boundaries and "
+                "nodes of surfaces",
                 entry.line,
             )
 
+    def hold_points(self, alone, body_of):
+        """Nodes of surfaces that are held, but no face with them, as the 3-2-1 rule has it: supports on points."""
+        groups = {}
+        for n, axes in sorted(alone.items()):
+            groups.setdefault((body_of[n], tuple(sorted(axes.items()))), []).append(n)
+        for (body, axes), nodes in groups.items():
+            displacement = {}
+            for axis, values in axes:
+                base = self.largest(values)
+                acting = tuple(v is not None for v in values)
+                displacement.setdefault((tuple(self.factors(values, base)), acting), {})[AXES[axis]] = base + 0.0
+            for (course, acting), components in displacement.items():
+                item = {"points": self.places(nodes), "body": self.bodies.bodies[body].name, "displacement": components}
+                name = self.name_of("points")
+                self.supports.append((dict(item, name=name), name, list(course), acting))
+
+    def places(self, nodes):
+        return [self.vector(self.model.points[n]) for n in nodes]
+
     def quiet_bodies(self, implied):
         """Bodies that are held at 0 all over their surface, without weight and temperature: nothing moves inside."""
-        if any(state.accelerations or state.temperatures for state in self.history.states):
+        if any(state.accelerations or state.turning or state.temperatures for state in self.history.states):
             return set()
         result = set()
         zero = {tuple(0.0 for _ in self.history.states)}
@@ -495,6 +524,9 @@ class Translation:
         entry = next(iter(forces.values()))[1]
         total = sum(f for f, _ in forces.values())
         what = f"forces on {len(forces)} node{'s' * (len(forces) > 1)}{f' of {hint}' if hint else ''}, ({', '.join(f'{v:.6g}' for v in total)}) in all"
+        if len(forces) <= MOST_POINTS and self.bodies.dimension != "axisymmetric" and set(forces) <= set(self.bodies.faces_of_node):
+            self.add_point_forces(hint, course, forces)
+            return
         keys = self.loaded_faces(forces)
         covered = {n for key in keys for n in self.bodies.nodes(key)}
         if keys and set(forces) <= covered and np.abs(total).max() > 0:
@@ -503,7 +535,18 @@ class Translation:
                 entry.card, f"{what}: not those of a uniform traction; the deck spreads their resultant evenly over the faces", entry.line
             )
         else:
-            self.model.leave_out(entry.card, f"{what}: they span no whole outer faces, and the deck has no forces on nodes", entry.line)
+            self.model.leave_out(entry.card, f"{what}: they span no whole outer faces, and are too many or not on a surface for forces on points", entry.line)
+
+    def add_point_forces(self, hint, course, forces):
+        """Forces on nodes as they are, those that are alike together."""
+        body_of = {n: b for b in range(len(self.bodies.bodies)) for n in self.bodies.nodes_of_body(b)}
+        groups = {}
+        for n, (f, _) in sorted(forces.items()):
+            groups.setdefault((body_of[n], tuple(self.vector(f))), []).append(n)
+        for (body, f), nodes in groups.items():
+            total = len(nodes) * np.array(f) / self.thickness
+            item = {"points": self.places(nodes), "body": self.bodies.bodies[body].name, "force": self.vector(total)}
+            self.add_load(item, f"force_{hint or 'points'}", course)
 
     def vector(self, v):
         return [float(f"{c:.12g}") + 0.0 for c in list(v)[: self.axes]]
@@ -573,6 +616,23 @@ class Translation:
                 self.model.leave_out(entry.card, f'the material of "{body.name}" has no *DENSITY: no weight', entry.line, changes=False)
                 continue
             self.add_vector({"body": body.name}, "acceleration", f"weight_{body.name}", course, entry)
+
+    def make_turning(self):
+        series = self.series("turning")
+        for axis in sorted({key[1:] for key in series}):
+            own = {key[0]: value for key, value in series.items() if key[1:] == axis}
+            (x, _, z), direction = axis
+            across = direction[0], direction[2 if self.bodies.dimension == "axisymmetric" else 1]
+            for body, course, entry in self.whole_bodies(own, lambda b: self.bodies.bodies[b].elements, "the speed"):
+                if any("density" not in self.materials[m] for m, _ in body.volumes.values()):
+                    self.model.leave_out(entry.card, f'the material of "{body.name}" has no *DENSITY: no centrifugal force', entry.line, changes=False)
+                    continue
+                if self.plane and (any(across) or (self.bodies.dimension == "axisymmetric" and (x or z))):
+                    self.model.leave_out(entry.card, "the axis of CENTRIF is not the one that a model of this kind turns about", entry.line)
+                    continue
+                base = self.largest(course)
+                turning = {"axis": list(direction), "point": list(axis[0]), "speed": float(f"{base**0.5:.12g}")}
+                self.add_load({"body": body.name, "centrifugal": turning}, f"turning_{body.name}", tuple((v or 0.0) / base for v in course))
 
     def make_temperatures(self):
         initial = {}
@@ -875,6 +935,10 @@ class Translation:
             scale = single.get("scale", {})
             if any(value != 1.0 for value in scale.values()) or "off" in single:
                 steps = [single]
+        deck["springs"] = {
+            clean(name): {**spring, "points": [self.vector(self.model.points[n]) for n in spring["points"]]}
+            for name, spring in self.springs.items()
+        }
         deck["supports"] = [item for item, *_ in self.supports]
         deck["loads"] = [item if steps else {k: v for k, v in item.items() if k != "name"} for item, *_ in self.loads]
         deck["contacts"] = [{k: v for k, v in item.items() if k != "course"} for item in self.contacts]

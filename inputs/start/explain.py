@@ -12,12 +12,18 @@ import argparse
 import difflib
 import json
 import pathlib
+import re
 import shutil
 import signal
 import sys
 import textwrap
 
 SCHEMA = pathlib.Path(__file__).resolve().parents[2] / "docs" / "schema.json"
+
+
+def choices(node):
+    """The alternatives of a value: of `anyOf`, or of a case (`if`, `then`, `else`)."""
+    return node["anyOf"] if "anyOf" in node else [node["then"], node["else"]] if "if" in node else []
 
 
 def mappings(node):
@@ -27,14 +33,14 @@ def mappings(node):
     for inner in (node.get("items"), node.get("additionalProperties")):
         if isinstance(inner, dict):
             yield from mappings(inner)
-    for choice in node.get("anyOf", []):
+    for choice in choices(node):
         yield from mappings(choice)
 
 
 def kind(node):
     """A value's type, for people."""
-    if "anyOf" in node:
-        return " or ".join(dict.fromkeys(kind(choice) for choice in node["anyOf"]))
+    if choices(node):
+        return " or ".join(dict.fromkeys(kind(choice) for choice in choices(node)))
     if "const" in node:
         return json.dumps(node["const"]).strip('"')
     if "enum" in node:
@@ -43,7 +49,8 @@ def kind(node):
         low, high = node.get("minItems"), node.get("maxItems")
         count = f" of {low}" + (f" or {high}" if high != low else "") if low is not None and high is not None else " of"
         items = node.get("items", {})
-        return f"list{count} {kind(items)}{'' if 'enum' in items else 's'}"
+        word, limits = re.fullmatch(r"(.*?)((?: [<>].*)?)", kind(items)).groups()
+        return f"list{count} {word}{'' if 'enum' in items else 's'}{limits}"
     if node.get("type") == "object":
         inner = node.get("additionalProperties")
         return f"NAME: {kind(inner)}" if isinstance(inner, dict) else "mapping"

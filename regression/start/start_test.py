@@ -8,6 +8,7 @@ import contextlib
 import io
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,10 +16,28 @@ import unittest
 
 import yaml
 
+try:
+    import jsonschema
+except ImportError:
+    jsonschema = None
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "inputs" / "start"))
 import explain  # noqa: E402
 import new_deck  # noqa: E402
+
+
+
+class Yaml12(yaml.SafeLoader):
+    """Scalars as the program reads them: 1e-4 is a number, on and off are words."""
+
+
+Yaml12.yaml_implicit_resolvers = {
+    first: [(tag, pattern) for tag, pattern in of if tag not in ("tag:yaml.org,2002:bool", "tag:yaml.org,2002:float")]
+    for first, of in yaml.SafeLoader.yaml_implicit_resolvers.items()
+}
+Yaml12.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile("^(true|false)$"), list("tf"))
+Yaml12.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"^[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?$"), list("-+.0123456789"))
 
 PLATES = """$MeshFormat
 2.2 0 8
@@ -81,6 +100,42 @@ class Schema(unittest.TestCase):
             text = explain.explain(schema, path, 100)
             self.assertTrue(text.startswith(f"{path}: "), text)
             self.assertIn(" ".join(value.get("description", "").split())[:40], " ".join(text.split()))
+
+    def test_no_mapping_is_one_of_several_by_trial(self):
+        """Where it is, editors can only say that none fits, not which key is wrong."""
+
+        def walk(node, path):
+            for choice in node.get("anyOf", []) if isinstance(node, dict) else []:
+                self.assertNotIn("properties", choice, path)
+                self.assertNotIn("items", choice, path)
+            for key, inner in node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else []:
+                walk(inner, f"{path}.{key}")
+
+        walk(json.loads(explain.SCHEMA.read_text()), "schema")
+
+    @unittest.skipUnless(jsonschema, "needs python3-jsonschema")
+    def test_all_decks_fit_and_wrong_keys_of_contacts_are_found(self):
+        schema = json.loads(explain.SCHEMA.read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        validator = jsonschema.Draft202012Validator(schema)
+        decks = sorted([*(ROOT / "inputs").glob("*/*.yaml"), *(ROOT / "regression" / "cases").glob("*.yaml")])
+        self.assertGreater(len(decks), 90)
+        for deck in decks:
+            self.assertEqual([(e.json_path, e.message) for e in validator.iter_errors(yaml.load(deck.read_text(), Yaml12))], [], deck)
+        deck = yaml.load((ROOT / "regression" / "cases" / "stack.yaml").read_text(), Yaml12)
+        pair = {"secondary": "a", "primary": "b"}
+        for contacts, path, word in (
+            ([pair, {**pair, "frictoin": {}}], "$.contacts[1]", "'frictoin'"),
+            ([{"auto": True, "secondary": "a"}], "$.contacts[0]", "'secondary'"),
+            ([{"primary": "b"}], "$.contacts[0]", "'secondary'"),
+            ([{**pair, "friction": {"coulom": 1}}], "$.contacts[0].friction", "'coulom'"),
+            ([{**pair, "search_distance": -1}], "$.contacts[0].search_distance", "minimum"),
+            ([{**pair, "primary": {"sphere": {"center": [0, 0, 0], "radius": -1}}}], "$.contacts[0].primary.sphere.radius", "minimum"),
+            ("aut", "$.contacts", "'auto'"),
+        ):
+            found = [(e.json_path, e.message) for e in validator.iter_errors({**deck, "contacts": contacts})]
+            self.assertEqual([path], [at for at, _ in found], contacts)
+            self.assertIn(word, found[0][1])
 
     def test_a_wrong_key_names_the_nearest(self):
         with self.assertRaisesRegex(LookupError, 'did you mean "contacts"'):
