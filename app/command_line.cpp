@@ -14,13 +14,14 @@ Parsed parse_command_line(int argc, const char* const* argv)
       ->allow_extra_args(false)
       ->type_name("KEY.PATH=VALUE");
   app.add_option("--output", result.output, "directory for the results, instead of the deck's")->type_name("DIR");
+  app.add_flag("--resume", result.resume, "go on where a run of the same deck was ended, after its last finished load state");
   app.add_flag("--check", result.check, "read deck and mesh, print what would be solved, and stop");
   app.add_flag("--allow-scripts", result.allow_scripts, "a .geo may start programs and write files: only for those you trust");
   app.add_flag("--schema", result.schema, "print the JSON schema of a deck and stop");
   app.add_flag("--version", version, "print the version and stop");
   app.footer(
-      "Exit status: 0 solved, 1 command line, deck or mesh wrong, 2 not converged, 3 no equilibrium, 4 out of memory or disk, or "
-      "told to end.");
+      "Exit status: 0 solved, 1 command line, deck or mesh wrong, 2 not converged, 3 no equilibrium, 4 out of memory or disk, "
+      "130 told to end.");
   try {
     app.parse(argc, const_cast<char**>(argv));
   } catch (const CLI::CallForHelp&) {

@@ -11,6 +11,7 @@ struct CommandLine {
   std::string deck;                   ///< file
   std::vector<std::string> settings;  ///< key.path=value
   std::string output;                 ///< directory; empty: the deck's
+  bool resume = false;                ///< go on after the last state that an earlier run finished
   bool check = false;                 ///< read deck and mesh, say what would be solved, and stop
   bool allow_scripts = false;         ///< a .geo may start programs and write files
   bool schema = false;                ///< print the JSON schema of a deck and stop

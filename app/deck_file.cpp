@@ -45,7 +45,11 @@ model::Deck read_deck(deck::Document& document, const CommandLine& command_line,
   auto deck = model::read_deck(document, command_line.output);
   deck.mesh.allow_scripts = command_line.allow_scripts;
   try {
-    document.check();
+    collectively(comm, [&] {
+      if (const auto& mesh = deck.mesh.file; comm.root() && !mesh.empty() && !std::filesystem::exists(mesh))
+        document.error("mesh.file", mesh + ": there is no such file");
+      document.check();
+    });
   } catch (const Error&) {
     if (!command_line.check) io::set_aside_summary(deck.output.directory, comm);
     throw;

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "fem/stress.hpp"
+#include "fem/quantity.hpp"
 #include "interior.hpp"
 #include "io/files.hpp"
 #include "io/results.hpp"
@@ -42,9 +42,11 @@ std::vector<bool> points_of(const partition::Subdomain& subdomain, const post::R
 
 // The subdomains of this rank as one mesh, in which the copies of a node are one.
 io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& decomposition,
-                       const std::vector<Eigen::VectorXd>& u, const post::Results& results)
+                       const std::vector<Eigen::VectorXd>& u, const std::vector<Eigen::MatrixXd>& holding,
+                       const post::Results& results)
 {
   io::Piece piece;
+  const bool with_principal = wanted(deck, "principal_stress");
   const auto materials =
       results.stress.by_material.empty() ? 1 : static_cast<std::size_t>(results.stress.by_material.front().cols()) / 6;
   std::vector<Global> ids;
@@ -62,7 +64,9 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
   const int dimension = decomposition.catalogue.dimension;
   piece.points.resize(count);
   io::Field displacement{"displacement", 3, std::vector<double>(3 * count, 0.0)},
-      von_mises{"von_mises", 1, std::vector<double>(count)}, stress{"stress", 6, std::vector<double>(6 * count)};
+      von_mises{"von_mises", 1, std::vector<double>(count)}, stress{"stress", 6, std::vector<double>(6 * count)},
+      principal{"principal_stress", 3, std::vector<double>(with_principal ? 3 * count : 0)},
+      reaction{"reaction_force", 3, std::vector<double>(holding.empty() ? 0 : 3 * count, 0.0)};
   io::Field cell_von_mises{"von_mises", 1, {}}, body{"body", 1, {}, true}, owner{"subdomain", 1, {}, true};
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
@@ -90,6 +94,8 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
       for (std::size_t c = 0; c < 3; ++c) displacement.values[3 * at + c] = moved[static_cast<Eigen::Index>(c)];
       von_mises.values[at] = fem::von_mises(own);
       for (std::size_t c = 0; c < 6; ++c) stress.values[6 * at + c] = own[static_cast<Eigen::Index>(c)];
+      if (with_principal) Eigen::Map<Eigen::Vector3d>(&principal.values[3 * at]) = fem::principal_stresses(own);
+      if (!holding.empty() && n < on_mesh) Eigen::Map<Eigen::RowVector3d>(&reaction.values[3 * at]) = holding[s].row(row);
     }
     const auto& of_cells = &mesh == &subdomain.mesh ? results.stress.cell_von_mises[s] : results.interior.cell_von_mises[s];
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -108,6 +114,8 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
     piece.cell_fields.push_back(std::move(cell_von_mises));
   }
   if (wanted(deck, "stress")) piece.point_fields.push_back(std::move(stress));
+  if (with_principal) piece.point_fields.push_back(std::move(principal));
+  if (wanted(deck, "reaction_force")) piece.point_fields.push_back(std::move(reaction));
   piece.cell_fields.push_back(std::move(body));
   piece.cell_fields.push_back(std::move(owner));
   return piece;
@@ -224,7 +232,20 @@ FieldFiles::FieldFiles(const model::Deck& deck) : deck_(deck), points_(point_hea
 
 void FieldFiles::write(const partition::Decomposition& decomposition, const partition::Interface& interface,
                        const feti::DualProblem& problem, const analysis::StepState& state, const post::Probes& probes,
-                       const post::Results& results, bool last, const Communicator& comm)
+                       const post::Results& results, bool due, bool last, const Communicator& comm)
+{
+  const auto& directory = deck_.output.directory;
+  if (due) write_fields(decomposition, interface, problem, state, probes, results, last, comm);
+  if (!deck_.output.interior.any_points()) return;
+  points_ += point_rows(deck_, decomposition.catalogue, state.rows->acts, probes, results.interior.points, comm);
+  collectively(comm, [&] {
+    if (comm.root()) io::write_text(directory + "/interior.csv", points_);
+  });
+}
+
+void FieldFiles::write_fields(const partition::Decomposition& decomposition, const partition::Interface& interface,
+                              const feti::DualProblem& problem, const analysis::StepState& state, const post::Probes& probes,
+                              const post::Results& results, bool last, const Communicator& comm)
 {
   const auto& directory = deck_.output.directory;
   const auto& pairs = state.rows->pairs;
@@ -240,14 +261,11 @@ void FieldFiles::write(const partition::Decomposition& decomposition, const part
       io::write_vtk(directory, series, state.rows->acts.time, piece, comm);
   };
   if (!pairs.empty()) put(contact_, contact_piece(pairs, results.contact.surfaces));
-  put(volume_, volume_piece(deck_, decomposition, state.displacement, results));
+  std::vector<Eigen::MatrixXd> holding;
+  if (wanted(deck_, "reaction_force")) holding = post::holding_forces(problem, decomposition, interface, state.solved.solution.x);
+  put(volume_, volume_piece(deck_, decomposition, state.displacement, holding, results));
   for (std::size_t k = 0; k < planes_.size(); ++k)
     put(planes_[k], plane_piece(deck_, decomposition, probes.planes[k], results.interior.planes[k]));
-  if (!deck_.output.interior.any_points()) return;
-  points_ += point_rows(deck_, decomposition.catalogue, state.rows->acts, probes, results.interior.points, comm);
-  collectively(comm, [&] {
-    if (comm.root()) io::write_text(directory + "/interior.csv", points_);
-  });
 }
 
 }  // namespace mortise

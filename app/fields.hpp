@@ -12,12 +12,16 @@ namespace mortise {
 class FieldFiles {
  public:
   explicit FieldFiles(const model::Deck& deck);
-  /// Collective.
+  /// `due`: whether the deck wants the fields of this state; interior.csv has all states. Collective.
   void write(const partition::Decomposition& decomposition, const partition::Interface& interface,
              const feti::DualProblem& problem, const analysis::StepState& state, const post::Probes& probes,
-             const post::Results& results, bool last, const Communicator& comm);
+             const post::Results& results, bool due, bool last, const Communicator& comm);
 
  private:
+  void write_fields(const partition::Decomposition& decomposition, const partition::Interface& interface,
+                    const feti::DualProblem& problem, const analysis::StepState& state, const post::Probes& probes,
+                    const post::Results& results, bool last, const Communicator& comm);
+
   const model::Deck& deck_;
   io::Series volume_{"solution", {}}, contact_{"contact", {}};
   std::vector<io::Series> planes_;

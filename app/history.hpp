@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/context.hpp"
 #include "model/deck.hpp"
@@ -17,17 +18,24 @@ class History {
 
   /// Ends the run here if a signal asked for that. Collective.
   void note(const model::LoadState& state, int step, double change, const qp::Progress& p);
-  const std::string& text() const { return text_; }
+  /// The rows of a run that is resumed: those of the states before the first one that is solved here stay.
+  void take_up(const std::string& text);
+  std::string text() const;
 
  private:
+  std::string time_left(const model::LoadState& state, double residual);
+
   const qp::Options& options_;
   const Context& context_;
-  long long inner_ = 0;  // calls within outer iterations, the same on all ranks
-  std::string active_;   // contact nodes of all ranks at the end of the last outer iteration
-  std::string text_ =
-      "stage,friction_step,outer_iteration,hessian_multiplications,preconditionings,projected_gradient,equality,slip_bound_"
-      "change,precision,open,"
-      "slipping,time,dual_energy,error\n";
+  long long inner_ = 0;                                 // calls within outer iterations, the same on all ranks
+  double state_ = -1, start_ = 0, first_residual_ = 0;  // the state's time; when it began, and with which residual
+  std::string active_;                                  // contact nodes of all ranks at the end of the last outer iteration
+  struct Row {
+    double time;
+    std::string text;
+  };
+  std::vector<Row> earlier_;  // of a run before
+  std::string rows_;
 };
 
 }  // namespace mortise

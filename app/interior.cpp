@@ -7,7 +7,7 @@
 #include <iterator>
 #include <span>
 
-#include "fem/stress.hpp"
+#include "fem/quantity.hpp"
 
 namespace mortise {
 
@@ -63,7 +63,8 @@ Tables point_tables(const post::Probes& probes, const post::Results& results)
   return tables;
 }
 
-// A name as an entry of a table with commas.
+}  // namespace
+
 std::string quoted(const std::string& name)
 {
   if (name.find_first_of(",\"\n") == std::string::npos) return name;
@@ -71,8 +72,6 @@ std::string quoted(const std::string& name)
   for (const char c : name) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + "\"";
 }
-
-}  // namespace
 
 bool wanted(const model::Deck& deck, const std::string& field)
 {
@@ -94,7 +93,9 @@ io::Piece plane_piece(const model::Deck& deck, const partition::Decomposition& d
                       const post::Values& values)
 {
   io::Piece piece;
-  io::Field displacement{"displacement", 3, {}}, von_mises{"von_mises", 1, {}}, stress{"stress", 6, {}};
+  io::Field displacement{"displacement", 3, {}}, von_mises{"von_mises", 1, {}}, stress{"stress", 6, {}},
+      principal{"principal_stress", 3, {}};
+  const bool with_principal = wanted(deck, principal.name);
   io::Field body{"body", 1, {}, true}, owner{"subdomain", 1, {}, true};
   for (std::size_t p = 0; p < section.places.size(); ++p) {
     const auto row = static_cast<Eigen::Index>(p);
@@ -102,6 +103,8 @@ io::Piece plane_piece(const model::Deck& deck, const partition::Decomposition& d
     for (const double x : values.displacement.row(row)) displacement.values.push_back(x);
     von_mises.values.push_back(fem::von_mises(values.stress.row(row).transpose()));
     for (const double x : values.stress.row(row)) stress.values.push_back(x);
+    if (!with_principal) continue;
+    for (const double x : fem::principal_stresses(values.stress.row(row).transpose())) principal.values.push_back(x);
   }
   for (const auto& triangle : section.triangles) {
     piece.cells.add(mesh::CellType::tri3, triangle);
@@ -109,7 +112,7 @@ io::Piece plane_piece(const model::Deck& deck, const partition::Decomposition& d
     body.values.push_back(subdomain.body);
     owner.values.push_back(static_cast<double>(subdomain.id));
   }
-  for (auto* field : {&displacement, &von_mises, &stress})
+  for (auto* field : {&displacement, &von_mises, &stress, &principal})
     if (wanted(deck, field->name)) piece.point_fields.push_back(std::move(*field));
   piece.cell_fields = {std::move(body), std::move(owner)};
   return piece;

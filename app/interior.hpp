@@ -13,6 +13,9 @@ namespace mortise {
 /// Whether the deck's `output.fields` has this one.
 bool wanted(const model::Deck& deck, const std::string& field);
 
+/// A name as an entry of a table with commas.
+std::string quoted(const std::string& name);
+
 /// The tables `interior/..` of nodes inside boundary elements, which have the numbers after all others, and `points/..` of the
 /// deck's points; those that are asked for. Collective.
 std::vector<io::Table> interior_tables(const partition::Decomposition& decomposition, const post::Probes& probes,

@@ -69,9 +69,22 @@ void print_couplings(const io::StateSummary& s, Log& log)
   }
 }
 
+std::string vector(const std::array<double, 3>& x)
+{
+  return fmt::format("({:.5g}, {:.5g}, {:.5g})", x[0], x[1], x[2]);
+}
+
+std::string place(const io::StateSummary::Place& p)
+{
+  return vector(p.coordinates) + (p.body.empty() ? "" : fmt::format(", body {}", p.body));
+}
+
 void print_contacts(const io::StateSummary& s, Log& log)
 {
   print_couplings(s, log);
+  for (const auto& spring : s.springs)
+    log.line("  spring {}: {} with {:.5g}, {} by {:.5g}", spring.name, spring.force < 0 ? "pushes" : "pulls",
+             std::abs(spring.force), spring.elongation < 0 ? "shortened" : "extended", std::abs(spring.elongation));
   for (const auto& c : s.contacts) {
     std::string pressure;
     if (c.max_pressure > 0 || !(c.max_tension > 0))
@@ -146,6 +159,33 @@ void print_step(const io::Summary& summary, Log& log)
            s.max_displacement, s.hessian_multiplications, s.friction_steps);
 }
 
+// What each support does to the bodies; of many the summary tells. In axisymmetry what pushes a ring outwards needs no support.
+void print_reactions(const io::StateSummary& s, Log& log)
+{
+  constexpr std::size_t most = 16;
+  constexpr double rounding = 1e-10;
+  double force = 0, moment = 0;  // the largest
+  for (const auto& r : s.reactions)
+    for (std::size_t c = 0; c < 3; ++c) {
+      force = std::max(force, std::abs(r.force[c]));
+      if (r.moment) moment = std::max(moment, std::abs((*r.moment)[c]));
+    }
+  const auto without_noise = [](std::array<double, 3> p, double noise) {
+    for (auto& c : p)
+      if (!(std::abs(c) > noise)) c = 0;
+    return vector(p);
+  };
+  for (std::size_t i = 0; i < std::min(s.reactions.size(), most); ++i) {
+    const auto& r = s.reactions[i];
+    if (!r.moment)
+      log.line("  support {}: axial force {:.5g}", r.name, r.force[1]);
+    else
+      log.line("  support {}: force {}, moment {} about {}", r.name, without_noise(r.force, rounding * force),
+               without_noise(*r.moment, rounding * moment), vector(s.moments_about));
+  }
+  if (s.reactions.size() > most) log.line("  and {} supports more, in summary.json", s.reactions.size() - most);
+}
+
 void print_results(const post::Results& results, const io::Summary& s, Log& log)
 {
   const auto& b = results.balance;
@@ -160,13 +200,14 @@ void print_results(const post::Results& results, const io::Summary& s, Log& log)
            vector(b.supports), part("obstacles", b.obstacles),
            part("sectors beside", b.neighbours) + (b.push_of_facets > 1e-6 ? part("against facets", b.gauges) : ""),
            b.difference);
-  log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, vector(results.stress.largest_von_mises.at));
+  log.line("  largest von Mises   {:.5g} at {}", s.max_von_mises, place(s.max_von_mises_place));
   log.line("  largest displacement {:.5g}, strain energy {:.6g}", s.max_displacement, s.strain_energy);
   const auto percent = [](double part) {
     return std::isfinite(part) ? fmt::format("about {:.2g} %", 100 * part) : "not estimated";
   };
   log.line("  error               of the mesh {}, of the solver {}, in the energy norm", percent(s.error_estimate.discretization),
            percent(s.error_estimate.algebraic));
+  print_reactions(s, log);
   print_contacts(s, log);
   log.line(
       "  residuals           gradient {:.1e}, equality {:.1e}, equilibrium {:.1e}, penetration {:.1e}, complementarity {:.1e}",
@@ -174,6 +215,20 @@ void print_results(const post::Results& results, const io::Summary& s, Log& log)
       s.residuals.complementarity);
   log.line("  work                {} products with F, {} outer iterations, {} friction steps", s.hessian_multiplications,
            s.outer_iterations, s.friction_steps);
+}
+
+void print_probes(const io::StateSummary& summary, Log& log)
+{
+  for (const auto& p : summary.probes) {
+    if (p.path)
+      log.line("  probe {}: {} points over a length of {:.6g} in {}", p.name, p.path->points, p.path->length, p.path->file);
+    else if (p.at_point)
+      log.line("  probe {}: displacement {}, von Mises {:.6g}, principal stresses {} at {}", p.name,
+               vector(p.at_point->displacement), p.at_point->von_mises, vector(p.at_point->principal_stress), place(p.place));
+    else
+      log.line("  probe {}: {} {} {:.6g} at {}", p.name, p.largest.empty() ? "smallest" : "largest",
+               p.largest.empty() ? p.smallest : p.largest, p.value, place(p.place));
+  }
 }
 
 void print_communication(const io::Summary& summary, Log& log)

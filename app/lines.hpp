@@ -24,6 +24,8 @@ void print_state(const model::LoadState& state, std::size_t index, std::size_t c
 void print_step(const io::Summary& summary, Log& log);
 /// At the end.
 void print_results(const post::Results& results, const io::Summary& summary, Log& log);
+/// A line for each probe; nothing without.
+void print_probes(const io::StateSummary& summary, Log& log);
 /// Of the rank that sends most; nothing where there is one rank, or nothing was counted.
 void print_communication(const io::Summary& summary, Log& log);
 void print_times(const std::vector<Timers::Spread>& spreads, Log& log);

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 #include <vector>
 
 #include "base/error.hpp"
@@ -22,8 +23,9 @@ namespace mortise {
 
 namespace {
 
-constexpr unsigned grace = 10;         // seconds until the process ends though it has come to no safe place
-constexpr int blas_patience = 500000;  // microseconds of CPU, for what takes some tens of them
+constexpr unsigned grace = 10;           // seconds until the process ends though it has come to no safe place
+constexpr double message_patience = 60;  // seconds until the first messages have come
+constexpr int blas_patience = 500000;    // microseconds of CPU, for what takes some tens of them
 
 // Bytes that MPI and a run of a few cells take. Libraries that find no room end in ways of their own, so it is asked for first.
 constexpr std::size_t first_steps = 64'000'000;
@@ -31,10 +33,15 @@ constexpr std::size_t first_steps = 64'000'000;
 pid_t owner = 0;  // children inherit handlers, but have their own ways to end
 
 // In a signal handler.
-[[noreturn]] void end_with(const char* text)
+[[noreturn]] void end_with(const char* text, ExitStatus status = ExitStatus::machine)
 {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
-  _exit(static_cast<int>(ExitStatus::machine));
+  _exit(static_cast<int>(status));
+}
+
+[[noreturn]] void end_interrupted()
+{
+  end_with("mortise: ended by a signal; results of the run are not complete.\n", ExitStatus::interrupted);
 }
 
 void end_by_default(int signal_number)
@@ -46,14 +53,14 @@ void end_by_default(int signal_number)
 void note(int signal_number)
 {
   if (getpid() != owner) return end_by_default(signal_number);
-  if (stop_requested() != 0) end_with("mortise: ended by a signal; results of the run are not complete.\n");
+  if (stop_requested() != 0) end_interrupted();
   request_stop(signal_number);
   alarm(grace);
 }
 
 void end_without_cleanup(int)
 {
-  end_with("mortise: ended by a signal; results of the run are not complete.\n");
+  end_interrupted();
 }
 
 void report_fault(int signal_number)
@@ -176,6 +183,27 @@ void reserve_memory()
         "BLAS); "
         "raise the limit of memory (ulimit -v).\n");
   munmap(room, first_steps);
+}
+
+void require_messages(const Communicator& comm)
+{
+  if (comm.size() == 1) return;
+  constexpr std::size_t numbers = 256;  // to each rank
+  const auto ranks = static_cast<std::size_t>(comm.size());
+  const std::vector<int> out(ranks * numbers, 0);
+  std::vector<int> in(out.size());
+  MPI_Request request;
+  PMPI_Ialltoall(out.data(), numbers, MPI_INT, in.data(), numbers, MPI_INT, comm.mpi(), &request);
+  const double start = MPI_Wtime();
+  for (int done = 0; done == 0;) {
+    PMPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done == 0 && MPI_Wtime() - start > message_patience)
+      end_with(
+          "mortise: out of memory, or MPI is not set up: ranks get no messages from each other, though MPI has started; raise "
+          "the limit "
+          "of memory (ulimit -v), or see that mpirun reaches all machines.\n");
+    if (done == 0) std::this_thread::yield();
+  }
 }
 
 }  // namespace mortise

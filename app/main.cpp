@@ -10,6 +10,7 @@
 #include "analysis/load_step_solver.hpp"
 #include "analysis/memory.hpp"
 #include "analysis/probes.hpp"
+#include "analysis/restart.hpp"
 #include "deck_file.hpp"
 #include "model/resolution.hpp"
 #include "partition/decompose.hpp"
@@ -24,7 +25,7 @@ using namespace mortise;
 
 // From constraint rows to files, for all load steps; nothing if the approach gave up.
 std::optional<ExitStatus> solve_load_steps(const model::Model& model, const post::Probes& probes, analysis::Approach& approach,
-                                           Report& report, const Context& context)
+                                           const analysis::Restart& restart, Report& report, const Context& context)
 {
   const auto states = model::load_states(model.deck(), model.contacts());
   auto rows = analysis::make_rows(model, states.front(), {}, context);
@@ -43,28 +44,34 @@ std::optional<ExitStatus> solve_load_steps(const model::Model& model, const post
   for (const auto& acts : states) {
     report.begin(acts);
     try {
-      state = solver.solve(acts, std::move(state), report.observer(acts));
+      const auto* before = restart.find(approach, acts.time);
+      state =
+          before ? solver.take_up(acts, std::move(state), *before) : solver.solve(acts, std::move(state), report.observer(acts));
       if (report.gave_up(solver, *state, approach)) return {};
       auto results = analysis::evaluate(assembly, solver, *state, probes, context);
       report.write(solver, *state, probes, std::move(results), approach);
+      if (acts.time < states.back().time) restart.keep(report.state(), approach, solver, *state);
     } catch (const Error& error) {
       report.fail(error, approach);
     }
     if (!report.goes_on()) break;
   }
-  return report.end();
+  const auto status = report.end();
+  if (status == ExitStatus::solved) restart.remove();
+  return status;
 }
 
 ExitStatus solve(const CommandLine& command_line, const Context& context)
 {
   deck::Document document(read_text(command_line.deck, context.comm), command_line.deck, command_line.settings);
   const auto deck = read_deck(document, command_line, context.comm);
+  const analysis::Restart restart(deck, command_line.resume, context.comm);
   Report report(deck, document, command_line, context);
 
   auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
   if (deck.solver.programme.algorithm == "direct") decomposition = partition::whole_bodies(decomposition, context.comm);
   const auto on_surface = model::bodies_of_boundary_elements(deck, decomposition.catalogue);
-  decomposition = partition::skins(std::move(decomposition), on_surface, deck.output.interior.any(), context.comm);
+  decomposition = partition::skins(std::move(decomposition), on_surface, deck.output.asks_inside(), context.comm);
   report.mesh(decomposition);
   const auto resolved = model::resolve(deck, document, std::move(decomposition), context);
   report.resolution(resolved);
@@ -73,9 +80,14 @@ ExitStatus solve(const CommandLine& command_line, const Context& context)
     const model::Model model(deck, resolved.contacts, bodies);
     model.require_fit(document, context.comm);
     const auto probes = analysis::find_probes(model, document, context.comm);
-    return solve_load_steps(model, probes, approach, report, context);
+    return solve_load_steps(model, probes, approach, restart, report, context);
   };
-  return analysis::try_approaches(deck, resolved.decomposition, attempt, context);
+  try {
+    return analysis::try_approaches(deck, resolved.decomposition, attempt, context, restart.approach());
+  } catch (const Error& error) {
+    report.tell_interrupted(error);
+    throw;
+  }
 }
 
 }  // namespace

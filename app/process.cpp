@@ -62,6 +62,7 @@ int run_process(int argc, char** argv, ExitStatus (*solve)(const CommandLine&, c
   note_mpi_started();
   forbid_threads();
   const Communicator comm;
+  require_messages(comm);
   const Parsed parsed = parse_command_line(argc, argv);
   if (!parsed.command_line) {
     if (comm.root()) (parsed.status == 0 ? std::cout : std::cerr) << parsed.text;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "analysis/checks.hpp"
@@ -20,11 +21,18 @@ namespace {
 
 using Kind = analysis::Approach::Kind;
 
+// Times count steps, and are whole numbers at their ends.
+bool ends_a_step(const model::LoadState& acts)
+{
+  return acts.time == std::floor(acts.time);
+}
+
 }  // namespace
 
 Report::Report(const model::Deck& deck, const deck::Document& document, const CommandLine& command_line, const Context& context)
     : deck_(deck), command_line_(command_line), context_(context), history_(deck.solver.programme, context)
 {
+  if (command_line.resume && context.comm.root()) history_.take_up(io::text_of(deck.output.directory + "/history.csv"));
   if (!command_line.check)
     directory_.emplace(deck.output.directory, std::vector{document.file(), deck.mesh.file, deck.output.interior.point_file},
                        context.comm);
@@ -50,7 +58,7 @@ void Report::resolution(const model::Resolution& resolved)
   end_stage("mesh", "mesh");
   end_stage("partition", "partition");
   print_contact_candidates(resolved.found, deck_, resolved.contacts, resolved.decomposition, command_line_.check, context_);
-  if (directory_) directory_->clear();
+  if (directory_) directory_->clear(command_line_.resume);
 }
 
 void Report::rows(const model::Model& model, const analysis::Rows& first, const post::Probes& probes, std::size_t states,
@@ -60,7 +68,10 @@ void Report::rows(const model::Model& model, const analysis::Rows& first, const 
   states_ = states;
   index_ = 0;
   summary_ = {};
+  increment_ = 0;
+  acts_ = {};
   files_.emplace(deck_);
+  probe_files_.emplace(deck_);
   if (approach.kind == Kind::as_asked) {
     end_stage("supports and contact", "contact");
     for (auto& warning : analysis::check_model(model, first, comm)) warnings_.report(std::move(warning), log);
@@ -86,6 +97,7 @@ void Report::assembly(const analysis::Assembly& assembly, const std::vector<part
 
 void Report::begin(const model::LoadState& acts)
 {
+  increment_ = ends_a_step(acts_) ? 1 : increment_ + 1;
   acts_ = acts;
   print_state(acts, index_++, states_, context_.log);
 }
@@ -95,12 +107,19 @@ friction::Observer Report::observer(const model::LoadState& acts)
   return [this, acts](int step, double change, const qp::Progress& p) { history_.note(acts, step, change, p); };
 }
 
+// Whether the fields of the present state are to be written.
+bool Report::is_due(bool converged) const
+{
+  return ends_a_step(acts_) || !converged || increment_ % deck_.output.every == 0;
+}
+
 bool Report::gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state, const analysis::Approach& approach)
 {
   context_.log.end_progress();
   end_stage("solve", "solve");
   if (!state.solved.gave_up) return false;
-  if (approach.kind == Kind::as_asked) sizes_as_cut_ = sizes_of(assembly_->decomposition(), solver.problem(), context_.comm);
+  if (approach.kind != Kind::direct_instead)
+    sizes_as_cut_ = sizes_of(assembly_->decomposition(), solver.problem(), context_.comm);
   return true;
 }
 
@@ -110,7 +129,7 @@ void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepS
   const auto& comm = context_.comm;
   const auto& model = assembly_->model();
   const bool first = summary_.version.empty();
-  auto summary = summarise(model, solver.problem(), state, results, comm);
+  auto summary = summarise(model, solver.problem(), state, probes, results, comm);
   summary.algorithm = approach.algorithm == "auto" ? "face_newton" : approach.algorithm;
   if (approach.kind == Kind::direct_instead) copy_sizes(sizes_as_cut_, summary);
   if (first) summary.hessian_multiplications += solver.spent_before();
@@ -119,7 +138,8 @@ void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepS
   {
     const auto scope = context_.timers.scope("output");
     files_->write(assembly_->decomposition(), assembly_->interface(), solver.problem(), state, probes, results,
-                  index_ == states_ || !summary.converged, comm);
+                  is_due(summary.converged), index_ == states_ || !summary.converged, comm);
+    probe_files_->write(assembly_->decomposition().catalogue, acts_, probes, results, summary.probes, comm);
     collectively(comm, [&] {
       if (!comm.root()) return;
       io::write_text(deck_.output.directory + "/history.csv", history_.text());
@@ -134,7 +154,8 @@ void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepS
 void Report::fail(const Error& error, const analysis::Approach& approach)
 {
   context_.log.end_progress();
-  if (index_ == 1 || analysis::is_tried_again(approach, error)) throw error;
+  if (analysis::is_tried_again(approach, error)) throw error;
+  if (index_ == 1) throw error;
   summary_.converged = false;
   summary_.exit_status = static_cast<int>(error.status());
   try {
@@ -143,6 +164,16 @@ void Report::fail(const Error& error, const analysis::Approach& approach)
   }
   throw Error(error.status(), fmt::format("step {}, time {:.4g}: {}\nThe results of the states before are written.", acts_.step,
                                           acts_.time, error.what()));
+}
+
+void Report::tell_interrupted(const Error& error)
+{
+  if (error.status() != ExitStatus::interrupted || !summary_.version.empty() || !context_.comm.root()) return;
+  const auto text = io::interrupted_summary(MORTISE_VERSION, deck_.title, static_cast<int>(error.status()));
+  try {
+    io::write_text(deck_.output.directory + "/summary.json", text);
+  } catch (const Error&) {  // there is none, then
+  }
 }
 
 bool Report::goes_on()
@@ -177,6 +208,7 @@ ExitStatus Report::end()
   for (const auto& spread : spreads) summary_.time[spread.stage] = spread.max;
   write_summary(true);
   print_results(results_, summary_, log);
+  print_probes(summary_, log);
   log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", summary_.time["total"], summary_.peak_memory_bytes / 1e9,
            deck_.output.directory);
   print_communication(summary_, log);

@@ -15,6 +15,7 @@
 #include "io/output_directory.hpp"
 #include "io/summary.hpp"
 #include "model/resolution.hpp"
+#include "probes.hpp"
 
 namespace mortise {
 
@@ -49,6 +50,10 @@ class Report {
              post::Results results, const analysis::Approach& approach);
   /// A load step failed: leaves the results of those before, and throws the error, which names the load step then.
   [[noreturn]] void fail(const Error& error, const analysis::Approach& approach);
+  /// For an error that ends the run: if it was told to end before any state was written, a summary that says so. Never throws.
+  void tell_interrupted(const Error& error);
+  /// The place of the present state, from 1.
+  std::size_t state() const { return index_; }
   /// Whether another load step is to be solved after the one that was written.
   bool goes_on();
 
@@ -56,6 +61,7 @@ class Report {
   ExitStatus end();
 
  private:
+  bool is_due(bool converged) const;
   void end_stage(const char* what, const char* name);
   void write_summary(bool finished);
 
@@ -68,12 +74,14 @@ class Report {
   std::map<std::string, double> seconds_before_;  // of each stage, when it was last told
   History history_;
   std::optional<FieldFiles> files_;
+  std::optional<ProbeFiles> probe_files_;
   analysis::Warnings warnings_;
   io::Summary sizes_as_cut_;  // of the deck's own cut, where it is solved by another one
 
   // of the approach, from rows() on
   const analysis::Assembly* assembly_ = nullptr;
   std::size_t states_ = 0, index_ = 0;  // how many there are; the place of the present one, from 1
+  int increment_ = 0;                   // of the present step, from 1
   model::LoadState acts_;
   io::Summary summary_;    // of the states that are written; without a version if there is none
   post::Results results_;  // of the last of them

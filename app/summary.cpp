@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/traffic_counted.hpp"
+#include "probes.hpp"
 
 namespace mortise {
 
@@ -23,6 +24,25 @@ void add_unresolved_contact(const friction::Result& solved, const model::Contact
                              s.of});
 }
 
+// About the point that the deck names.
+std::array<double, 3> moment_of(const model::Deck& deck, const post::Reaction& reaction)
+{
+  const auto& p = deck.output.moments_about;
+  const auto &f = reaction.force, &m = reaction.moment;
+  return {m[0] - p[1] * f[2] + p[2] * f[1], m[1] - p[2] * f[0] + p[0] * f[2], m[2] - p[0] * f[1] + p[1] * f[0]};
+}
+
+void add_reactions(const model::Deck& deck, const post::Results& results, io::StateSummary& summary)
+{
+  summary.moments_about = deck.output.moments_about;
+  for (std::size_t s = 0; s < results.reactions.size(); ++s) {
+    const auto& support = deck.supports[s];
+    if (!support.coupling.empty()) continue;
+    summary.reactions.push_back({support.boundary, results.reactions[s].force, {}, support.name});
+    if (!deck.axisymmetric()) summary.reactions.back().moment = moment_of(deck, results.reactions[s]);
+  }
+}
+
 void add_couplings(const model::Deck& deck, const post::Results& results, io::StateSummary& summary)
 {
   const auto head = [](const std::array<double, 6>& x) { return std::array{x[0], x[1], x[2]}; };
@@ -33,6 +53,15 @@ void add_couplings(const model::Deck& deck, const post::Results& results, io::St
     const bool held = std::any_of(deck.supports.begin(), deck.supports.end(), [&](const auto& s) { return s.coupling == name; });
     summary.couplings.push_back(
         {name, options.boundary, head(motion), tail(motion), head(action), tail(action), head(reaction), tail(reaction), held});
+  }
+}
+
+void add_springs(const model::Deck& deck, const post::Results& results, io::StateSummary& summary)
+{
+  auto state = results.springs.begin();
+  for (const auto& [name, options] : deck.springs) {
+    summary.springs.push_back({name, state->force, state->elongation});
+    ++state;
   }
 }
 
@@ -104,13 +133,14 @@ void copy_sizes(const io::Summary& from, io::Summary& to)
 }
 
 io::Summary summarise(const model::Model& model, const feti::DualProblem& problem, const analysis::StepState& state,
-                      const post::Results& results, const Communicator& comm)
+                      const post::Probes& probes, const post::Results& results, const Communicator& comm)
 {
   const auto& solved = state.solved;
   io::Summary summary = sizes_of(model.decomposition(), problem, comm);
   summary.version = MORTISE_VERSION;
   summary.title = model.deck().title;
   summary.bodies = static_cast<Global>(model.decomposition().catalogue.bodies.size());
+  for (const auto& body : model.decomposition().catalogue.bodies) summary.body_names.push_back(body.name);
   summary.ranks = comm.size();
   summary.converged = results.verdict.status == ExitStatus::solved;
   summary.exit_status = static_cast<int>(results.verdict.status);
@@ -124,10 +154,14 @@ io::Summary summarise(const model::Model& model, const feti::DualProblem& proble
   summary.strain_energy = results.stress.strain_energy;
   summary.max_von_mises = results.stress.largest_von_mises.value;
   summary.max_displacement = results.max_displacement;
-  for (std::size_t s = 0; s < results.reactions.size(); ++s)
-    if (const auto& support = model.deck().supports[s]; support.coupling.empty())
-      summary.reactions.push_back({support.boundary, results.reactions[s]});
+  const auto& largest = results.stress.largest_von_mises;
+  summary.max_von_mises_place.coordinates = {largest.at[0], largest.at[1], largest.at[2]};
+  if (largest.body >= 0)
+    summary.max_von_mises_place.body = model.decomposition().catalogue.bodies[static_cast<std::size_t>(largest.body)].name;
+  add_reactions(model.deck(), results, summary);
+  summary.probes = probe_summaries(model.deck(), model.decomposition().catalogue, probes, results, comm);
   add_couplings(model.deck(), results, summary);
+  add_springs(model.deck(), results, summary);
   add_contacts(model.contacts(), state, results, comm, summary);
   add_unresolved_contact(solved, model.contacts(), summary);
   return summary;

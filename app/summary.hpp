@@ -13,7 +13,7 @@ void copy_sizes(const io::Summary& from, io::Summary& to);
 
 /// One equilibrium; nothing of time, memory and communication. Collective.
 io::Summary summarise(const model::Model& model, const feti::DualProblem& problem, const analysis::StepState& state,
-                      const post::Results& results, const Communicator& comm);
+                      const post::Probes& probes, const post::Results& results, const Communicator& comm);
 
 /// Adds the steps and the work of the states `before` to `summary`, which is that of the state `acts` alone.
 void accumulate_steps(const model::LoadState& acts, const io::Summary& before, io::Summary& summary);

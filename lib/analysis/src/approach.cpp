@@ -1,16 +1,39 @@
 #include "analysis/approach.hpp"
 
+#include <algorithm>
+#include <climits>
 #include <new>
 
 #include "analysis/assembly.hpp"
 #include "analysis/effort.hpp"
+#include "partition/options.hpp"
+#include "partition/smaller_subdomains.hpp"
 #include "partition/whole_bodies.hpp"
 
 namespace mortise::analysis {
 
 namespace {
 
-constexpr int products_of_check = 40;  // that a direct solution is one
+constexpr int products_of_check = 40;       // that a direct solution is one
+constexpr int products_on_large_ones = 80;  // on subdomains that are so many times as large as usual
+constexpr int large = 4;
+
+int usual_unknowns(const model::Deck& deck)
+{
+  return deck.axisymmetric() ? partition::usual_size_of_rings : partition::usual_size;
+}
+
+// Whether there are subdomains that can be cut, much larger than usual. Collective.
+bool has_large_subdomains(const Assembly& assembly, const Communicator& comm)
+{
+  const auto& decomposition = assembly.decomposition();
+  if (decomposition.clustered()) return false;
+  double largest = 0;
+  for (const auto& subdomain : decomposition.subdomains)
+    if (!subdomain.skin)
+      largest = std::max(largest, decomposition.catalogue.dimension * static_cast<double>(subdomain.mesh.node_count()));
+  return comm.max(largest) > large * usual_unknowns(assembly.deck());
+}
 
 // A body of several skins, which cannot be made whole for a direct solution; empty if there is none. Collective.
 std::string cut_skin(const partition::Decomposition& decomposition, const Communicator& comm)
@@ -46,36 +69,62 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
   const auto effort = [&] { return effort_of_direct(assembly.decomposition(), assembly.system(), constraints, comm); };
   if (approach.kind == Approach::Kind::direct_instead)
     approach.patience = products_of_check;
-  else if (approach.algorithm == "auto")
+  else if (approach.algorithm == "auto") {
     approach.patience = patience_with_products(effort(), comm);
-  else if (approach.algorithm == "direct")
+    if (approach.kind == Approach::Kind::as_asked && approach.patience.value_or(INT_MAX) > products_on_large_ones &&
+        has_large_subdomains(assembly, comm)) {
+      approach.patience = products_on_large_ones;
+      approach.next = Approach::Kind::smaller_subdomains;
+    }
+  } else if (approach.algorithm == "direct")
     require_room_for_direct(effort(), comm);
   return approach;
 }
 
 ExitStatus try_approaches(const model::Deck& deck, const partition::Decomposition& as_cut, const Attempt& attempt,
-                          const Context& context)
+                          const Context& context, const std::optional<Approach>& resumed)
 {
+  using Kind = Approach::Kind;
   auto& [comm, log, timers] = context;
-  Approach approach{Approach::Kind::as_asked, deck.solver.programme.algorithm};
-  if (const auto status = attempt(as_cut, approach)) return *status;
-  log.line("  {} products with F, and no end near: a direct solution, with every body whole, costs as much", approach.spent);
-  approach.kind = Approach::Kind::direct_instead;
-  approach.algorithm = "direct";
-  const char* why = "does not converge, or rounding spoils it";
-  try {
-    if (const auto status = attempt(partition::whole_bodies(as_cut, comm), approach)) return *status;
-  } catch (const Error& error) {
-    if (!is_tried_again(approach, error)) throw;
-    if (error.cause() == Error::Cause::memory) why = "finds no room in memory";
-  } catch (const std::bad_alloc&) {
-    if (comm.size() > 1) throw;  // the other ranks know nothing of it
-    why = "finds no room in memory";
+  const auto& asked = deck.solver.programme.algorithm;
+  Approach approach = resumed.value_or(Approach{});
+  partition::Decomposition smaller;
+  if (approach.kind == Kind::as_asked) {
+    approach.algorithm = asked;
+    if (const auto status = attempt(as_cut, approach)) return *status;
+    approach.smaller = approach.next == Kind::smaller_subdomains;
   }
-  log.end_progress();
-  log.line("  the direct solution {}: back to products with F", why);
-  approach = {Approach::Kind::products_to_the_end, "face_newton", {}, approach.spent};
-  return attempt(as_cut, approach).value();
+  if (approach.smaller) {
+    const int pieces = usual_unknowns(deck) / 2;  // what is slender wants them small
+    if (approach.kind == Kind::as_asked)
+      log.line("  {} products with F, and no end near: subdomains are large, and are cut into pieces of some {} unknowns",
+               approach.spent, pieces);
+    smaller = partition::smaller_subdomains(as_cut, pieces, comm);
+  }
+  if (approach.smaller && (approach.kind == Kind::as_asked || approach.kind == Kind::smaller_subdomains)) {
+    approach = {Kind::smaller_subdomains, asked, {}, approach.spent, Kind::direct_instead, true};
+    if (const auto status = attempt(smaller, approach)) return *status;
+  }
+  const auto& cut = approach.smaller ? smaller : as_cut;
+  if (approach.kind != Kind::products_to_the_end) {
+    if (approach.kind != Kind::direct_instead)
+      log.line("  {} products with F, and no end near: a direct solution, with every body whole, costs as much", approach.spent);
+    approach = {Kind::direct_instead, "direct", {}, approach.spent, Kind::direct_instead, approach.smaller};
+    const char* why = "does not converge, or rounding spoils it";
+    try {
+      if (const auto status = attempt(partition::whole_bodies(cut, comm), approach)) return *status;
+    } catch (const Error& error) {
+      if (!is_tried_again(approach, error)) throw;
+      if (error.cause() == Error::Cause::memory) why = "finds no room in memory";
+    } catch (const std::bad_alloc&) {
+      if (comm.size() > 1) throw;  // the other ranks know nothing of it
+      why = "finds no room in memory";
+    }
+    log.end_progress();
+    log.line("  the direct solution {}: back to products with F", why);
+  }
+  approach = {Kind::products_to_the_end, "face_newton", {}, approach.spent, Kind::direct_instead, approach.smaller};
+  return attempt(cut, approach).value();
 }
 
 }  // namespace mortise::analysis

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/patterns.hpp"
 #include "post/deformation.hpp"
 #include "post/model_checks.hpp"
 #include "post/strength.hpp"
@@ -33,7 +34,7 @@ std::vector<post::BodyMaterial> body_materials(const model::Model& model, const 
   comm.sum_in_place(straight);
   std::vector<post::BodyMaterial> result;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const auto& options = deck.bodies.at(bodies[b].group);
+    const auto& options = model::body_entry(deck, bodies[b].group)->second;
     for (const auto& name : model::material_names(options))
       result.push_back({bodies[b].name, sizes[b], deck.materials.at(name), options.formulation, straight[b] > 0});
   }
@@ -67,7 +68,7 @@ std::vector<post::SupportLoad> support_loads(const model::Model& model, const po
   for (std::size_t i = 0; i < deck.supports.size(); ++i) {
     if (deck.supports[i].boundary.empty()) continue;
     const auto facts = model.facts(deck.supports[i].boundary, comm);
-    auto force = results.reactions[i];
+    auto force = results.reactions[i].force;
     if (deck.axisymmetric()) force[0] = 0;  // what holds a ring together is no resultant
     result.push_back({deck.supports[i].boundary, force, facts.area, facts.centre, facts.young_modulus});
   }
@@ -156,7 +157,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   const auto names = body_names(decomposition.catalogue);
   std::vector<double> softest(names.size(), std::numeric_limits<double>::infinity());
   for (std::size_t b = 0; b < names.size(); ++b)
-    for (const auto& material : model::material_names(deck.bodies.at(decomposition.catalogue.bodies[b].group)))
+    for (const auto& material : model::material_names(model::body_entry(deck, decomposition.catalogue.bodies[b].group)->second))
       softest[b] = std::min(softest[b], deck.materials.at(material).young_modulus);
   const auto& pairs = state.rows->pairs;
   const auto& contact = results.contact;

@@ -53,9 +53,11 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
                                      [](const constraint::PrescribedDof& h) { return h.unknown; });
   const Global along_axes = comm.sum(static_cast<long long>(constraints.prescribed.size()) - coupled);
   const bool eliminated = along_axes > feti::few_supports;
-  const auto prescribed = static_cast<double>(
-      comm.sum(static_cast<long long>(constraints.skew_supports.size() + constraints.mean_motions.size()) + coupled) +
-      (eliminated ? 0 : along_axes));
+  const auto prescribed =
+      static_cast<double>(comm.sum(static_cast<long long>(constraints.skew_supports.size() + constraints.mean_motions.size() +
+                                                          constraints.springs.own.size()) +
+                                   coupled) +
+                          (eliminated ? 0 : along_axes));
   const double all = prescribed + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size())));
   const double free = all - closing;
 

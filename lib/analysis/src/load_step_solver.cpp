@@ -80,10 +80,14 @@ LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach& a
 std::unique_ptr<feti::DualProblem> LoadStepSolver::make_problem(std::vector<Eigen::VectorXd> load) const
 {
   const auto& deck = assembly_.deck();
+  // A support along normals is to its body what an obstacle that it touches everywhere is.
+  auto pairs = rows_->pairs;
+  for (auto& surface : assembly_.model().surfaces_held_along_normals(rows_->acts))
+    pairs.push_back({{}, std::move(surface), nullptr});
   auto problem = std::make_unique<feti::DualProblem>(
       assembly_.decomposition(), assembly_.directory(), assembly_.interface(), rows_->constraints, assembly_.system(),
       std::move(load), deck.solver.subdomains, context_,
-      contact::sliding_surfaces(rows_->pairs, rows_->constraints.contacts, deck.kinematics, context_.comm));
+      contact::sliding_surfaces(pairs, rows_->constraints.contacts, deck.kinematics, context_.comm));
   context_.log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(),
                     problem->kernel_dimension());
   return problem;
@@ -161,6 +165,16 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};
 }
 
+StepState LoadStepSolver::take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record)
+{
+  if (before) update(acts, *before);
+  auto found = solution_of(record, *problem_);
+  before_ += found.applications;
+  auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
+  auto shortenings = problem_->shortenings(found.solution.nu);
+  return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};
+}
+
 post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,
                        const Context& context)
 {
@@ -182,10 +196,13 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
   const auto motions = assembly.model().motions_of_points(state.displacement, comm);
   for (std::size_t i = 0; i < motions.size(); ++i) results.couplings[i].motion = motions[i];
   if (results.verdict.status == ExitStatus::no_equilibrium) throw Error(results.verdict.status, results.verdict.reason);
-  if (deck.output.interior.any()) {
+  if (probes.any_inside()) {
     const auto scope = context.timers.scope("interior");
     results.interior = post::evaluate_interior(bodies, probes, state.displacement, results.stress, comm);
   }
+  if (!probes.extremes.empty())
+    results.extremes = post::find_extremes(bodies.decomposition, probes, state.displacement, results.stress, results.interior,
+                                           state.rows->pairs, results.contact.surfaces, comm);
   return results;
 }
 

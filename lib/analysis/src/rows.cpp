@@ -24,7 +24,7 @@ void find_pretension_sections(const model::Model& model, const std::vector<doubl
 
 // What supports and rigid couplings prescribe, but for unknown motions.
 std::vector<constraint::PrescribedDof> prescribed_components(const model::Model& model,
-                                                             std::span<const constraint::SupportOptions> supports,
+                                                             std::span<const constraint::Support> supports,
                                                              std::span<const constraint::Coupling> couplings,
                                                              std::vector<constraint::PrescribedDof> aligned,
                                                              const Communicator& comm)
@@ -34,7 +34,20 @@ std::vector<constraint::PrescribedDof> prescribed_components(const model::Model&
     const auto coupled = constraint::coupled_rows(couplings, model.coupling_surfaces(), model.first_coupling(), dimension, comm);
     aligned.insert(aligned.end(), coupled.begin(), coupled.end());
   }
-  return constraint::dirichlet_rows(supports, model.support_nodes(comm), dimension, comm, aligned);
+  return constraint::dirichlet_rows(supports, model.support_nodes(supports, comm), dimension, comm, aligned);
+}
+
+// Along normals and local axes, ascending by node.
+std::vector<constraint::NodeDirection> held_directions(const model::Model& model, std::span<const constraint::Support> supports,
+                                                       const Communicator& comm)
+{
+  auto all = constraint::node_normals(supports, model.support_surfaces(), comm);
+  if (std::none_of(supports.begin(), supports.end(), [](const auto& s) { return s.axes.has_value(); })) return all;
+  const auto along_axes = constraint::axes_directions(supports, model.support_nodes(supports, comm), model.deck().dimension(),
+                                                      model.rounding(comm), comm);
+  all.insert(all.end(), along_axes.begin(), along_axes.end());
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  return all;
 }
 
 // Rows of contacts keep their entries at nodes of couplings, which may move.
@@ -53,13 +66,14 @@ Rows make_rows(const model::Model& model, const model::LoadState& acts, const st
   const auto& comm = context.comm;
   const auto& deck = model.deck();
   Rows rows{acts, model.supports(acts), model.contact_pairs(acts), {}, {}};
-  auto normals = constraint::node_normals(rows.supports, model.support_surfaces(), comm);
-  const auto aligned = constraint::take_axis_aligned(rows.supports, normals);
+  auto directions = held_directions(model, rows.supports, comm);
+  const auto aligned = constraint::take_axis_aligned(directions);
   auto& constraints = rows.constraints;
   constraints.couplings = model.couplings(acts, comm);
   constraints.mean_motions = model.mean_motions(constraints.couplings, comm);
+  constraints.springs = model.springs(acts, comm);
   constraints.prescribed = prescribed_components(model, rows.supports, constraints.couplings, aligned, comm);
-  constraints.skew_supports = constraint::skew_support_rows(rows.supports, normals, constraints.prescribed, comm);
+  constraints.skew_supports = constraint::skew_support_rows(rows.supports, directions, constraints.prescribed, comm);
   constraints.contacts =
       contact::discretize(rows.pairs, held_by_supports(constraints.prescribed), deck.kinematics, comm, constraints.skew_supports,
                           model::curved_faces(deck, model.decomposition(), rows.pairs), &rows.initial_gaps);
@@ -75,6 +89,7 @@ Rows place(Rows rows, const model::Model& model, const partition::NodeDirectory&
   constraints.prescribed = feti::distribute_rows(constraints.prescribed, decomposition, directory, comm);
   constraints.skew_supports = feti::distribute_rows(constraints.skew_supports, decomposition, directory, comm);
   constraints.contacts = feti::distribute_rows(constraints.contacts, decomposition, directory, comm);
+  constraints.springs.own = feti::rows_here(constraints.springs.rows, decomposition, directory, comm);
   find_pretension_sections(model, shortenings, comm, rows);
   return rows;
 }
@@ -84,15 +99,16 @@ std::optional<Rows> with_new_bounds(Rows rows, const model::Model& model, const 
                                     const Communicator& comm)
 {
   const auto& deck = model.deck();
+  for (std::size_t i = 0; i < deck.supports.size(); ++i)
+    if (deck.supports[i].stiffness.any() && acts.acting[i] != rows.acts.acting[i]) return {};
   auto supports = model.supports(acts);
-  const bool moved = !std::equal(supports.begin(), supports.end(), rows.supports.begin(), [](const auto& a, const auto& b) {
-    return a.displacement == b.displacement && a.normal == b.normal;
-  });
+  const bool moved = !std::equal(supports.begin(), supports.end(), rows.supports.begin());
   auto couplings = model.couplings(acts, comm);
   if (!constraint::same_unknowns(couplings, rows.constraints.couplings)) return {};
   if (moved || !couplings.empty()) {
     // What is prescribed along normals may stand in many rows.
-    if (std::any_of(deck.supports.begin(), deck.supports.end(), [](const auto& s) { return s.normal.has_value(); })) return {};
+    if (std::any_of(deck.supports.begin(), deck.supports.end(), [](const auto& s) { return s.normal || !s.axes.empty(); }))
+      return {};
     auto prescribed = feti::distribute_rows(prescribed_components(model, supports, couplings, {}, comm), model.decomposition(),
                                             directory, comm);
     if (!constraint::update_rhs(rows.constraints, std::move(prescribed), supports, rows.supports, comm)) return {};

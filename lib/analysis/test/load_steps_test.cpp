@@ -96,8 +96,8 @@ TEST(LoadSteps, APressedColumn)
   EXPECT_NEAR(r.max_displacement, pressure / young * height, 1e-9);
   EXPECT_NEAR(r.stress.largest_von_mises.value, pressure, 1e-7);
   EXPECT_NEAR(r.stress.strain_energy, 0.5 * pressure * pressure / young * height * width * width, 1e-9);
-  expect_near(r.reactions.at(0), {0, 0, pressure});
-  expect_near(r.reactions.at(1), {0, 0, 0});
+  expect_near(r.reactions.at(0).force, {0, 0, pressure});
+  expect_near(r.reactions.at(1).force, {0, 0, 0});
   const Point contact = r.contact.resultants.at(0).force;
   EXPECT_NEAR(contact[2], pressure, 1e-7);
   EXPECT_NEAR(r.contact.resultants[0].area, width * width, 1e-9);
@@ -126,7 +126,7 @@ TEST(LoadSteps, StatesAreValuesThatTheNextStartsFrom)
     EXPECT_LT(once.balance.difference, 1e-8) << i;
     EXPECT_NEAR(once.contact.resultants[0].force[2], pressure, 1e-6) << i;
   }
-  expect_near(run.results[1].reactions[0], {-0.5, 0, pressure});
+  expect_near(run.results[1].reactions[0].force, {-0.5, 0, pressure});
   EXPECT_NEAR(run.results[2].contact.resultants[0].force[0], 0, 1e-6);
 
   const auto rows = [&](std::size_t i) {

@@ -25,7 +25,9 @@ decomposition: {method: grid, counts: {lower: [2, 1, 1], upper: [1, 2, 1]}}
 class Asked {
  public:
   explicit Asked(const std::string& interior)
-      : document_(two_methods + "output: {interior: " + interior + "}\n", "deck.yaml", {}), deck_(model::read_deck(document_, ""))
+      : document_(two_methods + "output: {" + (interior.starts_with("probes") ? "" : "interior: ") + interior + "}\n",
+                  "deck.yaml", {}),
+        deck_(model::read_deck(document_, ""))
   {
     document_.check();
     auto decomposition = partition::decompose(deck_.mesh, deck_.decomposition, 3, context_);
@@ -36,6 +38,7 @@ class Asked {
   }
   post::Probes find() { return find_probes(*model_, document_, comm); }
   const model::Deck& deck() const { return deck_; }
+  const std::vector<partition::Subdomain>& subdomains() const { return resolved_.decomposition.subdomains; }
   const partition::Subdomain& subdomain(const post::Place& place) const
   {
     return resolved_.decomposition.subdomains[place.subdomain];
@@ -111,6 +114,48 @@ TEST(Probes, PointsInNoBodyAreErrorsOnAllRanks)
         << text;
     EXPECT_EQ(text.find("points[0]"), std::string::npos);
   }
+}
+
+// Points of probes and paths are counted through, in the order of names; a path may leave the bodies.
+TEST(Probes, PathsAndPointsOfNames)
+{
+  Asked asked(
+      "probes: {b: {from: [0.5, 0.5, 0], to: [0.5, 0.5, 4], count: 9}, a: {point: [0.25, 0.25, 1]}, c: {largest: von_mises}}");
+  const auto probes = asked.find();
+  EXPECT_EQ(probes.samples, 2 + 6);  // in two bodies; 0 .. 2 by halves, and 1 in two bodies
+  EXPECT_EQ(asked.comm.sum(static_cast<long long>(probes.sampled.size())), 8);
+  for (const auto& sample : probes.sampled) {
+    const double z = sample.point == 0 ? 1 : 0.5 * static_cast<double>(sample.point - 1);
+    EXPECT_NEAR(sample.place.at[2], z, 1e-12);
+  }
+  EXPECT_TRUE(probes.any_inside());
+  ASSERT_EQ(probes.extremes.size(), 1U);
+}
+
+// Bodies, boundaries, and boundaries on bodies, with wild cards; nodes are those of their faces.
+TEST(Probes, ExtremesAreLookedForWhereTheirNamesSay)
+{
+  Asked asked(
+      "probes: {a: {largest: sxx, of: lower}, b: {largest: sxx, of: '*.zmax'}, c: {smallest: sxx, of: 'upper:*'}, "
+      "d: {largest: sxx}, e: {largest: sxx, of: 'lower:*.xmin'}}");
+  const auto probes = asked.find();
+  ASSERT_EQ(probes.extremes.size(), 5U);
+  using Bodies = std::vector<bool>;
+  EXPECT_EQ(probes.extremes[0].on_body, (Bodies{true, false}));
+  EXPECT_EQ(probes.extremes[3].on_body, (Bodies{true, true}));
+  EXPECT_TRUE(probes.extremes[0].nodes.empty() && probes.extremes[3].nodes.empty());
+  EXPECT_TRUE(probes.extremes[2].smallest);
+  const auto expect = [&](std::size_t probe, const auto& meant) {
+    ASSERT_EQ(probes.extremes[probe].nodes.size(), asked.subdomains().size());
+    for (std::size_t s = 0; s < asked.subdomains().size(); ++s)
+      for (std::size_t n = 0; n < asked.subdomains()[s].mesh.node_count(); ++n)
+        EXPECT_EQ(probes.extremes[probe].nodes[s][n], meant(asked.subdomains()[s], asked.subdomains()[s].mesh.points[n]));
+  };
+  expect(1, [](const auto& s, const Point& x) { return x[2] == s.body + 1; });
+  expect(2, [](const auto& s, const Point& x) {
+    return s.body == 1 && (x[0] == 0 || x[0] == 1 || x[1] == 0 || x[1] == 1 || x[2] == 1 || x[2] == 2);
+  });
+  expect(4, [](const auto& s, const Point& x) { return s.body == 0 && x[0] == 0; });
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ volatile std::sig_atomic_t told = 0;
 [[noreturn]] void end(int signal_number)
 {
   alarm(0);
-  throw Error(ExitStatus::machine,
+  throw Error(ExitStatus::interrupted,
               fmt::format("The run was told to end (SIG{}) before it was solved.", sigabbrev_np(signal_number)));
 }
 

@@ -15,7 +15,7 @@ std::string said(const std::function<void()>& work)
   try {
     work();
   } catch (const Error& error) {
-    EXPECT_EQ(error.status(), ExitStatus::machine);
+    EXPECT_EQ(error.status(), ExitStatus::interrupted);
     EXPECT_EQ(error.cause(), Error::Cause::other);
     return error.what();
   }

@@ -43,7 +43,7 @@ ParticularSolution::ParticularSolution(const fem::Constitution& constitution, co
   const double nu = material.poisson_ratio, mu = material.young_modulus / (2 * (1 + nu)), lambda = 2 * mu * nu / (1 - 2 * nu);
   Point force = material.density * constitution.acceleration;
   if (kinematics != fem::Kinematics::solid) force[2] = 0;
-  expansion_ = material.thermal_expansion * constitution.temperature_change;
+  expansion_ = material.thermal_expansion * constitution.temperature_change.uniform;
   force_ = force.norm();
   direction_ = force_ > 0 ? Point(force / force_) : Point::UnitX();
   constrained_ = lambda + 2 * mu;

@@ -18,7 +18,8 @@ double stress_across_plane(const fem::Constitution& constitution, fem::Kinematic
 {
   if (kinematics != fem::Kinematics::plane_strain) return 0;
   const auto& material = constitution.materials[0];
-  return material.poisson_ratio * sum - material.young_modulus * material.thermal_expansion * constitution.temperature_change;
+  return material.poisson_ratio * sum -
+         material.young_modulus * material.thermal_expansion * constitution.temperature_change.uniform;
 }
 
 }  // namespace mortise::bem

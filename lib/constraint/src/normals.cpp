@@ -77,7 +77,7 @@ std::vector<Point> clusters(std::span<const Point> weighted)
   return means;
 }
 
-[[noreturn]] void disagree(std::span<const SupportOptions> supports, int one, int other)
+[[noreturn]] void disagree(std::span<const Support> supports, int one, int other)
 {
   const auto a = static_cast<std::size_t>(one), b = static_cast<std::size_t>(other);
   throw Error(ExitStatus::bad_input,
@@ -89,7 +89,7 @@ std::vector<Point> clusters(std::span<const Point> weighted)
 // The directions that are prescribed at one node, orthonormal.
 class Directions {
  public:
-  Directions(std::span<const SupportOptions> supports, std::span<const PrescribedDof> components) : supports_(supports)
+  Directions(std::span<const Support> supports, std::span<const PrescribedDof> components) : supports_(supports)
   {
     for (const auto& h : components)
       directions_.push_back(
@@ -97,10 +97,10 @@ class Directions {
     components_ = directions_.size();
   }
 
-  void add(const NodeNormal& normal)
+  void add(const NodeDirection& normal)
   {
-    const double value = *supports_[static_cast<std::size_t>(normal.support)].normal;
-    SkewSupport next{normal.node, {}, value, {{{normal.support, normal.direction}}}, 1};
+    const double value = normal.value;
+    SkewSupport next{normal.node, {}, value, {{{normal.support, normal.direction}}}, 1, normal.at};
     Point rest = vector(normal.direction);
     double size = std::abs(value);
     for (const auto& known : directions_) {
@@ -126,59 +126,106 @@ class Directions {
   std::span<const SkewSupport> skew_supports() const { return std::span(directions_).subspan(components_); }
 
  private:
-  std::span<const SupportOptions> supports_;
+  std::span<const Support> supports_;
   std::vector<SkewSupport> directions_;
   std::size_t components_ = 0;
 };
 
 }  // namespace
 
-std::vector<NodeNormal> node_normals(std::span<const SupportOptions> supports, std::span<const mesh::Surface> surfaces,
-                                     const Communicator& comm)
+std::vector<NodeDirection> node_normals(std::span<const Support> supports, std::span<const mesh::Surface> surfaces,
+                                        const Communicator& comm)
 {
   struct Sent {
     Global node, face;
     int support;
     double weighted[3];
+    double value, at[3];
   };
   std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
-  for (std::size_t i = 0; i < supports.size(); ++i) {
-    if (!supports[i].normal) continue;
-    const auto& surface = surfaces[i];
-    for (std::size_t f = 0; f < surface.faces.size(); ++f)
-      for (std::size_t k = 0; k < surface.faces[f].size(); ++k) {
-        const Global node = surface.node_id[static_cast<std::size_t>(surface.faces[f][k])];
-        const Point n = weighted_normal(surface, f, k);
-        send[static_cast<std::size_t>(node % comm.size())].push_back(
-            {node, surface.face_id[f], static_cast<int>(i), {n[0], n[1], n[2]}});
-      }
-  }
+  collectively(comm, [&] {
+    for (std::size_t i = 0; i < supports.size(); ++i) {
+      if (!supports[i].normal) continue;
+      const auto& surface = surfaces[i];
+      for (std::size_t f = 0; f < surface.faces.size(); ++f)
+        for (std::size_t k = 0; k < surface.faces[f].size(); ++k) {
+          const auto at = static_cast<std::size_t>(surface.faces[f][k]);
+          const Global node = surface.node_id[at];
+          const Point n = weighted_normal(surface, f, k);
+          const Point& x = surface.points[at];
+          const double value = value_at(supports, static_cast<int>(i), *supports[i].normal, x);
+          send[static_cast<std::size_t>(node % comm.size())].push_back(
+              {node, surface.face_id[f], static_cast<int>(i), {n[0], n[1], n[2]}, value, {x[0], x[1], x[2]}});
+        }
+    }
+  });
   std::vector<Sent> all;
   for (const auto& part : comm.exchange(send)) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end(), [](const Sent& a, const Sent& b) {
     return std::tie(a.node, a.support, a.face) < std::tie(b.node, b.support, b.face);
   });
-  std::vector<NodeNormal> normals;
+  std::vector<NodeDirection> normals;
   for (auto begin = all.begin(); begin != all.end();) {
     const auto end =
         std::find_if(begin, all.end(), [&](const Sent& s) { return s.node != begin->node || s.support != begin->support; });
     std::vector<Point> weighted;
     for (auto s = begin; s != end; ++s) weighted.emplace_back(s->weighted[0], s->weighted[1], s->weighted[2]);
-    for (const auto& mean : clusters(weighted)) normals.push_back({begin->node, begin->support, array(mean)});
+    for (const auto& mean : clusters(weighted))
+      normals.push_back({begin->node, begin->support, array(mean), begin->value, {begin->at[0], begin->at[1], begin->at[2]}});
     begin = end;
   }
   return normals;
 }
 
-std::vector<PrescribedDof> take_axis_aligned(std::span<const SupportOptions> supports, std::vector<NodeNormal>& normals)
+std::vector<NodeDirection> axes_directions(std::span<const Support> supports, std::span<const SupportNodes> nodes, int dimension,
+                                           double rounding, const Communicator& comm)
+{
+  std::vector<std::vector<NodeDirection>> send(static_cast<std::size_t>(comm.size()));
+  collectively(comm, [&] {
+    for (std::size_t i = 0; i < supports.size(); ++i) {
+      if (!supports[i].axes) continue;
+      const auto& displacement = supports[i].displacement;
+      for (std::size_t n = 0; n < nodes[i].id.size(); ++n) {
+        const Global node = nodes[i].id[n];
+        const Point& place = nodes[i].at[n];
+        auto& to = send[static_cast<std::size_t>(node % comm.size())];
+        const auto axes = supports[i].axes->at(place, rounding);
+        const auto value = [&](std::size_t c) { return value_at(supports, static_cast<int>(i), *displacement[c], place); };
+        for (std::size_t c = 0; axes && c < static_cast<std::size_t>(dimension); ++c)
+          if (displacement[c])
+            to.push_back(
+                {node, static_cast<int>(i), array(axes->row(static_cast<Eigen::Index>(c)).transpose()), value(c), array(place)});
+        if (axes) continue;
+        const Point axis = supports[i].axes->axis();
+        if (displacement[2] && dimension == 3) to.push_back({node, static_cast<int>(i), array(axis), value(2), array(place)});
+        if (!displacement[0]) continue;
+        if (value(0) != 0)
+          throw Error(ExitStatus::bad_input,
+                      fmt::format("supports[{}] (boundary \"{}\") prescribes a radial displacement of {:.6g} at ({:.6g}, {:.6g}, "
+                                  "{:.6g}), which lies on the axis and has no radial direction",
+                                  i, supports[i].boundary, value(0), place[0], place[1], place[2]));
+        const Point across = axis.unitOrthogonal(), other = axis.cross(across);
+        to.push_back({node, static_cast<int>(i), array(across), 0, array(place)});
+        to.push_back({node, static_cast<int>(i), array(other), 0, array(place)});
+      }
+    }
+  });
+  std::vector<NodeDirection> all;
+  for (const auto& part : comm.exchange(send)) all.insert(all.end(), part.begin(), part.end());
+  const auto key = [](const NodeDirection& d) { return std::tie(d.node, d.support, d.direction); };
+  std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  all.erase(std::unique(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }), all.end());
+  return all;
+}
+
+std::vector<PrescribedDof> take_axis_aligned(std::vector<NodeDirection>& directions)
 {
   std::vector<PrescribedDof> prescribed;
-  std::erase_if(normals, [&](const NodeNormal& normal) {
+  std::erase_if(directions, [&](const NodeDirection& normal) {
     for (int c = 0; c < 3; ++c) {
       const double along = normal.direction[static_cast<std::size_t>(c)];
       if (std::abs(along) < aligned) continue;
-      const double value = *supports[static_cast<std::size_t>(normal.support)].normal;
-      prescribed.push_back({normal.node, c, along > 0 ? value : -value, normal.support});
+      prescribed.push_back({normal.node, c, along > 0 ? normal.value : -normal.value, normal.support, normal.at});
       return true;
     }
     return false;
@@ -186,21 +233,27 @@ std::vector<PrescribedDof> take_axis_aligned(std::span<const SupportOptions> sup
   return prescribed;
 }
 
-std::vector<SkewSupport> skew_support_rows(std::span<const SupportOptions> supports, std::span<const NodeNormal> normals,
+std::vector<SkewSupport> skew_support_rows(std::span<const Support> supports, std::span<const NodeDirection> directions,
                                            std::span<const PrescribedDof> prescribed, const Communicator& comm)
 {
   std::vector<SkewSupport> result;
   collectively(comm, [&] {
-    for (auto begin = normals.begin(); begin != normals.end();) {
-      const auto end = std::find_if(begin, normals.end(), [&](const NodeNormal& n) { return n.node != begin->node; });
+    for (auto begin = directions.begin(); begin != directions.end();) {
+      const auto end = std::find_if(begin, directions.end(), [&](const NodeDirection& d) { return d.node != begin->node; });
       const auto first = std::lower_bound(prescribed.begin(), prescribed.end(), begin->node,
                                           [](const PrescribedDof& h, Global node) { return h.node < node; });
       const auto last = std::find_if(first, prescribed.end(), [&](const PrescribedDof& h) { return h.node != begin->node; });
       if (const auto free = std::find_if(first, last, [](const PrescribedDof& h) { return h.unknown; }); free != last)
         throw_held_coupling(supports, free->support, begin->support);
-      Directions directions(supports, {first, last});
-      for (auto normal = begin; normal != end; ++normal) directions.add(*normal);
-      result.insert(result.end(), directions.skew_supports().begin(), directions.skew_supports().end());
+      Directions held(supports, {first, last});
+      for (auto direction = begin; direction != end; ++direction) held.add(*direction);
+      for (SkewSupport row : held.skew_supports()) {
+        const auto shares = std::span(row.shares).first(static_cast<std::size_t>(row.share_count));
+        row.along_normals = std::all_of(shares.begin(), shares.end(), [&](const SkewSupport::Share& share) {
+          return supports[static_cast<std::size_t>(share.support)].normal.has_value();
+        });
+        result.push_back(row);
+      }
       begin = end;
     }
   });

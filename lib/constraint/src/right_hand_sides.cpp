@@ -4,9 +4,13 @@
 
 namespace mortise::constraint {
 
-bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed, std::span<const SupportOptions> supports,
-                std::span<const SupportOptions> before, const Communicator& comm)
+bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed, std::span<const Support> supports,
+                std::span<const Support> before, const Communicator& comm)
 {
+  const auto uniform = [](const Support& s) { return s.is_uniform(); };
+  if (!std::all_of(supports.begin(), supports.end(), uniform) || !std::all_of(before.begin(), before.end(), uniform))
+    return false;
+  const auto value = [](const Support& s, std::size_t c) { return s.displacement[c] ? s.displacement[c]->constant() : 0; };
   const bool same =
       std::equal(prescribed.begin(), prescribed.end(), constraints.prescribed.begin(), constraints.prescribed.end(),
                  [](const PrescribedDof& a, const PrescribedDof& b) { return a.node == b.node && a.component == b.component; });
@@ -15,8 +19,7 @@ bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed,
   auto& contacts = constraints.contacts;
   for (const auto& entry : contacts.prescribed) {
     const auto support = static_cast<std::size_t>(entry.support), c = static_cast<std::size_t>(entry.component);
-    contacts.rows.bound[entry.row] -=
-        entry.coefficient * (supports[support].displacement[c].value_or(0) - before[support].displacement[c].value_or(0));
+    contacts.rows.bound[entry.row] -= entry.coefficient * (value(supports[support], c) - value(before[support], c));
   }
   return true;
 }

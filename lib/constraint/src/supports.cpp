@@ -10,7 +10,22 @@
 
 namespace mortise::constraint {
 
-void throw_held_coupling(std::span<const SupportOptions> supports, int coupling, int support)
+bool Support::is_uniform() const
+{
+  const auto constant = [](const std::optional<deck::Formula>& value) { return !value || value->is_constant(); };
+  return !axes && constant(normal) && std::all_of(displacement.begin(), displacement.end(), constant);
+}
+
+double value_at(std::span<const Support> supports, int support, const deck::Formula& formula, const Point& place)
+{
+  const double value = formula(place, 0);  // at the time of the state
+  if (std::isfinite(value)) return value;
+  throw Error(ExitStatus::bad_input,
+              fmt::format("supports[{}] (boundary \"{}\"): \"{}\" is no number at ({:.6g}, {:.6g}, {:.6g})", support,
+                          supports[static_cast<std::size_t>(support)].boundary, formula.text(), place[0], place[1], place[2]));
+}
+
+void throw_held_coupling(std::span<const Support> supports, int coupling, int support)
 {
   throw Error(ExitStatus::bad_input,
               fmt::format("the {}, which is rigid, and supports[{}] (boundary \"{}\") share nodes, which cannot follow both; "
@@ -21,10 +36,12 @@ void throw_held_coupling(std::span<const SupportOptions> supports, int coupling,
 
 namespace {
 
-void check_agreement(const PrescribedDof& a, const PrescribedDof& b, std::span<const SupportOptions> supports)
+void check_agreement(const PrescribedDof& a, const PrescribedDof& b, std::span<const Support> supports, double largest)
 {
   if (a.unknown || b.unknown) throw_held_coupling(supports, a.unknown ? a.support : b.support, a.unknown ? b.support : a.support);
-  if (std::abs(a.value - b.value) <= 1e-12 * std::max(std::abs(a.value), std::abs(b.value))) return;
+  const bool formulas =
+      !supports[static_cast<std::size_t>(a.support)].is_uniform() || !supports[static_cast<std::size_t>(b.support)].is_uniform();
+  if (std::abs(a.value - b.value) <= 1e-12 * (formulas ? largest : std::max(std::abs(a.value), std::abs(b.value)))) return;
   throw Error(
       ExitStatus::bad_input,
       fmt::format("supports[{}] (boundary \"{}\") and supports[{}] (boundary \"{}\") meet in a node and prescribe different "
@@ -35,27 +52,38 @@ void check_agreement(const PrescribedDof& a, const PrescribedDof& b, std::span<c
 
 }  // namespace
 
-std::vector<PrescribedDof> dirichlet_rows(std::span<const SupportOptions> supports, std::span<const std::vector<Global>> nodes,
-                                          int dimension, const Communicator& comm, std::span<const PrescribedDof> aligned)
+std::vector<PrescribedDof> dirichlet_rows(std::span<const Support> supports, std::span<const SupportNodes> nodes, int dimension,
+                                          const Communicator& comm, std::span<const PrescribedDof> aligned)
 {
   std::vector<std::vector<PrescribedDof>> send(static_cast<std::size_t>(comm.size()));
-  for (std::size_t i = 0; i < supports.size(); ++i)
-    for (const Global node : nodes[i])
-      for (int c = 0; c < dimension; ++c)
-        if (const auto value = supports[i].displacement[c])
-          send[static_cast<std::size_t>(node % comm.size())].push_back({node, c, *value, static_cast<int>(i)});
+  collectively(comm, [&] {
+    for (std::size_t i = 0; i < supports.size(); ++i) {
+      if (supports[i].axes) continue;
+      for (std::size_t n = 0; n < nodes[i].id.size(); ++n)
+        for (int c = 0; c < dimension; ++c)
+          if (const auto& formula = supports[i].displacement[static_cast<std::size_t>(c)]) {
+            const Global node = nodes[i].id[n];
+            const Point& x = nodes[i].at[n];
+            send[static_cast<std::size_t>(node % comm.size())].push_back(
+                {node, c, value_at(supports, static_cast<int>(i), *formula, x), static_cast<int>(i), {x[0], x[1], x[2]}});
+          }
+    }
+  });
 
   std::vector<PrescribedDof> prescribed(aligned.begin(), aligned.end());
   for (const auto& part : comm.exchange(send)) prescribed.insert(prescribed.end(), part.begin(), part.end());
   std::sort(prescribed.begin(), prescribed.end(), [](const PrescribedDof& a, const PrescribedDof& b) {
     return std::tie(a.node, a.component, a.support) < std::tie(b.node, b.component, b.support);
   });
+  double largest = 0;
+  for (const auto& p : prescribed) largest = std::max(largest, std::abs(p.value));
+  largest = comm.max(largest);
   collectively(comm, [&] {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < prescribed.size(); ++i) {
       if (kept > 0 && prescribed[kept - 1].node == prescribed[i].node &&
           prescribed[kept - 1].component == prescribed[i].component)
-        check_agreement(prescribed[kept - 1], prescribed[i], supports);
+        check_agreement(prescribed[kept - 1], prescribed[i], supports, largest);
       else
         prescribed[kept++] = prescribed[i];
     }

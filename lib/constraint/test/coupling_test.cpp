@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "constraint/supports.hpp"
+#include "nodes.hpp"
 
 namespace mortise::constraint {
 namespace {
@@ -106,8 +107,8 @@ TEST(Couplings, TwoThatShareNodesAreRefused)
 TEST(Couplings, ASupportIsRefusedWhereTheMotionIsUnknown)
 {
   const Communicator comm;
-  const std::vector<SupportOptions> supports{{"side", {0.0, std::nullopt, std::nullopt}}, {"coupling cap", {}}};
-  const std::vector<std::vector<Global>> nodes{{10, 13}, {}};
+  const std::vector<Support> supports{{"side", {0.0, std::nullopt, std::nullopt}}, {"coupling cap", {}}};
+  const auto nodes = anywhere({{10, 13}, {}});
   auto rigid = coupling("cap");
   const auto rows = [&] { return coupled_rows(std::vector{rigid}, std::vector{square(10)}, 1, 3, comm); };
   EXPECT_THROW(dirichlet_rows(supports, nodes, 3, comm, rows()), Error);

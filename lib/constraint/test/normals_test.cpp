@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "constraint/supports.hpp"
 #include "mesh/shape_functions.hpp"
+#include "nodes.hpp"
 
 namespace mortise::constraint {
 namespace {
@@ -34,9 +35,9 @@ mesh::Surface surface(CellType type, const std::vector<std::vector<Local>>& face
   return result;
 }
 
-std::vector<SupportOptions> along_normal(std::initializer_list<double> values)
+std::vector<Support> along_normal(std::initializer_list<double> values)
 {
-  std::vector<SupportOptions> supports;
+  std::vector<Support> supports;
   for (const double value : values) {
     supports.emplace_back().boundary = "side " + std::to_string(supports.size());
     supports.back().normal = value;
@@ -104,7 +105,8 @@ TEST(Normals, ObliqueSupportsAreMadeOrthogonalAndShareTheirForces)
   auto supports = along_normal({0.7, -0.2});
   supports.push_back({"component", {std::nullopt, 0.3, std::nullopt}});
   const Point first = Point(std::sqrt(0.75), 0.5, 0), second = Point(0.2, 0.5, std::sqrt(0.71));
-  const std::vector<NodeNormal> normals{{4, 0, {first[0], first[1], first[2]}}, {4, 1, {second[0], second[1], second[2]}}};
+  const std::vector<NodeDirection> normals{{4, 0, {first[0], first[1], first[2]}, 0.7},
+                                           {4, 1, {second[0], second[1], second[2]}, -0.2}};
   const std::vector<PrescribedDof> prescribed{{4, 1, 0.3, 2}};
   const auto skew_supports = skew_support_rows(supports, normals, prescribed, comm);
   ASSERT_EQ(skew_supports.size(), 2U);
@@ -129,21 +131,22 @@ TEST(Normals, ObliqueSupportsAreMadeOrthogonalAndShareTheirForces)
 TEST(Normals, AlongAnAxisAreComponents)
 {
   const auto supports = along_normal({0.5});
-  std::vector<NodeNormal> normals{{1, 0, {0, -1, 0}}, {2, 0, {0.6, 0.8, 0}}};
-  const auto prescribed = take_axis_aligned(supports, normals);
+  std::vector<NodeDirection> normals{{1, 0, {0, -1, 0}, 0.5}, {2, 0, {0.6, 0.8, 0}, 0.5}};
+  const auto prescribed = take_axis_aligned(normals);
   ASSERT_EQ(prescribed.size(), 1U);
   EXPECT_EQ(prescribed[0].component, 1);
   EXPECT_EQ(prescribed[0].value, -0.5);
   ASSERT_EQ(normals.size(), 1U);
   EXPECT_EQ(normals[0].node, 2);
-  EXPECT_EQ(dirichlet_rows(supports, std::vector<std::vector<Global>>(1), 3, Communicator(MPI_COMM_SELF), prescribed).size(), 1U);
+  EXPECT_EQ(dirichlet_rows(supports, anywhere({{}}), 3, Communicator(MPI_COMM_SELF), prescribed).size(), 1U);
 }
 
 TEST(Normals, ContradictionNamesBothBoundaries)
 {
   const Communicator comm(MPI_COMM_SELF);
-  const std::vector<NodeNormal> normals{{3, 0, {0.6, 0.8, 0}}, {3, 1, {-0.6, -0.8, 0}}};
+  std::vector<NodeDirection> normals{{3, 0, {0.6, 0.8, 0}, 0.5}, {3, 1, {-0.6, -0.8, 0}, -0.5}};
   EXPECT_EQ(skew_support_rows(along_normal({0.5, -0.5}), normals, {}, comm).size(), 1U);
+  normals[1].value = 0.5;
   try {
     skew_support_rows(along_normal({0.5, 0.5}), normals, {}, comm);
     FAIL() << "no error";
@@ -152,6 +155,44 @@ TEST(Normals, ContradictionNamesBothBoundaries)
     EXPECT_NE(std::string(error.what()).find("\"side 1\""), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("\"side 0\""), std::string::npos) << error.what();
   }
+}
+
+// A node beside the axis and one on it, under a radial, a tangential and an axial displacement by a formula.
+TEST(LocalAxes, HoldNodesAlongTheCylinder)
+{
+  const Communicator comm;
+  const Point axis = Point(1, 2, 2) / 3, point(5, -1, 2);
+  deck::AxesOptions options;
+  options.axis = {1, 2, 2};
+  options.point = {5, -1, 2};
+  std::vector<Support> supports(1);
+  supports[0].boundary = "bore";
+  supports[0].axes.emplace(options, false);
+  supports[0].displacement = {deck::Formula(0.0), deck::Formula("2 * x"), deck::Formula(0.5)};
+  const Point off = axis.unitOrthogonal();
+  const std::vector<SupportNodes> nodes{{{3, 8}, {Point(point + 4 * axis + 0.1 * off), Point(point - 7 * axis)}}};
+  const auto found = axes_directions(supports, nodes, 3, 1e-9, comm);
+  EXPECT_EQ(comm.sum(static_cast<long long>(found.size())), 6);
+  for (const auto& d : found) {
+    EXPECT_EQ(d.node % comm.size(), comm.rank());
+    const double along = std::abs(vector(d.direction).dot(axis));
+    if (d.node == 8) {
+      EXPECT_NEAR(d.value, along > 0.5 ? 0.5 : 0.0, 1e-15);
+      EXPECT_NEAR(along, along > 0.5 ? 1 : 0, 1e-13);
+      continue;
+    }
+    if (std::abs(vector(d.direction).dot(off)) > 0.5)
+      EXPECT_EQ(d.value, 0);
+    else if (along > 0.5)
+      EXPECT_EQ(d.value, 0.5);
+    else {
+      EXPECT_LT((vector(d.direction) - axis.cross(off)).norm(), 1e-12);
+      EXPECT_NEAR(d.value, 2 * nodes[0].at[0][0], 1e-12);
+    }
+  }
+  EXPECT_EQ(comm.sum(static_cast<long long>(skew_support_rows(supports, found, {}, comm).size())), 6);
+  supports[0].displacement[0] = deck::Formula(0.1);
+  EXPECT_THROW(axes_directions(supports, nodes, 3, 1e-9, comm), Error);
 }
 
 }  // namespace

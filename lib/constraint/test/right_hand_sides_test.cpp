@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "constraint/supports.hpp"
+#include "nodes.hpp"
 
 namespace mortise::constraint {
 namespace {
@@ -21,7 +22,7 @@ Contacts one_point()
   return contacts;
 }
 
-std::vector<SupportOptions> support(std::optional<double> x)
+std::vector<Support> support(std::optional<double> x)
 {
   return {{"wall", {x, std::nullopt, std::nullopt}}};
 }
@@ -29,7 +30,7 @@ std::vector<SupportOptions> support(std::optional<double> x)
 TEST(RightHandSides, SupportsThatMoveShiftBounds)
 {
   const Communicator comm;
-  const std::vector<std::vector<Global>> nodes{{0, 1, 2, 3}};
+  const auto nodes = anywhere({{0, 1, 2, 3}});
   Constraints constraints{dirichlet_rows(support(0.1), nodes, 3, comm), one_point()};
   EXPECT_TRUE(update_rhs(constraints, dirichlet_rows(support(0.3), nodes, 3, comm), support(0.3), support(0.1), comm));
   EXPECT_NEAR(constraints.contacts.rows.bound[0], 0.25 + 0.5 * 0.3, 1e-15);
@@ -39,7 +40,7 @@ TEST(RightHandSides, SupportsThatMoveShiftBounds)
 TEST(RightHandSides, OtherPrescribedComponentsAreOtherRows)
 {
   const Communicator comm;
-  const std::vector<std::vector<Global>> nodes{{0, 1, 2, 3}};
+  const auto nodes = anywhere({{0, 1, 2, 3}});
   Constraints constraints{dirichlet_rows(support(0.1), nodes, 3, comm), one_point()};
   EXPECT_FALSE(
       update_rhs(constraints, dirichlet_rows(support(std::nullopt), nodes, 3, comm), support(std::nullopt), support(0.1), comm));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "deck/cases.hpp"
 #include "discretization.hpp"
 
 namespace mortise::contact {
@@ -99,7 +100,7 @@ void describe(deck::Description<Options>& d)
        },
        [](const Options& contact) { return contact.obstacle ? write(*contact.obstacle) : YAML::Node(contact.primary); },
        [](const deck::Limits& limits) {
-         return nlohmann::ordered_json{{"anyOf", {deck::Codec<std::string>::schema(limits), obstacle_schema()}}};
+         return deck::schema_by_case({{"type", "string"}}, deck::Codec<std::string>::schema(limits), obstacle_schema());
        })
       .required();
   d.custom("friction", "{coulomb: coefficient}, {tresca: slip bound as a traction} or {bonded: true}; absent: frictionless.",
@@ -251,8 +252,9 @@ YAML::Node write_section(const std::vector<Options>& contacts)
 
 nlohmann::ordered_json section_schema()
 {
-  const nlohmann::ordered_json entry{{"anyOf", {deck::Codec<Options>::schema({}), deck::Codec<AutoOptions>::schema({})}}};
-  return {{"anyOf", {{{"const", "auto"}}, {{"type", "array"}, {"items", entry}}}}};
+  const nlohmann::ordered_json automatic{{"required", nlohmann::ordered_json::array({"auto"})}};
+  auto entry = deck::schema_by_case({{"not", automatic}}, deck::Codec<Options>::schema({}), deck::Codec<AutoOptions>::schema({}));
+  return deck::schema_by_case({{"type", "string"}}, {{"const", "auto"}}, {{"type", "array"}, {"items", std::move(entry)}});
 }
 
 }  // namespace mortise::contact

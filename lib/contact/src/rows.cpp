@@ -79,12 +79,12 @@ void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, do
       for (const auto& share : std::span(i.shares).first(static_cast<std::size_t>(i.share_count)))
         for (int c = 0; c < dimension_; ++c)
           if (const double part = coefficient * share.part[static_cast<std::size_t>(c)]; part != 0)
-            contacts.prescribed.push_back({row, c, share.support, part});
+            contacts.prescribed.push_back({row, c, share.support, part, i.at});
     }
   for (const auto& c : coefficients(terms, d, axis)) {
     if (c.prescribed) {
       bound -= c.value * c.prescribed->value;
-      contacts.prescribed.push_back({row, c.component, c.prescribed->support, c.value});
+      contacts.prescribed.push_back({row, c.component, c.prescribed->support, c.value, c.prescribed->at});
     } else {
       contacts.rows.entries.push_back({c.node, c.component, c.value});
     }

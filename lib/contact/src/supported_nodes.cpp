@@ -34,7 +34,7 @@ SupportedNodes::SupportedNodes(const SupportDirectory& directory, const std::vec
 
 const constraint::PrescribedDof* SupportedNodes::find(Global node, int component) const
 {
-  const constraint::PrescribedDof wanted{node, component, 0, 0};
+  const constraint::PrescribedDof wanted{node, component, 0, 0, {}};
   const auto found = std::lower_bound(prescribed_.begin(), prescribed_.end(), wanted, by_dof);
   return found != prescribed_.end() && found->node == node && found->component == component ? &*found : nullptr;
 }

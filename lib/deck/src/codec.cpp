@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "deck/description.hpp"
 #include "scan.hpp"
 
 namespace mortise::deck {
@@ -153,6 +154,29 @@ nlohmann::ordered_json Codec<std::array<std::optional<double>, 3>>::schema(const
           {"properties", {{"x", number}, {"y", number}, {"z", number}}},
           {"additionalProperties", false},
           {"minProperties", 1}};
+}
+
+nlohmann::ordered_json default_value(const YAML::Node& written)
+{
+  if (written.IsScalar()) {
+    const auto& text = written.Scalar();
+    bool truth = false;
+    double number = 0;
+    if (text.empty()) return nullptr;
+    if (text == "true" || text == "false") return YAML::convert<bool>::decode(written, truth) && truth;
+    if (!YAML::convert<double>::decode(written, number)) return text;
+    if (!std::isfinite(number)) return nullptr;
+    if (number == std::trunc(number) && std::abs(number) < 1e15) return static_cast<long long>(number);
+    return number;
+  }
+  if (!written.IsSequence() || written.size() == 0) return nullptr;
+  auto list = nlohmann::ordered_json::array();
+  for (const auto& entry : written) {
+    auto value = default_value(entry);
+    if (value.is_null()) return nullptr;
+    list.push_back(std::move(value));
+  }
+  return list;
 }
 
 }  // namespace mortise::deck

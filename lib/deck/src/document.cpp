@@ -30,6 +30,34 @@ std::string at(const std::string& file, const Flaw& flaw)
   return fmt::format("{}:{}: {}{}{}", file, flaw.line, flaw.path, flaw.path.empty() ? "" : ": ", flaw.message);
 }
 
+// The first line that a tab indents, from 1; 0: none.
+int tab_indented(const std::string& text)
+{
+  int line = 1;
+  bool indent = true;
+  for (const char c : text) {
+    if (c == '\t' && indent) return line;
+    indent = c == '\n' || (indent && c == ' ');
+    if (c == '\n') ++line;
+  }
+  return 0;
+}
+
+// What the parser objects to, for people.
+std::string parser_error(const std::string& file, const std::string& text, const YAML::Exception& error)
+{
+  if (const int line = tab_indented(text); line > 0)
+    return fmt::format("{}:{}: a tab indents this line; YAML takes spaces alone", file, line);
+  std::string cure;
+  if (error.msg == "illegal map value")
+    cure = "; a value that holds a colon and a space takes quotes, and keys of one mapping are indented alike";
+  else if (error.msg.starts_with("end of map not found"))
+    cure = "; this line is indented otherwise than the keys it belongs to";
+  else if (error.msg.starts_with("end of sequence") || error.msg.find("flow") != std::string::npos)
+    cure = "; look for a bracket or brace that is not closed";
+  return fmt::format("{}:{}: this is not valid YAML: {}{}", file, error.mark.line + 1, error.msg, cure);
+}
+
 // One step of a path: a key or an index.
 struct Step {
   std::string key;
@@ -117,7 +145,7 @@ Document::Document(const std::string& text, std::string file, const std::vector<
     has_aliases = found.has_aliases;
     documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
-    fail(fmt::format("{}:{}: this is not valid YAML: {}", file_, error.mark.line + 1, error.msg));
+    fail(parser_error(file_, text, error));
   }
   if (documents.empty() || documents.front().IsNull()) fail(fmt::format("{}:1: the deck is empty", file_));
   if (documents.size() > 1)
@@ -159,7 +187,10 @@ void Document::set(const std::string& setting)
   const auto value = value_of(setting, setting.substr(equals + 1));
   YAML::Node node = root_;
   std::string walked;
-  for (const auto& step : split(path)) {
+  for (auto step : split(path)) {
+    const bool digits =
+        !step.key.empty() && step.key.size() <= 6 && step.key.find_first_not_of("0123456789") == std::string::npos;
+    if (digits && node.IsSequence()) step = {{}, std::stoul(step.key), true};  // loads.0 is loads[0]
     if (step.is_index) {
       if (!node.IsSequence() || step.index >= node.size())
         fail(fmt::format("--set {}: {} has no entry [{}]{}", setting, walked, step.index,

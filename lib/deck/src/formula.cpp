@@ -13,6 +13,7 @@ struct Formula::Parser {
   std::string text;
   double x = 0, y = 0, z = 0, r = 0, theta = 0, t = 0;
   mu::Parser parser;
+  bool varies_in_time;
 
   explicit Parser(const std::string& formula) : text(formula)
   {
@@ -24,6 +25,7 @@ struct Formula::Parser {
     int results = 0;
     parser.Eval(results);
     if (results != 1) throw mu::ParserError("expected one value, found several");
+    varies_in_time = parser.GetUsedVar().contains("t");
   }
 };
 
@@ -38,14 +40,28 @@ Formula::Formula(const std::string& text)
 
 double Formula::operator()(const Point& x, double time) const
 {
-  if (!parser_) return constant_;
+  if (!parser_) return constant();
   parser_->x = x[0];
   parser_->y = x[1];
   parser_->z = x[2];
   parser_->r = std::hypot(x[0], x[1]);
   parser_->theta = std::atan2(x[1], x[0]);
-  parser_->t = time;
-  return parser_->parser.Eval();
+  parser_->t = time_.value_or(time);
+  return factor_ * parser_->parser.Eval();
+}
+
+Formula Formula::at(double factor, double time) const
+{
+  Formula result = *this;
+  result.factor_ *= factor;
+  if (!time_ && parser_ && parser_->varies_in_time) result.time_ = time;
+  return result;
+}
+
+bool Formula::operator==(const Formula& other) const
+{
+  if (is_constant() || other.is_constant()) return is_constant() == other.is_constant() && constant() == other.constant();
+  return text() == other.text() && factor_ == other.factor_ && time_ == other.time_;
 }
 
 const std::string& Formula::text() const

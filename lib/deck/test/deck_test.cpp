@@ -125,6 +125,14 @@ TEST(Deck, SyntaxErrorsHaveALine)
   EXPECT_EQ(complaints("title: x\nwheels: {left: [1, 2}\n").rfind("cart.yaml:2: this is not valid YAML", 0), 0U);
 }
 
+TEST(Deck, WhatIsNoYamlIsToldWithACure)
+{
+  EXPECT_EQ(complaints("title: x\nwheels:\n \tleft: {radius: 1}\n"),
+            "cart.yaml:3: a tab indents this line; YAML takes spaces alone");
+  EXPECT_NE(complaints("title: a: b\n").find("takes quotes"), std::string::npos);
+  EXPECT_NE(complaints("wheels:\n  left: {radius: 1}\n right: {radius: 1}\n").find("indented otherwise"), std::string::npos);
+}
+
 TEST(Deck, AllMistakesAreReportedAtOnceInTheOrderOfLines)
 {
   const auto text = complaints("seats: none\nwheels:\n  left: {radius: -1}\n  right: {radius: 1}\nroof: 7\n");
@@ -142,6 +150,8 @@ TEST(Deck, SettingsSayThatTheyAreToBlame)
   EXPECT_EQ(complaints(good, {"seats"}), "--set seats: expected key.path=value");
   EXPECT_EQ(complaints(good + "spares: [{radius: 1}]\n", {"spares[1].radius=2"}),
             "--set spares[1].radius=2: spares has no entry [1], only 1");
+  EXPECT_EQ(complaints(good + "spares: [{radius: 1}]\n", {"spares.0.radius=-2"}),
+            "--set spares.0.radius=-2: spares[0].radius: expected a number > 0, found \"-2\"");
   EXPECT_EQ(complaints(good, {"seats", "title.a.b=1", "price=[", "seats=3"}),
             "--set seats: expected key.path=value\n--set price=[: the value is not valid YAML: end of sequence flow not found");
 }
@@ -166,7 +176,7 @@ TEST(Deck, WhatIsWrittenReadsBackTheSame)
 
 TEST(Deck, SchemaSaysTheSameAsTheReader)
 {
-  const auto json = schema<Cart>();
+  const auto json = schema<Cart>("urn:cart");
   EXPECT_EQ(json["properties"]["seats"]["minimum"], 1);
   EXPECT_EQ(json["properties"]["wheels"]["additionalProperties"]["properties"]["tyre"]["enum"], nlohmann::json({"road", "mud"}));
   EXPECT_EQ(json["required"], nlohmann::json({"wheels"}));

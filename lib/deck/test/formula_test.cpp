@@ -27,6 +27,21 @@ TEST(Formula, CopiesShareNoState)
   EXPECT_EQ(a(Point(1, 0, 0), 0), 1);
 }
 
+TEST(Formula, IsTakenAtAFactorAndATime)
+{
+  const Formula a("x * t"), now = a.at(3, 2);
+  EXPECT_EQ(now(Point(5, 0, 0), 7), 30);
+  EXPECT_EQ(now.at(2, 9)(Point(5, 0, 0), 7), 60);
+  EXPECT_EQ(a(Point(5, 0, 0), 7), 35);
+  EXPECT_EQ(Formula(4).at(0.5, 1).constant(), 2);
+  EXPECT_TRUE(now == Formula("x * t").at(3, 2));
+  EXPECT_FALSE(now == a);
+  EXPECT_FALSE(now == a.at(3, 1));
+  EXPECT_TRUE(Formula("x * y").at(3, 2) == Formula("x * y").at(3, 1));
+  EXPECT_FALSE(now == Formula(30));
+  EXPECT_TRUE(Formula(4).at(0.5, 1) == Formula(2));
+}
+
 TEST(Formula, SaysWhatIsWrong)
 {
   for (const char* wrong : {"10 *", "q + 1", "sin(", "x, y", ""})

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cell_temperature.hpp"
 #include "fem/stiffness.hpp"
 #include "geometry.hpp"
 
@@ -12,12 +13,13 @@ namespace {
 // The rules of the faces integrate shape function times area vector exactly, warped quadrilaterals included; times its length
 // exactly on parallelograms. Calls visit(shape values, area vector of the integration point, nodes).
 template <class Visit>
-void for_each_point(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Visit& visit)
+void for_each_point(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Visit& visit,
+                    Kinematics rule = Kinematics::solid)
 {
   for (std::size_t f = 0; f < mesh.facets.cells.size(); ++f) {
     if (mesh.facets.boundary[f] != boundary) continue;
     const auto nodes = mesh.facets.cells[f];
-    const Element& face = element(mesh.facets.cells.type[f]);
+    const Element& face = element(mesh.facets.cells.type[f], rule);
     for (std::size_t q = 0; q < face.points(); ++q) {
       Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();  // in 2D the first alone
       double x = 0;
@@ -72,6 +74,15 @@ Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
                    result.second += normal.norm() * x * x.transpose();
                  });
   return result;
+}
+
+void for_each_point_of_boundary(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const BoundaryVisitor& visit)
+{
+  // That of rings has more than one point on tri3.
+  for_each_point(
+      mesh, boundary, kinematics,
+      [&](const Eigen::VectorXd& shape, const Point& area, std::span<const Local> nodes) { visit(nodes, shape, area); },
+      Kinematics::axisymmetric);
 }
 
 Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
@@ -139,25 +150,28 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Mater
       mesh, kinematics, materials, [&acceleration](const Point&) { return acceleration; }, f);
 }
 
-void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, double temperature_change,
-                   Eigen::VectorXd& f)
+void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                   const Temperature& temperature_change, Eigen::VectorXd& f)
 {
   const int d = dimension(kinematics);
+  std::vector<double> warmer;
   CellGeometry cell(kinematics);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto& material = materials[materials.index(c)];
     const auto [lambda, mu] = lame(material, kinematics);
     // The stress that takes the free strain back: in plane stress lambda allows for the thickness, which stays free.
-    const double stress =
-        ((kinematics == Kinematics::plane_stress ? 2 : 3) * lambda + 2 * mu) * material.thermal_expansion * temperature_change;
+    const double modulus = ((kinematics == Kinematics::plane_stress ? 2 : 3) * lambda + 2 * mu) * material.thermal_expansion;
     cell.gather(mesh, c);
     cell.evaluate();
-    for (std::size_t q = 0; q < cell.volumes().size(); ++q)
+    cell_temperature(temperature_change, cell, mesh, c, warmer);
+    for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+      const double stress = modulus * warmer[q];
       for (int i = 0; i < cell.element().nodes; ++i) {
         const Local node = mesh.cells[c][static_cast<std::size_t>(i)];
         f.segment(node * d, d) += stress * cell.volumes()[q] * cell.gradient(q).row(i).transpose();
         if (cell.axisymmetric()) f[node * d] += stress * cell.volumes()[q] * cell.hoop(q)[i];
       }
+    }
   }
 }
 

@@ -161,6 +161,8 @@ void describe(deck::Description<LoadOptions>& d)
   d.key("name", &LoadOptions::name, "To refer to it; the boundary, body or coupling if not given.");
   d.key("coupling", &LoadOptions::coupling, "Coupling whose point is loaded.");
   d.key("boundary", &LoadOptions::boundary, "Boundary that is loaded.");
+  d.key("points", &LoadOptions::points, "Instead of a boundary: nodes of the surface at these places share the `force`.");
+  d.key("axes", &LoadOptions::axes, "Local axes, by their name in the section `axes`, of a traction or a force.");
   d.key("body", &LoadOptions::body, "Body that is accelerated, turns or is heated.");
   d.key("pressure", &LoadOptions::pressure,
         "Force an area, positive into the body: a number, or a formula in x, y, z, r, theta, t.");
@@ -170,9 +172,10 @@ void describe(deck::Description<LoadOptions>& d)
   d.key("moment", &LoadOptions::moment, "Of a coupling: about its point, as a vector (plane models: [0, 0, m], a thickness).");
   d.key("acceleration", &LoadOptions::acceleration, "Body force is density times this.");
   d.key("centrifugal", &LoadOptions::centrifugal, "Of a body: it turns about an axis, {axis, speed, point}.");
-  d.key("temperature_change", &LoadOptions::temperature_change,
-        "Degrees that the body is warmer than when it had no stress; its material has a thermal_expansion. Several on one body "
-        "add.");
+  d.key(
+      "temperature_change", &LoadOptions::temperature_change,
+      "Degrees that the body is warmer than when it had no stress: a number, or a formula in x, y, z, r, theta, t; its material "
+      "has a thermal_expansion. Several on one body add.");
   d.check([](const LoadOptions& load, const std::string& path, deck::Document& document) {
     if (!load.coupling.empty()) {
       if (!load.boundary.empty() || !load.body.empty()) document.error(path, "expected one of `coupling`, `boundary` and `body`");
@@ -191,6 +194,13 @@ void describe(deck::Description<LoadOptions>& d)
           fmt::format(
               "expected exactly one of pressure, traction, force, acceleration, centrifugal and temperature_change, found {}",
               given));
+    if (!load.axes.empty() && !load.traction && !load.force)
+      document.error(path + ".axes", "local axes are for a traction or a force");
+    if (!load.points.empty()) {
+      if (!load.force) document.error(path, "points take a `force`");
+      if (!load.boundary.empty()) document.error(path, "expected either `boundary` or `points`, found both");
+      return;
+    }
     if (load.boundary.empty() != on_body || load.body.empty() == on_body)
       document.error(path, !on_body            ? "this load acts on a `boundary`"
                            : load.acceleration ? "an acceleration acts on a `body`"

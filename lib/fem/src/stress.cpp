@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cell_temperature.hpp"
 #include "fem/stiffness.hpp"
 #include "formulation.hpp"
 
@@ -29,7 +30,7 @@ double complementary_energy(const Stress& s, const Material& material)
 // Calls visit(c, cell, stress) for every cell c; stress is q x 6.
 template <class Visit>
 void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, Formulation formulation,
-                   double temperature_change, const Eigen::VectorXd& u, const Visit& visit)
+                   const Temperature& temperature_change, const Eigen::VectorXd& u, const Visit& visit)
 {
   const int d = dimension(kinematics);
   std::vector<Lame> constants;
@@ -40,6 +41,7 @@ void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematic
   }
   CellGeometry cell(kinematics);
   Eigen::MatrixXd displacement, stress;
+  std::vector<double> warmer;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto nodes = mesh.cells[c];
     cell.gather(mesh, c);
@@ -47,11 +49,12 @@ void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematic
     displacement.resize(d, cell.element().nodes);
     for (int i = 0; i < cell.element().nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
     stress.resize(static_cast<Eigen::Index>(cell.volumes().size()), 6);
-    const double free_strain = materials[materials.index(c)].thermal_expansion * temperature_change;
+    const double expansion = materials[materials.index(c)].thermal_expansion;
+    cell_temperature(temperature_change, cell, mesh, c, warmer);
     const auto& gradients = cell_formulation[materials.index(c)].gradients(cell, displacement);
     for (std::size_t q = 0; q < gradients.size(); ++q)
       stress.row(static_cast<Eigen::Index>(q)) =
-          stress_of(gradients[q], constants[materials.index(c)], kinematics, free_strain).transpose();
+          stress_of(gradients[q], constants[materials.index(c)], kinematics, expansion * warmer[q]).transpose();
     visit(c, cell, stress);
   }
 }
@@ -65,7 +68,7 @@ double von_mises(const Stress& s)
 }
 
 StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Eigen::VectorXd& u,
-                     Formulation formulation, double temperature_change, std::size_t blocks)
+                     Formulation formulation, const Temperature& temperature_change, std::size_t blocks)
 {
   StressField field;
   field.nodal_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), 7 * static_cast<Eigen::Index>(blocks));
@@ -94,7 +97,7 @@ StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinemat
 
 Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
                                const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered, Formulation formulation,
-                               double temperature_change)
+                               const Temperature& temperature_change)
 {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
   for_each_cell(

@@ -105,6 +105,41 @@ TEST(Expansion, OfAHeldBodyIsTakenBackByStress)
   }
 }
 
+// A temperature by a field that happens to be constant is that number; one that varies has the load and the stresses of its mean
+// in each cell of first order, and makes a cell of second order bend without stress.
+TEST(Expansion, OfATemperatureThatVaries)
+{
+  for (const auto& body : all_bodies()) {
+    const auto& [name, kinematics] = body.what;
+    const auto& mesh = body.block.mesh;
+    Temperature even(0.25 * strain), linear;
+    even.varying = [](const Point&) { return 0.75 * strain; };
+    linear.varying = [](const Point& x) { return strain * (1 + 0.1 * x[0] - 0.2 * x[1]); };
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(free_expansion(body).size()), same = f, varied = f;
+    add_expansion(mesh, warm_steel(), kinematics, strain, f);
+    add_expansion(mesh, warm_steel(), kinematics, even, same);
+    EXPECT_LT((f - same).norm(), 1e-13 * f.norm()) << name;
+    // No stress, where no direction is held. Straight cells of second order have the displacement (Boley and Weiner, Theory of
+    // Thermal Stresses, chapter 9) exactly.
+    if (kinematics == Kinematics::axisymmetric || kinematics == Kinematics::plane_strain ||
+        mesh::first_order(mesh.cells.type[0]) == mesh.cells.type[0])
+      continue;
+    const Block straight(name, {3, 3, 2}, {1, 2, 1.5});
+    add_expansion(straight.mesh, warm_steel(), kinematics, linear, varied);
+    const auto u = sample(straight.mesh, straight.dimension, [](const Point& x) {
+      const double b = 0.1 * strain, c = -0.2 * strain;
+      return Point(strain * x[0] + b * (x[0] * x[0] - x[1] * x[1] - x[2] * x[2]) / 2 + c * x[0] * x[1],
+                   strain * x[1] + b * x[0] * x[1] + c * (x[1] * x[1] - x[0] * x[0] - x[2] * x[2]) / 2,
+                   x[2] * (strain + b * x[0] + c * x[1]));
+    });
+    EXPECT_LT((dense(stiffness(straight.mesh, warm_steel(), kinematics, body.formulation)) * u - varied).norm(),
+              1e-10 * varied.norm())
+        << name;
+    const auto field = stresses(straight.mesh, warm_steel(), kinematics, u, body.formulation, linear);
+    EXPECT_LT(field.cell_von_mises.cwiseAbs().maxCoeff(), 1e-9 * steel().young_modulus * strain) << name;
+  }
+}
+
 TEST(StrainEnergy, IsThatOfTheStiffness)
 {
   for (const auto& body : all_bodies()) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
+#include "fem/quantity.hpp"
 #include "sample.hpp"
 
 namespace mortise::fem {
@@ -28,6 +31,30 @@ TEST(Stress, VonMisesOfSimpleStates)
     s[shear] = 2;
     EXPECT_DOUBLE_EQ(von_mises(s), 2 * std::sqrt(3.0));
   }
+}
+
+// A tensor of known eigenvalues, rotated; pure shear; equal ones.
+TEST(Stress, PrincipalStressesAreSortedEigenvalues)
+{
+  const Eigen::Matrix3d q = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Eigen::Vector3d exact(7, -1, -4);
+  EXPECT_LT((principal_stresses(components(q * exact.asDiagonal() * q.transpose())) - exact).norm(), 1e-13);
+  EXPECT_LT((principal_stresses((Stress() << 0, 0, 0, 2, 0, 0).finished()) - Eigen::Vector3d(2, 0, -2)).norm(), 1e-14);
+  EXPECT_LT((principal_stresses((Stress() << 5, 5, 5, 0, 0, 0).finished()) - Eigen::Vector3d(5, 5, 5)).norm(), 1e-14);
+}
+
+TEST(Quantity, HasTheValueThatItsNameSays)
+{
+  const Stress s = (Stress() << 1, 2, 3, 4, 5, 6).finished();
+  const Point u(7, 8, 9);
+  const auto of = [&](const char* name, bool smallest = false) { return value(*quantity(name), smallest, u, s); };
+  const char* names[] = {"sxx", "syy", "szz", "sxy", "syz", "sxz", "ux", "uy", "uz"};
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(of(names[i]), i + 1);
+  EXPECT_DOUBLE_EQ(of("displacement"), std::sqrt(194.0));
+  EXPECT_DOUBLE_EQ(of("von_mises"), von_mises(s));
+  EXPECT_DOUBLE_EQ(of("principal_stress"), principal_stresses(s)[0]);
+  EXPECT_DOUBLE_EQ(of("principal_stress", true), principal_stresses(s)[2]);
+  EXPECT_FALSE(quantity("stress"));
 }
 
 TEST(Stress, LinearDisplacementHasItsConstantStressEverywhere)

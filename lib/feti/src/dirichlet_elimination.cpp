@@ -121,7 +121,7 @@ void DirichletElimination::choose(Global few)
   {
     auto kind = view(entries);
     for (Local i = 0; i < ranges.end; ++i)
-      kind[i] = i < ranges.dirichlet || i >= ranges.contacts ? other : kind[i] == 1 ? single : skew;
+      kind[i] = i < ranges.dirichlet || i >= ranges.springs ? other : kind[i] == 1 ? single : skew;
     const auto& components = problem_.constraints().prescribed;
     for (std::size_t i = 0; i < components.size(); ++i)  // what a coupling leaves unknown has columns of G of its own
       if (components[i].unknown) kind[ranges.dirichlet + static_cast<Local>(i)] = other;

@@ -8,7 +8,9 @@ void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp,
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     auto forces = jump_.apply_transpose(*x.getVector(column));
     clusters_.apply_inverse(forces);
-    y.getVectorNonConst(column)->update(alpha, jump_.apply(forces), beta);
+    Vector jumps = jump_.apply(forces);
+    if (springs_) springs_->add_compliance(1, *x.getVector(column), jumps);
+    y.getVectorNonConst(column)->update(alpha, jumps, beta);
   }
 }
 

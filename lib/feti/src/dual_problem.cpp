@@ -44,21 +44,29 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
       load_(std::move(load)),
       comm_(context.comm)
 {
-  jump_ =
-      std::make_unique<JumpOperator>(decomposition, directory, interface, constraints_.prescribed, constraints_.skew_supports,
-                                     constraints_.contacts, std::span<const SubdomainRow>(), comm_, constraints_.mean_motions);
+  make_rows(directory, interface, {});
   gauge_rigid_modes(directory, interface, sliding_surfaces, context);
-  hessian_ = std::make_unique<DualOperator>(*jump_, system.clusters, context.timers);
+  if (!constraints_.springs.rows.empty()) springs_ = std::make_unique<ElasticRows>(constraints_.springs, *jump_, comm_);
+  hessian_ = std::make_unique<DualOperator>(*jump_, system.clusters, context.timers, springs_.get());
   if (options.preconditioner != "none") {
     collectively(comm_, [&] {
       const auto kind = options.preconditioner == "lumped" ? Preconditioner::Kind::lumped : Preconditioner::Kind::dirichlet;
-      preconditioner_ = std::make_unique<Preconditioner>(kind, decomposition, *jump_, system.clusters.subdomains(),
-                                                         system.nodal_stiffness, options.factorization, context.timers, comm_);
+      preconditioner_ =
+          std::make_unique<Preconditioner>(kind, decomposition, *jump_, system.clusters.subdomains(), system.nodal_stiffness,
+                                           options.factorization, context.timers, comm_, springs_.get());
     });
     preconditioner_->invert_gram(system.nodal_stiffness, decomposition.catalogue.dimension);
   }
   make_set();
   make_rhs();
+}
+
+void DualProblem::make_rows(const partition::NodeDirectory& directory, const partition::Interface& interface,
+                            std::span<const SubdomainRow> gauges)
+{
+  jump_ =
+      std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.prescribed, constraints_.skew_supports,
+                                     constraints_.contacts, gauges, comm_, constraints_.mean_motions, constraints_.springs);
 }
 
 void DualProblem::make_equality(SparseMatrix g)
@@ -137,7 +145,7 @@ void DualProblem::gauge_rigid_modes(const partition::NodeDirectory& directory, c
                                     std::span<const constraint::SlidingSurface> sliding_surfaces, const Context& context)
 {
   SparseMatrix g = coarse_rows(*jump_, system_.clusters, comm_);
-  const auto motions = find_free_motions(decomposition_, *jump_, system_.clusters, system_.kinematics, g, constraints_.contacts,
+  const auto motions = find_free_motions(decomposition_, *jump_, system_.clusters, system_.kinematics, g, constraints_,
                                          unknowns(constraints_, *jump_, dimension()), sliding_surfaces, load_, comm_);
   const auto frames = body_frames(decomposition_, comm_);
   const auto& bodies = decomposition_.catalogue.bodies;
@@ -164,9 +172,7 @@ void DualProblem::gauge_rigid_modes(const partition::NodeDirectory& directory, c
   if (silent > 0) context.log.line("  ... and {} more free rigid motions", silent);
   if (!loaded.empty()) throw_driven(loaded);
   if (!gauges.empty()) {
-    jump_ =
-        std::make_unique<JumpOperator>(decomposition_, directory, interface, constraints_.prescribed, constraints_.skew_supports,
-                                       constraints_.contacts, gauges, comm_, constraints_.mean_motions);
+    make_rows(directory, interface, gauges);
     g = coarse_rows(*jump_, system_.clusters, comm_);
   }
   make_equality(std::move(g));

@@ -55,6 +55,13 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
   }
   columns = on_root(std::move(columns), comm);
   const qp::FeasibleSet set = whole_set();
+  Eigen::VectorXd spring_rows;  // their numbers
+  if (const auto* springs = problem.springs()) {
+    const auto& number = elimination_->number();
+    spring_rows = springs->gather(
+        Eigen::Map<const Eigen::Matrix<Global, Eigen::Dynamic, 1>>(number.data(), static_cast<Eigen::Index>(number.size()))
+            .cast<double>());
+  }
   collectively(comm, [&] {
     if (!comm.root()) return;
     const auto height = g.rows();
@@ -75,6 +82,10 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
       }
       c.block(first, first, modes, modes) += stiffness;
       at = stiffness.data() + stiffness.size();
+    }
+    if (const auto* springs = problem.springs()) {
+      const std::vector<int> rows(spring_rows.begin(), spring_rows.end());
+      w(rows, rows) += springs->compliance();
     }
     newton_ = std::make_unique<qp::CondensedNewton>(std::move(w), std::move(h), std::move(c), set);
   });

@@ -265,10 +265,11 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clus
 
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
-                                          const constraint::Contacts& contacts, std::span<const Unknown> unknowns,
+                                          const constraint::Constraints& constraints, std::span<const Unknown> unknowns,
                                           std::span<const constraint::SlidingSurface> sliding_surfaces,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
+  const auto& contacts = constraints.contacts;
   Bodies bodies = aggregate(decomposition, clusters, kinematics, load, comm);
   const int modes = bodies.modes;
   // Rows x amplitudes, in length units again: the support and contact rows that this rank owns.
@@ -285,7 +286,14 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
   Eigen::VectorXd weight_of_row = Eigen::VectorXd::Constant(count, support_weight);
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
     if (!contacts.bonded[i]) weight_of_row[first_contact + static_cast<Local>(contacts.nodes[i].row)] /= support_weight;
-  const Eigen::VectorXd fixed_row = (weight_of_row.array() > 1).cast<double>();
+  Eigen::VectorXd fixed_row = (weight_of_row.array() > 1).cast<double>();
+  // What acts along normals of a surface feels facets, too, of motions that let it slide along itself.
+  const auto skew = static_cast<Local>(constraints.prescribed.size());
+  for (std::size_t i = 0; i < constraints.skew_supports.size(); ++i)
+    if (constraints.skew_supports[i].along_normals) fixed_row[skew + static_cast<Local>(i)] = 0;
+  const auto& springs = constraints.springs;
+  for (std::size_t i = 0; i < springs.own.size(); ++i)
+    if (springs.rows[springs.own[i]].along_normal) fixed_row[jump.ranges().springs - first + static_cast<Local>(i)] = 0;
   // Whether the normal rows feel no more of a motion than the angles of facets explain: a small part of the velocity there.
   const auto along_surfaces = [&](const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) {
     double worst = 0;

@@ -112,12 +112,13 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
                            const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
                            std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
                            std::span<const SubdomainRow> extra, const Communicator& comm,
-                           std::span<const constraint::MeanMotion> mean_motions)
+                           std::span<const constraint::MeanMotion> mean_motions, const constraint::Springs& springs)
 {
   const int dimension = decomposition.catalogue.dimension;
   Assembly assembly(decomposition, comm);
   const auto [glued, glued_total] = glue(decomposition, interface, dimension, comm, assembly);
-  const Numbering dirichlet_numbers = number(prescribed.size() + skew_supports.size() + mean_motions.size(), comm);
+  const Numbering dirichlet_numbers =
+      number(prescribed.size() + skew_supports.size() + mean_motions.size() + springs.own.size(), comm);
   const Numbering contact_numbers = number(contacts.rows.size(), comm);
   const Global dirichlet_base = glued_total, contact_base = dirichlet_base + dirichlet_numbers.total,
                extra_base = contact_base + contact_numbers.total;
@@ -149,12 +150,18 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   const std::size_t means_at = owned.size();
   for (std::size_t m = 0; m < mean_motions.size(); ++m)
     owned.push_back(dirichlet_base + dirichlet_numbers.start + static_cast<Global>(prescribed.size() + skew_supports.size() + m));
+  ranges_.springs = static_cast<Local>(owned.size());
+  for (std::size_t i = 0; i < springs.own.size(); ++i)
+    owned.push_back(dirichlet_base + dirichlet_numbers.start +
+                    static_cast<Global>(prescribed.size() + skew_supports.size() + mean_motions.size() + i));
   ranges_.contacts = static_cast<Local>(owned.size());
 
   nodes.clear();
   for (const auto& entry : contacts.rows.entries) nodes.push_back(entry.node);
   for (const auto& mean : mean_motions)
     for (const auto& entry : mean.entries) nodes.push_back(entry.node);
+  for (const std::size_t i : springs.own)
+    for (const auto& entry : springs.rows[i].entries) nodes.push_back(entry.node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const auto contact_copies = directory.find(nodes, comm);
@@ -162,8 +169,8 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
     return contact_copies[static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin())];
   };
   // What makes a row a unit vector in D^-1, the copies' averages taken together.
-  const auto unit_factor = [&](std::span<const constraint::Entry> entries) {
-    double square = 0;
+  const auto unit_factor = [&](std::span<const constraint::Entry> entries, double compliance = 0) {
+    double square = compliance;
     for (const auto& entry : entries) square += entry.coefficient * entry.coefficient / total_weight(copies_of(entry.node));
     return 1 / std::sqrt(square);
   };
@@ -178,6 +185,12 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   for (std::size_t m = 0; m < mean_motions.size(); ++m) {
     scale.push_back(unit_factor(mean_motions[m].entries));
     add_entries(mean_motions[m].entries, owned[means_at + m], scale.back());
+  }
+  for (std::size_t i = 0; i < springs.own.size(); ++i) {  // a unit vector in D^-1 plus the compliance
+    const auto row = springs.own[i];
+    const auto diagonal = springs.stiffness.coeff(static_cast<int>(row), static_cast<int>(row));
+    scale.push_back(unit_factor(springs.rows[row].entries, 1 / diagonal));
+    add_entries(springs.rows[row].entries, owned[static_cast<std::size_t>(ranges_.springs) + i], scale.back());
   }
   for (const auto& point : contacts.nodes) {
     const double factor = unit_factor(contacts.rows[point.row]);

@@ -80,11 +80,13 @@ double relaxed_energy(const SubdomainOperator& subdomain, const std::vector<bool
 
 Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump,
                                const Subdomains& subdomains, const std::vector<std::vector<double>>& nodal_stiffness,
-                               const std::string& factorization, Timers& timers, const Communicator& comm)
+                               const std::string& factorization, Timers& timers, const Communicator& comm,
+                               const ElasticRows* springs)
     : jump_(jump),
       nodal_stiffness_(nodal_stiffness),
       dimension_(decomposition.catalogue.dimension),
       subdomains_(subdomains),
+      springs_(springs),
       comm_(comm),
       timers_(timers)
 {
@@ -133,7 +135,7 @@ double Preconditioner::energy(const Vector& r)
         fixed[static_cast<std::size_t>(k)] = true;
     sum += relaxed_energy(subdomains_[s]->original(), fixed, std::move(u[s]));
   }
-  return comm_.sum(sum);
+  return comm_.sum(sum) + (springs_ ? springs_->energy(r) : 0);
 }
 
 void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
@@ -163,6 +165,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
       }
     Vector result = jump_.apply(forces);
     if (gram_) gram_->apply_inverse(result);
+    if (springs_) springs_->add_stiffness(1, *in, result);
     const auto extra = jump_.ranges().end - jump_.ranges().extra;
     view(result).segment(jump_.ranges().extra, extra) = view(*in).segment(jump_.ranges().extra, extra);
     y.getVectorNonConst(column)->update(alpha, result, beta);

@@ -168,4 +168,16 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
   return result;
 }
 
+std::vector<std::size_t> rows_here(std::span<const constraint::SpringRow> rows, const partition::Decomposition& decomposition,
+                                   const partition::NodeDirectory& directory, const Communicator& comm)
+{
+  std::vector<constraint::Entry> first;
+  for (const auto& row : rows) first.push_back(row.entries.front());
+  const auto ranks = ranks_of(std::span<const constraint::Entry>(first), decomposition, directory, comm);
+  std::vector<std::size_t> here;
+  for (std::size_t i = 0; i < ranks.size(); ++i)
+    if (ranks[i] == static_cast<std::size_t>(comm.rank())) here.push_back(i);
+  return here;
+}
+
 }  // namespace mortise::feti

@@ -81,10 +81,13 @@ struct Blocks {
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
       fem::add_traction(decomposition.subdomains[s].mesh, boundary(name), fem::Kinematics::solid, traction, load[s]);
   }
-  void dirichlet_rows(const std::vector<constraint::SupportOptions>& supports)
+  void dirichlet_rows(const std::vector<constraint::Support>& supports)
   {
-    std::vector<std::vector<Global>> nodes;
-    for (const auto& support : supports) nodes.push_back(side(support.boundary).node_id);
+    std::vector<constraint::SupportNodes> nodes;
+    for (const auto& support : supports) {
+      const auto surface = side(support.boundary);
+      nodes.push_back({surface.node_id, surface.points});
+    }
     constraints.prescribed = constraint::dirichlet_rows(supports, nodes, 3, comm);
   }
 

@@ -143,6 +143,81 @@ TEST(DualProblem, PreconditionersAreSymmetricAndApproximateTheInverse)
   }
 }
 
+// K and f of a cube that stands whole on this rank, its subdomains joined.
+std::pair<Eigen::MatrixXd, Eigen::VectorXd> assembled(const Cube& whole)
+{
+  const auto nodes = static_cast<Eigen::Index>(whole.decomposition.catalogue.node_count);
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(3 * nodes, 3 * nodes);
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * nodes);
+  for (std::size_t s = 0; s < whole.decomposition.subdomains.size(); ++s) {
+    const auto& id = whole.decomposition.subdomains[s].mesh.node_id;
+    const auto unknown = [&](Eigen::Index i) { return 3 * id[static_cast<std::size_t>(i / 3)] + i % 3; };
+    const auto& subdomain = *whole.system.clusters.subdomains()[s];
+    const auto size = subdomain.size();
+    for (Eigen::Index j = 0; j < size; ++j) {
+      const Eigen::VectorXd column = subdomain.apply(Eigen::VectorXd::Unit(size, j));
+      for (Eigen::Index i = 0; i < size; ++i) k(unknown(i), unknown(j)) += column[i];
+      f[unknown(j)] += whole.load[s][j];
+    }
+  }
+  return {k, f};
+}
+
+// Springs for supports, soft and stiff: as if their matrix had been added to that of the cube.
+TEST(DualProblem, SpringsAreStiffnessOfTheWhole)
+{
+  for (const double stiffness : {1e-4, 1.0, 1e4})
+    for (const char* kind : {"lumped", "dirichlet"}) {
+      Cube cube(10, true);
+      const Cube whole(10, true, MPI_COMM_SELF);
+      auto [k, f] = assembled(whole);
+      auto& springs = cube.constraints.springs;
+      const auto& held = whole.constraints.prescribed;
+      std::vector<Eigen::Triplet<double>> entries;
+      for (std::size_t i = 0; i < held.size(); ++i) {
+        springs.rows.push_back({{{held[i].node, held[i].component, 1.0}}});
+        const auto is_here = [&](const auto& h) { return h.node == held[i].node && h.component == held[i].component; };
+        if (std::any_of(cube.constraints.prescribed.begin(), cube.constraints.prescribed.end(), is_here))
+          springs.own.push_back(i);
+        entries.emplace_back(i, i, 4 * stiffness);
+        if (i > 0) entries.emplace_back(i, i - 1, stiffness), entries.emplace_back(i - 1, i, stiffness);
+      }
+      springs.stiffness.resize(static_cast<int>(held.size()), static_cast<int>(held.size()));
+      springs.stiffness.setFromTriplets(entries.begin(), entries.end());
+      for (const auto& entry : entries) {
+        const auto &a = held[static_cast<std::size_t>(entry.row())], &b = held[static_cast<std::size_t>(entry.col())];
+        k(3 * a.node + a.component, 3 * b.node + b.component) += entry.value();
+      }
+      cube.constraints.prescribed.clear();
+      Options options;
+      options.preconditioner = kind;
+      const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load,
+                                options, cube.context);
+      qp::Hessian hessian(problem.hessian(), 1000);
+      const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
+      const auto solution = qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-8, {}}, nullptr, {});
+      ASSERT_TRUE(solution.converged) << solution.projected_gradient;
+      EXPECT_LT(hessian.count(), 60) << stiffness;
+      const auto u = problem.displacement(solution.x, solution.nu);
+      const Eigen::VectorXd expected = k.ldlt().solve(f);
+      for (std::size_t s = 0; s < u.size(); ++s)
+        for (std::size_t n = 0; n < cube.decomposition.subdomains[s].mesh.node_count(); ++n)
+          EXPECT_LT((u[s].segment<3>(static_cast<Eigen::Index>(3 * n)) -
+                     expected.segment<3>(3 * cube.decomposition.subdomains[s].mesh.node_id[n]))
+                        .norm(),
+                    1e-6 * expected.norm());
+      // The energy of a residual is at least that of the error behind it.
+      Vector x(problem.linear().getMap()), r(x.getMap());
+      for (Local i = 0; i < static_cast<Local>(x.getLocalLength()); ++i)
+        view(x)[i] = std::sin(0.7 * static_cast<double>(x.getMap()->getGlobalElement(i)));
+      problem.equality().project(x);
+      problem.hessian().apply(x, r);
+      const double square = x.dot(r);
+      problem.equality().project(r);
+      EXPECT_GE(problem.preconditioner()->energy(r), (1 - 1e-9) * square);
+    }
+}
+
 // Against the assembled system solved at once, for equal and for very different subdomains, with few products for both.
 class Algorithms : public testing::TestWithParam<std::tuple<const char*, int>> {};
 INSTANTIATE_TEST_SUITE_P(Both, Algorithms, testing::Combine(testing::Values("smalse", "face_newton"), testing::Values(1, 2, 8)));
@@ -165,20 +240,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
     const auto u = problem.displacement(solution.x, solution.nu);
 
     const Cube whole(jump, true, MPI_COMM_SELF);  // every rank assembles it whole
-    const auto nodes = static_cast<Eigen::Index>(whole.decomposition.catalogue.node_count);
-    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(3 * nodes, 3 * nodes);
-    Eigen::VectorXd f = Eigen::VectorXd::Zero(3 * nodes);
-    for (std::size_t s = 0; s < whole.decomposition.subdomains.size(); ++s) {
-      const auto& id = whole.decomposition.subdomains[s].mesh.node_id;
-      const auto unknown = [&](Eigen::Index i) { return 3 * id[static_cast<std::size_t>(i / 3)] + i % 3; };
-      const auto& subdomain = *whole.system.clusters.subdomains()[s];
-      const auto size = subdomain.size();
-      for (Eigen::Index j = 0; j < size; ++j) {
-        const Eigen::VectorXd column = subdomain.apply(Eigen::VectorXd::Unit(size, j));
-        for (Eigen::Index i = 0; i < size; ++i) k(unknown(i), unknown(j)) += column[i];
-        f[unknown(j)] += whole.load[s][j];
-      }
-    }
+    auto [k, f] = assembled(whole);
     for (const auto& h : whole.constraints.prescribed) {
       const auto i = 3 * h.node + h.component;
       f -= k.col(i) * h.value;

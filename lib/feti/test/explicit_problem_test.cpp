@@ -42,7 +42,7 @@ struct Stack : Blocks {
             })
   {
     pretension_multipliers("upper.zmax", traction);
-    std::vector<constraint::SupportOptions> supports{{"lower.zmin", {variant.moved, 0, 0}}};
+    std::vector<constraint::Support> supports{{"lower.zmin", {variant.moved, 0, 0}}};
     if (variant.upper_held) {
       const std::optional<double> others = variant.force ? std::optional(0.0) : std::nullopt;
       supports.push_back({"upper.zmax", {variant.moved, others, others}});

@@ -18,7 +18,7 @@ struct Column : Blocks {
       : Blocks({{"lower", {{0, 0, 0}, {1, 1, 2}, {2, 2, 4}, "hex8"}}, {"upper", {{0, 0, 2}, {1, 1, 3}, {2, 2, 6}, "hex8"}}},
                {{"lower", {1, 1, 2}}, {"upper", {1, 1, 3}}}, [](int) { return young; })
   {
-    std::vector<constraint::SupportOptions> supports{{"lower.zmin", {std::nullopt, std::nullopt, 0.0}}};
+    std::vector<constraint::Support> supports{{"lower.zmin", {std::nullopt, std::nullopt, 0.0}}};
     if (both_ends) supports.push_back({"upper.zmax", {std::nullopt, std::nullopt, 0.0}});
     dirichlet_rows(supports);
     join("upper.zmin", "lower.zmax", true);

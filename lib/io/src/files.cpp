@@ -5,7 +5,9 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <new>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -88,6 +90,14 @@ void write_whole(const std::string& path, const std::function<void(const std::st
     const bool memory = dynamic_cast<const std::bad_alloc*>(&failure) != nullptr;
     throw Error(ExitStatus::machine, path + ": cannot be written: " + (memory ? "out of memory" : failure.what()));
   }
+}
+
+std::string text_of(const std::string& path)
+{
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
+  return text.str();
 }
 
 void write_text(const std::string& path, const std::string& text)

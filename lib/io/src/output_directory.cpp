@@ -31,8 +31,9 @@ constexpr const char* old_summary_name = "summary.old.json";
 // What this program writes, under any number of ranks, and what it leaves if it is killed while it writes.
 bool is_ours(const fs::path& path)
 {
-  static const std::regex names(R"(((solution|contact|plane\.[\w-]+)(\.\d+)?(_\d+)?\.(vtu|pvtu|pvd)|)"
-                                R"(results(\.\d+)?\.h5|(history|interior)\.csv|deck\.yaml|summary(\.old)?\.json)(\.part)?)");
+  static const std::regex names(
+      R"(((solution|contact|plane\.[\w-]+)(\.\d+)?(_\d+)?\.(vtu|pvtu|pvd)|)"
+      R"((results|restart)(\.\d+)?\.h5|(history|interior|probes|probe\.[\w-]+)\.csv|deck\.yaml|summary(\.old)?\.json)(\.part)?)");
   return std::regex_match(path.filename().string(), names);
 }
 
@@ -190,12 +191,15 @@ void OutputDirectory::prepare(const std::vector<std::string>& inputs)
   }
 }
 
-void OutputDirectory::clear() const
+void OutputDirectory::clear(bool resumed) const
 {
   collectively(comm_, [&] {
     if (!comm_.root()) return;
     try {
-      for (const auto& path : our_files(path_)) fs::remove(path);
+      for (const auto& path : our_files(path_)) {
+        const auto name = path.filename().string();
+        if (!resumed || !(name.starts_with("restart.") || name == "deck.yaml")) fs::remove(path);
+      }
     } catch (const std::exception& failure) {
       throw Error(ExitStatus::machine,
                   "output directory " + path_ + ": results of an earlier run cannot be removed: " + failure.what());

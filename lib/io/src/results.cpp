@@ -253,6 +253,21 @@ void write_file(const std::string& path, const std::vector<Table>& tables, const
 
 }  // namespace
 
+std::vector<double> read_table(const std::string& path, const std::string& name)
+{
+  try {
+    const Quiet quiet;
+    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle space(H5Dget_space(dataset), H5Sclose);
+    std::vector<double> values(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0)));
+    if (!values.empty()) require(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    return values;
+  } catch (const std::runtime_error& failure) {
+    throw Error(ExitStatus::bad_input, fmt::format("{}: {} cannot be read: {}", path, name, failure.what()));
+  }
+}
+
 void write_results(const std::string& path, const std::vector<Table>& tables, const Communicator& comm)
 {
   const std::string temporary = temporary_name(path);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
+
 namespace mortise::io {
 
 namespace {
@@ -45,6 +47,35 @@ Json warning(const Warning& w)
   return json;
 }
 
+Json place(const StateSummary::Place& p)
+{
+  return {{"coordinates", vector(p.coordinates)}, {"body", p.body}};
+}
+
+Json probe(const StateSummary::Probe& p)
+{
+  Json json{{"name", p.name}};
+  if (p.path) {
+    json["file"] = p.path->file;
+    json["points"] = p.path->points;
+    json["length"] = number(p.path->length);
+    return json;
+  }
+  if (p.at_point) {
+    const auto& s = *p.at_point;
+    json["displacement"] = vector(s.displacement);
+    json["stress"] = Json::array();
+    for (const double x : s.stress) json["stress"].push_back(number(x));
+    json["principal_stress"] = vector(s.principal_stress);
+    json["von_mises"] = number(s.von_mises);
+  } else {
+    json[p.largest.empty() ? "smallest" : "largest"] = p.largest.empty() ? p.smallest : p.largest;
+    json["value"] = number(p.value);
+  }
+  json["place"] = place(p.place);
+  return json;
+}
+
 Json band(const StateSummary::Contact::Band& b)
 {
   return {{"points", b.points}, {"cells", b.cells}};
@@ -69,8 +100,17 @@ void add_state(const StateSummary& s, Json& json)
   json["strain_energy"] = number(s.strain_energy);
   json["max_von_mises"] = number(s.max_von_mises);
   json["max_displacement"] = number(s.max_displacement);
+  json["max_von_mises_place"] = place(s.max_von_mises_place);
+  if (!s.probes.empty()) json["probes"] = Json::array();
+  for (const auto& p : s.probes) json["probes"].push_back(probe(p));
+  json["moments_about"] = vector(s.moments_about);
   json["reactions"] = Json::array();
-  for (const auto& r : s.reactions) json["reactions"].push_back({{"boundary", r.boundary}, {"force", vector(r.force)}});
+  for (const auto& r : s.reactions) {
+    Json reaction{{"boundary", r.boundary}, {"force", vector(r.force)}};
+    if (r.moment) reaction["moment"] = vector(*r.moment);
+    reaction["name"] = r.name;
+    json["reactions"].push_back(std::move(reaction));
+  }
   if (!s.couplings.empty()) json["couplings"] = Json::array();
   for (const auto& c : s.couplings)
     json["couplings"].push_back({{"name", c.name},
@@ -81,6 +121,10 @@ void add_state(const StateSummary& s, Json& json)
                                  {"moment", vector(c.moment)},
                                  {"reaction_force", vector(c.reaction_force)},
                                  {"reaction_moment", vector(c.reaction_moment)}});
+  if (!s.springs.empty()) json["springs"] = Json::array();
+  for (const auto& spring : s.springs)
+    json["springs"].push_back(
+        {{"name", spring.name}, {"force", number(spring.force)}, {"elongation", number(spring.elongation)}});
   json["contacts"] = Json::array();
   for (const auto& c : s.contacts) {
     json["contacts"].push_back({{"name", c.name},
@@ -114,6 +158,13 @@ void add_state(const StateSummary& s, Json& json)
 
 }  // namespace
 
+std::string interrupted_summary(const std::string& version, const std::string& title, int exit_status)
+{
+  const Json json{{"version", version},         {"title", title},      {"converged", false},
+                  {"exit_status", exit_status}, {"interrupted", true}, {"steps", Json::array()}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string to_json(const Summary& s)
 {
   Json json{{"version", s.version},
@@ -127,7 +178,9 @@ std::string to_json(const Summary& s)
             {"clusters", s.clusters},
             {"kernel_dimension", s.kernel_dimension},
             {"bodies", s.bodies},
+            {"body_names", s.body_names},
             {"algorithm", s.algorithm}};
+  if (s.finished && s.exit_status == static_cast<int>(ExitStatus::interrupted)) json["interrupted"] = true;
   add_work(s, json);
   add_state(s, json);
   json["warnings"] = Json::array();

@@ -2,6 +2,7 @@
 
 #include <hdf5.h>
 
+#include "base/error.hpp"
 #include "scratch.hpp"
 
 namespace mortise::io {
@@ -66,6 +67,10 @@ TEST(Results, RowsStandAtTheirNumbersWhoeverHadThem)
         (std::vector<double>{x, x * x, -x}));
   }
   EXPECT_EQ(read(scratch / "results.h5", "one").values, (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(read_table(scratch / "results.h5", "nodes/squares"), many.values);
+  EXPECT_TRUE(read_table(scratch / "results.h5", "deep/er/none").empty());
+  EXPECT_THROW(read_table(scratch / "results.h5", "nodes/cubes"), Error);
+  EXPECT_THROW(read_table(scratch / "none.h5", "one"), Error);
   EXPECT_EQ(read(scratch / "results.h5", "deep/er/none").shape, (std::vector<hsize_t>{0, 3}));
 }
 

@@ -25,7 +25,7 @@ Summary sample()
   s.converged = true;
   s.primal_unknowns = 5'000'000'000;
   s.strain_energy = 0.1;
-  s.reactions.push_back({"ground", {1, 2, 3}});
+  s.reactions.push_back({"ground", {1, 2, 3}, std::array<double, 3>{4, 5, 6}, "floor"});
   s.contacts.push_back({"interface", {4, 5, 6}, 7, 8, 9, 10, 11, 6.5});
   s.time["solve"] = 1.5;
   s.peak_memory_bytes = 3e10;
@@ -57,6 +57,8 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "strain_energy",
                                "max_von_mises",
                                "max_displacement",
+                               "max_von_mises_place",
+                               "moments_about",
                                "reactions",
                                "contacts",
                                "stuck",
@@ -66,7 +68,8 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "communication"}));
   EXPECT_EQ(keys(json["residuals"]), (Names{"projected_gradient", "equality", "equilibrium", "penetration", "complementarity"}));
   EXPECT_EQ(keys(json["error_estimate"]), (Names{"discretization", "algebraic"}));
-  EXPECT_EQ(keys(json["reactions"][0]), (Names{"boundary", "force"}));
+  EXPECT_EQ(keys(json["reactions"][0]), (Names{"boundary", "force", "moment", "name"}));
+  EXPECT_EQ(keys(json["max_von_mises_place"]), (Names{"coordinates", "body"}));
   EXPECT_EQ(keys(json["contacts"][0]),
             (Names{"name", "force", "max_pressure", "area", "open", "stick", "slip", "max_recovered_pressure", "max_tension"}));
   EXPECT_EQ(keys(json["time"]),
@@ -85,6 +88,48 @@ TEST(Summary, WhatWasNotCountedHasNoNumbers)
   EXPECT_TRUE(json.contains("peak_memory_bytes"));
 }
 
+TEST(Summary, ProbesHaveTheFieldsOfTheirKind)
+{
+  auto s = sample();
+  s.probes.reserve(4);
+  const auto add = [&](const char* name) -> StateSummary::Probe& {
+    auto& probe = s.probes.emplace_back();
+    probe.name = name;
+    probe.place = {{1, 2, 3}, "lower"};
+    return probe;
+  };
+  auto& peak = add("peak");
+  peak.largest = "von_mises";
+  peak.value = 7;
+  auto& low = add("low");
+  low.smallest = "principal_stress";
+  low.value = std::nan("");
+  add("tip").at_point = StateSummary::Probe::State{{1, 2, 3}, {9, 8, 7}, {1, 2, 3, 4, 5, 6}, 2.5};
+  add("edge").path = StateSummary::Probe::Path{"probe.edge.csv", 21, 2.5};
+  const auto json = Json::parse(to_json(s))["probes"];
+  using Names = std::vector<std::string>;
+  ASSERT_EQ(json.size(), 4U);
+  EXPECT_EQ(keys(json[0]), (Names{"name", "largest", "value", "place"}));
+  EXPECT_EQ(json[0]["value"], 7);
+  EXPECT_EQ(json[0]["place"]["body"], "lower");
+  EXPECT_EQ(keys(json[1]), (Names{"name", "smallest", "value", "place"}));
+  EXPECT_TRUE(json[1]["value"].is_null());
+  EXPECT_EQ(keys(json[2]), (Names{"name", "displacement", "stress", "principal_stress", "von_mises", "place"}));
+  EXPECT_EQ(json[2]["stress"][5], 6);
+  EXPECT_EQ(json[2]["principal_stress"], (Json{9, 8, 7}));
+  EXPECT_EQ(keys(json[3]), (Names{"name", "file", "points", "length"}));
+}
+
+TEST(Summary, MomentsOfSupportsStandWhereThereAreSome)
+{
+  auto s = sample();
+  s.reactions[0].moment.reset();
+  s.reactions.push_back({"wall", {0, 0, 1}, std::array<double, 3>{4, 5, 6}});
+  const auto json = Json::parse(to_json(s));
+  EXPECT_FALSE(json["reactions"][0].contains("moment"));
+  EXPECT_EQ(json["reactions"][1]["moment"], (Json{4, 5, 6}));
+}
+
 TEST(Summary, ValuesComeBack)
 {
   const auto json = Json::parse(to_json(sample()));
@@ -93,6 +138,8 @@ TEST(Summary, ValuesComeBack)
   EXPECT_EQ(json["primal_unknowns"], 5'000'000'000);
   EXPECT_EQ(json["strain_energy"], 0.1);
   EXPECT_EQ(json["reactions"][0]["force"], (Json{1, 2, 3}));
+  EXPECT_EQ(json["reactions"][0]["moment"], (Json{4, 5, 6}));
+  EXPECT_EQ(json["reactions"][0]["name"], "floor");
   EXPECT_EQ(json["contacts"][0]["slip"], 11);
   EXPECT_EQ(json["time"]["solve"], 1.5);
   EXPECT_EQ(json["time"]["mesh"], 0);

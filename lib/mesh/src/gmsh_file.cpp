@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <vector>
 
@@ -252,6 +254,30 @@ double size_of(const std::string& file)
 
 constexpr const char* remedy = " (SystemCall, Save, Printf >> file and the like); if you trust it, run with --allow-scripts";
 
+bool has_word(const std::string& text, const std::string& word)
+{
+  const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const auto end = at + word.size();
+    if ((at == 0 || !is_of_name(text[at - 1])) && (end == text.size() || !is_of_name(text[end]))) return true;
+  }
+  return false;
+}
+
+// A constant whose name stands nowhere in a geometry is a slip of the pen, which gmsh passes over. What a geometry includes from
+// elsewhere is not looked into: then any name may be right.
+void require_constants(const Options& options)
+{
+  std::ifstream stream(options.file);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (const char* elsewhere : {"Include", "Merge", "Open"})
+    if (has_word(text, elsewhere)) return;
+  for (const auto& [name, value] : options.constants)
+    if (!has_word(text, name))
+      fail(options.file,
+           fmt::format("has no constant \"{}\", which mesh.constants sets; expected a name of its DefineConstant", name));
+}
+
 void work(const Options& options, int dimension, Sender& sender)
 {
   const auto kind = kind_of(options.file);
@@ -260,6 +286,7 @@ void work(const Options& options, int dimension, Sender& sender)
   if (!options.allow_scripts && !confine_child() && kind == FileKind::geo)
     fail(options.file, std::string("this system cannot keep a geometry from starting programs") + remedy);
   if (kind != FileKind::geo) limit_processor_time(reading_seconds(size_of(options.file)));
+  if (kind == FileKind::geo) require_constants(options);
   session.open(options.file);
   limit_processor_time(0);
   if (is_geometry(kind)) GmshSession::set_sizes(options);  // again: what the deck says outweighs what a script has set

@@ -5,17 +5,9 @@
 #include "base/error.hpp"
 #include "fem/loads.hpp"
 #include "model/model.hpp"
+#include "points.hpp"
 
 namespace mortise::model {
-
-namespace {
-
-Point place(const std::array<double, 3>& x)
-{
-  return {x[0], x[1], x[2]};
-}
-
-}  // namespace
 
 // Of a coupling's boundary: area, centre, and the inverse of its second moment of area about the centre (of a plane: about z
 // alone).
@@ -88,7 +80,7 @@ std::vector<constraint::Coupling> Model::couplings(const LoadState& state, const
       const auto& support = deck_.supports[i];
       if (support.coupling != name || !state.acting[i]) continue;
       for (std::size_t c = 0; c < 3; ++c) {
-        if (support.displacement[c]) coupling.motion[c] = state.support[i] * *support.displacement[c];
+        if (support.displacement[c]) coupling.motion[c] = state.support[i] * support.displacement[c]->constant();
         if (support.rotation[c]) coupling.motion[3 + c] = state.support[i] * *support.rotation[c];
       }
     }

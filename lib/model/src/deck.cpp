@@ -165,6 +165,10 @@ void check_vectors(const Deck& deck, deck::Document& document)
                                                  : "a plane model turns about z; expected axis: [0, 0, 1]");
     }
     flat(deck.loads[i].force, path + "force");
+    for (std::size_t k = 0; k < deck.loads[i].points.size(); ++k)
+      flat(deck.loads[i].points[k], fmt::format("{}points[{}]", path, k));
+    if (deck.axisymmetric() && !deck.loads[i].points.empty())
+      document.error(path + "points", "in an axisymmetric model a point is a ring; load a boundary");
     flat(deck.loads[i].acceleration, path + "acceleration");
     if (const auto& moment = deck.loads[i].moment; moment && ((*moment)[0] != 0 || (*moment)[1] != 0))
       document.error(path + "moment", "in a plane model a moment turns about z alone; expected [0, 0, m]");
@@ -173,14 +177,30 @@ void check_vectors(const Deck& deck, deck::Document& document)
   }
   for (std::size_t i = 0; i < deck.supports.size(); ++i) {
     if (deck.supports[i].displacement[2])
-      document.error(fmt::format("supports[{}].displacement.z", i), "a plane model has no z component");
+      document.error(fmt::format("supports[{}].displacement.{}", i, deck.supports[i].cylindrical ? "axial" : "z"),
+                     "a plane model has no z component");
+    for (std::size_t k = 0; k < deck.supports[i].points.size(); ++k)
+      flat(deck.supports[i].points[k], fmt::format("supports[{}].points[{}]", i, k));
+    if (deck.supports[i].stiffness.along[2])
+      document.error(fmt::format("supports[{}].stiffness.z", i), "a plane model has no z component");
     for (const std::size_t c : {0, 1})
       if (deck.supports[i].rotation[c])
         document.error(fmt::format("supports[{}].rotation.{}", i, "xy"[c]), "in a plane model points turn about z alone");
   }
+  for (const auto& [name, spring] : deck.springs) {
+    for (std::size_t k = 0; k < spring.points.size(); ++k) flat(spring.points[k], fmt::format("springs.{}.points[{}]", name, k));
+    if (deck.axisymmetric())
+      document.error("springs." + name, "in an axisymmetric model a point is a ring; give a boundary a `stiffness`");
+  }
   const auto& interior = deck.output.interior;
   for (std::size_t i = 0; i < interior.points.size(); ++i) flat(interior.points[i], fmt::format("output.interior.points[{}]", i));
   if (!interior.planes.empty()) document.error("output.interior.planes", "sections are for models of dimension 3");
+  for (const auto& [name, probe] : deck.output.probes) {
+    flat(probe.point, "output.probes." + name + ".point");
+    flat(probe.from, "output.probes." + name + ".from");
+    flat(probe.to, "output.probes." + name + ".to");
+  }
+  flat(deck.output.moments_about, "output.moments_about");
 }
 
 // Whether a formula has a variable of this name.
@@ -200,16 +220,73 @@ bool has_variable(const deck::Formula& formula, const std::string& name)
 void check_formulas_of_rings(const Deck& deck, deck::Document& document)
 {
   if (!deck.axisymmetric()) return;
+  const auto check = [&](const std::vector<deck::Formula>& formulas, const std::string& path) {
+    for (const auto& formula : formulas)
+      for (const char* name : {"r", "theta"})
+        if (has_variable(formula, name))
+          document.error(path, fmt::format("\"{}\": in an axisymmetric model the radius is x and the axis is y; write x for r",
+                                           formula.text()));
+  };
   for (std::size_t i = 0; i < deck.loads.size(); ++i) {
     std::vector<deck::Formula> formulas;
     if (deck.loads[i].pressure) formulas.push_back(*deck.loads[i].pressure);
     if (const auto& traction = deck.loads[i].traction) formulas.insert(formulas.end(), traction->begin(), traction->end());
-    for (const auto& formula : formulas)
-      for (const char* name : {"r", "theta"})
-        if (has_variable(formula, name))
-          document.error(
-              fmt::format("loads[{}]", i),
-              fmt::format("\"{}\": in an axisymmetric model the radius is x and the axis is y; write x for r", formula.text()));
+    if (deck.loads[i].temperature_change) formulas.push_back(*deck.loads[i].temperature_change);
+    check(formulas, fmt::format("loads[{}]", i));
+  }
+  for (std::size_t i = 0; i < deck.supports.size(); ++i) {
+    std::vector<deck::Formula> formulas;
+    for (const auto& value : deck.supports[i].displacement)
+      if (value) formulas.push_back(*value);
+    if (deck.supports[i].normal) formulas.push_back(*deck.supports[i].normal);
+    check(formulas, fmt::format("supports[{}]", i));
+  }
+}
+
+// Local axes by their names, and what has components along them.
+void check_axes(const Deck& deck, deck::Document& document)
+{
+  for (const auto& [name, axes] : deck.axes) {
+    const auto path = "axes." + name;
+    if (deck.dimension() == 3) {
+      if (axes.x && !axes.y) document.error(path, "the key \"y\" is missing: The direction of the second axis");
+      continue;
+    }
+    const auto along_z = [](const std::array<double, 3>& v) { return v[0] == 0 && v[1] == 0; };
+    const auto in_plane = [](const std::array<double, 3>& v) { return v[2] == 0; };
+    if (axes.axis && deck.axisymmetric())
+      document.error(path + ".axis", "in an axisymmetric model x is radial and y axial; no other axes of this kind are needed");
+    else if (axes.axis && !along_z(*axes.axis))
+      document.error(path + ".axis", "in a plane model the axis is that of z; expected [0, 0, 1]");
+    if (axes.x && !in_plane(*axes.x)) document.error(path + ".x", "a plane model has no z component");
+    if (axes.y) document.error(path + ".y", "in a plane model `x` alone gives both axes");
+    if (!in_plane(axes.point)) document.error(path + ".point", "a plane model has no z component");
+  }
+  const auto find = [&](const std::string& name, const std::string& path) -> const deck::AxesOptions* {
+    if (const auto found = deck.axes.find(name); found != deck.axes.end()) return &found->second;
+    document.error(path + ".axes", fmt::format("there are no axes \"{}\"{}", name, deck::suggestion(name, keys_of(deck.axes))));
+    return nullptr;
+  };
+  for (std::size_t i = 0; i < deck.supports.size(); ++i) {
+    const auto& support = deck.supports[i];
+    const auto path = fmt::format("supports[{}]", i);
+    const bool any =
+        std::any_of(support.displacement.begin(), support.displacement.end(), [](const auto& v) { return v.has_value(); });
+    if (support.axes.empty()) {
+      if (support.cylindrical)
+        document.error(path + ".displacement", "radial, tangential and axial are along cylindrical `axes`; name some");
+      continue;
+    }
+    if (const auto* axes = find(support.axes, path); axes && any && axes->axis.has_value() != support.cylindrical)
+      document.error(path + ".displacement", axes->axis ? "these axes are cylindrical; expected radial, tangential or axial"
+                                                        : "these axes are turned ones; expected x, y or z");
+  }
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    const auto& load = deck.loads[i];
+    const auto path = fmt::format("loads[{}]", i);
+    if (load.axes.empty()) continue;
+    if (const auto* axes = find(load.axes, path); axes && axes->axis && load.force)
+      document.error(path + ".axes", "a force has one direction; expected turned axes, or a traction");
   }
 }
 
@@ -311,6 +388,27 @@ std::string missing(const std::string& name, const mesh::Catalogue& catalogue)
   return "";
 }
 
+// An entry of `bodies` with wild cards: it matches something, and no other such entry says otherwise of a body without its own.
+void check_body_pattern(const Deck& deck, const std::string& pattern, const std::vector<std::string>& groups,
+                        deck::Document& document)
+{
+  const auto text = [](const fem::BodyOptions& body) { return YAML::Dump(deck::Codec<fem::BodyOptions>::write(body)); };
+  bool any = false;
+  for (const auto& group : groups) {
+    if (!matches(pattern, group)) continue;
+    any = true;
+    const auto used = body_entry(deck, group);
+    if (used->first == group || used->first == pattern || text(used->second) == text(deck.bodies.at(pattern))) continue;
+    document.error("bodies." + pattern, fmt::format("says something else of the body \"{}\" than \"{}\" does, which matches it "
+                                                    "too; give \"{}\" an entry of its own",
+                                                    group, used->first, group));
+    return;
+  }
+  if (!any)
+    document.error("bodies." + pattern,
+                   fmt::format("no body of the mesh matches \"{}\"{}", pattern, deck::suggestion(pattern, groups)));
+}
+
 }  // namespace
 
 void describe(deck::Description<SolverOptions>& d)
@@ -343,10 +441,15 @@ void describe(deck::Description<Deck>& d)
       .one_of({"3", "plane_strain", "plane_stress", "axisymmetric"});
   d.key("mesh", &Deck::mesh, "The mesh.").required();
   d.key("materials", &Deck::materials, "Materials by name.").required();
-  d.key("bodies", &Deck::bodies, "One entry for each physical volume (plane models: surface) of the mesh, by its name.")
+  d.key("bodies", &Deck::bodies,
+        "One entry for each physical volume (plane models: surface) of the mesh, by its name; a `*` stands for any text, and an "
+        "entry "
+        "of the whole name goes before one with `*`.")
       .required();
+  d.key("axes", &Deck::axes, "Local axes by names that supports and loads refer to.");
   d.key("couplings", &Deck::couplings, "Boundaries coupled to points, by names that loads and supports refer to.");
-  d.key("supports", &Deck::supports, "Prescribed displacements.");
+  d.key("supports", &Deck::supports, "Prescribed displacements, and springs to the ground.");
+  d.key("springs", &Deck::springs, "Springs between points of bodies, by names.");
   d.key("loads", &Deck::loads, "Loads.");
   d.custom(
       "contacts",
@@ -374,14 +477,20 @@ Deck read_deck(deck::Document& document, const std::string& output)
                                        : contact.secondary + "/" +
                                              (contact.obstacle ? contact::shape_name(*contact.obstacle) : contact.primary);
   for (auto& support : deck.supports)
-    if (support.name.empty()) support.name = support.coupling.empty() ? support.boundary : support.coupling;
+    if (support.name.empty())
+      support.name = !support.coupling.empty() ? support.coupling : support.boundary.empty() ? "points" : support.boundary;
   for (auto& load : deck.loads)
-    if (load.name.empty()) load.name = !load.coupling.empty() ? load.coupling : load.boundary.empty() ? load.body : load.boundary;
+    if (load.name.empty())
+      load.name = !load.coupling.empty()  ? load.coupling
+                  : !load.points.empty()  ? "points"
+                  : load.boundary.empty() ? load.body
+                                          : load.boundary;
   check_bodies(deck, document);
   describe_assembly(deck, document);
   check_decomposition(deck, document);
   check_vectors(deck, document);
   check_couplings(deck, document);
+  check_axes(deck, document);
   check_formulas_of_rings(deck, document);
   check_contacts(as_written(deck), deck.kinematics, document);
   check_steps(deck, document);
@@ -408,7 +517,7 @@ std::vector<bool> bodies_of_boundary_elements(const Deck& deck, const mesh::Cata
 {
   std::vector<bool> result;
   for (const auto& body : catalogue.bodies) {
-    const auto entry = deck.bodies.find(body.group);
+    const auto entry = body_entry(deck, body.group);
     result.push_back(entry != deck.bodies.end() && entry->second.method == fem::Method::boundary_elements);
   }
   return result;
@@ -427,13 +536,15 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
   for (const auto& body : catalogue.bodies)
     if (std::find(groups.begin(), groups.end(), body.group) == groups.end()) groups.push_back(body.group);
   for (const auto& [name, body] : deck.bodies)
-    if (std::find(groups.begin(), groups.end(), name) == groups.end())
+    if (is_pattern(name))
+      check_body_pattern(deck, name, groups, document);
+    else if (std::find(groups.begin(), groups.end(), name) == groups.end())
       document.error("bodies." + name,
                      fmt::format("the mesh has no body{} \"{}\"{}",
                                  body.method == fem::Method::boundary_elements ? " and no physical surface" : "", name,
                                  deck::suggestion(name, groups)));
   for (const auto& group : groups)
-    if (!deck.bodies.contains(group))
+    if (body_entry(deck, group) == deck.bodies.end())
       document.error("bodies", fmt::format("the body \"{}\" of the mesh has no entry; give it a material", group));
 
   check_volumes(deck, document, catalogue);
@@ -447,14 +558,14 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
   for (std::size_t i = 0; i < deck.loads.size(); ++i) {
     const auto& load = deck.loads[i];
     if (!load.boundary.empty()) check(load.boundary, fmt::format("loads[{}].boundary", i));
-    if (load.body.empty()) continue;
+    if (load.body.empty() || !load.points.empty()) continue;
     const auto at = fmt::format("loads[{}].body", i);
     const bool known = std::any_of(catalogue.bodies.begin(), catalogue.bodies.end(),
                                    [&](const mesh::Body& b) { return matches_name(b, load.body); });
     if (!known) document.error(at, fmt::format("the mesh has no body \"{}\"{}", load.body, deck::suggestion(load.body, groups)));
     for (const auto& body : catalogue.bodies) {
       if (!matches_name(body, load.body)) continue;
-      const auto entry = deck.bodies.find(body.group);
+      const auto entry = body_entry(deck, body.group);
       if (entry == deck.bodies.end()) continue;
       const auto of_body = [&](const auto& material) { return is_made_of(entry->second, material.first); };
       const auto light = std::find_if(deck.materials.begin(), deck.materials.end(),
@@ -462,6 +573,13 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
       if (load.centrifugal && entry->second.method == fem::Method::boundary_elements) {
         document.error(
             at, fmt::format("centrifugal loads are for finite elements, and the body \"{}\" is of boundary elements", body.name));
+        break;
+      }
+      if (load.temperature_change && !load.temperature_change->is_constant() &&
+          entry->second.method == fem::Method::boundary_elements) {
+        document.error(at, fmt::format("a temperature by a formula is for finite elements, and the body \"{}\" is of boundary "
+                                       "elements, which take a number",
+                                       body.name));
         break;
       }
       if ((load.acceleration || load.centrifugal) && light != deck.materials.end()) {
@@ -495,7 +613,7 @@ std::string write_deck(const Deck& deck)
 
 std::string deck_schema()
 {
-  return deck::schema<Deck>().dump(2) + "\n";
+  return deck::schema<Deck>("urn:mortise:deck").dump(2) + "\n";
 }
 
 }  // namespace mortise::model

@@ -14,6 +14,7 @@
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
 #include "model/patterns.hpp"
+#include "points.hpp"
 
 namespace mortise::model {
 
@@ -55,7 +56,7 @@ std::vector<std::string> material_names(const fem::BodyOptions& body)
 fem::Materials Model::materials(const partition::Subdomain& subdomain) const
 {
   const auto& catalogue = decomposition_.catalogue;
-  const auto& body = deck_.bodies.at(catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group);
+  const auto& body = body_entry(deck_, catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group)->second;
   if (body.volumes.empty()) return deck_.materials.at(body.material);
   // In every subdomain of a body the materials stand in the same order.
   const auto names = material_names(body);
@@ -80,16 +81,28 @@ std::size_t Model::most_materials() const
 
 fem::Formulation Model::formulation(const partition::Subdomain& subdomain) const
 {
-  return deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group).formulation;
+  return body_entry(deck_, decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group)->second.formulation;
 }
 
-double Model::temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const
+fem::Temperature Model::temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const
 {
-  double warmer = 0;
+  fem::Temperature warmer;
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
     const auto& load = deck_.loads[i];
-    if (load.temperature_change && bodies_named(load.body)[static_cast<std::size_t>(subdomain.body)])
-      warmer += state.load[i] * *load.temperature_change;
+    if (!load.temperature_change || state.load[i] == 0 || !bodies_named(load.body)[static_cast<std::size_t>(subdomain.body)])
+      continue;
+    if (load.temperature_change->is_constant()) {
+      warmer.uniform += state.load[i] * load.temperature_change->constant();
+      continue;
+    }
+    warmer.varying = [before = warmer.varying, formula = load.temperature_change->at(state.load[i], state.time),
+                      i](const Point& x) {
+      const double value = formula(x, 0);
+      if (!std::isfinite(value))
+        throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: \"{}\" is no number at ({:.6g}, {:.6g}, {:.6g})", i,
+                                                       formula.text(), x[0], x[1], x[2]));
+      return value + (before ? before(x) : 0);
+    };
   }
   return warmer;
 }
@@ -114,22 +127,23 @@ std::vector<fem::Constitution> Model::constitution(const LoadState& state) const
   return result;
 }
 
-// The largest |x| of all bodies.
-double Model::radius(const Communicator& comm) const
+// A part of the largest distance from the axis of revolution; in other models from the origin.
+double Model::rounding(const Communicator& comm) const
 {
   double largest = 0;
   for (const auto& subdomain : decomposition_.subdomains)
-    for (const auto& p : subdomain.mesh.points) largest = std::max(largest, std::abs(p[0]));
-  return comm.max(largest);
+    for (const auto& p : subdomain.mesh.points) largest = std::max(largest, deck_.axisymmetric() ? std::abs(p[0]) : p.norm());
+  return on_the_axis * comm.max(largest);
 }
 
 void Model::require_formulations(deck::Document& document) const
 {
-  std::map<std::string, mesh::CellType> wrong;  // body of the deck, a cell of it
+  std::map<std::string, mesh::CellType> wrong;  // entry of the deck's section, a cell of it
   for (const auto& subdomain : decomposition_.subdomains)
     for (const auto type : subdomain.mesh.cells.type)
       if (!fem::applies(formulation(subdomain), type))
-        wrong.emplace(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group, type);
+        wrong.emplace(body_entry(deck_, decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group)->first,
+                      type);
   for (const auto& [body, type] : wrong)
     document.error("bodies." + body + ".formulation",
                    "this is not for the body's cells of type " + std::string(mesh::name(type)) +
@@ -153,7 +167,7 @@ void Model::require_axis(deck::Document& document, double rounding) const
 
 void Model::require_fit(deck::Document& document, const Communicator& comm) const
 {
-  const double rounding = on_the_axis * radius(comm);
+  const double near = rounding(comm);
   std::vector<std::pair<std::string, std::string>> named;  // boundary, key
   for (std::size_t i = 0; i < deck_.supports.size(); ++i)
     named.emplace_back(deck_.supports[i].boundary, fmt::format("supports[{}].boundary", i));
@@ -196,9 +210,10 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
                        fmt::format("\"{}\" and \"{}\" have faces in common; contact of a surface with itself is not available",
                                    contacts_[c].secondary, contacts_[c].primary));
     require_formulations(document);
-    if (deck_.axisymmetric()) require_axis(document, rounding);
+    if (deck_.axisymmetric()) require_axis(document, near);
     document.check();
   });
+  require_points(document, comm);
 }
 
 std::vector<partition::CopyOf> Model::congruent() const
@@ -206,7 +221,7 @@ std::vector<partition::CopyOf> Model::congruent() const
   std::vector<int> kind;  // which of the different sets of materials of all cells and formulation
   std::map<std::pair<std::vector<std::string>, std::vector<std::size_t>>, int> kinds;
   for (const auto& subdomain : decomposition_.subdomains) {
-    const auto& body = deck_.bodies.at(decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group);
+    const auto& body = body_entry(deck_, decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group)->second;
     const auto own = materials(subdomain);
     std::vector<std::size_t> detail{static_cast<std::size_t>(formulation(subdomain))};
     for (std::size_t c = 0; own.count() > 1 && c < subdomain.mesh.cells.size(); ++c) detail.push_back(own.index(c));
@@ -245,15 +260,17 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
   std::vector<Eigen::VectorXd> f;
   for (const auto& subdomain : decomposition_.subdomains)
     f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
-  for (std::size_t s = 0; s < f.size(); ++s) {
-    const auto& subdomain = decomposition_.subdomains[s];
-    if (const double warmer = temperature_change(subdomain, state); warmer != 0 && !subdomain.skin)
-      fem::add_expansion(subdomain.mesh, materials(subdomain), deck_.kinematics, warmer, f[s]);
-  }
+  collectively(comm, [&] {
+    for (std::size_t s = 0; s < f.size(); ++s) {
+      const auto& subdomain = decomposition_.subdomains[s];
+      if (const auto warmer = temperature_change(subdomain, state); warmer.any() && !subdomain.skin)
+        fem::add_expansion(subdomain.mesh, materials(subdomain), deck_.kinematics, warmer, f[s]);
+    }
+  });
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
     const auto& load = deck_.loads[i];
     const double factor = state.load[i];
-    if (factor == 0 || load.temperature_change || !load.coupling.empty()) continue;
+    if (factor == 0 || load.temperature_change || !load.coupling.empty() || !load.points.empty()) continue;
     if (load.acceleration) {
       const auto on_body = bodies_named(load.body);
       for (std::size_t s = 0; s < f.size(); ++s)
@@ -275,7 +292,29 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
     add_boundary_load(i, state, f, comm);
   }
   add_distributed(couplings(state, comm), f, comm);
+  add_point_forces(state, f, comm);
   return f;
+}
+
+void Model::add_point_forces(const LoadState& state, std::vector<Eigen::VectorXd>& f, const Communicator& comm) const
+{
+  const auto places = nodes_at_points(comm);
+  const int dimension = deck_.dimension();
+  for (std::size_t i = 0; i < deck_.loads.size(); ++i)
+    for (const auto& found : places.loads[i]) {
+      if (found.subdomain < 0 || decomposition_.rank_of(found.subdomain) != comm.rank()) continue;
+      const auto s = static_cast<std::size_t>(found.subdomain - decomposition_.subdomains.front().id);
+      const Point force = state.load[i] / static_cast<double>(places.loads[i].size()) * force_of(deck_.loads[i]);
+      f[s].segment(found.local * dimension, dimension) += force.head(dimension);
+    }
+}
+
+// The resultant of a load along the axes of the model.
+Point Model::force_of(const fem::LoadOptions& load) const
+{
+  const Point force = point(*load.force);
+  if (load.axes.empty()) return force;
+  return local_axes(load.axes).at(Point::Zero())->transpose() * force;
 }
 
 // Pressure, traction or force of loads[index].
@@ -297,6 +336,17 @@ void Model::add_boundary_load(std::size_t index, const LoadState& state, std::ve
                                                      index, formula.text(), x[0], x[1], x[2], state.time));
     return factor * found;
   };
+  std::optional<deck::LocalAxes> axes;
+  if (!load.axes.empty()) axes = local_axes(load.axes);
+  const auto turned = [&](const Point& along, const Point& x) {
+    if (!axes) return along;
+    const auto rows = axes->at(x);
+    if (!rows)
+      throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: ({:.6g}, {:.6g}, {:.6g}) lies on the axis of \"{}\", where "
+                                                     "nothing is radial or tangential",
+                                                     index, x[0], x[1], x[2], load.axes));
+    return Point(rows->transpose() * along);
+  };
   collectively(comm, [&] {
     for (std::size_t s = 0; s < f.size(); ++s) {
       const auto& subdomain = decomposition_.subdomains[s];
@@ -307,25 +357,28 @@ void Model::add_boundary_load(std::size_t index, const LoadState& state, std::ve
       if (load.traction)
         fem::add_traction(
             subdomain.mesh, boundary, deck_.kinematics,
-            [&, t = *load.traction](const Point& x) { return Point(value(t[0], x), value(t[1], x), value(t[2], x)); }, f[s]);
-      if (load.force)
-        fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, Point(factor * point(*load.force) / area), f[s]);
+            [&, t = *load.traction](const Point& x) { return turned(Point(value(t[0], x), value(t[1], x), value(t[2], x)), x); },
+            f[s]);
+      if (load.force) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, Point(factor * force_of(load) / area), f[s]);
     }
   });
 }
 
-std::vector<constraint::SupportOptions> Model::supports(const LoadState& state) const
+std::vector<constraint::Support> Model::supports(const LoadState& state) const
 {
-  auto supports = deck_.supports;
-  const auto act = [&](std::size_t i, std::optional<double>& value) {
-    if (!state.acting[i])
-      value.reset();
-    else if (value)
-      *value *= state.support[i];
-  };
-  for (std::size_t i = 0; i < supports.size(); ++i) {
-    for (auto& value : supports[i].displacement) act(i, value);
-    act(i, supports[i].normal);
+  std::vector<constraint::Support> supports;
+  for (std::size_t i = 0; i < deck_.supports.size(); ++i) {
+    const auto& options = deck_.supports[i];
+    auto& support = supports.emplace_back();
+    support.boundary = options.points.empty() ? options.boundary : "points";
+    support.name = options.name;
+    if (!options.axes.empty()) support.axes = local_axes(options.axes);
+    if (!options.coupling.empty() || !state.acting[i]) continue;  // motions of points are those of their couplings
+    const auto act = [&](const std::optional<deck::Formula>& value) -> std::optional<deck::Formula> {
+      return value ? std::optional(value->at(state.support[i], state.time)) : std::nullopt;
+    };
+    for (std::size_t c = 0; c < 3; ++c) support.displacement[c] = act(options.displacement[c]);
+    support.normal = act(options.normal);
   }
   if (deck_.axisymmetric()) {
     supports.emplace_back().boundary = "the axis of revolution";
@@ -338,22 +391,39 @@ std::vector<constraint::SupportOptions> Model::supports(const LoadState& state) 
   return supports;
 }
 
-std::vector<std::vector<Global>> Model::support_nodes(const Communicator& comm) const
+deck::LocalAxes Model::local_axes(const std::string& name) const
 {
-  std::vector<std::vector<Global>> nodes;
-  for (const auto& support : deck_.supports) {
-    nodes.emplace_back();
-    if (support.boundary.empty()) continue;
-    const auto [boundary, on_body] = select(support.boundary);
-    nodes.back() = partition::boundary_surface(decomposition_, boundary, on_body).node_id;
+  return deck::LocalAxes(deck_.axes.at(name), deck_.dimension() == 2);
+}
+
+std::vector<constraint::SupportNodes> Model::support_nodes(std::span<const constraint::Support> supports,
+                                                           const Communicator& comm) const
+{
+  std::vector<constraint::SupportNodes> nodes(supports.size());
+  const auto places = nodes_at_points(comm);
+  for (std::size_t i = 0; i < deck_.supports.size(); ++i) {
+    const auto& support = deck_.supports[i];
+    if (!support.points.empty()) {
+      for (const auto& found : places.supports[i]) {
+        if (found.subdomain < 0 || decomposition_.rank_of(found.subdomain) != comm.rank()) continue;
+        nodes[i].id.push_back(found.node);
+        nodes[i].at.push_back(found.at);
+      }
+    } else if (!support.boundary.empty()) {
+      const auto [boundary, on_body] = select(support.boundary);
+      auto surface = partition::boundary_surface(decomposition_, boundary, on_body);
+      nodes[i] = {std::move(surface.node_id), std::move(surface.points)};
+    }
   }
-  nodes.resize(nodes.size() + deck_.couplings.size());
   if (!deck_.axisymmetric()) return nodes;
-  nodes.emplace_back();
-  const double rounding = on_the_axis * radius(comm);
+  const double near = rounding(comm);
+  auto& on_axis = nodes[deck_.supports.size()];
   for (const auto& subdomain : decomposition_.subdomains)
     for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
-      if (std::abs(subdomain.mesh.points[n][0]) <= rounding) nodes.back().push_back(subdomain.mesh.node_id[n]);
+      if (std::abs(subdomain.mesh.points[n][0]) <= near) {
+        on_axis.id.push_back(subdomain.mesh.node_id[n]);
+        on_axis.at.push_back(subdomain.mesh.points[n]);
+      }
   return nodes;
 }
 
@@ -368,6 +438,19 @@ std::vector<mesh::Surface> Model::support_surfaces() const
   }
   surfaces.resize(surfaces.size() + deck_.couplings.size());
   if (deck_.axisymmetric()) surfaces.emplace_back();
+  return surfaces;
+}
+
+std::vector<mesh::Surface> Model::surfaces_held_along_normals(const LoadState& state) const
+{
+  std::vector<mesh::Surface> surfaces;
+  for (std::size_t i = 0; i < deck_.supports.size(); ++i) {
+    const auto& support = deck_.supports[i];
+    const bool on_springs = support.stiffness.normal && !support.stiffness.tangential;
+    if (!state.acting[i] || !(support.normal || on_springs)) continue;
+    const auto [boundary, on_body] = select(support.boundary);
+    surfaces.push_back(partition::boundary_surface(decomposition_, boundary, on_body));
+  }
   return surfaces;
 }
 
@@ -394,7 +477,15 @@ Model::Facts Model::facts(const std::string& boundary, const Communicator& comm)
 std::vector<bool> Model::supported(const Communicator& comm) const
 {
   std::vector<double> faces(decomposition_.catalogue.bodies.size(), 0.0);
-  for (const auto& support : deck_.supports) {
+  const auto places = nodes_at_points(comm);
+  for (std::size_t i = 0; i < deck_.supports.size(); ++i) {
+    const auto& support = deck_.supports[i];
+    if (!support.points.empty()) {
+      for (const auto& found : places.supports[i])
+        if (found.subdomain >= 0 && decomposition_.rank_of(found.subdomain) == comm.rank())
+          faces[static_cast<std::size_t>(found.body)] += 1;
+      continue;
+    }
     const auto [boundary, on_body] =
         select(support.coupling.empty() ? support.boundary : deck_.couplings.at(support.coupling).boundary);
     for (const int body : partition::boundary_surface(decomposition_, boundary, on_body).body)

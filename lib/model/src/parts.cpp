@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "model/patterns.hpp"
 
 namespace mortise::model {
 
@@ -26,10 +29,23 @@ void check_motions(const std::vector<mesh::InstanceOptions>& instances, const st
   }
 }
 
+// Where bodies are, and of what parts, is said before there is a mesh to match patterns with.
+void check_patterns(const Deck& deck, deck::Document& document)
+{
+  for (const auto& [name, body] : deck.bodies) {
+    if (!is_pattern(name)) continue;
+    for (const auto& [key, given] : {std::pair("instances", !body.instances.empty()), std::pair("volumes", !body.volumes.empty()),
+                                     std::pair("surfaces", !body.surfaces.empty())})
+      if (given)
+        document.error("bodies." + name + "." + key,
+                       fmt::format("{} are of one body; expected its name instead of the pattern \"{}\"", key, name));
+  }
+}
+
 void describe_instances(Deck& deck, deck::Document& document)
 {
   for (const auto& [name, body] : deck.bodies) {
-    if (body.instances.empty()) continue;
+    if (body.instances.empty() || is_pattern(name)) continue;
     const auto path = "bodies." + name + ".instances";
     if (deck.dimension() == 2) check_motions(body.instances, path, deck.axisymmetric(), document);
     if (const double count = mesh::count_of(body.instances); count > mesh::most_instances) {
@@ -57,7 +73,7 @@ void describe_surfaces(Deck& deck, deck::Document& document)
       for (const auto& surface : body.surfaces)
         if (const auto [at, fresh] = owner.emplace(surface, name); !fresh)
           document.error(path + ".surfaces", fmt::format("\"{}\" encloses the body \"{}\" already", surface, at->second));
-      if (!deck.mesh.file.empty()) deck.mesh.surfaces.emplace(name, body.surfaces);
+      if (!deck.mesh.file.empty() && !is_pattern(name)) deck.mesh.surfaces.emplace(name, body.surfaces);
     } else if (deck.mesh.dimension && *deck.mesh.dimension < deck.dimension()) {
       document.error(path + ".method",
                      fmt::format("with `mesh.dimension` {} there are no cells of bodies, but of their surfaces; expected "
@@ -74,10 +90,12 @@ void describe_surfaces(Deck& deck, deck::Document& document)
 
 void describe_assembly(Deck& deck, deck::Document& document)
 {
+  check_patterns(deck, document);
   describe_instances(deck, document);
   describe_surfaces(deck, document);
   std::map<std::string, std::string> owner;
-  for (const auto& [name, body] : deck.bodies)
+  for (const auto& [name, body] : deck.bodies) {
+    if (is_pattern(name)) continue;
     for (const auto& [volume, material] : body.volumes) {
       const auto path = "bodies." + name + ".volumes." + volume;
       if (const auto [at, fresh] = owner.emplace(volume, name); !fresh)
@@ -86,6 +104,7 @@ void describe_assembly(Deck& deck, deck::Document& document)
         document.error(path, fmt::format("is a body of its own in `bodies.{}`; a volume belongs to one body", volume));
       deck.mesh.volumes[name].push_back(volume);
     }
+  }
   if (deck.mesh.file.empty() && !owner.empty())
     document.error(
         "bodies." + owner.begin()->second + ".volumes",
@@ -97,7 +116,7 @@ void check_volumes(const Deck& deck, deck::Document& document, const mesh::Catal
 {
   const auto& known = catalogue.volumes;
   for (const auto& [name, body] : deck.bodies) {
-    if (body.volumes.empty()) continue;
+    if (body.volumes.empty() || is_pattern(name)) continue;
     for (const auto& [volume, material] : body.volumes)
       if (std::find(known.begin(), known.end(), volume) == known.end())
         document.error("bodies." + name + ".volumes." + volume,

@@ -182,6 +182,13 @@ bool matches_name(const mesh::Body& body, const std::string& name)
   return body.name == name || body.group == name || (!name.empty() && body.instance == name);
 }
 
+std::map<std::string, fem::BodyOptions>::const_iterator body_entry(const Deck& deck, const std::string& group)
+{
+  if (const auto own = deck.bodies.find(group); own != deck.bodies.end()) return own;
+  return std::find_if(deck.bodies.begin(), deck.bodies.end(),
+                      [&](const auto& entry) { return is_pattern(entry.first) && matches(entry.first, group); });
+}
+
 Contacts resolve_patterns(const Deck& deck, deck::Document& document, partition::Decomposition& decomposition,
                           const Communicator& comm)
 {

@@ -16,28 +16,42 @@ constexpr double part_of_loads = 1e-11;
 
 }  // namespace
 
-std::vector<std::array<double, 3>> reactions(const feti::DualProblem& problem, const Vector& lambda, std::size_t supports)
+std::vector<Reaction> reactions(const feti::DualProblem& problem, const Vector& lambda, std::size_t supports)
 {
-  std::vector<double> sums((supports + 1) * 3, 0.0);  // the last for an axis of revolution
+  std::vector<double> sums((supports + 1) * 6, 0.0);  // the last for an axis of revolution
+  const auto add = [&](int support, const std::array<double, 3>& at, const Point& force) {
+    const Point moment = Point(at[0], at[1], at[2]).cross(force);
+    double* const sum = &sums[static_cast<std::size_t>(support) * 6];
+    for (int c = 0; c < 3; ++c) sum[c] += force[c], sum[3 + c] += moment[c];
+  };
   const Eigen::VectorXd forces = problem.forces(lambda);
   const auto& ranges = problem.jump().ranges();
   const auto& prescribed = problem.constraints().prescribed;
   for (std::size_t i = 0; i < prescribed.size(); ++i)
-    if (prescribed[i].coupling < 0)
-      sums[static_cast<std::size_t>(prescribed[i].support) * 3 + static_cast<std::size_t>(prescribed[i].component)] -=
-          forces[ranges.dirichlet + static_cast<Local>(i)];
+    if (const auto& row = prescribed[i]; row.coupling < 0)
+      add(row.support, row.at, -forces[ranges.dirichlet + static_cast<Local>(i)] * Point::Unit(row.component));
   const auto& skew_supports = problem.constraints().skew_supports;
   for (std::size_t i = 0; i < skew_supports.size(); ++i) {
-    const auto row = ranges.dirichlet + static_cast<Local>(prescribed.size() + i);
-    for (const auto& share : std::span(skew_supports[i].shares).first(static_cast<std::size_t>(skew_supports[i].share_count)))
-      for (std::size_t c = 0; c < 3; ++c) sums[static_cast<std::size_t>(share.support) * 3 + c] -= forces[row] * share.part[c];
+    const auto& row = skew_supports[i];
+    const double force = forces[ranges.dirichlet + static_cast<Local>(prescribed.size() + i)];
+    for (const auto& share : std::span(row.shares).first(static_cast<std::size_t>(row.share_count)))
+      add(share.support, row.at, -force * Point(share.part[0], share.part[1], share.part[2]));
+  }
+  const auto& springs = problem.constraints().springs;
+  for (std::size_t i = 0; i < springs.own.size(); ++i) {
+    const auto& row = springs.rows[springs.own[i]];
+    const double force = forces[ranges.springs + static_cast<Local>(i)];
+    if (row.support >= 0) add(row.support, row.at, -force * Point(row.direction[0], row.direction[1], row.direction[2]));
   }
   for (const auto& entry : problem.constraints().contacts.prescribed)  // contact forces that go straight into supports
-    sums[static_cast<std::size_t>(entry.support) * 3 + static_cast<std::size_t>(entry.component)] +=
-        entry.coefficient * forces[ranges.contacts + static_cast<Local>(entry.row)];
+    add(entry.support, entry.at,
+        entry.coefficient * forces[ranges.contacts + static_cast<Local>(entry.row)] * Point::Unit(entry.component));
   problem.communicator().sum_in_place(sums);
-  std::vector<std::array<double, 3>> result;
-  for (std::size_t s = 0; s < supports; ++s) result.push_back({sums[3 * s], sums[3 * s + 1], sums[3 * s + 2]});
+  std::vector<Reaction> result(supports);
+  for (std::size_t s = 0; s < supports; ++s) {
+    std::copy_n(&sums[6 * s], 3, result[s].force.begin());
+    std::copy_n(&sums[6 * s + 3], 3, result[s].moment.begin());
+  }
   return result;
 }
 
@@ -76,6 +90,27 @@ std::vector<CouplingState> coupling_states(const feti::DualProblem& problem, con
   return result;
 }
 
+std::vector<SpringState> spring_states(const feti::DualProblem& problem, const Vector& lambda)
+{
+  const auto& springs = problem.constraints().springs;
+  std::size_t count = 0;  // every rank has all rows
+  for (const auto& row : springs.rows) count = std::max(count, static_cast<std::size_t>(row.spring + 1));
+  const Eigen::VectorXd forces = problem.forces(lambda);
+  std::vector<double> found(2 * count, 0.0);
+  for (std::size_t i = 0; i < springs.own.size(); ++i) {
+    const auto number = springs.own[i];
+    if (springs.rows[number].spring < 0) continue;
+    const double force = forces[problem.jump().ranges().springs + static_cast<Local>(i)];
+    double* const state = &found[2 * static_cast<std::size_t>(springs.rows[number].spring)];
+    state[0] = force;
+    state[1] = force / springs.stiffness.coeff(static_cast<int>(number), static_cast<int>(number));
+  }
+  problem.communicator().sum_in_place(found);
+  std::vector<SpringState> result;
+  for (std::size_t s = 0; s < count; ++s) result.push_back({found[2 * s], found[2 * s + 1]});
+  return result;
+}
+
 Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<std::vector<double>>& nodal_stiffness,
                   int dimension, const Communicator& comm)
 {
@@ -91,7 +126,7 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
   return {part_of_stiffness * sums[0], part_of_stiffness * sums[1]};
 }
 
-Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const std::array<double, 3>> reactions,
+Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,
                 std::span<const contact::Resultant> contacts, std::span<const contact::Pair> pairs, bool axisymmetric,
                 std::span<const CouplingState> couplings, const Rounding& rounding)
 {
@@ -105,7 +140,7 @@ Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::spa
   comm.sum_in_place(applied);
   Balance b;
   b.applied = counted(applied);
-  for (const auto& force : reactions) b.supports += counted(force);
+  for (const auto& reaction : reactions) b.supports += counted(reaction.force);
   for (std::size_t i = 0; i < couplings.size(); ++i) {
     const auto& coupling = problem.constraints().couplings[i];
     if (coupling.rigid) b.applied += counted(coupling.load);
@@ -120,7 +155,7 @@ Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::spa
   b.largest = std::max({b.applied.norm(), b.supports.norm(), rounding.force, part_of_loads * applied[3], 1e-300});
   for (const auto& r : contacts) b.largest = std::max(b.largest, r.force.norm());
   for (const auto& c : couplings) b.largest = std::max(b.largest, std::hypot(c.action[0], c.action[1], c.action[2]));
-  for (const auto& force : reactions) b.largest = std::max(b.largest, std::hypot(force[0], force[1], force[2]));
+  for (const auto& [force, moment] : reactions) b.largest = std::max(b.largest, std::hypot(force[0], force[1], force[2]));
   b.gauges = problem.gauge_force(lambda);
   b.difference = (b.applied + b.supports + b.obstacles + b.neighbours + b.gauges).norm() / b.largest;
   b.push_of_facets = b.gauges.norm() / b.largest;

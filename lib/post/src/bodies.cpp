@@ -9,13 +9,14 @@ std::vector<Found> largest_of_ranks(const std::vector<Found>& mine, const Commun
   struct Sent {
     std::size_t body;
     double value, x, y, z;
+    int on;
   };
   std::vector<Sent> send;
   for (std::size_t b = 0; b < mine.size(); ++b)
     if (std::isnan(mine[b].value) || mine[b].value > -std::numeric_limits<double>::infinity())
-      send.push_back({b, mine[b].value, mine[b].at[0], mine[b].at[1], mine[b].at[2]});
+      send.push_back({b, mine[b].value, mine[b].at[0], mine[b].at[1], mine[b].at[2], mine[b].body});
   std::vector<Found> result(mine.size());
-  for (const auto& s : comm.all_gather(send)) result[s.body].take(s.value, {s.x, s.y, s.z});
+  for (const auto& s : comm.all_gather(send)) result[s.body].take(s.value, {s.x, s.y, s.z}, s.on);
   return result;
 }
 

@@ -39,10 +39,10 @@ Values represent(const ElasticBodies& bodies, const StressField& stress, std::si
                                                 : represent<3>(bodies, stress, s, points);
 }
 
-void take_largest(const Values& values, std::span<const Point> points, Found& largest)
+void take_largest(const Values& values, std::span<const Point> points, int body, Found& largest)
 {
   for (std::size_t i = 0; i < points.size(); ++i)
-    largest.take(fem::von_mises(values.stress.row(static_cast<Eigen::Index>(i)).transpose()), points[i]);
+    largest.take(fem::von_mises(values.stress.row(static_cast<Eigen::Index>(i)).transpose()), points[i], body);
 }
 
 // In the middle of each cell; `stress` at all nodes.
@@ -100,7 +100,7 @@ Values evaluate(const ElasticBodies& bodies, const StressField& stress, const st
     std::vector<Point> points;
     for (const auto row : rows) points.push_back(places[static_cast<std::size_t>(row)].at);
     const auto values = represent(bodies, stress, s, points);
-    take_largest(values, points, largest);
+    take_largest(values, points, bodies.decomposition.subdomains[s].body, largest);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       result.displacement.row(rows[i]) = values.displacement.row(static_cast<Eigen::Index>(i));
       result.stress.row(rows[i]) = values.stress.row(static_cast<Eigen::Index>(i));
@@ -121,7 +121,7 @@ void nodes_inside(const ElasticBodies& bodies, const StressField& stress, Interi
     const std::span points(inside.points.begin() + static_cast<std::ptrdiff_t>(subdomains[s].mesh.node_count()),
                            inside.points.end());
     auto& values = result.nodes[s] = represent(bodies, stress, s, points);
-    take_largest(values, points, largest);
+    take_largest(values, points, subdomains[s].body, largest);
     Eigen::MatrixXd nodal(static_cast<Eigen::Index>(inside.node_count()), 6);
     nodal << stress.nodal[s], values.stress;
     result.cell_von_mises[s] = von_mises_of_cells(inside.cells, nodal);
@@ -137,9 +137,13 @@ Interior evaluate_interior(const ElasticBodies& bodies, const Probes& probes, co
   Found largest = stress.largest_von_mises;
   collectively(comm, [&] {
     if (probes.cells) nodes_inside(bodies, stress, result, largest);
-    std::vector<Place> places;
-    for (const auto& point : probes.points) places.push_back(point.place);
-    result.points = evaluate(bodies, stress, displacement, places, largest);
+    const auto evaluate_points = [&](const std::vector<PointInBody>& points) {
+      std::vector<Place> places;
+      for (const auto& point : points) places.push_back(point.place);
+      return evaluate(bodies, stress, displacement, places, largest);
+    };
+    result.points = evaluate_points(probes.points);
+    result.sampled = evaluate_points(probes.sampled);
     for (const auto& plane : probes.planes)
       result.planes.push_back(evaluate(bodies, stress, displacement, plane.places, largest));
   });

@@ -58,6 +58,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   results.contact = contact_results(problem, lambda, nu, displacement, pairs);
   results.reactions = reactions(problem, lambda, supports);
   results.couplings = coupling_states(problem, lambda);
+  results.springs = spring_states(problem, lambda);
   results.balance = balance(problem, lambda, results.reactions, results.contact.resultants, pairs,
                             bodies.kinematics == fem::Kinematics::axisymmetric, results.couplings, rounding);
   results.shortenings = problem.shortenings(nu);

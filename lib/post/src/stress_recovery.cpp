@@ -127,7 +127,7 @@ StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen:
     Eigen::VectorXd von_mises(stress.rows());
     for (Eigen::Index n = 0; n < stress.rows(); ++n) {
       von_mises[n] = fem::von_mises(stress.row(n).transpose());
-      largest.take(von_mises[n], subdomains[s].mesh.points[static_cast<std::size_t>(n)]);
+      largest.take(von_mises[n], subdomains[s].mesh.points[static_cast<std::size_t>(n)], subdomains[s].body);
     }
     field.nodal_von_mises.push_back(std::move(von_mises));
   }

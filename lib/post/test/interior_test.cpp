@@ -194,7 +194,8 @@ TEST(Interior, TheLargestVonMisesStressMayBeInside)
   Probes probes;
   probes.cells = true;
   evaluate_interior(model.bodies(), probes, model.displacement, stress, model.comm);
-  const auto& [value, at] = stress.largest_von_mises;
+  const auto& [value, at, body] = stress.largest_von_mises;
+  EXPECT_EQ(model.decomposition.catalogue.bodies[static_cast<std::size_t>(body)].name, "be");
   EXPECT_GT(value, 1e-3);
   EXPECT_NEAR(value, fem::von_mises(model.stress(at, true)), 1e-8);
   EXPECT_TRUE(at[2] > 1 && at[2] < 2);

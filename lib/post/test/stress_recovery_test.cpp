@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "partition/decompose.hpp"
+#include "post/interior.hpp"
 
 namespace mortise::post {
 namespace {
@@ -101,6 +102,47 @@ TEST(StressRecovery, TheErrorOfALinearStressIsFound)
   EXPECT_NEAR(norms.solution, std::sqrt(2 * field.strain_energy), 1e-12 * norms.solution);
   const auto worst = largest_of_ranks(field.worst_cell, bar.comm);
   EXPECT_NEAR(worst[0].value, exact / (2 * cells), 1e-9 * exact);
+}
+
+// u = a x^2 / 2 along x: the largest and the smallest values lie at the ends, at the nodes with the lowest numbers there; of a
+// part of the nodes, at the end of that.
+TEST(Extremes, AreFoundWithTheirPlaces)
+{
+  constexpr double a = 1e-2, h = length / cells;
+  const Bar bar(0);
+  const auto u = bar.displacement([](const Point& x) { return Point(-0.5 * a * x[0] * x[0], 0, 0); });
+  const auto field = recover_stress(bar.bodies(), u, bar.comm);
+  Probes probes;
+  using enum fem::Quantity;
+  const std::vector<std::pair<fem::Quantity, bool>> asked{
+      {sxx, false}, {sxx, true}, {displacement, false}, {ux, false}, {principal_stress, true}, {principal_stress, false}};
+  for (const auto& [quantity, smallest] : asked) probes.extremes.push_back({quantity, smallest, {true}, {}, {}});
+  auto& part = probes.extremes.emplace_back(ExtremeProbe{sxx, true, {true}, {}, {}});
+  for (const auto& s : bar.decomposition.subdomains) {
+    auto& nodes = part.nodes.emplace_back();
+    for (const auto& p : s.mesh.points) nodes.push_back(p[0] < 0.6 && p[1] > 0.9);
+  }
+  probes.extremes.push_back({sxx, true, {false}, {}, {}});
+  const auto found = find_extremes(bar.decomposition, probes, u, field, {}, {}, {}, bar.comm);
+  ASSERT_EQ(found.size(), 8U);
+  const auto expect = [&](std::size_t i, double value, double x, double y = 0) {
+    EXPECT_NEAR(found[i].value, value, 1e-12 * young) << i;
+    EXPECT_NEAR(found[i].at[0], x, 1e-12) << i;
+    EXPECT_NEAR(found[i].at[1], y, 1e-12) << i;
+    EXPECT_EQ(found[i].body, 0);
+  };
+  // At the ends stresses are those of the cells there.
+  expect(0, -young * a * h / 2, 0);
+  EXPECT_NEAR(found[1].value, -young * a * (length - h / 2), 1e-12 * young);
+  expect(2, 0.5 * a * length * length, length);
+  expect(3, 0, 0);
+  EXPECT_NEAR(found[4].value, found[1].value, 1e-12 * young);
+  EXPECT_NEAR(found[5].value, 0, 1e-12 * young);
+  EXPECT_NEAR(found[6].value, -young * a * 0.5, 1e-12 * young);
+  EXPECT_NEAR(found[6].at[0], 0.5, 1e-12);
+  EXPECT_NEAR(found[6].at[1], 1, 1e-12);
+  EXPECT_TRUE(std::isnan(found[7].value));
+  EXPECT_EQ(found[7].body, -1);
 }
 
 }  // namespace

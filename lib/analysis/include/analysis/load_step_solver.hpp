@@ -6,6 +6,7 @@
 
 #include "analysis/approach.hpp"
 #include "analysis/assembly.hpp"
+#include "analysis/restart.hpp"
 #include "analysis/rows.hpp"
 #include "friction/friction.hpp"
 #include "post/results.hpp"
@@ -33,6 +34,9 @@ class LoadStepSolver {
   /// Finds an equilibrium: that of the constructor's rows first, then of others, each from what the call before returned;
   /// friction counts slip from there. Throws Error(no_equilibrium). Collective.
   StepState solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer);
+
+  /// The same without solving: what a run before has found.
+  StepState take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record);
 
   const feti::DualProblem& problem() const { return *problem_; }
   /// Products of the approaches before.

@@ -1,4 +1,4 @@
-// What the deck asks for inside bodies, on a mesh.
+// What the deck asks for at points, along paths, in sections and of extremes, on a mesh.
 #pragma once
 
 #include "analysis/warnings.hpp"
@@ -7,8 +7,9 @@
 
 namespace mortise::analysis {
 
-/// The section `output.interior` on the model's subdomains. Throws Error(bad_input), with the line of the deck, if a point lies
-/// in no body or a section would have millions of triangles. Collective.
+/// The sections `output.interior` and `output.probes` on the model's subdomains; extremes in the order of the latter's names.
+/// Throws Error(bad_input), with the line of the deck, if a point or a whole path lies in no body, a body, boundary or contact is
+/// not there, or a section would have millions of triangles. Collective.
 post::Probes find_probes(const model::Model& model, deck::Document& document, const Communicator& comm);
 
 /// "idle_plane": a plane that meets no body. Collective.

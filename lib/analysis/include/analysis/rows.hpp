@@ -13,9 +13,9 @@ namespace mortise::analysis {
 /// A value; one that is shared does not change.
 struct Rows {
   model::LoadState acts;
-  std::vector<constraint::SupportOptions> supports;  ///< the deck's, as they act
-  std::vector<contact::Pair> pairs;                  ///< of each contact
-  std::vector<contact::InitialGap> initial_gaps;     ///< of each contact, as the mesh lies; the same on every rank
+  std::vector<constraint::Support> supports;      ///< the deck's, as they act
+  std::vector<contact::Pair> pairs;               ///< of each contact
+  std::vector<contact::InitialGap> initial_gaps;  ///< of each contact, as the mesh lies; the same on every rank
   constraint::Constraints constraints;
 };
 

@@ -15,7 +15,8 @@ enum class ExitStatus {
   bad_input = 1,       ///< the command line, the deck or the mesh is wrong
   not_converged = 2,   ///< the limits were reached first; results are written and marked so
   no_equilibrium = 3,  ///< a body slides or lifts off, or the model is a mechanism
-  machine = 4          ///< out of memory, file not writable
+  machine = 4,         ///< out of memory, file not writable
+  interrupted = 130    ///< told to end, by Ctrl-C or a signal
 };
 
 /// An error with a message that tells the user what to mend.

@@ -11,8 +11,8 @@ void request_stop(int signal_number);
 /// The signal, or 0.
 int stop_requested();
 
-/// Throws Error(machine) if this process has been told to end, and takes back the alarm that would end it. Not collective: for
-/// the pieces of long work that runs within `collectively`.
+/// Throws Error(interrupted) if this process has been told to end, and takes back the alarm that would end it. Not collective:
+/// for the pieces of long work that runs within `collectively`.
 void stop_if_requested();
 
 /// The same on all ranks if any of them has been told. One number is summed: cheap, but not free. Collective.

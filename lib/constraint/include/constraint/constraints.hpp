@@ -14,14 +14,10 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "constraint/entry.hpp"
+#include "constraint/springs.hpp"
 
 namespace mortise::constraint {
-
-struct Entry {
-  Global node;
-  int component;
-  double coefficient;
-};
 
 /// Rows in compressed storage.
 struct Rows {
@@ -48,7 +44,8 @@ struct PrescribedDof {
   Global node;
   int component;
   double value;
-  int support;  ///< index into the deck's supports, for messages and reactions
+  int support;                 ///< index into the deck's supports, for messages and reactions
+  std::array<double, 3> at{};  ///< the node's place, for moments
   /// Of a rigid coupling: which one, whether its motion moves this component by something unknown besides `value`, and the node's
   /// place from its point.
   int coupling = -1;
@@ -70,6 +67,8 @@ struct SkewSupport {
   };
   std::array<Share, 4> shares;
   int share_count;
+  std::array<double, 3> at{};  ///< the node's place
+  bool along_normals = false;  ///< all of its supports act along the normals of their boundaries
 
   /// Adds `part` to what goes to this support. Four are enough: a node has at most three directions, each with a share of
   /// its own and those of the directions before.
@@ -104,6 +103,7 @@ struct PrescribedEntry {
   int component;
   int support;
   double coefficient;
+  std::array<double, 3> at{};  ///< the node's place
 };
 
 /// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the node in length units, with the
@@ -169,6 +169,7 @@ struct Constraints {
   std::vector<PretensionSection> pretension_sections = {};  ///< the same on every rank, but for their rows
   std::vector<Coupling> couplings = {};                     ///< the same on every rank
   std::vector<MeanMotion> mean_motions = {};                ///< of this rank; each once over all ranks
+  Springs springs = {};
 };
 
 }  // namespace mortise::constraint

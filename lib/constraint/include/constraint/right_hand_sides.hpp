@@ -5,15 +5,15 @@
 
 #include "base/communicator.hpp"
 #include "constraint/constraints.hpp"
-#include "constraint/options.hpp"
+#include "constraint/supports.hpp"
 
 namespace mortise::constraint {
 
 /// Takes over what supports prescribe now. `prescribed`, as of dirichlet_rows(), and `supports` belong to the new state, `before`
 /// to that which the constraints were made for. Returns false, and changes nothing, if other components are prescribed than
-/// before. Collective.
-bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed, std::span<const SupportOptions> supports,
-                std::span<const SupportOptions> before, const Communicator& comm);
+/// before, or if something varies in space. Collective.
+bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed, std::span<const Support> supports,
+                std::span<const Support> before, const Communicator& comm);
 
 /// Adds `overlap` to the interference of one contact.
 void add_interference(Contacts& contacts, int contact, double overlap);

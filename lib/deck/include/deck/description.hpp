@@ -104,6 +104,9 @@ const Description<T>& description()
   return made;
 }
 
+/// What a key is without being given, as JSON: scalars and lists of them; null for what is absent, empty or a mapping.
+nlohmann::ordered_json default_value(const YAML::Node& written);
+
 inline std::string join(const std::string& path, const std::string& key)
 {
   return path.empty() ? key : path + "." + key;
@@ -158,9 +161,12 @@ struct Codec {
     const auto& d = description<T>();
     nlohmann::ordered_json result{{"type", "object"}, {"description", d.help()}, {"additionalProperties", false}};
     result["properties"] = nlohmann::ordered_json::object();
+    const T initial{};
     for (const auto& key : d.keys()) {
       auto property = key->schema(key->limits);
       property["description"] = key->help;
+      if (!key->is_required)
+        if (auto value = default_value(key->write(initial)); !value.is_null()) property["default"] = std::move(value);
       result["properties"][key->name] = property;
       if (key->is_required) result["required"].push_back(key->name);
     }
@@ -175,11 +181,11 @@ void read(T& value, Document& document)
   Codec<T>::read(value, document.root(), "", document, {});
 }
 
-/// JSON schema (draft 2020-12) of a deck.
+/// JSON schema (draft 2020-12) of a deck, of this name.
 template <class T>
-nlohmann::ordered_json schema()
+nlohmann::ordered_json schema(const std::string& id)
 {
-  nlohmann::ordered_json result{{"$schema", "https://json-schema.org/draft/2020-12/schema"}};
+  nlohmann::ordered_json result{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"$id", id}};
   result.update(Codec<T>::schema({}));
   return result;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/types.hpp"
@@ -19,15 +20,20 @@ class Formula {
 
   /// May be infinite or no number, as 1 / x at 0.
   double operator()(const Point& x, double time) const;
+  /// The same times `factor`, at `time` whatever time it is asked for.
+  Formula at(double factor, double time) const;
   bool is_constant() const { return parser_ == nullptr; }
   /// That of a number.
-  double constant() const { return constant_; }
+  double constant() const { return factor_ * constant_; }
   /// As it was written; "" for a number.
   const std::string& text() const;
+  /// Whether both have one text, factor and time.
+  bool operator==(const Formula& other) const;
 
  private:
   struct Parser;
-  double constant_ = 0;
+  double constant_ = 0, factor_ = 1;
+  std::optional<double> time_;
   std::shared_ptr<Parser> parser_;
 };
 

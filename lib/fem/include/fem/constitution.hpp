@@ -3,6 +3,7 @@
 
 #include "fem/materials.hpp"
 #include "fem/options.hpp"
+#include "fem/temperature.hpp"
 
 namespace mortise::fem {
 
@@ -10,7 +11,7 @@ namespace mortise::fem {
 struct Constitution {
   Materials materials;
   Formulation formulation = Formulation::standard;
-  double temperature_change = 0;  ///< degrees
+  Temperature temperature_change = {};
   Point acceleration = Point::Zero();
 };
 

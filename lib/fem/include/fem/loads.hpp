@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <span>
 
 #include "fem/materials.hpp"
+#include "fem/temperature.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise::fem {
@@ -35,10 +37,12 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double dens
                       Eigen::VectorXd& f);
 
 /// f_i += integral of B_i' D e over all cells, where e is the thermal expansion times `temperature_change` along every axis, also
-/// across a plane: what a body feels that would expand by it if nothing held it. Every formulation has the same, for mean changes
-/// of volume and incompatible modes do not see a constant stress.
-void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, double temperature_change,
-                   Eigen::VectorXd& f);
+/// across a plane: what a body feels that would expand by it if nothing held it. A temperature that varies is taken at the
+/// integration points, in cells of first order as the mean of the cell: their strains are constant, and a strain that is not
+/// would leave stresses of its own. So every formulation has the same, for mean changes of volume and incompatible modes do not
+/// see a constant stress.
+void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                   const Temperature& temperature_change, Eigen::VectorXd& f);
 
 /// Of the facets of a boundary in this piece: area (as area()), integrals of x, of x x' and of the outward normal.
 struct Moments {
@@ -48,6 +52,12 @@ struct Moments {
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
 };
 Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
+
+/// An integration point of a boundary's facet: the facet's nodes, their shape functions there, and the area that the point stands
+/// for times the outward normal.
+using BoundaryVisitor = std::function<void(std::span<const Local> nodes, const Eigen::VectorXd& shape, const Point& area)>;
+/// Visits rules that integrate products of two shape functions exactly on plane facets.
+void for_each_point_of_boundary(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const BoundaryVisitor& visit);
 
 /// Column n of the result: the integrals of N_n and of N_n x over the boundary, of each node of the piece, 4 x nodes.
 Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);

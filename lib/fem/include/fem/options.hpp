@@ -68,11 +68,13 @@ struct LoadOptions {
   std::optional<std::array<deck::Formula, 3>> traction;  ///< force an area
   std::optional<std::array<double, 3>> force;            ///< resultant, spread evenly over the boundary (plane: a thickness)
   std::optional<std::array<double, 3>> acceleration;     ///< body force is density times this
-  std::optional<Centrifugal> centrifugal = {};    ///< body force is density times speed squared times the distance from the axis
-  std::optional<double> temperature_change = {};  ///< degrees; several on one body add
-  std::string name = {};                          ///< default: the boundary, the body or the coupling
-  std::string coupling = {};                      ///< its point takes `force` and `moment`
-  std::optional<std::array<double, 3>> moment = {};  ///< about the point; in a plane z alone, a thickness
+  std::optional<Centrifugal> centrifugal = {};  ///< body force is density times speed squared times the distance from the axis
+  std::optional<deck::Formula> temperature_change = {};  ///< degrees; several on one body add
+  std::string name = {};                                 ///< default: the boundary, the body or the coupling
+  std::string coupling = {};                             ///< its point takes `force` and `moment`
+  std::optional<std::array<double, 3>> moment = {};      ///< about the point; in a plane z alone, a thickness
+  std::string axes = {};                                 ///< name of local axes of a traction or a force
+  std::vector<std::array<double, 3>> points = {};        ///< instead of a boundary: the nodes that share `force`
 };
 
 /// The keywords.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "fem/materials.hpp"
+#include "fem/temperature.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise::fem {
@@ -29,7 +30,8 @@ struct StressField {
 /// `temperature_change` expands the piece, which has no stress by that alone (see add_expansion). `blocks`: at least the number
 /// of materials.
 StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Eigen::VectorXd& u,
-                     Formulation formulation = Formulation::standard, double temperature_change = 0, std::size_t blocks = 1);
+                     Formulation formulation = Formulation::standard, const Temperature& temperature_change = {},
+                     std::size_t blocks = 1);
 
 /// For each cell the squared energy norm of s* - s: the integral of (s* - s) : C^-1 : (s* - s), where s is the stress of the
 /// finite elements and s* interpolates `recovered`, nodes x 6 blocks (of the cell's material), by the shape functions
@@ -38,6 +40,6 @@ StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinemat
 /// `temperature_change` as in stresses().
 Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
                                const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered,
-                               Formulation formulation = Formulation::standard, double temperature_change = 0);
+                               Formulation formulation = Formulation::standard, const Temperature& temperature_change = {});
 
 }  // namespace mortise::fem

@@ -1,4 +1,4 @@
-// F = B K^+ B', the dual operator: one product solves once on every cluster.
+// F = B K^+ B', the dual operator, plus C on the rows of springs: one product solves once on every cluster.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include "base/timer.hpp"
 #include "base/tpetra.hpp"
 #include "feti/clusters.hpp"
+#include "feti/elastic_rows.hpp"
 #include "feti/jump_operator.hpp"
 
 namespace mortise::feti {
@@ -14,8 +15,9 @@ namespace mortise::feti {
 /// Refers to its parts; they outlive it.
 class DualOperator : public Operator {
  public:
-  DualOperator(const JumpOperator& jump, const Clusters& clusters, Timers& timers)
-      : jump_(jump), clusters_(clusters), timers_(timers)
+  /// `springs`: null if there are none.
+  DualOperator(const JumpOperator& jump, const Clusters& clusters, Timers& timers, const ElasticRows* springs = nullptr)
+      : jump_(jump), clusters_(clusters), timers_(timers), springs_(springs)
   {
   }
   Teuchos::RCP<const Map> getDomainMap() const override { return jump_.rows(); }
@@ -27,6 +29,7 @@ class DualOperator : public Operator {
   const JumpOperator& jump_;
   const Clusters& clusters_;
   Timers& timers_;
+  const ElasticRows* springs_;
 };
 
 }  // namespace mortise::feti

@@ -58,6 +58,7 @@ class DualProblem {
   const JumpOperator& jump() const { return *jump_; }
   const Operator& hessian() const { return *hessian_; }
   qp::ActiveSetPreconditioner* preconditioner() const { return preconditioner_.get(); }  ///< null if the options want none
+  const ElasticRows* springs() const { return springs_.get(); }                          ///< null if there are none
   const Vector& linear() const { return *linear_; }
   const qp::EqualityConstraint& equality() const { return *equality_; }
   qp::FeasibleSet& set() { return set_; }
@@ -99,6 +100,8 @@ class DualProblem {
  private:
   void gauge_rigid_modes(const partition::NodeDirectory& directory, const partition::Interface& interface,
                          std::span<const constraint::SlidingSurface> sliding_surfaces, const Context& context);
+  void make_rows(const partition::NodeDirectory& directory, const partition::Interface& interface,
+                 std::span<const SubdomainRow> gauges);
   void make_equality(SparseMatrix g);
   void make_set();
   void make_rhs();
@@ -110,6 +113,7 @@ class DualProblem {
   std::vector<Eigen::VectorXd> load_;
   const Communicator& comm_;
   std::unique_ptr<JumpOperator> jump_;
+  std::unique_ptr<ElasticRows> springs_;
   std::unique_ptr<DualOperator> hessian_;
   std::unique_ptr<Preconditioner> preconditioner_;
   std::unique_ptr<Vector> linear_, balancing_multipliers_;

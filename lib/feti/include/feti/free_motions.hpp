@@ -53,7 +53,7 @@ struct FreeMotion {
 /// pretension section that is tightened to a force lets its two sides move towards each other. Collective.
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
-                                          const constraint::Contacts& contacts, std::span<const Unknown> unknowns,
+                                          const constraint::Constraints& constraints, std::span<const Unknown> unknowns,
                                           std::span<const constraint::SlidingSurface> sliding_surfaces,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
 

@@ -27,19 +27,19 @@ struct SubdomainRow {
 /// Heavy: moves, does not copy.
 class JumpOperator {
  public:
-  /// `prescribed`, `skew_supports`, `mean_motions` and `contacts`: this rank's rows. Owned rows are numbered on each rank:
-  /// gluing, Dirichlet (skew ones after the others, mean motions last), contacts, extra. Collective.
+  /// `prescribed`, `skew_supports`, `mean_motions`, `springs` and `contacts`: this rank's rows. Owned rows are numbered on each
+  /// rank: gluing, Dirichlet (skew ones after the others, then mean motions), springs, contacts, extra. Collective.
   JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
                std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
                std::span<const SubdomainRow> extra, const Communicator& comm,
-               std::span<const constraint::MeanMotion> mean_motions = {});
+               std::span<const constraint::MeanMotion> mean_motions = {}, const constraint::Springs& springs = {});
 
   /// The dual space: each row on one rank.
   Teuchos::RCP<const Map> rows() const { return rows_; }
   /// First owned local index of each kind; kinds are contiguous.
   struct Ranges {
-    Local gluing = 0, dirichlet = 0, contacts = 0, extra = 0, end = 0;
+    Local gluing = 0, dirichlet = 0, springs = 0, contacts = 0, extra = 0, end = 0;
   };
   const Ranges& ranges() const { return ranges_; }
   /// Global numbers of the contact rows of all ranks: first, and one past the last.

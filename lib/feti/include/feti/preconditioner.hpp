@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/timer.hpp"
+#include "feti/elastic_rows.hpp"
 #include "feti/jump_operator.hpp"
 #include "feti/subdomain_operator.hpp"
 #include "qp/problem.hpp"
@@ -29,7 +30,7 @@ class Preconditioner : public qp::ActiveSetPreconditioner {
   /// nodal_stiffness[s][n]: D. `factorization`: of K_ii, one of direct_solvers(). Throws as DirectSolver.
   Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
                  const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization, Timers& timers,
-                 const Communicator& comm);
+                 const Communicator& comm, const ElasticRows* springs = nullptr);
   ~Preconditioner() override;
   /// Computes B D^-1 B' on the contact rows, which it takes for the identity until then. Collective.
   void invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension);
@@ -59,6 +60,7 @@ class Preconditioner : public qp::ActiveSetPreconditioner {
   };
   std::vector<Group> groups_;
   std::unique_ptr<ContactGram> gram_;  // B D^-1 B' of the contact rows; null: the identity
+  const ElasticRows* springs_;         // null if there are none
   const Communicator& comm_;
   Timers& timers_;
 };

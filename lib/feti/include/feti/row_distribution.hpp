@@ -26,4 +26,8 @@ std::vector<constraint::SkewSupport> distribute_rows(std::span<const constraint:
 constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const partition::Decomposition& decomposition,
                                      const partition::NodeDirectory& directory, const Communicator& comm);
 
+/// The places in `rows`, which every rank has, of those that stand here: on the rank of their first node. Collective.
+std::vector<std::size_t> rows_here(std::span<const constraint::SpringRow> rows, const partition::Decomposition& decomposition,
+                                   const partition::NodeDirectory& directory, const Communicator& comm);
+
 }  // namespace mortise::feti

@@ -17,6 +17,9 @@ void write_whole(const std::string& path, const std::function<void(const std::st
 /// write_whole() of a text.
 void write_text(const std::string& path, const std::string& text);
 
+/// What is in a file; "" if it cannot be read. Not collective.
+std::string text_of(const std::string& path);
+
 /// A file open for writing, whose every failure is a std::system_error with the system's reason. Not collective.
 class RawFile {
  public:

@@ -28,15 +28,39 @@ struct InteriorOptions {
   bool any() const { return cells || any_points() || !planes.empty(); }
 };
 
+/// What is to be followed through all states: the largest or smallest value of a quantity (fem/quantity.hpp), the values at a
+/// point, or along the straight path between two.
+struct ProbeOptions {
+  std::string largest, smallest;  ///< names of quantities; one of them, or
+  std::optional<std::array<double, 3>> point, from, to;
+  std::string of;            ///< of extremes: bodies or a boundary, where; of pressures also contacts. Empty: everywhere
+  std::optional<int> count;  ///< of points on a path
+
+  static constexpr int usual_count = 21;
+  bool is_extreme() const { return !largest.empty() || !smallest.empty(); }
+  bool is_path() const { return from.has_value(); }
+  /// That of extremes.
+  const std::string& quantity() const { return largest.empty() ? smallest : largest; }
+  /// The points that it asks for: one, those of the path, ends included, or none.
+  std::vector<std::array<double, 3>> points() const;
+};
+
 struct Options {
   std::string directory;  ///< absolute by the time it gets here
-  std::vector<std::string> fields{"displacement", "von_mises", "stress"};
+  std::vector<std::string> fields{"displacement", "von_mises", "stress", "principal_stress"};
+  int every = 1;  ///< increment of a load step is written, and its last one
+  std::array<double, 3> moments_about{0, 0, 0};
+  std::map<std::string, ProbeOptions> probes;
   InteriorOptions interior;
+
+  /// Whether something inside bodies of boundary elements may be asked for.
+  bool asks_inside() const;
 };
 
 /// The keywords.
 void describe(deck::Description<PlaneOptions>& d);
 void describe(deck::Description<InteriorOptions>& d);
+void describe(deck::Description<ProbeOptions>& d);
 void describe(deck::Description<Options>& d);
 
 }  // namespace mortise::io

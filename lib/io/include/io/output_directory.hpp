@@ -22,9 +22,9 @@ class OutputDirectory {
   /// Removes the lock, and the directory if it is still empty and was made here. Not collective.
   ~OutputDirectory();
 
-  /// Removes what an earlier run, on any number of ranks, left under the names that this program writes; other files stay. Throws
-  /// Error(machine) on all ranks if it cannot. Collective.
-  void clear() const;
+  /// Removes what an earlier run, on any number of ranks, left under the names that this program writes; other files stay, and so
+  /// does what a run that goes on needs, if `resumed`. Throws Error(machine) on all ranks if it cannot. Collective.
+  void clear(bool resumed = false) const;
 
   const std::string& path() const { return path_; }
 

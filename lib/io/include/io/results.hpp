@@ -23,4 +23,7 @@ struct Table {
 /// cannot be written or a table has not each of its rows once; then there is no file. Collective.
 void write_results(const std::string& path, const std::vector<Table>& tables, const Communicator& comm);
 
+/// The values of one table of such a file, row by row. Throws Error(bad_input) if there is none. Not collective.
+std::vector<double> read_table(const std::string& path, const std::string& name);
+
 }  // namespace mortise::io

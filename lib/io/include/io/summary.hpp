@@ -25,11 +25,39 @@ struct StateSummary {
     double algebraic = std::numeric_limits<double>::quiet_NaN();
   } error_estimate;
   double strain_energy = 0, max_von_mises = 0, max_displacement = 0;
-  struct Reaction {
-    std::string boundary;
-    std::array<double, 3> force;
+  struct Place {
+    std::array<double, 3> coordinates{};
+    std::string body;
   };
+  Place max_von_mises_place;
+  struct Reaction {
+    std::string boundary;  ///< of a support at points empty
+    std::array<double, 3> force;
+    std::optional<std::array<double, 3>> moment = {};  ///< about moments_about; none in axisymmetry
+    std::string name = {};
+  };
+  std::array<double, 3> moments_about{};
   std::vector<Reaction> reactions;
+  /// A probe of the deck; one at a point has an entry for each body that the point lies in.
+  struct Probe {
+    std::string name;
+    std::string largest, smallest;  ///< of an extreme: its quantity
+    double value = 0;
+    Place place;
+    struct State {
+      std::array<double, 3> displacement, principal_stress;
+      std::array<double, 6> stress;
+      double von_mises;
+    };
+    std::optional<State> at_point = {};
+    struct Path {
+      std::string file;
+      int points;
+      double length;
+    };
+    std::optional<Path> path = {};
+  };
+  std::vector<Probe> probes;
   /// The point of a coupling: how it moves, what it does to the boundary, and what of that is the reaction of supports.
   struct Coupling {
     std::string name, boundary;
@@ -37,6 +65,12 @@ struct StateSummary {
     bool held;  ///< by a support
   };
   std::vector<Coupling> couplings;
+  /// A spring between two points; `force` > 0 pulls them together.
+  struct Spring {
+    std::string name;
+    double force, elongation;
+  };
+  std::vector<Spring> springs;
   struct Contact {
     std::string name;
     std::array<double, 3> force;
@@ -82,7 +116,8 @@ struct Summary : StateSummary {
   std::string algorithm;  ///< that solved the last state
   int exit_status = 0, ranks = 1;
   Global primal_unknowns = 0, dual_unknowns = 0, subdomains = 0, kernel_dimension = 0, bodies = 0;
-  Global clusters = 0;  ///< of subdomains; 0 without
+  Global clusters = 0;                       ///< of subdomains; 0 without
+  std::vector<std::string> body_names = {};  ///< by the index that fields have
   struct Step : StateSummary {
     std::string name;
     double time = 0;
@@ -100,6 +135,9 @@ struct Summary : StateSummary {
   };
   std::map<std::string, Spread> communication;  ///< a stage; empty: not counted, and not in the file
 };
+
+/// The text of summary.json for a run that was told to end before any state was solved.
+std::string interrupted_summary(const std::string& version, const std::string& title, int exit_status);
 
 /// The text of summary.json; numbers that are not finite become null.
 std::string to_json(const Summary& summary);

@@ -7,8 +7,10 @@
 
 #include "constraint/coupling.hpp"
 #include "constraint/options.hpp"
+#include "constraint/springs.hpp"
 #include "contact/options.hpp"
 #include "deck/document.hpp"
+#include "deck/local_axes.hpp"
 #include "fem/options.hpp"
 #include "feti/options.hpp"
 #include "friction/options.hpp"
@@ -34,8 +36,10 @@ struct Deck {
   mesh::Options mesh;
   std::map<std::string, fem::Material> materials;
   std::map<std::string, fem::BodyOptions> bodies;
+  std::map<std::string, deck::AxesOptions> axes;
   std::map<std::string, constraint::CouplingOptions> couplings;
   std::vector<constraint::SupportOptions> supports;
+  std::map<std::string, constraint::SpringOptions> springs;
   std::vector<fem::LoadOptions> loads;
   std::vector<contact::Options> contacts;
   std::vector<StepOptions> steps;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/context.hpp"
+#include "constraint/supports.hpp"
 #include "contact/mortar.hpp"
 #include "fem/constitution.hpp"
 #include "feti/dual_problem.hpp"
@@ -34,7 +35,7 @@ class Model {
   /// the axis of revolution, or if a support or a contact names a boundary that has no part on its body. Collective.
   void require_fit(deck::Document& document, const Communicator& comm) const;
   /// Degrees, the sum of all loads on its body.
-  double temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const;
+  fem::Temperature temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const;
   /// The sum of all accelerations of its body.
   Point acceleration(const partition::Subdomain& subdomain, const LoadState& state) const;
   /// Materials, formulation, temperature change and acceleration of every subdomain of this rank.
@@ -49,11 +50,19 @@ class Model {
   std::vector<Eigen::VectorXd> loads(const LoadState& state, const Communicator& comm) const;
   /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways. Those that do not act hold nothing.
   /// Each coupling stands for one more, of its name, without displacements.
-  std::vector<constraint::SupportOptions> supports(const LoadState& state) const;
-  /// Nodes of this rank on the boundary of each of supports(). Collective.
-  std::vector<std::vector<Global>> support_nodes(const Communicator& comm) const;
+  std::vector<constraint::Support> supports(const LoadState& state) const;
+  /// Nodes of this rank on the boundary, or at the places, of each of `supports`, which are supports(). Collective.
+  std::vector<constraint::SupportNodes> support_nodes(std::span<const constraint::Support> supports,
+                                                      const Communicator& comm) const;
+  /// How near to an axis is on it. Collective.
+  double rounding(const Communicator& comm) const;
+  /// Throws Error(bad_input), with the line of the deck, where no node of the surface lies at a place that supports or loads
+  /// name. Collective.
+  void require_points(deck::Document& document, const Communicator& comm) const;
   /// The boundaries of those of supports() that hold along normals, this rank's faces; the others are empty.
   std::vector<mesh::Surface> support_surfaces() const;
+  /// The boundaries of supports that act along their normals alone, this rank's faces: prescribed or on springs.
+  std::vector<mesh::Surface> surfaces_held_along_normals(const LoadState& state) const;
   /// For each body whether one of the deck's supports lies on it. Collective.
   std::vector<bool> supported(const Communicator& comm) const;
   /// A boundary by its name in the deck: its area, its centre, and the smallest Young's modulus of its bodies.
@@ -71,6 +80,8 @@ class Model {
   /// The rows of the distributing ones whose points supports hold, on rank 0. Collective.
   std::vector<constraint::MeanMotion> mean_motions(const std::vector<constraint::Coupling>& couplings,
                                                    const Communicator& comm) const;
+  /// The foundations of supports that act, and the springs between points. The same on every rank. Collective.
+  constraint::Springs springs(const LoadState& state, const Communicator& comm) const;
   /// How the points of all couplings move, U and T: the mean motion of the boundary. `displacement`: of each subdomain.
   /// Collective.
   std::vector<std::array<double, 6>> motions_of_points(const std::vector<Eigen::VectorXd>& displacement,
@@ -91,11 +102,20 @@ class Model {
   std::vector<bool> bodies_named(const std::string& name) const;
   void add_boundary_load(std::size_t index, const LoadState& state, std::vector<Eigen::VectorXd>& f,
                          const Communicator& comm) const;
+  deck::LocalAxes local_axes(const std::string& name) const;
+  Point force_of(const fem::LoadOptions& load) const;
+  struct NodeAtPoint;
+  struct NodesAtPoints;
+  std::vector<std::vector<NodeAtPoint>> candidates_at_points(const Communicator& comm) const;
+  NodesAtPoints nodes_at_points(const Communicator& comm) const;
+  void add_point_forces(const LoadState& state, std::vector<Eigen::VectorXd>& f, const Communicator& comm) const;
   void add_distributed(const std::vector<constraint::Coupling>& couplings, std::vector<Eigen::VectorXd>& f,
                        const Communicator& comm) const;
   struct Area;  // of a coupling's boundary
+  struct SpringMatrix;
+  void add_foundation(std::size_t support, const Communicator& comm, SpringMatrix& springs) const;
+  void add_foundation_along_normals(std::size_t support, const Communicator& comm, SpringMatrix& springs) const;
   Area area_of(const constraint::CouplingOptions& coupling, const Communicator& comm) const;
-  double radius(const Communicator& comm) const;
   void require_formulations(deck::Document& document) const;
   void require_axis(deck::Document& document, double rounding) const;
 

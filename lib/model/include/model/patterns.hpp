@@ -1,6 +1,7 @@
 // Wild cards: `*` in the name of a boundary or a body stands for any text.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,10 @@ std::optional<std::string> wildcard_text(const std::string& pattern, const std::
 
 /// Whether a body is meant by a name: its own, that of its instance or of its group, or a pattern that one of these matches.
 bool matches_name(const mesh::Body& body, const std::string& name);
+
+/// The entry of `bodies` that a group of the mesh has: that of its own name, else that of the first pattern which matches it,
+/// else the end of the map. check_names() sees to it that patterns which match one group say the same.
+std::map<std::string, fem::BodyOptions>::const_iterator body_entry(const Deck& deck, const std::string& group);
 
 /// The contacts of the deck, one with wild cards as one for each match. Of supports and loads every pattern becomes a boundary of
 /// the decomposition that has the pattern's name and all faces of all matches, once each. Patterns are compared with the

@@ -2,18 +2,31 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "contact/mortar.hpp"
 #include "contact/state.hpp"
 #include "feti/dual_problem.hpp"
+#include "partition/node_directory.hpp"
 
 namespace mortise::post {
 
-/// The resultant of each of the deck's supports on the bodies; contact forces that go straight into them count. Axes of
-/// revolution are none of them. Collective.
-std::vector<std::array<double, 3>> reactions(const feti::DualProblem& problem, const Vector& lambda, std::size_t supports);
+/// What a support does to the bodies: its resultant, and its moment about the origin.
+struct Reaction {
+  std::array<double, 3> force{}, moment{};
+  bool operator==(const Reaction& other) const = default;
+};
+
+/// Of each of the deck's supports; contact forces that go straight into them count. Axes of revolution are none of them.
+/// Collective.
+std::vector<Reaction> reactions(const feti::DualProblem& problem, const Vector& lambda, std::size_t supports);
+
+/// Of each subdomain, nodes x 3: what holds the nodes that supports hold, along the components that they hold; at all copies of a
+/// node the same. Where a contact pushes such a node, it is the force of support and contact together. Collective.
+std::vector<Eigen::MatrixXd> holding_forces(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
+                                            const partition::Interface& interface, const Vector& lambda);
 
 /// Of a coupling: how its point moves and turns, and what it does to the boundary, forces and then moments about the point: the
 /// loads at the point and the reaction of the supports that hold it.
@@ -22,6 +35,13 @@ struct CouplingState {
 };
 /// All but the motions. Collective.
 std::vector<CouplingState> coupling_states(const feti::DualProblem& problem, const Vector& lambda);
+
+/// Of a spring between two points: its force, > 0 if it pulls them together, and its elongation.
+struct SpringState {
+  double force = 0, elongation = 0;
+};
+/// Of all springs, by name. Collective.
+std::vector<SpringState> spring_states(const feti::DualProblem& problem, const Vector& lambda);
 
 /// Sums of forces; in axisymmetry those along the axis alone, since what pushes a ring outwards needs no support.
 struct Balance {
@@ -43,7 +63,7 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
                   int dimension, const Communicator& comm);
 
 /// `reactions`, `contacts` and `couplings`: of each support, contact and coupling. Collective.
-Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const std::array<double, 3>> reactions,
+Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,
                 std::span<const contact::Resultant> contacts, std::span<const contact::Pair> pairs, bool axisymmetric,
                 std::span<const CouplingState> couplings, const Rounding& rounding);
 

@@ -15,11 +15,12 @@ namespace mortise::post {
 struct Found {
   double value = -std::numeric_limits<double>::infinity();
   Point at = Point::Zero();
+  int body = -1;  ///< of the catalogue, where it is told
 
   /// Keeps the larger of the two.
-  void take(double other, const Point& place)
+  void take(double other, const Point& place, int other_body = -1)
   {
-    if (other > value) *this = {other, place};
+    if (other > value) *this = {other, place, other_body};
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "post/extremes.hpp"
 #include "post/places.hpp"
 #include "post/stress_recovery.hpp"
 
@@ -31,6 +32,12 @@ struct Probes {
   std::vector<PointInBody> points;  ///< of this rank
   Global rows = 0;                  ///< of points, on all ranks
   std::vector<PlaneSection> planes;
+  std::vector<PointInBody> sampled;  ///< of this rank: the points and paths of named probes, counted through all of these
+  Global samples = 0;                ///< rows of these, on all ranks
+  std::vector<ExtremeProbe> extremes;
+
+  /// Whether anything inside bodies is to be evaluated; the same on every rank.
+  bool any_inside() const { return cells || rows > 0 || samples > 0 || !planes.empty(); }
 };
 
 struct Interior {
@@ -40,6 +47,7 @@ struct Interior {
   std::vector<Eigen::VectorXd> cell_von_mises;
   Values points;               ///< of Probes::points
   std::vector<Values> planes;  ///< of Probes::planes
+  Values sampled;              ///< of Probes::sampled
 };
 
 /// `stress`: recovered from `displacement`. Its largest von Mises stress becomes that inside boundary elements, if that is

@@ -4,6 +4,7 @@
 #include "friction/friction.hpp"
 #include "post/balance.hpp"
 #include "post/contact_results.hpp"
+#include "post/extremes.hpp"
 #include "post/interior.hpp"
 #include "post/strength.hpp"
 #include "post/stress_recovery.hpp"
@@ -14,10 +15,12 @@ namespace mortise::post {
 struct Results {
   double max_displacement = 0;
   StressField stress;
-  Interior interior;  ///< see evaluate_interior()
+  Interior interior;              ///< see evaluate_interior()
+  std::vector<Extreme> extremes;  ///< see find_extremes()
   ContactResults contact;
-  std::vector<std::array<double, 3>> reactions;  ///< of each support
-  std::vector<CouplingState> couplings;          ///< of each coupling, by name
+  std::vector<Reaction> reactions;       ///< of each support
+  std::vector<CouplingState> couplings;  ///< of each coupling, by name
+  std::vector<SpringState> springs;      ///< of each spring between points, by name
   Balance balance;
   std::vector<double> shortenings;  ///< of each pretension section, given or found
   Residuals residuals;

@@ -1,0 +1,34 @@
+// What was found by the deck's `output.probes`: for the summary, and as tables.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/summary.hpp"
+#include "model/model.hpp"
+#include "post/results.hpp"
+
+namespace mortise {
+
+/// Of one state: each probe, in the order of names. Collective.
+std::vector<io::StateSummary::Probe> probe_summaries(const model::Deck& deck, const mesh::Catalogue& catalogue,
+                                                     const post::Probes& probes, const post::Results& results,
+                                                     const Communicator& comm);
+
+/// probes.csv, with a row for each state, and probe.NAME.csv of each path, with a row for each of its points in each state. Where
+/// two bodies meet a path has a row for either; where none is, one without values.
+class ProbeFiles {
+ public:
+  explicit ProbeFiles(const model::Deck& deck) : deck_(deck) {}
+  /// Adds a state, with what probe_summaries() says of it, and writes the files. Collective.
+  void write(const mesh::Catalogue& catalogue, const model::LoadState& acts, const post::Probes& probes,
+             const post::Results& results, const std::vector<io::StateSummary::Probe>& summaries, const Communicator& comm);
+
+ private:
+  const model::Deck& deck_;
+  std::string table_;                         // probes.csv so far
+  std::map<std::string, std::string> paths_;  // the other files so far
+};
+
+}  // namespace mortise

@@ -1,0 +1,208 @@
+#include "analysis/restart.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "analysis/load_step_solver.hpp"
+#include "io/files.hpp"
+#include "io/output_directory.hpp"
+#include "io/results.hpp"
+
+namespace mortise::analysis {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Places in the table restart/run: the head, and then Record::counts.
+namespace figure {
+enum : std::size_t {
+  steps,
+  change,
+  applications,
+  preconditionings,
+  outer_iterations,
+  projected_gradient,
+  equality,
+  error,
+  hessian_norm,
+  precision,
+  count
+};
+}
+namespace head {
+enum : std::size_t { ranks, time, kind, smaller, spent, count };
+}
+
+io::Table column(const std::string& name, const std::string& description, const std::vector<double>& whole,
+                 const Communicator& comm)
+{
+  io::Table table{name, description, 1, static_cast<Global>(whole.size()), {}, {}};
+  if (comm.root())
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      table.row.push_back(static_cast<Global>(i));
+      table.values.push_back(whole[i]);
+    }
+  return table;
+}
+
+std::vector<double> head_of(const Approach& approach, double time, const Communicator& comm)
+{
+  return {static_cast<double>(comm.size()), time, static_cast<double>(approach.kind), approach.smaller ? 1.0 : 0.0,
+          static_cast<double>(approach.spent)};
+}
+
+[[noreturn]] void throw_not_resumable(const std::string& directory, const std::string& why)
+{
+  throw Error(ExitStatus::bad_input, fmt::format("--resume: {}: {}", directory, why));
+}
+
+}  // namespace
+
+Restart::Restart(const model::Deck& deck, bool resume, const Communicator& comm) : directory_(deck.output.directory), comm_(comm)
+{
+  if (!resume) return;
+  collectively(comm, [&] {
+    if (!fs::exists(path(1)))
+      throw_not_resumable(directory_,
+                          "no run was ended there between two load states, so that there is nothing to go on from; run "
+                          "the deck without it");
+    if (io::text_of(directory_ + "/deck.yaml") != io::written_mark() + "\n" + write_deck(deck))
+      throw_not_resumable(directory_,
+                          "the run that was ended there was of another deck (see deck.yaml); run this one without it, or "
+                          "into another directory");
+    for (std::size_t index = 1; fs::exists(path(index)); ++index) {
+      const auto numbers = io::read_table(path(index), "restart/run");
+      if (numbers.size() != std::size_t{head::count} + figure::count)
+        throw_not_resumable(directory_, path(index) + " is of another version of this program");
+      if (static_cast<int>(numbers[head::ranks]) != comm_.size())
+        throw_not_resumable(directory_, fmt::format("the run that was ended there had {} ranks, not {}; take as many",
+                                                    static_cast<int>(numbers[head::ranks]), comm_.size()));
+      Record record;
+      record.time = numbers[head::time];
+      record.approach.kind = static_cast<Approach::Kind>(static_cast<int>(numbers[head::kind]));
+      record.approach.smaller = numbers[head::smaller] != 0;
+      record.approach.spent = static_cast<int>(numbers[head::spent]);
+      if (!records_.empty() && (records_.front().approach.kind != record.approach.kind || records_.back().time >= record.time))
+        break;  // left by an approach before
+      record.counts.assign(numbers.begin() + head::count, numbers.end());
+      record.file = path(index);
+      records_.push_back(std::move(record));
+    }
+  });
+}
+
+std::string Restart::path(std::size_t index) const
+{
+  return fmt::format("{}/restart.{}.h5", directory_, index);
+}
+
+std::optional<Approach> Restart::approach() const
+{
+  if (records_.empty()) return {};
+  return records_.front().approach;
+}
+
+const Record* Restart::find(const Approach& approach, double time) const
+{
+  for (const auto& record : records_)
+    if (record.time == time && record.approach.kind == approach.kind) return &record;
+  return nullptr;
+}
+
+void Restart::keep(std::size_t index, const Approach& approach, const LoadStepSolver& solver, const StepState& state) const
+{
+  if (!state.solved.converged || find(approach, state.rows->acts.time)) return;
+  const auto& problem = solver.problem();
+  const auto& solution = state.solved.solution;
+  auto numbers = head_of(approach, state.rows->acts.time, comm_);
+  numbers[head::spent] = solver.spent_before();
+  std::vector<double> counts(figure::count);
+  counts[figure::steps] = state.solved.steps;
+  counts[figure::change] = state.solved.change;
+  counts[figure::applications] = state.solved.applications;
+  counts[figure::preconditionings] = state.solved.preconditionings;
+  counts[figure::outer_iterations] = state.solved.outer_iterations;
+  counts[figure::projected_gradient] = solution.projected_gradient;
+  counts[figure::equality] = solution.equality;
+  counts[figure::error] = solution.error;
+  counts[figure::hessian_norm] = solution.hessian_norm;
+  counts[figure::precision] = solution.precision;
+  numbers.insert(numbers.end(), counts.begin(), counts.end());
+
+  io::Table multipliers{"dual/multipliers", "multipliers of the scaled rows", 1, problem.dual_unknowns(), {}, {}};
+  const auto own = view(solution.x);
+  const auto rows = problem.jump().rows()->getNodeElementList();
+  multipliers.row.assign(rows.begin(), rows.end());
+  multipliers.values.assign(own.data(), own.data() + own.size());
+  const auto discs = problem.set().discs();
+  const auto count = static_cast<long long>(discs.size());
+  io::Table radii{"dual/slip_bounds", "of the tangential multipliers", 1, comm_.sum(count), {}, {}};
+  Global row = comm_.offset(count);
+  for (const auto& disc : discs) {
+    radii.row.push_back(row++);
+    radii.values.push_back(disc.radius);
+  }
+  const std::vector<double> nu(solution.nu.begin(), solution.nu.end()),
+      augmented(solution.augmented.begin(), solution.augmented.end());
+  io::write_results(path(index),
+                    {column("restart/run", "ranks, time, approach, figures of the solution", numbers, comm_),
+                     column("restart/kernel", "multipliers of the equality constraints", nu, comm_),
+                     column("restart/augmented", "those of the augmented Lagrangian", augmented, comm_), multipliers, radii},
+                    comm_);
+}
+
+void Restart::remove() const
+{
+  if (!comm_.root()) return;
+  std::error_code ignored;
+  for (std::size_t index = 1; fs::remove(path(index), ignored);) ++index;
+}
+
+friction::Result solution_of(const Record& record, feti::DualProblem& problem)
+{
+  const auto& comm = problem.communicator();
+  const auto discs = static_cast<long long>(problem.set().discs().size());
+  const auto all_discs = comm.sum(discs);
+  std::vector<double> multipliers, radii, nu, augmented;
+  collectively(comm, [&] {
+    multipliers = io::read_table(record.file, "dual/multipliers");
+    radii = io::read_table(record.file, "dual/slip_bounds");
+    nu = io::read_table(record.file, "restart/kernel");
+    augmented = io::read_table(record.file, "restart/augmented");
+    if (static_cast<Global>(multipliers.size()) != problem.dual_unknowns() ||
+        static_cast<Eigen::Index>(nu.size()) != problem.equality().size() || static_cast<long long>(radii.size()) != all_discs)
+      throw Error(ExitStatus::bad_input,
+                  "--resume: the mesh or its subdomains are not those of the run that was ended; run the deck without it");
+  });
+  const auto first = static_cast<std::size_t>(comm.offset(discs));
+  problem.set().set_radii(std::span(radii).subspan(first, static_cast<std::size_t>(discs)));
+  Vector x(problem.jump().rows());
+  {
+    auto own = view(x);
+    const auto rows = problem.jump().rows()->getNodeElementList();
+    for (Eigen::Index i = 0; i < own.size(); ++i)
+      own[i] = multipliers[static_cast<std::size_t>(rows[static_cast<Teuchos::Ordinal>(i)])];
+  }
+  Vector gradient(problem.linear(), Teuchos::Copy);
+  problem.hessian().apply(x, gradient, Teuchos::NO_TRANS, 1, -1);
+  qp::Solution solution(x, gradient, Eigen::Map<const Eigen::VectorXd>(nu.data(), static_cast<Eigen::Index>(nu.size())));
+  solution.converged = true;
+  solution.projected_gradient = record.counts[figure::projected_gradient];
+  solution.equality = record.counts[figure::equality];
+  solution.error = record.counts[figure::error];
+  solution.hessian_norm = record.counts[figure::hessian_norm];
+  solution.precision = record.counts[figure::precision];
+  solution.augmented = Eigen::Map<const Eigen::VectorXd>(augmented.data(), static_cast<Eigen::Index>(augmented.size()));
+  friction::Result result{std::move(solution)};
+  result.converged = true;
+  result.steps = static_cast<int>(record.counts[figure::steps]);
+  result.change = record.counts[figure::change];
+  result.applications = static_cast<int>(record.counts[figure::applications]);
+  result.preconditionings = static_cast<int>(record.counts[figure::preconditionings]);
+  result.outer_iterations = static_cast<int>(record.counts[figure::outer_iterations]);
+  return result;
+}
+
+}  // namespace mortise::analysis

@@ -1,0 +1,46 @@
+// Axes that are not those of the model: cylindrical about an axis, or turned.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+#include "base/types.hpp"
+#include "deck/description.hpp"
+
+namespace mortise::deck {
+
+/// An entry of the deck's section `axes`: either an `axis`, or `x` and where wanted `y`.
+struct AxesOptions {
+  std::optional<std::array<double, 3>> axis;  ///< cylindrical, about this direction through `point`
+  std::array<double, 3> point{0, 0, 0};
+  std::optional<std::array<double, 3>> x,
+      y;  ///< turned: directions of the first axis and, after what it has along x, of the second
+};
+
+/// The keywords.
+void describe(Description<AxesOptions>& d);
+
+/// Unit vectors by place.
+class LocalAxes {
+ public:
+  /// `planar`: in the plane z = 0, a turned `x` alone gives both axes.
+  LocalAxes(const AxesOptions& options, bool planar);
+
+  /// Rows: radial (away from the axis), tangential, axial; or x, y, z. None where the axis is as near as `rounding`.
+  std::optional<Eigen::Matrix3d> at(const Point& place, double rounding = 0) const;
+  bool cylindrical() const { return cylindrical_; }
+  bool operator==(const LocalAxes& other) const
+  {
+    return cylindrical_ == other.cylindrical_ && point_ == other.point_ && axes_ == other.axes_;
+  }
+  /// The axis of cylindrical ones.
+  Point axis() const { return axes_.row(2).transpose(); }
+
+ private:
+  bool cylindrical_;
+  Point point_;
+  Eigen::Matrix3d axes_;  // rows; of cylindrical ones the third is the axis
+};
+
+}  // namespace mortise::deck
