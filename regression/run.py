@@ -4,7 +4,8 @@
     run.py MORTISE DECK --ranks N [--mpiexec MPIEXEC] [--set key=value ...]   compare with the stored results
     run.py MORTISE DECK --ranks N --update                                                 store the results of this run
 
-Quantities are those of summary.json; interior.4.szz is that of the fifth row of interior.csv.
+Quantities are those of summary.json; interior.4.szz is that of the fifth row of interior.csv, and likewise of other tables:
+probes/2/peak of probes.csv, probe.edge/3/sxx of probe.edge.csv (with / where names have dots).
 
 A deck NAME.yaml has its expectations beside it in NAME.expected.json, or in the file that --expected names:
 
@@ -33,20 +34,31 @@ import tempfile
 RESIDUALS = {"projected_gradient": 1e-6, "equality": 1e-6, "equilibrium": 1e-8, "penetration": 1e-4, "complementarity": 1e-4}
 
 
+def entry(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 def read_summary(directory):
-    """summary.json, with the rows of interior.csv."""
+    """summary.json, with the rows of interior.csv and of the probes' tables, and the names of all files."""
     summary = json.loads((directory / "summary.json").read_text())
-    points = directory / "interior.csv"
-    if points.exists():
-        with points.open(newline="") as lines:
-            summary["interior"] = [{key: value if key in ("body", "step") else float(value) for key, value in row.items()}
-                                   for row in csv.DictReader(lines)]
+    summary["files"] = sorted(path.name for path in directory.iterdir())
+    for table in [directory / "interior.csv", *directory.glob("probe*.csv")]:
+        if table.exists():
+            with table.open(newline="") as lines:
+                rows = [{key: entry(value) for key, value in row.items()} for row in csv.DictReader(lines)]
+            summary["interior" if table.stem == "interior" else "/" + table.stem] = rows
     return summary
 
 
 def look_up(summary, path):
     value = summary
-    for key in path.split("."):
+    keys = path.split("/") if "/" in path else path.split(".")
+    if "/" in path:
+        keys[0] = "/" + keys[0]
+    for key in keys:
         value = value[int(key)] if isinstance(value, list) else value[key]
     return value
 
@@ -67,7 +79,8 @@ def run(arguments, directory, address_space):
     for value in arguments.set:
         command += ["--set", value]
     if arguments.ranks > 1:
-        command = [arguments.mpiexec, "--oversubscribe", "-n", str(arguments.ranks)] + command
+        # Ranks end together; Open MPI would wait a second before it kills those that a failed one left.
+        command = [arguments.mpiexec, "--oversubscribe", "--mca", "odls_base_sigkill_timeout", "0", "-n", str(arguments.ranks)] + command
     environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_THREAD_LIMIT="1", OMPI_ALLOW_RUN_AS_ROOT="1",
                        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     limit = (lambda: resource.setrlimit(resource.RLIMIT_AS, (address_space, address_space))) if address_space else None

@@ -13,3 +13,4 @@ Physical Surface("ring") = {1};
 Physical Curve("cut_1") = {1};
 Physical Curve("cut_2") = {3};
 Physical Curve("bore") = {4};
+Physical Curve("outside") = {2};

@@ -22,7 +22,7 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 SHORT, SLOW, PLATES = HERE / "short.yaml", HERE / "slow.yaml", HERE / "plates.yaml"
 LIMIT = 120
-MACHINE = 4
+MACHINE, INTERRUPTED = 4, 130
 
 failures = []
 
@@ -168,7 +168,7 @@ def unwritable(options, scratch):
 
 
 def interrupted(options, scratch):
-    """Told to end: exit status 4, the states before are there and marked. Killed: what is on the disk says that it is not finished."""
+    """Told to end: exit status 130, the states before are there and marked. Killed: what is on the disk says that it is not finished."""
     for ranks, number in ((1, signal.SIGTERM), (1, signal.SIGINT), (1, signal.SIGKILL), (2, signal.SIGTERM), (3, signal.SIGTERM)):
         who = f"{number.name} on {ranks} ranks"
         run = Run(options, SLOW, scratch / who, ranks, prepare=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
@@ -177,9 +177,9 @@ def interrupted(options, scratch):
             time.sleep(0.002)
         os.kill(run.rank_pids()[-1], number)
         status = run.wait()
-        expect(status == (-signal.SIGKILL if number == signal.SIGKILL else MACHINE), f"{who}: exit status {status}\n{run.said}")
+        expect(status == (-signal.SIGKILL if number == signal.SIGKILL else INTERRUPTED), f"{who}: exit status {status}\n{run.said}")
         found = summary(run.directory)
-        expect(found["converged"] is False and found["exit_status"] == (None if number == signal.SIGKILL else MACHINE),
+        expect(found["converged"] is False and found["exit_status"] == (None if number == signal.SIGKILL else INTERRUPTED),
                f"{who}: {found['converged']}, {found['exit_status']}")
         expect(2 <= len(found["steps"]) < 6 and all(step["converged"] for step in found["steps"]), f"{who}: {len(found['steps'])} steps")
         if number != signal.SIGKILL:
@@ -190,7 +190,48 @@ def interrupted(options, scratch):
     expect(run.has("mortise.lock"), "early: no lock")
     os.kill(run.process.pid, signal.SIGTERM)
     start = time.monotonic()
-    expect(run.wait() == MACHINE and time.monotonic() - start < 60 and summary(run.directory) is None, f"early: {run.said}")
+    expect(run.wait() == INTERRUPTED and time.monotonic() - start < 60 and summary(run.directory) is None, f"early: {run.said}")
+
+
+def resumed(options, scratch):
+    """Ended between two states, by a signal or by SIGKILL, and resumed: what an uninterrupted run gives, friction's memory included."""
+    exact = ["--set", "solver.tolerance=1e-10", "--set", "friction_loop.tolerance=1e-10"]
+    for ranks, number, more in ((1, signal.SIGTERM, []), (2, signal.SIGTERM, []), (1, signal.SIGKILL, ["--set", "solver.algorithm=direct"])):
+        who = f"{number.name} on {ranks} ranks"
+        whole = Run(options, SLOW, scratch / f"whole {who}", ranks, exact + more)
+        expect(whole.wait() == 0, f"{who}: {whole.said}")
+        out = scratch / f"ended {who}"
+        ended = Run(options, SLOW, out, ranks, exact + more)
+        expect(ended.has("restart.2.h5"), f"{who}: too late for the test")
+        os.kill(ended.rank_pids()[-1], number)
+        ended.wait()
+        done = len(summary(out)["steps"])
+        expect(1 <= done < 6 and not claims_success(out), f"{who}: {done} steps")
+        run = Run(options, SLOW, out, ranks, exact + more + ["--resume"])
+        expect(run.wait() == 0, f"{who}, resumed: {run.said}")
+        found, expected = summary(out), summary(whole.directory)
+        expect(len(found["steps"]) == 6, f"{who}: {len(found['steps'])} steps")
+        for a, b in zip(found["steps"], expected["steps"]):
+            close = abs(a["strain_energy"] - b["strain_energy"]) <= 1e-8 * b["strain_energy"]
+            close = close and all(abs(x - y) <= 1e-8 * abs(b["contacts"][0]["force"][2])
+                                  for x, y in zip(a["contacts"][0]["force"], b["contacts"][0]["force"]))
+            states = [[step["contacts"][0][key] for key in ("open", "stick", "slip")] for step in (a, b)]
+            expect(close and states[0] == states[1], f"{who}, time {b['time']}: {a['strain_energy']!r} for {b['strain_energy']!r}, {states}")
+        files = [sorted(path.name for path in place.iterdir() if "old" not in path.name) for place in (out, whole.directory)]
+        expect(files[0] == files[1], f"{who}: files {files}")
+        rows = [(place / "history.csv").read_text().splitlines() for place in (out, whole.directory)]
+        times = [{line.split(",")[11] for line in lines[1:]} for lines in rows]
+        expect(times[0] == times[1], f"{who}: history.csv has the times {times}")
+        judge_files(out, who)
+    run = Run(options, SLOW, out, arguments=exact + more + ["--resume"])
+    expect(run.wait() == 1 and "nothing to go on from" in run.said, f"after the end: {run.said}")
+    ended = Run(options, SLOW, scratch / "other", 1, exact)
+    expect(ended.has("restart.1.h5"), "other: too late for the test")
+    os.kill(ended.process.pid, signal.SIGTERM)
+    ended.wait()
+    for ranks, words, why in ((1, ["--set", "solver.tolerance=1e-9"], "another deck"), (2, exact, "had 1 ranks, not 2")):
+        run = Run(options, SLOW, scratch / "other", ranks, words + ["--resume"])
+        expect(run.wait() == 1 and why in run.said, f"{why}: {run.said}")
 
 
 def interrupted_direct(options, scratch):
@@ -210,14 +251,16 @@ def interrupted_direct(options, scratch):
             status = run.wait()
         taken = time.monotonic() - start
         print(f"{ranks} ranks: heard after {taken:.1f} s", flush=True)
-        expect(status == MACHINE and "told to end (SIGTERM)" in run.said, f"{ranks} ranks, after {taken:.1f} s: exit status {status}\n{run.said}")
-        expect(not (scratch / "out/mortise.lock").exists() and summary(scratch / "out") is None, f"{ranks} ranks: leaves a lock or a summary")
+        expect(status == INTERRUPTED and "told to end (SIGTERM)" in run.said, f"{ranks} ranks, after {taken:.1f} s: exit status {status}\n{run.said}")
+        found = summary(scratch / "out")
+        expect(found and found["interrupted"] and found["exit_status"] == INTERRUPTED and not found["converged"], f"{ranks} ranks: {found}")
+        expect(not (scratch / "out/mortise.lock").exists(), f"{ranks} ranks: leaves a lock")
 
 
 def no_room_for_direct(options, scratch):
     """A direct solution that `auto` tries and has no room for, on whichever rank: back to products, on all ranks."""
     expected = None
-    for ranks, victim in ((1, None), (1, 0), (2, 0), (2, 1)):
+    for ranks, victim in ((1, None), (2, 1)):
         who = f"{ranks} ranks" if victim is None else f"short of memory on rank {victim} of {ranks}"
         environment = {} if victim is None else {"LD_PRELOAD": options.short_memory, "SHORT_MEMORY": "4000000", "SHORT_MEMORY_RANK": str(victim)}
         run = Run(options, PLATES, scratch / who, ranks, environment=environment)
@@ -392,7 +435,7 @@ def few_subdomains(options, scratch):
     expect(abs(energies[0] - energies[1]) < 1e-6 * energies[0], f"energies {energies}")
 
 
-CASES = {case.__name__: case for case in (disk_full, unwritable, interrupted, interrupted_direct, no_room_for_direct, kills, stale, own_files, two_runs, memory, output_closed, few_subdomains)}
+CASES = {case.__name__: case for case in (disk_full, unwritable, interrupted, resumed, interrupted_direct, no_room_for_direct, kills, stale, own_files, two_runs, memory, output_closed, few_subdomains)}
 
 
 def main():

@@ -137,10 +137,15 @@ def applied(deck):
     return total
 
 
+def choices(schema):
+    """The alternatives of a value: of `anyOf`, or of a case (`if`, `then`, `else`)."""
+    return schema["anyOf"] if "anyOf" in schema else [schema["then"], schema["else"]] if "if" in schema else []
+
+
 def of_schema(random, schema, depth=0):
     """A value that a schema allows, near its limits where it has some."""
-    if "anyOf" in schema:
-        return of_schema(random, random.choice(schema["anyOf"]), depth)
+    if choices(schema):
+        return of_schema(random, random.choice(choices(schema)), depth)
     if "const" in schema:
         return schema["const"]
     if "enum" in schema:
@@ -159,11 +164,11 @@ def of_schema(random, schema, depth=0):
     if kind in ("number", "integer"):
         low = schema.get("minimum", schema.get("exclusiveMinimum"))
         high = schema.get("maximum", schema.get("exclusiveMaximum"))
-        choices = [0, 1, 2, 3] if kind == "integer" else [0, 1, number(random), -number(random), 1e-12, 1e12]
+        values = [0, 1, 2, 3] if kind == "integer" else [0, 1, number(random), -number(random), 1e-12, 1e12]
         for edge in (low, high):
             if edge is not None and abs(edge) < 1e5:
-                choices += [int(edge), int(edge) + 1, int(edge) - 1] if kind == "integer" else [edge, math.nextafter(edge, 1e9), math.nextafter(edge, -1e9)]
-        return random.choice(choices)
+                values += [int(edge), int(edge) + 1, int(edge) - 1] if kind == "integer" else [edge, math.nextafter(edge, 1e9), math.nextafter(edge, -1e9)]
+        return random.choice(values)
     if kind == "boolean":
         return random.choice([True, False])
     return random.choice(["a", "a.zmax", "b.zmin", "steel", "360/7", "x"])
@@ -180,7 +185,7 @@ def places(tree, path=()):
 def subschema(schema, path):
     """The part of the schema that a path of a deck stands for; None where there is none."""
     for key in path:
-        options = schema.get("anyOf", [schema])
+        options = choices(schema) or [schema]
         if isinstance(key, int):
             found = [o["items"] for o in options if "items" in o]
         else:
@@ -222,7 +227,7 @@ def mutate_tree(random, deck, schema):
         spot = random.choice([deck] + [c[k] for _, c, k in places(deck) if isinstance(c[k], dict)])
         where = next((p for p, c, k in places(deck) if c[k] is spot), ())
         part = subschema(schema, where) or {}
-        keys = {k: v for o in part.get("anyOf", [part]) for k, v in o.get("properties", {}).items()}
+        keys = {k: v for o in choices(part) or [part] for k, v in o.get("properties", {}).items()}
         if keys:
             name = random.choice(list(keys))
             if name not in NOT_TO_GROW:

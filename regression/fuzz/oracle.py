@@ -101,7 +101,9 @@ def inflate(data, at, base64):
 def not_finite(value, path=""):
     """Where a JSON value is no finite number."""
     if isinstance(value, dict):
-        return [text for key, entry in value.items() for text in not_finite(entry, f"{path}.{key}")]
+        # A contact without points has no smallest gap.
+        absent = value.get("smallest", 0) is None and value.get("touching_area") == 0
+        return [text for key, entry in value.items() if not (absent and key == "smallest") for text in not_finite(entry, f"{path}.{key}")]
     if isinstance(value, list):
         return [text for i, entry in enumerate(value) for text in not_finite(entry, f"{path}.{i}")]
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
