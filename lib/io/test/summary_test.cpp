@@ -48,6 +48,7 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "clusters",
                                "kernel_dimension",
                                "bodies",
+                               "body_names",
                                "algorithm",
                                "friction_steps",
                                "outer_iterations",
