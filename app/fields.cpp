@@ -10,6 +10,7 @@
 #include "io/files.hpp"
 #include "io/results.hpp"
 #include "io/vtk.hpp"
+#include "model/patterns.hpp"
 
 namespace mortise {
 
@@ -40,16 +41,23 @@ std::vector<bool> points_of(const partition::Subdomain& subdomain, const post::R
   return used;
 }
 
-// The subdomains of this rank as one mesh, in which the copies of a node are one.
-io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& decomposition,
-                       const std::vector<Eigen::VectorXd>& u, const std::vector<Eigen::MatrixXd>& holding,
-                       const post::Results& results)
+// The subdomains of this rank as one mesh, in which the copies of a node are one; `ids` of its points are numbers of nodes times
+// `materials`, plus that of the material, ascending.
+struct Volume {
+  io::Piece piece;
+  std::size_t materials = 1;
+  std::vector<Global> ids;
+};
+
+Volume volume_piece(const model::Deck& deck, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& u,
+                    const std::vector<Eigen::MatrixXd>& holding, const post::Results& results)
 {
   io::Piece piece;
   const bool with_principal = wanted(deck, "principal_stress");
   const auto materials =
       results.stress.by_material.empty() ? 1 : static_cast<std::size_t>(results.stress.by_material.front().cols()) / 6;
-  std::vector<Global> ids;
+  Volume result{{}, materials, {}};
+  auto& ids = result.ids;
   std::vector<std::vector<bool>> used;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& mesh = shown(decomposition.subdomains[s], results);
@@ -118,7 +126,8 @@ io::Piece volume_piece(const model::Deck& deck, const partition::Decomposition& 
   if (wanted(deck, "reaction_force")) piece.point_fields.push_back(std::move(reaction));
   piece.cell_fields.push_back(std::move(body));
   piece.cell_fields.push_back(std::move(owner));
-  return piece;
+  result.piece = std::move(piece);
+  return result;
 }
 
 void append(std::vector<double>& to, const Point& p)
@@ -155,6 +164,88 @@ io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vect
   piece.point_fields = {pressure, recovered, traction, gap, slip, status};
   piece.cell_fields = {index};
   return piece;
+}
+
+// The cells of a piece by their values in one of its cell fields, which are numbers from 0 on.
+std::vector<std::vector<std::size_t>> cells_by(const io::Piece& piece, const std::string& field, std::size_t count)
+{
+  std::vector<std::vector<std::size_t>> result(count);
+  for (const auto& f : piece.cell_fields)
+    if (f.name == field)
+      for (std::size_t c = 0; c < f.values.size(); ++c) result[static_cast<std::size_t>(f.values[c])].push_back(c);
+  return result;
+}
+
+// The boundaries that supports, loads and couplings name, once each.
+std::vector<std::string> boundaries_in_use(const model::Deck& deck)
+{
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const auto& support : deck.supports) add(support.boundary);
+  for (const auto& load : deck.loads) add(load.boundary);
+  for (const auto& [name, coupling] : deck.couplings) add(coupling.boundary);
+  return names;
+}
+
+// The faces of a boundary, with the point fields of the volume.
+io::Piece boundary_piece(const std::string& name, const partition::Decomposition& decomposition, const post::Results& results,
+                         const Volume& volume)
+{
+  const auto [boundary, body] = model::parse_boundary(name);
+  const auto& catalogue = decomposition.catalogue;
+  const auto index = std::find(catalogue.boundaries.begin(), catalogue.boundaries.end(), boundary) - catalogue.boundaries.begin();
+  io::Piece faces;
+  faces.points = volume.piece.points;
+  faces.point_fields = volume.piece.point_fields;
+  std::vector<std::size_t> all;
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    const auto& facets = subdomain.mesh.facets;
+    const bool meant = body.empty() || model::matches_name(catalogue.bodies[static_cast<std::size_t>(subdomain.body)], body);
+    for (std::size_t f = 0; meant && f < facets.cells.size(); ++f) {
+      if (facets.boundary[f] != index) continue;
+      const auto block = volume.materials == 1 ? 0 : block_of(subdomain, results, s, static_cast<std::size_t>(facets.parent[f]));
+      std::vector<Local> nodes;
+      for (const Local n : facets.cells[f]) {
+        const Global id = subdomain.mesh.node_id[static_cast<std::size_t>(n)] * static_cast<Global>(volume.materials) +
+                          static_cast<Global>(block);
+        nodes.push_back(static_cast<Local>(std::lower_bound(volume.ids.begin(), volume.ids.end(), id) - volume.ids.begin()));
+      }
+      all.push_back(all.size());
+      faces.cells.add(facets.cells.type[f], nodes);
+    }
+  }
+  return io::part_of(faces, all);
+}
+
+// The parts of the model by name. Of contacts, faces with a node that lies near enough to the other side to matter.
+std::vector<io::Block> named_blocks(const model::Deck& deck, const partition::Decomposition& decomposition,
+                                    const analysis::Rows& rows, const post::Results& results, const Volume& volume,
+                                    const io::Piece& contacts)
+{
+  std::vector<io::Block> blocks;
+  const auto& bodies = decomposition.catalogue.bodies;
+  const auto of_bodies = cells_by(volume.piece, "body", bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    blocks.push_back({"bodies", bodies[b].name, io::part_of(volume.piece, of_bodies[b]), {}});
+  auto of_contacts = cells_by(contacts, "contact", rows.pairs.size());
+  std::vector<char> near;
+  for (const auto& state : results.contact.surfaces) near.insert(near.end(), state.near.begin(), state.near.end());
+  for (std::size_t c = 0; c < rows.pairs.size(); ++c) {
+    std::erase_if(of_contacts[c], [&](std::size_t face) {
+      const auto nodes = contacts.cells[face];
+      return std::none_of(nodes.begin(), nodes.end(), [&](Local n) { return near[static_cast<std::size_t>(n)] != 0; });
+    });
+    blocks.push_back({"contacts",
+                      rows.pairs[c].options.name,
+                      io::part_of(contacts, of_contacts[c]),
+                      {{"contact_status: words", {"0: open", "1: sticks, or closed without friction", "2: slips"}}}});
+  }
+  for (const auto& name : boundaries_in_use(deck))
+    blocks.push_back({"boundaries", name, boundary_piece(name, decomposition, results, volume), {}});
+  return blocks;
 }
 
 // Nodal tables: each node from its lowest copy.
@@ -260,10 +351,17 @@ void FieldFiles::write_fields(const partition::Decomposition& decomposition, con
     else
       io::write_vtk(directory, series, state.rows->acts.time, piece, comm);
   };
-  if (!pairs.empty()) put(contact_, contact_piece(pairs, results.contact.surfaces));
+  io::Piece contacts;
+  if (!pairs.empty()) put(contact_, contacts = contact_piece(pairs, results.contact.surfaces));
   std::vector<Eigen::MatrixXd> holding;
   if (wanted(deck_, "reaction_force")) holding = post::holding_forces(problem, decomposition, interface, state.solved.solution.x);
-  put(volume_, volume_piece(deck_, decomposition, state.displacement, holding, results));
+  const auto volume = volume_piece(deck_, decomposition, state.displacement, holding, results);
+  put(volume_, volume.piece);
+  const auto count = decomposition.catalogue.bodies.size() + pairs.size() + boundaries_in_use(deck_).size();
+  const bool usual = count <= io::Options::usual_blocks && decomposition.catalogue.node_count <= io::Options::usual_nodes;
+  if (deck_.output.blocks.value.value_or(usual))
+    io::write_blocks(directory, blocks_, deck_.steps.empty() ? std::nullopt : std::optional(state.rows->acts.time),
+                     named_blocks(deck_, decomposition, *state.rows, results, volume, contacts), comm);
   for (std::size_t k = 0; k < planes_.size(); ++k)
     put(planes_[k], plane_piece(deck_, decomposition, probes.planes[k], results.interior.planes[k]));
 }

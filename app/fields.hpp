@@ -6,9 +6,9 @@
 
 namespace mortise {
 
-/// The files of one state after the other: solution.pvd, contact.pvd and results.h5, and what the deck asks for inside bodies,
-/// interior.csv and plane.NAME.pvd. With load steps each state has its own pieces and tables, solution.1_0.vtu or results.1.h5,
-/// but for the last tables, which are results.h5, and interior.csv.
+/// The files of one state after the other: solution.pvd, contact.pvd, blocks.pvd and results.h5, and what the deck asks for
+/// inside bodies, interior.csv and plane.NAME.pvd. With load steps each state has its own pieces and tables, solution.1_0.vtu or
+/// results.1.h5, but for the last tables, which are results.h5, and interior.csv.
 class FieldFiles {
  public:
   explicit FieldFiles(const model::Deck& deck);
@@ -23,7 +23,7 @@ class FieldFiles {
                     const post::Results& results, bool last, const Communicator& comm);
 
   const model::Deck& deck_;
-  io::Series volume_{"solution", {}}, contact_{"contact", {}};
+  io::Series volume_{"solution", {}}, contact_{"contact", {}}, blocks_{"blocks", {}};
   std::vector<io::Series> planes_;
   std::string points_;  // interior.csv so far
 };

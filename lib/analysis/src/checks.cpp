@@ -75,6 +75,20 @@ std::vector<post::SupportLoad> support_loads(const model::Model& model, const po
   return result;
 }
 
+std::vector<post::PointForce> point_forces(const model::Model& model, const model::LoadState& state, const post::Results& results)
+{
+  const auto& deck = model.deck();
+  const auto length = [](const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); };
+  std::vector<post::PointForce> result;
+  for (std::size_t i = 0; i < deck.loads.size(); ++i)
+    if (!deck.loads[i].points.empty())
+      result.push_back({"load " + deck.loads[i].name, std::abs(state.load[i]) * length(*deck.loads[i].force)});
+  for (std::size_t i = 0; i < deck.supports.size(); ++i)
+    if (!deck.supports[i].points.empty())
+      result.push_back({"support " + deck.supports[i].name, length(results.reactions[i].force)});
+  return result;
+}
+
 // A surface that closes where the search for contact ended may have closed farther on as well.
 std::vector<Warning> short_searches(const Rows& rows, const post::Results& results, const Communicator& comm)
 {
@@ -167,6 +181,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
          post::long_slides(pairs, state.rows->constraints.contacts, contact.points, decomposition, state.displacement, comm));
   append(result, post::large_pressures(contact.surfaces, pairs, softest, names, comm));
   append(result, post::strained_supports(support_loads(model, results, comm), results.balance.largest));
+  append(result, post::point_forces(point_forces(model, state.rows->acts, results), results.balance.largest));
   append(result, post::coarse_mesh(results.mesh_error, names));
   append(result, post::facet_push(results.balance.push_of_facets, results.balance.gauges));
   append(result, short_searches(*state.rows, results, comm));

@@ -131,7 +131,8 @@ void describe(deck::Description<SupportOptions>& d)
   d.key("boundary", &SupportOptions::boundary, "Boundary that is held.");
   d.key("coupling", &SupportOptions::coupling, "Instead of a boundary: the coupling whose point is held.");
   d.key("name", &SupportOptions::name, "To refer to it; the boundary or coupling if not given.");
-  d.key("points", &SupportOptions::points, "Instead of a boundary: the nodes of the surface that lie at these places.");
+  d.key("points", &SupportOptions::points,
+        "Instead of a boundary: nodes of the surface, by their coordinates or by the name of a curve or a point of the mesh.");
   d.key("body", &SupportOptions::body, "Of `points`: whose nodes are meant, where several bodies have some there.");
   d.key("axes", &SupportOptions::axes, "Local axes, by their name in the section `axes`, for the components.");
   d.custom("displacement",

@@ -5,7 +5,9 @@ namespace mortise::constraint {
 void describe(deck::Description<SpringOptions>& d)
 {
   d.help("A spring between two points of bodies, along the line through them. Springs to the ground: `stiffness` of a support.");
-  d.key("points", &SpringOptions::points, "The two places; a node of a surface must lie at each.").required();
+  d.key("points", &SpringOptions::points,
+        "The two places, coordinates or names of points of the mesh; a node of a surface must lie at each.")
+      .required();
   d.key("bodies", &SpringOptions::bodies, "Of each point, whose node is meant, where several bodies have one there.");
   d.key("stiffness", &SpringOptions::stiffness, "Force a length.").positive().required();
   d.check([](const SpringOptions& spring, const std::string& path, deck::Document& document) {

@@ -289,10 +289,12 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
                        {},
                        std::vector<Point>(nodes.size(), Point::Zero()),
                        std::vector<Point>(nodes.size(), Point::Zero()),
-                       std::vector<int>(nodes.size(), 0)};
+                       std::vector<int>(nodes.size(), 0),
+                       std::vector<char>(nodes.size(), 0)};
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto* node = find(all, static_cast<int>(c), nodes[i]);
       if (!node) continue;
+      state.near[i] = 1;
       state.pressure[i] = node->force;
       state.traction[i] = Point(node->traction[0], node->traction[1], node->traction[2]);
       state.gap[i] = node->gap;

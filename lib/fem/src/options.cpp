@@ -161,7 +161,9 @@ void describe(deck::Description<LoadOptions>& d)
   d.key("name", &LoadOptions::name, "To refer to it; the boundary, body or coupling if not given.");
   d.key("coupling", &LoadOptions::coupling, "Coupling whose point is loaded.");
   d.key("boundary", &LoadOptions::boundary, "Boundary that is loaded.");
-  d.key("points", &LoadOptions::points, "Instead of a boundary: nodes of the surface at these places share the `force`.");
+  d.key("points", &LoadOptions::points,
+        "Instead of a boundary: nodes of the surface that share the `force`, by their coordinates or by the name of a curve or a "
+        "point of the mesh; those of a curve by its length.");
   d.key("axes", &LoadOptions::axes, "Local axes, by their name in the section `axes`, of a traction or a force.");
   d.key("body", &LoadOptions::body, "Body that is accelerated, turns or is heated.");
   d.key("pressure", &LoadOptions::pressure,

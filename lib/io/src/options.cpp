@@ -149,6 +149,10 @@ void describe(deck::Description<Options>& d)
         "Fields of solution.pvd and of sections; reaction_force is what holds each node that a support holds, supports and "
         "contact together.")
       .one_of({"displacement", "von_mises", "stress", "principal_stress", "reaction_force"});
+  d.key(
+      "blocks", &Options::blocks,
+      "Whether blocks.pvd is written, in which bodies, contacts and held or loaded boundaries are blocks with their names, to be "
+      "shown or hidden one by one; auto: where these are at most 40, of at most 30,000 nodes.");
   d.key("every", &Options::every,
         "Of each load step every so many increments and the last one are written to solution.pvd, contact.pvd, sections and "
         "results.h5.")

@@ -33,6 +33,7 @@ bool is_ours(const fs::path& path)
 {
   static const std::regex names(
       R"(((solution|contact|plane\.[\w-]+)(\.\d+)?(_\d+)?\.(vtu|pvtu|pvd)|)"
+      R"(blocks(\.\d+)?(\.b\d+_\d+\.vtu|\.vtm|\.pvd)|)"
       R"((results|restart)(\.\d+)?\.h5|(history|interior|probes|probe\.[\w-]+)\.csv|deck\.yaml|summary(\.old)?\.json)(\.part)?)");
   return std::regex_match(path.filename().string(), names);
 }

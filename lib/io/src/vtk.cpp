@@ -8,10 +8,12 @@
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
+#include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -63,7 +65,7 @@ void require_end(const std::string& path)
   if (tail.find(end) == std::string::npos) throw std::runtime_error("its end is missing: no space is left on the disk");
 }
 
-void write_piece(const std::string& path, const Piece& piece)
+void write_piece(const std::string& path, const Piece& piece, const decltype(Block::words)& words = {})
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -77,6 +79,12 @@ void write_piece(const std::string& path, const Piece& piece)
   }
   add_fields(piece.point_fields, grid->GetPointData());
   add_fields(piece.cell_fields, grid->GetCellData());
+  for (const auto& [name, entries] : words) {
+    vtkNew<vtkStringArray> array;
+    array->SetName(name.c_str());
+    for (const auto& entry : entries) array->InsertNextValue(entry);
+    grid->GetFieldData()->AddArray(array);
+  }
   write_whole(path, [&](const std::string& temporary) {
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
     writer->SetFileName(temporary.c_str());
@@ -157,7 +165,100 @@ void write_frame(const std::string& directory, const std::string& name, Series& 
   }
 }
 
+std::string escaped(const std::string& text)
+{
+  std::string result;
+  for (const char c : text)
+    result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return result;
+}
+
+// `holds`: for each rank and block whether it has a file.
+std::string multiblock_file(const std::string& name, const std::vector<Block>& blocks, const std::vector<char>& holds)
+{
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "
+      "<vtkMultiBlockDataSet>\n";
+  int group = -1, entry = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (b == 0 || blocks[b].group != blocks[b - 1].group) {
+      if (b > 0) text += "    </Block>\n";
+      text += fmt::format("    <Block index=\"{}\" name=\"{}\">\n", ++group, escaped(blocks[b].group));
+      entry = 0;
+    }
+    text += fmt::format("      <Piece index=\"{}\" name=\"{}\">\n", entry++, escaped(blocks[b].name));
+    int part = 0;
+    for (std::size_t rank = 0; rank * blocks.size() < holds.size(); ++rank)
+      if (holds[rank * blocks.size() + b])
+        text += fmt::format("        <DataSet index=\"{}\" file=\"{}.b{}_{}.vtu\"/>\n", part++, name, b, rank);
+    text += "      </Piece>\n";
+  }
+  if (!blocks.empty()) text += "    </Block>\n";
+  return text + "  </vtkMultiBlockDataSet>\n</VTKFile>\n";
+}
+
 }  // namespace
+
+Piece part_of(const Piece& piece, const std::vector<std::size_t>& cells)
+{
+  Piece part;
+  std::vector<Local> number(piece.points.size(), -1);
+  std::vector<std::size_t> points;
+  for (const std::size_t c : cells) {
+    std::vector<Local> nodes;
+    for (const Local n : piece.cells[c]) {
+      auto& own = number[static_cast<std::size_t>(n)];
+      if (own < 0) {
+        own = static_cast<Local>(points.size());
+        points.push_back(static_cast<std::size_t>(n));
+      }
+      nodes.push_back(own);
+    }
+    part.cells.add(piece.cells.type[c], nodes);
+  }
+  for (const std::size_t n : points) part.points.push_back(piece.points[n]);
+  const auto take = [](const std::vector<Field>& fields, const std::vector<std::size_t>& rows) {
+    std::vector<Field> result;
+    for (const auto& field : fields) {
+      const auto width = static_cast<std::size_t>(field.components);
+      auto& own = result.emplace_back(Field{field.name, field.components, {}, field.integer});
+      for (const std::size_t row : rows)
+        own.values.insert(own.values.end(), field.values.begin() + static_cast<std::ptrdiff_t>(row * width),
+                          field.values.begin() + static_cast<std::ptrdiff_t>((row + 1) * width));
+    }
+    return result;
+  };
+  part.point_fields = take(piece.point_fields, points);
+  part.cell_fields = take(piece.cell_fields, cells);
+  return part;
+}
+
+void write_blocks(const std::string& directory, Series& series, std::optional<double> time, const std::vector<Block>& blocks,
+                  const Communicator& comm)
+{
+  const auto name = time ? fmt::format("{}.{}", series.name, series.frames.size() + 1) : series.name;
+  const auto own_file = [&](std::size_t b) { return fmt::format("{}/{}.b{}_{}.vtu", directory, name, b, comm.rank()); };
+  std::vector<char> mine;
+  for (const auto& block : blocks) mine.push_back(block.piece.cells.size() > 0);
+  const auto holds = comm.all_gather(mine);
+  series.frames.emplace_back(time.value_or(0), name + ".vtm");
+  try {
+    collectively(comm, [&] {
+      for (std::size_t b = 0; b < blocks.size(); ++b)
+        if (mine[b]) write_piece(own_file(b), blocks[b].piece, blocks[b].words);
+    });
+    collectively(comm, [&] {
+      if (!comm.root()) return;
+      write_text(fmt::format("{}/{}.vtm", directory, name), multiblock_file(name, blocks, holds));
+      write_text(directory + "/" + series.name + ".pvd", collection(series));
+    });
+  } catch (const Error&) {  // on all ranks: blocks without what groups them are of no use
+    std::error_code ignored;
+    for (std::size_t b = 0; b < blocks.size(); ++b) std::filesystem::remove(own_file(b), ignored);
+    if (comm.root()) std::filesystem::remove(fmt::format("{}/{}.vtm", directory, name), ignored);
+    throw;
+  }
+}
 
 void write_vtk(const std::string& directory, const std::string& name, const Piece& piece, const Communicator& comm)
 {

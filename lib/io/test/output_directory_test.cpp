@@ -60,11 +60,13 @@ TEST(OutputDirectory, WhatAnEarlierRunLeftIsRemovedAndNothingElse)
 {
   const Communicator comm;
   const Scratch scratch(comm);
-  const Names theirs{"notes.txt", "solution_final.vtu", "my_solution.pvd", "summary.json.bak",
-                     "plane.vtu", "planes.pvd",         "x.part",          "results.h5.old"};
-  for (const char* name : {"solution.pvd", "solution.pvtu", "solution_0.vtu", "solution_6.vtu", "contact.pvd", "contact_6.vtu",
-                           "plane.mid.pvd", "plane.mid_2.vtu", "plane.a-b.3_0.vtu", "interior.csv", "results.h5", "results.12.h5",
-                           "history.csv", "deck.yaml", "summary.json", "results.h5.part"})
+  const Names theirs{"notes.txt", "solution_final.vtu", "my_solution.pvd", "summary.json.bak", "plane.vtu", "planes.pvd",
+                     "x.part",    "results.h5.old",     "blocks.b1.vtu",   "blocks.txt"};
+  for (const char* name :
+       {"solution.pvd",  "solution.pvtu",   "solution_0.vtu",    "solution_6.vtu",  "contact.pvd",        "contact_6.vtu",
+        "plane.mid.pvd", "plane.mid_2.vtu", "plane.a-b.3_0.vtu", "interior.csv",    "results.h5",         "results.12.h5",
+        "blocks.pvd",    "blocks.2.vtm",    "blocks.vtm",        "blocks.b1_0.vtu", "blocks.3.b12_2.vtu", "history.csv",
+        "deck.yaml",     "summary.json",    "results.h5.part"})
     put(scratch / name, "old", comm);
   for (const auto& name : theirs) put(scratch / name, "mine", comm);
   {

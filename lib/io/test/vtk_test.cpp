@@ -3,9 +3,15 @@
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkMultiPieceDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLMultiBlockDataReader.h>
 #include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -125,6 +131,52 @@ TEST(Vtk, EveryRanksCellsComeBackWithTheirFields)
     }
   }
   EXPECT_EQ(static_cast<int>(seen.size()), cells);
+}
+
+// Every rank has cells of "all", the first alone those of "first <one>".
+TEST(Vtk, BlocksHaveTheirNames)
+{
+  const Communicator comm;
+  const Scratch scratch(comm);
+  const auto piece = row_of_cells(comm);
+  std::vector<std::size_t> some;
+  for (std::size_t c = 0; c < piece.cells.size(); c += 2) some.push_back(c);
+  std::vector<Block> blocks{{"bodies", "all", piece, {}},
+                            {"bodies", "first <one>", comm.root() ? part_of(piece, some) : Piece{}, {{"words", {"a", "b c"}}}},
+                            {"contacts", "none", Piece{}, {}}};
+  Series series{"blocks", {}};
+  write_blocks(scratch.path(), series, {}, blocks, comm);
+  write_blocks(scratch.path(), series, 2.0, blocks, comm);
+  if (!comm.root()) return;
+  EXPECT_NE(content(scratch / "blocks.pvd").find("timestep=\"2\" part=\"0\" file=\"blocks.2.vtm\""), std::string::npos);
+  const vtkNew<vtkXMLMultiBlockDataReader> reader;
+  reader->SetFileName((scratch / "blocks.2.vtm").c_str());
+  reader->Update();
+  auto* whole = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutput());
+  ASSERT_TRUE(whole && whole->GetNumberOfBlocks() == 2);
+  const auto name = [](vtkMultiBlockDataSet* of, unsigned i) {
+    return std::string(of->GetMetaData(i)->Get(vtkCompositeDataSet::NAME()));
+  };
+  EXPECT_EQ(name(whole, 0), "bodies");
+  auto* bodies = vtkMultiBlockDataSet::SafeDownCast(whole->GetBlock(0));
+  ASSERT_TRUE(bodies && bodies->GetNumberOfBlocks() == 2);
+  EXPECT_EQ(name(bodies, 1), "first <one>");
+  auto* first = vtkMultiPieceDataSet::SafeDownCast(bodies->GetBlock(1));
+  ASSERT_TRUE(first && first->GetNumberOfPieces() == 1);
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(first->GetPieceAsDataObject(0));
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(grid->GetNumberOfCells(), 4);
+  auto* words = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("words"));
+  ASSERT_TRUE(words && words->GetNumberOfValues() == 2);
+  EXPECT_EQ(words->GetValue(1), "b c");
+  auto* number = grid->GetCellData()->GetArray("number");
+  auto* pressure = grid->GetPointData()->GetArray("pressure");
+  for (vtkIdType c = 0; c < 4; ++c) {
+    EXPECT_EQ(number->GetTuple1(c), 2.0 * static_cast<double>(c));
+    auto* cell = grid->GetCell(c);
+    for (vtkIdType n = 0; n < cell->GetNumberOfPoints(); ++n)
+      EXPECT_EQ(pressure->GetTuple1(cell->GetPointId(n)), pressure_at(Point(cell->GetPoints()->GetPoint(n))));
+  }
 }
 
 // VTK orders the nodes of a wedge otherwise than gmsh: a cell is right if VTK finds all its faces looking outwards.

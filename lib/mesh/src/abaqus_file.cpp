@@ -134,7 +134,7 @@ void AbaqusReader::add_surfaces(RawMesh& raw) const
   }
 }
 
-// Sets of nodes are the faces of the surface of a volume all of whose corners are in the set; sets without one are left out.
+// Sets of nodes are the faces of the surface of a volume all of whose corners are in the set; sets without one are nodes.
 void AbaqusReader::add_node_sets(RawMesh& raw) const
 {
   const auto all = sorted_faces(raw.cells);
@@ -155,20 +155,25 @@ void AbaqusReader::add_node_sets(RawMesh& raw) const
       in[static_cast<std::size_t>(found->second)] = 1;
     }
     RawMesh::Boundary boundary{name, -1, {}, false};
+    RawMesh::NodeSet set{name, {}, {}};
     for (const auto& face : outer)
       if (std::all_of(face.corners.begin(), face.corners.end(),
                       [&](Local n) { return n < 0 || in[static_cast<std::size_t>(n)]; }))
         boundary.faces.push_back(face.corners);
     const bool taken = std::any_of(raw.boundaries.begin(), raw.boundaries.end(), [&](const auto& b) { return b.name == name; });
-    if (boundary.faces.empty() || taken)
-      without.push_back(name);
-    else
-      raw.boundaries.push_back(std::move(boundary));
+    if (!boundary.faces.empty()) {
+      if (!taken) raw.boundaries.push_back(std::move(boundary));
+      if (taken) without.push_back(name);
+      continue;
+    }
+    for (std::size_t n = 0; n < in.size(); ++n)
+      if (in[n]) set.nodes.push_back(static_cast<Local>(n));
+    set.weights.assign(set.nodes.size(), 1.0);
+    raw.node_sets.push_back(std::move(set));
   }
   if (!without.empty())
     raw.warnings.push_back(
-        fmt::format("these NSETs hold no whole face of a body, or a surface has their name: they are no boundaries: {}",
-                    fmt::join(without, ", ")));
+        fmt::format("a surface has the name of these NSETs, which are no boundaries: {}", fmt::join(without, ", ")));
 }
 
 RawMesh AbaqusReader::read()

@@ -409,6 +409,23 @@ void attach_boundaries(const RawMesh& raw, const Options& options, const std::ve
   }
 }
 
+// Node sets in the numbers of the bodies' nodes.
+void attach_node_sets(const RawMesh& raw, const std::vector<Local>& original, Assembly& assembly)
+{
+  if (raw.node_sets.empty()) return;
+  std::vector<std::vector<Global>> copies(raw.points.size());  // of each node of the file, one for each body
+  for (std::size_t n = 0; n < original.size(); ++n)
+    copies[static_cast<std::size_t>(original[n])].push_back(assembly.mesh.node_id[n]);
+  for (const auto& set : raw.node_sets) {
+    std::map<Global, double> weights;
+    for (std::size_t i = 0; i < set.nodes.size(); ++i)
+      for (const Global node : copies[static_cast<std::size_t>(set.nodes[i])]) weights[node] += set.weights[i];
+    auto& found = assembly.catalogue.node_sets.emplace_back();
+    found.name = set.name;
+    for (const auto& [node, weight] : weights) found.nodes.push_back(node), found.weights.push_back(weight);
+  }
+}
+
 }  // namespace
 
 void flatten(const std::string& file, std::vector<Point>& points)
@@ -435,6 +452,7 @@ Assembly assemble(RawMesh raw, const Options& options, int dimension)
   Assembly assembly = separate(raw, groups, part, options, dimension, original, solid_of_cell);
   assembly.warnings.insert(assembly.warnings.begin(), raw.warnings.begin(), raw.warnings.end());
   attach_boundaries(raw, options, original, solid_of_cell, assembly);
+  attach_node_sets(raw, original, assembly);
   return assembly;
 }
 

@@ -65,6 +65,36 @@ std::string own_name(const std::string& boundary, const std::string& group)
   return boundary;
 }
 
+// Node sets in the numbers of the assembly: of all instances, and those of each instance alone.
+void place_node_sets(const std::vector<NodeSet>& sets, const std::vector<Global>& first_node, Layout& layout)
+{
+  auto& placed = layout.catalogue.node_sets;
+  placed.clear();
+  for (const auto& set : sets) {
+    NodeSet all{set.name, {}, {}};
+    std::map<std::string, NodeSet> own;
+    for (std::size_t b = 0; b < layout.bodies.size(); ++b) {
+      const auto& instance = layout.bodies[b];
+      const auto& body = layout.catalogue.bodies[b];
+      const auto part = static_cast<std::size_t>(instance.part);
+      for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+        if (set.nodes[i] < first_node[part] || set.nodes[i] >= first_node[part + 1]) continue;
+        const auto add = [&](NodeSet& to) {
+          to.nodes.push_back(set.nodes[i] + instance.node_shift);
+          to.weights.push_back(set.weights[i]);
+        };
+        add(all);
+        if (!body.instance.empty()) add(own[body.instance + "." + own_name(set.name, body.group)]);
+      }
+    }
+    placed.push_back(std::move(all));
+    for (auto& [name, nodes] : own) {
+      nodes.name = name;
+      placed.push_back(std::move(nodes));
+    }
+  }
+}
+
 }  // namespace
 
 Motion compose(const Motion& second, const Motion& first)
@@ -208,6 +238,7 @@ Layout lay_out(Catalogue parts, const std::map<std::string, std::vector<Motion>>
   }
   catalogue.node_count = nodes;
   catalogue.cell_count = cells;
+  place_node_sets(parts.node_sets, first_node, layout);
   return layout;
 }
 

@@ -45,6 +45,12 @@ void send(const RawMesh& raw, Sender& to)
     to.vector(std::vector<int>{boundary.solid, boundary.strict ? 1 : 0});
     to.vector(boundary.faces);
   }
+  to.count(raw.node_sets.size());
+  for (const auto& set : raw.node_sets) {
+    to.text(set.name);
+    to.vector(set.nodes);
+    to.vector(set.weights);
+  }
   put(raw.warnings, to);
 }
 
@@ -67,6 +73,12 @@ RawMesh receive(Child& from)
     from.vector(boundary.faces);
     raw.boundaries.push_back(std::move(boundary));
   }
+  for (auto n = from.count(); n > 0; --n) {
+    RawMesh::NodeSet set{from.text(), {}, {}};
+    from.vector(set.nodes);
+    from.vector(set.weights);
+    raw.node_sets.push_back(std::move(set));
+  }
   raw.warnings = get_texts(from);
   return raw;
 }
@@ -87,6 +99,7 @@ void check(const RawMesh& raw, const std::string& file)
   sound = sound && raw.cells.offset[cells] == static_cast<Local>(raw.cells.nodes.size());
   for (const auto& boundary : raw.boundaries)
     for (const auto& face : boundary.faces) sound = sound && in(face, Local{-1}, nodes);
+  for (const auto& set : raw.node_sets) sound = sound && set.nodes.size() == set.weights.size() && in(set.nodes, Local{0}, nodes);
   if (!sound) fail(file, "gmsh made a mesh of it that does not hold together; the file is likely damaged: write it anew");
   Point low = Point::Constant(HUGE_VAL), high = -low;
   for (const auto& x : raw.points) {

@@ -25,6 +25,13 @@ struct RawMesh {
     bool strict = true;                       ///< every face must be one of the surface of a body; else others are left out
   };
   std::vector<Boundary> boundaries;
+
+  struct NodeSet {
+    std::string name;
+    std::vector<Local> nodes;
+    std::vector<double> weights;  ///< see mesh::NodeSet; a node that stands here twice has the sum
+  };
+  std::vector<NodeSet> node_sets;
   std::vector<std::string> warnings;
 };
 

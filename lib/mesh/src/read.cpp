@@ -273,6 +273,44 @@ void add_cad_faces(const Options& options, int dimension, const std::vector<Grou
     }
 }
 
+// Physical points, each with the weight 1.
+void add_points(const NumberedNodes& nodes, RawMesh& raw)
+{
+  for (const auto& group : groups(0)) {
+    RawMesh::NodeSet set{group.name, {}, {}};
+    for (const int entity : group.entities) {
+      std::vector<std::size_t> tags;
+      std::vector<double> coordinates, parameters;
+      library().getNodes(tags, coordinates, parameters, 0, entity, false, false);
+      for (const std::size_t tag : tags)
+        if (const auto found = nodes.local.find(tag); found != nodes.local.end()) set.nodes.push_back(found->second);
+    }
+    set.weights.assign(set.nodes.size(), 1.0);
+    raw.node_sets.push_back(std::move(set));
+  }
+}
+
+// Physical curves in space: each node has the length that its shape functions integrate to on straight edges.
+void add_curves(const Options& options, const NumberedNodes& nodes, RawMesh& raw)
+{
+  for (const auto& group : groups(1)) {
+    RawMesh::NodeSet set{group.name, {}, {}};
+    for (const int entity : group.entities)
+      for_each_element(options.file, 1, entity, [&](CellType type, std::size_t tag, std::span<const std::size_t> tags) {
+        std::vector<Local> line;
+        for (const std::size_t t : tags) line.push_back(nodes.of(options.file, tag, t));
+        const auto at = [&](std::size_t i) { return nodes.points[static_cast<std::size_t>(line[i])]; };
+        const double length = (at(1) - at(0)).norm();
+        set.nodes.insert(set.nodes.end(), line.begin(), line.end());
+        if (type == CellType::line2)
+          set.weights.insert(set.weights.end(), {length / 2, length / 2});
+        else
+          set.weights.insert(set.weights.end(), {length / 6, length / 6, 2 * length / 3});
+      });
+    raw.node_sets.push_back(std::move(set));
+  }
+}
+
 }  // namespace
 
 RawMesh take_from_gmsh(const Options& options, int dimension)
@@ -289,6 +327,8 @@ RawMesh take_from_gmsh(const Options& options, int dimension)
     raw.boundaries.push_back(std::move(boundary));
   }
   if (is_cad(kind_of(options.file))) add_cad_faces(options, dimension, bodies, nodes, raw);
+  if (dimension == 3) add_curves(options, nodes, raw);
+  add_points(nodes, raw);
   raw.points = std::move(nodes.points);
   return raw;
 }

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "mesh/shape_functions.hpp"
@@ -109,6 +110,35 @@ Physical Surface("rest") = {3};
   EXPECT_EQ(assembly.catalogue.bodies[1].name, "pads.2");
   EXPECT_EQ(assembly.catalogue.bodies[1].group, "pads");
   EXPECT_EQ(assembly.catalogue.bodies[2].name, "rest");
+}
+
+// The nodes of a physical curve have its length, those of an edge that two bodies share once each.
+TEST(Read, PhysicalCurvesAndPointsAreNodesWithNames)
+{
+  for (const int order : {1, 2}) {
+    const auto assembly = read_file(geo("edges.geo", R"(
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 3};
+Box(2) = {1, 0, 0, 1, 1, 3};
+Coherence;
+Physical Volume("a") = {1};
+Physical Volume("b") = {2};
+Physical Curve("own") = Curve In BoundingBox {-0.1, -0.1, -0.1, 0.1, 0.1, 3.1};
+Physical Curve("shared") = Curve In BoundingBox {0.9, -0.1, -0.1, 1.1, 0.1, 3.1};
+Physical Point("corner") = Point In BoundingBox {-0.1, -0.1, -0.1, 0.1, 0.1, 0.1};
+Mesh.MeshSizeMax = 1;
+Mesh.ElementOrder = )" + std::to_string(order) + ";\n"));
+    const auto& sets = assembly.catalogue.node_sets;
+    ASSERT_EQ(sets.size(), 3U);
+    const auto length = [](const NodeSet& set) { return std::accumulate(set.weights.begin(), set.weights.end(), 0.0); };
+    EXPECT_EQ(sets[0].name, "own");
+    EXPECT_EQ(sets[0].nodes.size(), order == 1 ? 10U : 19U);
+    EXPECT_NEAR(length(sets[0]), 3, 1e-12);
+    EXPECT_EQ(sets[1].nodes.size(), order == 1 ? 20U : 38U);
+    EXPECT_NEAR(length(sets[1]), 6, 1e-12);
+    ASSERT_EQ(sets[2].nodes.size(), 1U);
+    EXPECT_LT(assembly.mesh.points[static_cast<std::size_t>(sets[2].nodes[0])].norm(), 1e-12);
+  }
 }
 
 TEST(Read, GeometryWithConstants)

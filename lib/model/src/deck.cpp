@@ -166,7 +166,7 @@ void check_vectors(const Deck& deck, deck::Document& document)
     }
     flat(deck.loads[i].force, path + "force");
     for (std::size_t k = 0; k < deck.loads[i].points.size(); ++k)
-      flat(deck.loads[i].points[k], fmt::format("{}points[{}]", path, k));
+      flat(deck.loads[i].points[k].at, fmt::format("{}points[{}]", path, k));
     if (deck.axisymmetric() && !deck.loads[i].points.empty())
       document.error(path + "points", "in an axisymmetric model a point is a ring; load a boundary");
     flat(deck.loads[i].acceleration, path + "acceleration");
@@ -180,7 +180,7 @@ void check_vectors(const Deck& deck, deck::Document& document)
       document.error(fmt::format("supports[{}].displacement.{}", i, deck.supports[i].cylindrical ? "axial" : "z"),
                      "a plane model has no z component");
     for (std::size_t k = 0; k < deck.supports[i].points.size(); ++k)
-      flat(deck.supports[i].points[k], fmt::format("supports[{}].points[{}]", i, k));
+      flat(deck.supports[i].points[k].at, fmt::format("supports[{}].points[{}]", i, k));
     if (deck.supports[i].stiffness.along[2])
       document.error(fmt::format("supports[{}].stiffness.z", i), "a plane model has no z component");
     for (const std::size_t c : {0, 1})
@@ -188,7 +188,8 @@ void check_vectors(const Deck& deck, deck::Document& document)
         document.error(fmt::format("supports[{}].rotation.{}", i, "xy"[c]), "in a plane model points turn about z alone");
   }
   for (const auto& [name, spring] : deck.springs) {
-    for (std::size_t k = 0; k < spring.points.size(); ++k) flat(spring.points[k], fmt::format("springs.{}.points[{}]", name, k));
+    for (std::size_t k = 0; k < spring.points.size(); ++k)
+      flat(spring.points[k].at, fmt::format("springs.{}.points[{}]", name, k));
     if (deck.axisymmetric())
       document.error("springs." + name, "in an axisymmetric model a point is a ring; give a boundary a `stiffness`");
   }
@@ -376,6 +377,12 @@ std::string missing(const std::string& name, const mesh::Catalogue& catalogue)
     std::vector<std::string> names;  // without those that patterns made, or the geometry
     std::copy_if(known.begin(), known.end(), std::back_inserter(names),
                  [](const auto& n) { return !is_pattern(n) && !mesh::curved_surface(n); });
+    const auto& sets = catalogue.node_sets;
+    if (std::any_of(sets.begin(), sets.end(), [&](const mesh::NodeSet& set) { return set.name == boundary; }))
+      return fmt::format(
+          "\"{0}\" is a curve, a point or a set of nodes of the mesh, not a boundary; supports and loads take it as "
+          "`points: {0}`",
+          boundary);
     return fmt::format("the mesh has no boundary \"{}\"{}", boundary, deck::suggestion(boundary, names));
   }
   if (body.empty()) return "";
@@ -467,6 +474,16 @@ void describe(deck::Description<Deck>& d)
   d.key("output", &Deck::output, "What is written where.");
 }
 
+namespace {
+
+// Of nodes that a support or a load names: that of the mesh if it is one.
+std::string name_of(const std::vector<deck::Place>& points)
+{
+  return points.size() == 1 && !points[0].name.empty() ? points[0].name : "points";
+}
+
+}  // namespace
+
 Deck read_deck(deck::Document& document, const std::string& output)
 {
   Deck deck;
@@ -478,11 +495,13 @@ Deck read_deck(deck::Document& document, const std::string& output)
                                              (contact.obstacle ? contact::shape_name(*contact.obstacle) : contact.primary);
   for (auto& support : deck.supports)
     if (support.name.empty())
-      support.name = !support.coupling.empty() ? support.coupling : support.boundary.empty() ? "points" : support.boundary;
+      support.name = !support.coupling.empty() ? support.coupling
+                     : !support.points.empty() ? name_of(support.points)
+                                               : support.boundary;
   for (auto& load : deck.loads)
     if (load.name.empty())
       load.name = !load.coupling.empty()  ? load.coupling
-                  : !load.points.empty()  ? "points"
+                  : !load.points.empty()  ? name_of(load.points)
                   : load.boundary.empty() ? load.body
                                           : load.boundary;
   check_bodies(deck, document);

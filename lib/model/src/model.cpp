@@ -304,7 +304,7 @@ void Model::add_point_forces(const LoadState& state, std::vector<Eigen::VectorXd
     for (const auto& found : places.loads[i]) {
       if (found.subdomain < 0 || decomposition_.rank_of(found.subdomain) != comm.rank()) continue;
       const auto s = static_cast<std::size_t>(found.subdomain - decomposition_.subdomains.front().id);
-      const Point force = state.load[i] / static_cast<double>(places.loads[i].size()) * force_of(deck_.loads[i]);
+      const Point force = state.load[i] * found.share * force_of(deck_.loads[i]);
       f[s].segment(found.local * dimension, dimension) += force.head(dimension);
     }
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <set>
 #include <tuple>
 
 #include "base/error.hpp"
@@ -17,7 +19,7 @@ constexpr double at_a_point = 1e-4;  // of the model's size: as far may a node l
 constexpr std::size_t record = 8;    // numbers that tell of a candidate
 
 struct Wanted {
-  Point at;
+  deck::Place place;
   std::string body, path;
 };
 
@@ -29,18 +31,28 @@ std::string text(const Point& x)
 std::vector<Wanted> wanted_points(const Deck& deck)
 {
   std::vector<Wanted> wanted;
+  const auto path = [](const std::string& of, const std::vector<deck::Place>& points, std::size_t k) {
+    return points.size() == 1 && !points[0].name.empty() ? of + ".points" : fmt::format("{}.points[{}]", of, k);
+  };
   const auto add = [&](const auto& section, const char* name) {
     for (std::size_t i = 0; i < section.size(); ++i)
       for (std::size_t k = 0; k < section[i].points.size(); ++k)
-        wanted.push_back({place(section[i].points[k]), section[i].body, fmt::format("{}[{}].points[{}]", name, i, k)});
+        wanted.push_back({section[i].points[k], section[i].body, path(fmt::format("{}[{}]", name, i), section[i].points, k)});
   };
   add(deck.supports, "supports");
   add(deck.loads, "loads");
   for (const auto& [name, spring] : deck.springs)
     for (std::size_t k = 0; k < spring.points.size(); ++k)
-      wanted.push_back({place(spring.points[k]), spring.bodies.empty() ? std::string() : spring.bodies[k],
-                        fmt::format("springs.{}.points[{}]", name, k)});
+      wanted.push_back({spring.points[k], spring.bodies.empty() ? std::string() : spring.bodies[k],
+                        path("springs." + name, spring.points, k)});
   return wanted;
+}
+
+const mesh::NodeSet* find_set(const mesh::Catalogue& catalogue, const std::string& name)
+{
+  const auto& sets = catalogue.node_sets;
+  const auto found = std::find_if(sets.begin(), sets.end(), [&](const mesh::NodeSet& set) { return set.name == name; });
+  return found == sets.end() ? nullptr : &*found;
 }
 
 // The length of the box round all bodies. Collective.
@@ -55,38 +67,66 @@ double size_of(const partition::Decomposition& decomposition, const Communicator
 
 }  // namespace
 
-// Of each body's nodes the nearest to each place: [place][body].
+// By coordinates: of each body's nodes the nearest. By name: all nodes of the set. [place][node].
 std::vector<std::vector<Model::NodeAtPoint>> Model::candidates_at_points(const Communicator& comm) const
 {
   const auto wanted = wanted_points(deck_);
+  if (wanted.empty()) return {};
   const auto bodies = decomposition_.catalogue.bodies.size();
-  std::vector<std::vector<NodeAtPoint>> nearest(wanted.size(), std::vector<NodeAtPoint>(bodies));
-  if (wanted.empty()) return nearest;
-  const auto take = [](NodeAtPoint& best, const NodeAtPoint& other) {
-    if (std::tie(other.distance, other.node, other.subdomain) < std::tie(best.distance, best.node, best.subdomain)) best = other;
+  const auto before = [](const NodeAtPoint& a, const NodeAtPoint& b) {
+    return std::tie(a.distance, a.node, a.subdomain) < std::tie(b.distance, b.node, b.subdomain);
+  };
+  std::vector<std::vector<NodeAtPoint>> nearest(wanted.size());
+  std::vector<std::map<Global, NodeAtPoint>> named(wanted.size());
+  for (std::size_t w = 0; w < wanted.size(); ++w)
+    if (wanted[w].place.name.empty()) {
+      nearest[w].resize(bodies);
+    } else if (const auto* set = find_set(decomposition_.catalogue, wanted[w].place.name)) {
+      for (const Global node : set->nodes) named[w][node];
+    }
+  const auto offer = [&](std::size_t w, NodeAtPoint node) {
+    if (wanted[w].place.name.empty()) {
+      node.distance = (node.at - place(wanted[w].place.at)).norm();
+      if (auto& best = nearest[w][static_cast<std::size_t>(node.body)]; before(node, best)) best = node;
+    } else if (const auto of_set = named[w].find(node.node); of_set != named[w].end()) {
+      node.distance = 0;
+      if (before(node, of_set->second)) of_set->second = node;
+    }
   };
   for (const auto& subdomain : decomposition_.subdomains)
     for (const Local n : partition::surface_nodes(subdomain)) {
       const auto i = static_cast<std::size_t>(n);
-      const Point& x = subdomain.mesh.points[i];
-      for (std::size_t w = 0; w < wanted.size(); ++w)
-        take(nearest[w][static_cast<std::size_t>(subdomain.body)],
-             {(x - wanted[w].at).norm(), subdomain.mesh.node_id[i], subdomain.id, subdomain.body, n, x});
+      NodeAtPoint node;
+      node.node = subdomain.mesh.node_id[i], node.subdomain = subdomain.id, node.body = subdomain.body, node.local = n;
+      node.at = subdomain.mesh.points[i];
+      for (std::size_t w = 0; w < wanted.size(); ++w) offer(w, node);
     }
   std::vector<double> own;
-  for (const auto& of_place : nearest)
-    for (const auto& c : of_place)
-      if (c.node >= 0)
-        own.insert(own.end(), {static_cast<double>(&of_place - nearest.data()), static_cast<double>(c.node),
-                               static_cast<double>(c.subdomain), static_cast<double>(c.body), static_cast<double>(c.local),
-                               c.at[0], c.at[1], c.at[2]});
+  const auto tell = [&](std::size_t w, const NodeAtPoint& c) {
+    if (c.node >= 0)
+      own.insert(own.end(), {static_cast<double>(w), static_cast<double>(c.node), static_cast<double>(c.subdomain),
+                             static_cast<double>(c.body), static_cast<double>(c.local), c.at[0], c.at[1], c.at[2]});
+  };
+  for (std::size_t w = 0; w < wanted.size(); ++w) {
+    for (const auto& c : nearest[w]) tell(w, c);
+    for (const auto& [id, c] : named[w]) tell(w, c);
+  }
   const auto all = comm.all_gather(own);
   for (std::size_t i = 0; i + record <= all.size(); i += record) {
-    const auto w = static_cast<std::size_t>(all[i]);
-    const Point at(all[i + 5], all[i + 6], all[i + 7]);
-    take(nearest[w][static_cast<std::size_t>(all[i + 3])],
-         {(at - wanted[w].at).norm(), static_cast<Global>(all[i + 1]), static_cast<Global>(all[i + 2]),
-          static_cast<int>(all[i + 3]), static_cast<Local>(all[i + 4]), at});
+    NodeAtPoint node;
+    node.node = static_cast<Global>(all[i + 1]), node.subdomain = static_cast<Global>(all[i + 2]);
+    node.body = static_cast<int>(all[i + 3]), node.local = static_cast<Local>(all[i + 4]);
+    node.at = Point(all[i + 5], all[i + 6], all[i + 7]);
+    offer(static_cast<std::size_t>(all[i]), node);
+  }
+  for (std::size_t w = 0; w < wanted.size(); ++w) {
+    if (named[w].empty()) continue;
+    const auto* set = find_set(decomposition_.catalogue, wanted[w].place.name);
+    for (std::size_t i = 0; i < set->nodes.size(); ++i) {
+      auto node = named[w].at(set->nodes[i]);
+      node.share = set->weights[i];
+      nearest[w].push_back(node);
+    }
   }
   return nearest;
 }
@@ -102,17 +142,64 @@ Model::NodesAtPoints Model::nodes_at_points(const Communicator& comm) const
   const auto choose = [&](const auto& options, std::vector<NodeAtPoint>& found) {
     for (std::size_t k = 0; k < options.points.size(); ++k, ++next) {
       const auto on_body = bodies_named(wanted[next].body);
+      const auto first = static_cast<std::ptrdiff_t>(found.size());
       NodeAtPoint best;
-      for (const auto& c : candidates[next])
-        if (c.node >= 0 && on_body[static_cast<std::size_t>(c.body)] && c.distance < best.distance) best = c;
-      found.push_back(best);
+      double sum = 0;
+      for (const auto& c : candidates[next]) {
+        if (c.node < 0 || !on_body[static_cast<std::size_t>(c.body)]) continue;
+        if (c.distance < best.distance) best = c;
+        if (!wanted[next].place.name.empty()) found.push_back(c), sum += c.share;
+      }
+      if (wanted[next].place.name.empty()) found.push_back(best), sum = best.share;
+      std::for_each(found.begin() + first, found.end(),
+                    [&](NodeAtPoint& node) { node.share /= sum * static_cast<double>(options.points.size()); });
     }
   };
-  for (std::size_t i = 0; i < deck_.supports.size(); ++i) choose(deck_.supports[i], result.supports[i]);
+  for (std::size_t i = 0; i < deck_.supports.size(); ++i) {
+    auto& nodes = result.supports[i];
+    choose(deck_.supports[i], nodes);
+    std::set<Global> held;  // curves meet in nodes
+    std::erase_if(nodes, [&](const NodeAtPoint& node) { return !held.insert(node.node).second; });
+  }
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) choose(deck_.loads[i], result.loads[i]);
   auto springs = result.springs.begin();
   for (const auto& [name, spring] : deck_.springs) choose(spring, *springs++);
   return result;
+}
+
+// A name must be that of nodes of a surface.
+std::string Model::wrong_name(const std::string& name, const std::string& body, bool one,
+                              const std::vector<NodeAtPoint>& candidates) const
+{
+  const auto& catalogue = decomposition_.catalogue;
+  const auto sets =
+      std::count_if(catalogue.node_sets.begin(), catalogue.node_sets.end(), [&](const auto& set) { return set.name == name; });
+  if (sets > 1) return fmt::format("the mesh has a curve as well as points that are called \"{}\"; rename one of them", name);
+  if (sets == 0) {
+    const auto& boundaries = catalogue.boundaries;
+    if (std::find(boundaries.begin(), boundaries.end(), name) != boundaries.end())
+      return fmt::format("\"{0}\" is a boundary of the mesh; name it by `boundary: {0}`", name);
+    std::vector<std::string> names;
+    for (const auto& set : catalogue.node_sets) names.push_back(set.name);
+    return fmt::format("the mesh has no curve or point \"{}\"{}", name, deck::suggestion(name, names));
+  }
+  const auto on_body = bodies_named(body);
+  std::size_t count = 0, inside = 0;
+  for (const auto& c : candidates) {
+    if (c.node < 0)
+      ++inside;
+    else if (on_body[static_cast<std::size_t>(c.body)])
+      ++count;
+  }
+  if (inside > 0)
+    return fmt::format("{} nodes of \"{}\" lie inside a body; only nodes of surfaces can be held or loaded", inside, name);
+  if (count == 0)
+    return body.empty() ? fmt::format("no body has a node of \"{}\"", name)
+                        : fmt::format("the body \"{}\" has no node of \"{}\"", body, name);
+  if (one && count > 1)
+    return fmt::format("a spring ends in one node, and \"{}\" has {}{}", name, count,
+                       body.empty() ? "; where it has one a body, say which with `bodies`" : "");
+  return "";
 }
 
 void Model::require_points(deck::Document& document, const Communicator& comm) const
@@ -123,6 +210,13 @@ void Model::require_points(deck::Document& document, const Communicator& comm) c
   const double reach = at_a_point * size_of(decomposition_, comm);
   collectively(comm, [&] {
     for (std::size_t w = 0; w < wanted.size(); ++w) {
+      const auto& named = wanted[w].place.name;
+      if (!named.empty()) {
+        const auto why = wrong_name(named, wanted[w].body, wanted[w].path.starts_with("springs"), candidates[w]);
+        if (!why.empty()) document.error(wanted[w].path, why);
+        continue;
+      }
+      const Point at = place(wanted[w].place.at);
       const auto on_body = bodies_named(wanted[w].body);
       std::string there;
       int count = 0;
@@ -137,12 +231,11 @@ void Model::require_points(deck::Document& document, const Communicator& comm) c
       if (!nearest)
         document.error(wanted[w].path, fmt::format("there is no body \"{}\"", wanted[w].body));
       else if (nearest->distance > reach)
-        document.error(wanted[w].path, fmt::format("no node of a surface lies at {}; the nearest is at {}, {:.3g} away",
-                                                   text(wanted[w].at), text(nearest->at), nearest->distance));
+        document.error(wanted[w].path, fmt::format("no node of a surface lies at {}; the nearest is at {}, {:.3g} away", text(at),
+                                                   text(nearest->at), nearest->distance));
       else if (count > 1)
-        document.error(wanted[w].path,
-                       fmt::format("bodies {} have nodes at {}; say which is meant, with `{}`", there, text(wanted[w].at),
-                                   wanted[w].path.starts_with("springs") ? "bodies" : "body"));
+        document.error(wanted[w].path, fmt::format("bodies {} have nodes at {}; say which is meant, with `{}`", there, text(at),
+                                                   wanted[w].path.starts_with("springs") ? "bodies" : "body"));
     }
     document.check();
   });

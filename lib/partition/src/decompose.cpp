@@ -246,7 +246,8 @@ void broadcast(mesh::Catalogue& catalogue, const Communicator& comm)
                               static_cast<long long>(catalogue.boundaries.size()),
                               catalogue.node_count,
                               catalogue.cell_count,
-                              static_cast<long long>(catalogue.volumes.size())};
+                              static_cast<long long>(catalogue.volumes.size()),
+                              static_cast<long long>(catalogue.node_sets.size())};
   comm.broadcast(head);
   catalogue.dimension = static_cast<int>(head[0]);
   catalogue.bodies.resize(static_cast<std::size_t>(head[1]));
@@ -261,6 +262,12 @@ void broadcast(mesh::Catalogue& catalogue, const Communicator& comm)
   catalogue.volumes.resize(static_cast<std::size_t>(head[5]));
   for (auto& volume : catalogue.volumes) share(volume);
   for (auto& boundary : catalogue.boundaries) share(boundary);
+  catalogue.node_sets.resize(static_cast<std::size_t>(head[6]));
+  for (auto& set : catalogue.node_sets) {
+    share(set.name);
+    comm.broadcast(set.nodes);
+    comm.broadcast(set.weights);
+  }
 }
 
 // Where the copies of the blocks are.

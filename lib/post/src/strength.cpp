@@ -106,6 +106,24 @@ std::vector<Warning> strained_supports(const std::vector<SupportLoad>& supports,
   return worst(std::move(result), "supports");
 }
 
+std::vector<Warning> point_forces(const std::vector<PointForce>& found, double forces)
+{
+  std::vector<Warning> result;
+  const double limit = 1e-3 * forces;
+  for (const auto& f : found) {
+    if (!(f.force > limit)) continue;
+    Warning w{"point_force",
+              fmt::format("{} acts with {:.4g} on nodes alone: stresses and displacements there have no limit as the mesh is "
+                          "refined",
+                          f.name, f.force),
+              "read them some cells away, or let it act on a boundary or through a coupling"};
+    w.value = f.force;
+    w.limit = limit;
+    result.push_back(std::move(w));
+  }
+  return worst(std::move(result), "loads and supports");
+}
+
 std::vector<Warning> coarse_mesh(const MeshError& error, const std::vector<std::string>& bodies)
 {
   if (!(error.relative > large_error)) return {};

@@ -78,6 +78,15 @@ TEST(StrainedSupports, force_over_area)
   EXPECT_TRUE(strained_supports({sliver}, 1e5).empty());
 }
 
+TEST(PointForces, are_told_where_they_matter)
+{
+  EXPECT_TRUE(point_forces({{"support legs", 0.9}}, 1e3).empty());
+  const auto found = point_forces({{"support legs", 2}, {"load tip", 30}}, 1e3);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].text.find("load tip acts with 30 on nodes alone"), std::string::npos) << found[0].text;
+  EXPECT_EQ(found[0].value, 30);
+}
+
 TEST(CoarseMesh, says_where_and_how_much_of_it)
 {
   MeshError error;

@@ -8,6 +8,7 @@
 
 #include "deck/description.hpp"
 #include "deck/formula.hpp"
+#include "deck/place.hpp"
 
 namespace mortise::constraint {
 
@@ -21,7 +22,7 @@ struct SupportOptions {
   std::array<std::optional<double>, 3> rotation = {};        ///< of a coupling: angles about the axes through its point
   std::string axes = {};                                     ///< name of local axes; empty: those of the model
   bool cylindrical = false;                                  ///< components are called radial, tangential, axial
-  std::vector<std::array<double, 3>> points = {};            ///< instead of a boundary: the nodes at these places
+  std::vector<deck::Place> points = {};                      ///< instead of a boundary: the nodes at these places
   std::string body = {};                                     ///< of `points`, where several bodies have nodes there
   /// Instead of displacements: springs to the ground, force a length at points, force a length and area on a boundary.
   struct Stiffness {

@@ -13,6 +13,7 @@
 #include "base/cholesky.hpp"
 #include "constraint/entry.hpp"
 #include "deck/description.hpp"
+#include "deck/place.hpp"
 
 namespace mortise::constraint {
 
@@ -35,7 +36,7 @@ struct Springs {
 
 /// One entry of the deck's section `springs`: between two nodes, along the line from one to the other.
 struct SpringOptions {
-  std::vector<std::array<double, 3>> points;
+  std::vector<deck::Place> points;
   std::vector<std::string> bodies;  ///< none, or that of each point
   double stiffness = 0;
 };

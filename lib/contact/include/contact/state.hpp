@@ -49,6 +49,7 @@ struct SurfaceState {
   std::vector<double> recovered_pressure;
   std::vector<Point> traction, slip;
   std::vector<int> status;
+  std::vector<char> near;  ///< whether the node lies near enough to the other side to have a state; else the numbers are 0
 };
 /// One for each surface. Collective.
 std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,

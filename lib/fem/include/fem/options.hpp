@@ -9,6 +9,7 @@
 
 #include "deck/description.hpp"
 #include "deck/formula.hpp"
+#include "deck/place.hpp"
 #include "mesh/cell.hpp"
 #include "mesh/instances.hpp"
 
@@ -74,7 +75,7 @@ struct LoadOptions {
   std::string coupling = {};                             ///< its point takes `force` and `moment`
   std::optional<std::array<double, 3>> moment = {};      ///< about the point; in a plane z alone, a thickness
   std::string axes = {};                                 ///< name of local axes of a traction or a force
-  std::vector<std::array<double, 3>> points = {};        ///< instead of a boundary: the nodes that share `force`
+  std::vector<deck::Place> points = {};                  ///< instead of a boundary: the nodes that share `force`
 };
 
 /// The keywords.

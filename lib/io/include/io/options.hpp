@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/types.hpp"
 #include "deck/description.hpp"
 
 namespace mortise::io {
@@ -46,9 +47,12 @@ struct ProbeOptions {
 };
 
 struct Options {
-  std::string directory;  ///< absolute by the time it gets here
+  static constexpr std::size_t usual_blocks = 40;
+  static constexpr Global usual_nodes = 30000;  ///< so that blocks take a tenth of a second
+  std::string directory;                        ///< absolute by the time it gets here
   std::vector<std::string> fields{"displacement", "von_mises", "stress", "principal_stress"};
-  int every = 1;  ///< increment of a load step is written, and its last one
+  deck::OrAuto<bool> blocks;  ///< blocks.pvd; auto: where it has at most `usual_blocks` of `usual_nodes`
+  int every = 1;              ///< increment of a load step is written, and its last one
   std::array<double, 3> moments_about{0, 0, 0};
   std::map<std::string, ProbeOptions> probes;
   InteriorOptions interior;

@@ -1,6 +1,7 @@
 // Fields on meshes for ParaView, one piece a rank.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct Piece {
   std::vector<Field> point_fields, cell_fields;  ///< the same names on every rank
 };
 
+/// These cells of a piece, with the points that they use.
+Piece part_of(const Piece& piece, const std::vector<std::size_t>& cells);
+
 /// Writes `name`_0.vtu, `name`_1.vtu ... (compressed), `name`.pvtu on several ranks, and last `name`.pvd, which opens them.
 /// Throws Error(machine) on all ranks if one fails; then none of these files is there. Collective.
 void write_vtk(const std::string& directory, const std::string& name, const Piece& piece, const Communicator& comm);
@@ -34,5 +38,19 @@ struct Series {
 };
 /// The same for one state of many: `series.name`.1_0.vtu ... and a .pvd of all that were written so far. Collective.
 void write_vtk(const std::string& directory, Series& series, double time, const Piece& piece, const Communicator& comm);
+
+/// A part of the model with a name, which can be hidden: "bodies", "ring". `words` stand in its field data: an array's name and
+/// entries.
+struct Block {
+  std::string group, name;
+  Piece piece;  ///< of this rank, without cells if it has none of it
+  std::vector<std::pair<std::string, std::vector<std::string>>> words;
+};
+
+/// `series.name`.vtm, or of one state of many `series.name`.K.vtm, which groups the blocks under their names; a file
+/// `series.name`.bI_R.vtu for each block and rank that has cells of it; and `series.name`.pvd. Blocks of one group stand side by
+/// side, in the same order on every rank. Throws as write_vtk(). Collective.
+void write_blocks(const std::string& directory, Series& series, std::optional<double> time, const std::vector<Block>& blocks,
+                  const Communicator& comm);
 
 }  // namespace mortise::io

@@ -20,13 +20,22 @@ struct Body {
   std::string instance = {};  ///< group.i if it belongs to the i-th instance of its group; empty if there are none
 };
 
+/// Nodes that have a name in the file and need be no boundary: those of a physical curve (plane models: none) or point, of an
+/// *NSET without a whole face. Of every body that has a node there.
+struct NodeSet {
+  std::string name;
+  std::vector<Global> nodes;
+  std::vector<double> weights;  ///< of each node of a curve the length that belongs to it; of points 1
+};
+
 /// The names of an assembly, the same on every rank.
 struct Catalogue {
   int dimension = 3;
   std::vector<Body> bodies;
   std::vector<std::string> boundaries;  ///< named surfaces (2D: curves)
   std::vector<std::string> volumes;     ///< physical volumes of the file or blocks; of a body of one volume equal to its group
-  Global node_count = 0;                ///< over all ranks, nodes shared by subdomains counted once
+  std::vector<NodeSet> node_sets;
+  Global node_count = 0;  ///< over all ranks, nodes shared by subdomains counted once
   Global cell_count = 0;
 };
 

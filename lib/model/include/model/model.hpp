@@ -108,6 +108,8 @@ class Model {
   struct NodesAtPoints;
   std::vector<std::vector<NodeAtPoint>> candidates_at_points(const Communicator& comm) const;
   NodesAtPoints nodes_at_points(const Communicator& comm) const;
+  std::string wrong_name(const std::string& name, const std::string& body, bool one,
+                         const std::vector<NodeAtPoint>& candidates) const;
   void add_point_forces(const LoadState& state, std::vector<Eigen::VectorXd>& f, const Communicator& comm) const;
   void add_distributed(const std::vector<constraint::Coupling>& couplings, std::vector<Eigen::VectorXd>& f,
                        const Communicator& comm) const;

@@ -36,6 +36,16 @@ struct SupportLoad {
 /// model; a resultant below a millionth of it is rounding.
 std::vector<Warning> strained_supports(const std::vector<SupportLoad>& supports, double forces);
 
+/// What acts on single nodes: a load or a support at points or along a curve.
+struct PointForce {
+  std::string name;  ///< "load tip", "support legs"
+  double force = 0;  ///< length of the resultant
+};
+
+/// "point_force": a force on nodes alone, of more than a thousandth of `forces`, the largest of the model: elasticity has no
+/// finite stress there, so that what a mesh shows depends on its size.
+std::vector<Warning> point_forces(const std::vector<PointForce>& found, double forces);
+
 /// Where the estimated error of the mesh is.
 struct MeshError {
   double relative = 0;       ///< of all, in the energy norm
