@@ -66,7 +66,7 @@ def read_property(model, card, material):
     if not rows:
         raise card.error("expected a line with values")
     if not (kind in ("ISO", "ISOTROPIC") or card.name == "DENSITY"):
-        model.leave_out(card, f'material "{material["name"]}": TYPE={kind}; the deck has isotropic materials alone')
+        model.leave_out(card, f'material "{material["name"]}": TYPE={kind}; isotropic constants alone are translated; write those of an orthotropic material under its `orthotropic`')
         return
     constants = {"ELASTIC": 2, "EXPANSION": 1, "DENSITY": 1}[card.name]
     values = [row[:constants] for row in rows]

@@ -172,7 +172,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   std::vector<double> softest(names.size(), std::numeric_limits<double>::infinity());
   for (std::size_t b = 0; b < names.size(); ++b)
     for (const auto& material : model::material_names(model::body_entry(deck, decomposition.catalogue.bodies[b].group)->second))
-      softest[b] = std::min(softest[b], deck.materials.at(material).young_modulus);
+      softest[b] = std::min(softest[b], deck.materials.at(material).modulus());
   const auto& pairs = state.rows->pairs;
   const auto& contact = results.contact;
   auto result = post::large_displacements(decomposition, sizes, state.displacement, comm);

@@ -39,6 +39,16 @@ void add_hoop(const CellGeometry& cell, const Lame& constants, Eigen::Map<Eigen:
   }
 }
 
+// The integral of B' C B.
+void add_orthotropic(const CellGeometry& cell, const Elasticity& elasticity, Eigen::Map<Eigen::MatrixXd>& k)
+{
+  k.setZero();
+  for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+    const auto b = strain_matrix(cell.gradient(q), cell.axisymmetric() ? cell.hoop(q).data() : nullptr);
+    k += cell.volumes()[q] * b.transpose() * elasticity.stiffness(place_of(cell, q)) * b;
+  }
+}
+
 }  // namespace
 
 // The stiffness of nodes and modes together, from `enriched_`, which it fills.
@@ -57,7 +67,17 @@ Eigen::MatrixXd CellFormulation::enriched_stiffness(const CellGeometry& cell)
     for (Eigen::Index k = 0; k < d; ++k) all.row(n + k) = -2 * element.point[q][k] * ratio * inverse.row(k);
   }
   Eigen::MatrixXd k((n + d) * d, (n + d) * d);
-  element.stiffness_with_modes(element, enriched_.data(), cell.volumes().data(), constants_.lambda, constants_.mu, k.data());
+  if (elasticity_.orthotropic()) {
+    k.setZero();
+    for (std::size_t q = 0; q < element.points(); ++q) {
+      const Eigen::Map<const Eigen::MatrixXd> all(enriched_.data() + q * static_cast<std::size_t>((n + d) * d), n + d, d);
+      const auto b = strain_matrix(all);
+      k += cell.volumes()[q] * b.transpose() * elasticity_.stiffness(place_of(cell, q)) * b;
+    }
+    return k;
+  }
+  const auto& [lambda, mu] = elasticity_.lame();
+  element.stiffness_with_modes(element, enriched_.data(), cell.volumes().data(), lambda, mu, k.data());
   return k;
 }
 
@@ -67,11 +87,12 @@ void CellFormulation::stiffness(const CellGeometry& cell, std::vector<double>& k
   const Eigen::Index size = static_cast<Eigen::Index>(element.nodes) * dimension_;
   k.resize(static_cast<std::size_t>(size * size));
   Eigen::Map<Eigen::MatrixXd> matrix(k.data(), size, size);
-  const auto& [lambda, mu] = constants_;
+  const auto& [lambda, mu] = elasticity_.lame();
   switch (formulation_) {
     case Formulation::standard:
+      if (elasticity_.orthotropic()) return add_orthotropic(cell, elasticity_, matrix);
       element.stiffness(element, cell.gradients().data(), cell.volumes().data(), lambda, mu, k.data());
-      if (cell.axisymmetric()) add_hoop(cell, constants_, matrix);
+      if (cell.axisymmetric()) add_hoop(cell, elasticity_.lame(), matrix);
       return;
     case Formulation::bbar: {
       element.stiffness(element, cell.gradients().data(), cell.volumes().data(), -2 * mu / 3, mu, k.data());

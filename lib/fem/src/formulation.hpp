@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "elasticity.hpp"
 #include "fem/stiffness.hpp"
 #include "geometry.hpp"
 
@@ -14,10 +15,11 @@ namespace mortise::fem {
 /// incompatible: u gains a_k (1 - xi_k^2) for each direction k of the reference cell, eliminated cell by cell; their gradients
 /// are taken with the Jacobian of the centre, which keeps the patch test [Wilson et al. (1973); Taylor, Beresford and Wilson,
 /// IJNME 10 (1976)].
+/// Orthotropic materials have the first and the last.
 class CellFormulation {
  public:
-  CellFormulation(Formulation formulation, const Lame& constants, Kinematics kinematics)
-      : formulation_(formulation), constants_(constants), dimension_(dimension(kinematics))
+  CellFormulation(Formulation formulation, const Elasticity& elasticity, Kinematics kinematics)
+      : formulation_(formulation), elasticity_(elasticity), dimension_(dimension(kinematics))
   {
   }
 
@@ -31,7 +33,7 @@ class CellFormulation {
   Eigen::MatrixXd enriched_stiffness(const CellGeometry& cell);
 
   Formulation formulation_;
-  Lame constants_;
+  Elasticity elasticity_;
   int dimension_;
   std::vector<double> enriched_;  // gradients, (n + d) x d a point
   std::vector<Eigen::Matrix3d> result_;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cell_temperature.hpp"
+#include "elasticity.hpp"
 #include "fem/stiffness.hpp"
 #include "geometry.hpp"
 
@@ -158,6 +159,22 @@ void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematic
   CellGeometry cell(kinematics);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto& material = materials[materials.index(c)];
+    if (material.orthotropic) {
+      const Elasticity elasticity(material, kinematics);
+      cell.gather(mesh, c);
+      cell.evaluate();
+      cell_temperature(temperature_change, cell, mesh, c, warmer);
+      for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+        const Point x = place_of(cell, q);
+        const Stress stress = warmer[q] * (elasticity.stiffness(x) * elasticity.expansion(x));
+        const Eigen::VectorXd forces =
+            cell.volumes()[q] *
+            (strain_matrix(cell.gradient(q), cell.axisymmetric() ? cell.hoop(q).data() : nullptr).transpose() * stress);
+        for (int i = 0; i < cell.element().nodes; ++i)
+          f.segment(mesh.cells[c][static_cast<std::size_t>(i)] * d, d) += forces.segment(i * d, d);
+      }
+      continue;
+    }
     const auto [lambda, mu] = lame(material, kinematics);
     // The stress that takes the free strain back: in plane stress lambda allows for the thickness, which stays free.
     const double modulus = ((kinematics == Kinematics::plane_stress ? 2 : 3) * lambda + 2 * mu) * material.thermal_expansion;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -65,13 +67,96 @@ bool applies(Formulation formulation, mesh::CellType type)
   return type == hex8 || type == quad4 || (type == prism6 && formulation == Formulation::bbar);
 }
 
+Eigen::Matrix3d flexibility(const Orthotropy& m)
+{
+  const auto& [e1, e2, e3] = m.young_modulus;
+  const auto& [nu12, nu13, nu23] = m.poisson_ratio;
+  return (Eigen::Matrix3d() << 1 / e1, -nu12 / e1, -nu13 / e1, -nu12 / e1, 1 / e2, -nu23 / e2, -nu13 / e1, -nu23 / e2, 1 / e3)
+      .finished();
+}
+
+double Material::modulus() const
+{
+  return orthotropic ? *std::min_element(orthotropic->young_modulus.begin(), orthotropic->young_modulus.end()) : young_modulus;
+}
+
+namespace {
+
+// Whether every strain takes energy; if not, what is wrong.
+std::string instability(const Orthotropy& m)
+{
+  const std::array<std::array<std::size_t, 2>, 3> pairs{{{0, 1}, {0, 2}, {1, 2}}};
+  const std::array<const char*, 3> names{"12", "13", "23"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [i, j] = pairs[k];
+    const double limit = std::sqrt(m.young_modulus[i] / m.young_modulus[j]);
+    if (!(std::abs(m.poisson_ratio[k]) < limit))
+      return fmt::format("poisson_ratio {} is {:.6g}; expected less than the root of E{} / E{}, {:.6g}", names[k],
+                         m.poisson_ratio[k], i + 1, j + 1, limit);
+  }
+  const auto& e = m.young_modulus;
+  const Eigen::Vector3d root(std::sqrt(e[0]), std::sqrt(e[1]), std::sqrt(e[2]));
+  const Eigen::Matrix3d scaled = root.asDiagonal() * flexibility(m) * root.asDiagonal();
+  if (scaled.determinant() < 1e-9)
+    return "the three poisson_ratio together make a material that some stress does not resist; expected smaller ones";
+  return "";
+}
+
+// A constant of isotropic materials alone: in decks that are written back it stands only there.
+auto& isotropic_key(deck::Description<Material>& d, const char* name, double Material::*member, const char* help)
+{
+  return d.custom(
+      name, help,
+      [member](Material& material, const YAML::Node& node, const std::string& path, deck::Document& document,
+               const deck::Limits& limits) { deck::Codec<double>::read(material.*member, node, path, document, limits); },
+      [member](const Material& material) {
+        return material.young_modulus > 0 ? deck::Codec<double>::write(material.*member) : YAML::Node();
+      },
+      [](const deck::Limits& limits) { return deck::Codec<double>::schema(limits); });
+}
+
+}  // namespace
+
+void describe(deck::Description<Orthotropy>& d)
+{
+  d.help("Elasticity along three directions 1, 2, 3: Abaqus' engineering constants.");
+  d.key("young_modulus", &Orthotropy::young_modulus, "E1, E2, E3.").required().positive();
+  d.key("poisson_ratio", &Orthotropy::poisson_ratio,
+        "nu12, nu13, nu23: a stress along 1 strains 2 by -nu12 / E1 of it; nu21 = nu12 E2 / E1, and so on.")
+      .required();
+  d.key("shear_modulus", &Orthotropy::shear_modulus, "G12, G13, G23.").required().positive();
+  d.key("thermal_expansion", &Orthotropy::thermal_expansion,
+        "Strains a degree along 1, 2, 3; default: that of the material in all.");
+  d.key(
+      "axes", &Orthotropy::axes,
+      "The directions, by their name in the section `axes`: 1, 2, 3 are x, y, z or radial, tangential, axial; default: the axes "
+      "of the model. In plane models 3 is across the plane, in axisymmetric ones along the hoop.");
+  d.check([](const Orthotropy& m, const std::string& path, deck::Document& document) {
+    for (const auto& [constants, name] : {std::pair(m.young_modulus, ".young_modulus"), {m.shear_modulus, ".shear_modulus"}})
+      if (!(constants[2] > 0)) return document.error(path + name, "expected three entries, in plane models too");
+    if (const auto why = instability(m); !why.empty()) document.error(path, why);
+  });
+}
+
 void describe(deck::Description<Material>& d)
 {
-  d.help("Linear isotropic elasticity, in any consistent units.");
-  d.key("young_modulus", &Material::young_modulus, "Young's modulus.").required().positive();
-  d.key("poisson_ratio", &Material::poisson_ratio, "Poisson's ratio.").required().above(-1).below(0.5);
+  d.help("Linear elasticity, in any consistent units: isotropic, by `young_modulus` and `poisson_ratio`, or `orthotropic`.");
+  isotropic_key(d, "young_modulus", &Material::young_modulus, "Young's modulus.").positive();
+  isotropic_key(d, "poisson_ratio", &Material::poisson_ratio, "Poisson's ratio.").above(-1).below(0.5);
+  d.key("orthotropic", &Material::orthotropic, "Instead of these two: constants along three directions.");
   d.key("density", &Material::density, "Mass a volume, for accelerations.").at_least(0);
   d.key("thermal_expansion", &Material::thermal_expansion, "Strain a degree, for changes of temperature.");
+  d.check_keys([](const std::vector<std::string>& given, const std::string& path, deck::Document& document) {
+    const auto has = [&](const char* key) { return std::find(given.begin(), given.end(), key) != given.end(); };
+    for (const char* key : {"young_modulus", "poisson_ratio"}) {
+      if (has("orthotropic") && has(key))
+        document.error(path + "." + key,
+                       "the material is `orthotropic`, which says it along three directions; leave one of them out");
+      if (!has("orthotropic") && !has(key))
+        document.error(
+            path, fmt::format("the key \"{}\" is missing: {}", key, key[0] == 'y' ? "Young's modulus." : "Poisson's ratio."));
+    }
+  });
 }
 
 void describe(deck::Description<BodyOptions>& d)

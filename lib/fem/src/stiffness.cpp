@@ -141,8 +141,9 @@ Sparse stiffness(const mesh::Mesh& mesh, const Materials& materials, Kinematics 
 {
   const int d = dimension(kinematics);
   std::vector<CellFormulation> cell_formulation;
+  std::vector<Elasticity> elasticity;
   for (std::size_t m = 0; m < materials.count(); ++m)
-    cell_formulation.emplace_back(formulation, lame(materials[m], kinematics), kinematics);
+    elasticity.emplace_back(materials[m], kinematics), cell_formulation.emplace_back(formulation, elasticity[m], kinematics);
   const Adjacency graph = adjacency(mesh);
   Sparse k = pattern(graph, d);
   // Cells that are translates of the one before, as in every structured mesh, share its matrix if their material is the same.
@@ -153,7 +154,8 @@ Sparse stiffness(const mesh::Mesh& mesh, const Materials& materials, Kinematics 
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     cell.gather(mesh, c);
     const std::size_t place = materials.index(c);
-    if (computed_with != &cell.element() || computed_of != place || !is_translate(cell.coordinates(), computed_for, kinematics)) {
+    if (computed_with != &cell.element() || computed_of != place || !elasticity[place].uniform() ||
+        !is_translate(cell.coordinates(), computed_for, kinematics)) {
       cell.evaluate();
       require_positive(cell);
       computed_with = &cell.element();

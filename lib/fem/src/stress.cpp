@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cell_temperature.hpp"
+#include "elasticity.hpp"
 #include "fem/stiffness.hpp"
 #include "formulation.hpp"
 
@@ -10,34 +11,17 @@ namespace mortise::fem {
 
 namespace {
 
-// Stress from the displacement gradient H = du_i/dx_j and the strain that has none.
-Stress stress_of(const Eigen::Matrix3d& h, const Lame& constants, Kinematics kinematics, double free_strain)
-{
-  Eigen::Matrix3d strain = 0.5 * (h + h.transpose());
-  strain.diagonal().head(kinematics == Kinematics::plane_stress ? 2 : 3).array() -= free_strain;
-  Eigen::Matrix3d s = constants.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2 * constants.mu * strain;
-  if (kinematics == Kinematics::plane_stress) s(2, 2) = 0;
-  return (Stress() << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)).finished();
-}
-
-// s : C^-1 : s of isotropic elasticity. It serves the plane states as well, because the stress across the plane is among the six.
-double complementary_energy(const Stress& s, const Material& material)
-{
-  const double trace = s[0] + s[1] + s[2], product = s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm();
-  return ((1 + material.poisson_ratio) * product - material.poisson_ratio * trace * trace) / material.young_modulus;
-}
-
-// Calls visit(c, cell, stress) for every cell c; stress is q x 6.
+// Calls visit(c, cell, stress, elasticity) for every cell c; stress is q x 6.
 template <class Visit>
 void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, Formulation formulation,
                    const Temperature& temperature_change, const Eigen::VectorXd& u, const Visit& visit)
 {
   const int d = dimension(kinematics);
-  std::vector<Lame> constants;
+  std::vector<Elasticity> elasticity;
   std::vector<CellFormulation> cell_formulation;
   for (std::size_t m = 0; m < materials.count(); ++m) {
-    constants.push_back(lame(materials[m], kinematics));
-    cell_formulation.emplace_back(formulation, constants.back(), kinematics);
+    elasticity.emplace_back(materials[m], kinematics);
+    cell_formulation.emplace_back(formulation, elasticity.back(), kinematics);
   }
   CellGeometry cell(kinematics);
   Eigen::MatrixXd displacement, stress;
@@ -49,13 +33,12 @@ void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematic
     displacement.resize(d, cell.element().nodes);
     for (int i = 0; i < cell.element().nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
     stress.resize(static_cast<Eigen::Index>(cell.volumes().size()), 6);
-    const double expansion = materials[materials.index(c)].thermal_expansion;
+    const auto& own = elasticity[materials.index(c)];
     cell_temperature(temperature_change, cell, mesh, c, warmer);
     const auto& gradients = cell_formulation[materials.index(c)].gradients(cell, displacement);
     for (std::size_t q = 0; q < gradients.size(); ++q)
-      stress.row(static_cast<Eigen::Index>(q)) =
-          stress_of(gradients[q], constants[materials.index(c)], kinematics, expansion * warmer[q]).transpose();
-    visit(c, cell, stress);
+      stress.row(static_cast<Eigen::Index>(q)) = own.stress(gradients[q], warmer[q], place_of(cell, q)).transpose();
+    visit(c, cell, stress, own);
   }
 }
 
@@ -74,7 +57,7 @@ StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinemat
   field.nodal_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), 7 * static_cast<Eigen::Index>(blocks));
   field.cell_von_mises.resize(static_cast<Eigen::Index>(mesh.cells.size()));
   for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
-                [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
+                [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress, const Elasticity& elasticity) {
                   Stress sum = Stress::Zero();
                   double volume = 0;
                   for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
@@ -82,7 +65,7 @@ StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinemat
                     volume += cell.volumes()[q];
                     field.strain_energy +=
                         0.5 * cell.volumes()[q] *
-                        complementary_energy(stress.row(static_cast<Eigen::Index>(q)).transpose(), materials[materials.index(c)]);
+                        elasticity.complementary(stress.row(static_cast<Eigen::Index>(q)).transpose(), place_of(cell, q));
                   }
                   field.cell_von_mises[static_cast<Eigen::Index>(c)] = von_mises(sum / volume);
                   for (int i = 0; i < cell.element().nodes; ++i) {
@@ -102,28 +85,28 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
   for_each_cell(
       mesh, materials, kinematics, formulation, temperature_change, u,
-      [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress) {
+      [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress, const Elasticity& elasticity) {
         double& sum = result[static_cast<Eigen::Index>(c)];
-        const auto& material = materials[materials.index(c)];
         const auto own = recovered.middleCols(6 * static_cast<Eigen::Index>(materials.index(c)), 6);
         if (cell.volumes().size() == 1) {  // one point misses what is linear in s* - s; that is a simplex with nodes 0 .. n - 1:
           // the integral of a quadratic form q of a linear function is V / (n (n + 1)) (sum of q(f_i) + q(sum of f_i)).
           const int n = cell.element().nodes;
+          const Point x = place_of(cell, 0);
           Stress total = Stress::Zero();
           double energy = 0;
           for (const Local node : mesh.cells[c]) {
             const Stress difference = (own.row(node) - stress.row(0)).transpose();
             total += difference;
-            energy += complementary_energy(difference, material);
+            energy += elasticity.complementary(difference, x);
           }
-          sum = cell.volumes()[0] / (n * (n + 1)) * (energy + complementary_energy(total, material));
+          sum = cell.volumes()[0] / (n * (n + 1)) * (energy + elasticity.complementary(total, x));
           return;
         }
         for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
           Stress difference = -stress.row(static_cast<Eigen::Index>(q)).transpose();
           for (int i = 0; i < cell.element().nodes; ++i)
             difference += cell.element().shape[q][i] * own.row(mesh.cells[c][static_cast<std::size_t>(i)]).transpose();
-          sum += cell.volumes()[q] * complementary_energy(difference, material);
+          sum += cell.volumes()[q] * elasticity.complementary(difference, place_of(cell, q));
         }
       });
   return result;

@@ -88,6 +88,59 @@ TEST(Stress, FormulationsFindTheSameConstantStress)
     }
 }
 
+// C_ijkl of a material along `axes` (rows), by the sum over its four indices.
+Eigen::Matrix3d turned_law(const Orthotropy& m, const Eigen::Matrix3d& axes, const Eigen::Matrix3d& strain)
+{
+  const Eigen::Matrix3d normal = flexibility(m).inverse();
+  const auto& [g12, g13, g23] = m.shear_modulus;
+  const Eigen::Matrix3d shear = (Eigen::Matrix3d() << 0, g12, g13, g12, 0, g23, g13, g23, 0).finished();
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+  const auto along = [&](int a) { return Eigen::Vector3d(axes.row(a).transpose()); };
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) {
+      const double own = along(a).dot(strain * along(b));
+      if (a != b) stress += 2 * shear(a, b) * own * along(a) * along(b).transpose();
+      for (int c = 0; a == b && c < 3; ++c) stress += normal(c, a) * own * along(c) * along(c).transpose();
+    }
+  return stress;
+}
+
+TEST(Stress, OrthotropicStressIsThatOfTheTurnedLaw)
+{
+  const Orthotropy wood{{900, 300, 500}, {0.3, 0.2, 0.25}, {120, 150, 90}, {}, {}};
+  for (const auto& [name, kinematics] : all_cases()) {
+    if (kinematics == Kinematics::axisymmetric) continue;  // no constant stress
+    const bool planar = dimension(kinematics) == 2;
+    const std::array<double, 3> x{1, 0.8, planar ? 0.0 : 0.3}, y{-0.2, 1, 0.4};
+    Material m;
+    m.orthotropic = wood;
+    m.directions = std::make_shared<deck::LocalAxes>(deck::AxesOptions{{}, {}, x, y}, planar);
+    for (const auto formulation : {Formulation::standard, Formulation::incompatible}) {
+      Block block(name, {3, 3, 3}, {1, 2, 1.5});
+      if (!applies(formulation, block.mesh.cells.type[0])) continue;
+      block.distort(0.07, true);
+      const auto gradient = some_gradient(block.dimension);
+      const auto u = sample(block.mesh, block.dimension, [&](const Point& at) { return Point(gradient * at); });
+      const Eigen::Matrix3d axes = *m.directions->at(Point::Zero());
+      Eigen::Matrix3d strain = 0.5 * (gradient + gradient.transpose());
+      if (kinematics == Kinematics::plane_stress) {  // linear in the strain across
+        const double none = turned_law(wood, axes, strain)(2, 2);
+        strain(2, 2) = 1;
+        const double one = turned_law(wood, axes, strain)(2, 2);
+        strain(2, 2) = -none / (one - none);
+      }
+      const Stress expected = components(turned_law(wood, axes, strain));
+      const auto field = stresses(block.mesh, m, kinematics, u, formulation);
+      EXPECT_LT((recovered(field).rowwise() - expected.transpose()).cwiseAbs().maxCoeff(), 1e-10 * expected.norm()) << name;
+      const auto k = stiffness(block.mesh, m, kinematics, formulation);
+      const double energy = 0.5 * u.dot(k.selfadjointView<Eigen::Lower>() * u);
+      EXPECT_NEAR(field.strain_energy, energy, 1e-11 * energy) << name;
+      const auto motions = rigid_motions(block.mesh.points, kinematics);
+      EXPECT_LT((k.selfadjointView<Eigen::Lower>() * motions).cwiseAbs().maxCoeff(), 1e-10 * k.coeffs().maxCoeff()) << name;
+    }
+  }
+}
+
 // Pure bending, u = (x y, -x^2 / 2): one layer with incompatible modes has the stress E y.
 TEST(Stress, IncompatibleModesHaveTheStressOfBending)
 {

@@ -64,6 +64,11 @@ void check_boundary_elements(const Deck& deck, const std::string& name, const fe
     document.error("bodies." + name + ".method",
                    "boundary elements are not for axisymmetric models; expected finite_elements, or another `dimension`");
   const auto material = deck.materials.find(body.material);
+  if (material != deck.materials.end() && material->second.orthotropic)
+    document.error(
+        "bodies." + name + ".method",
+        fmt::format("boundary elements are for isotropic materials, and \"{}\" is orthotropic; expected finite_elements",
+                    body.material));
   if (deck.kinematics == fem::Kinematics::plane_stress && material != deck.materials.end() &&
       material->second.poisson_ratio <= -0.5)
     document.error("bodies." + name + ".method",
@@ -92,6 +97,26 @@ void check_bodies(const Deck& deck, deck::Document& document)
     if (body.formulation == fem::Formulation::incompatible && deck.axisymmetric())
       document.error("bodies." + name + ".formulation",
                      "the incompatible modes are for boxes, not for rings; expected standard or bbar, or cells of second order");
+  for (const auto& [name, body] : deck.bodies) {
+    const auto names = material_names(body);
+    const auto orthotropic = std::find_if(names.begin(), names.end(), [&](const std::string& material) {
+      const auto found = deck.materials.find(material);
+      return found != deck.materials.end() && found->second.orthotropic;
+    });
+    if (orthotropic == names.end()) continue;
+    if (body.formulation == fem::Formulation::bbar)
+      document.error(
+          "bodies." + name + ".formulation",
+          fmt::format("bbar is for isotropic materials, and \"{}\" is orthotropic; expected standard, or cells of second "
+                      "order",
+                      *orthotropic));
+    if (!body.instances.empty())
+      document.error(
+          "bodies." + name + ".instances",
+          fmt::format("\"{}\" is orthotropic along axes in space, which would not turn with the copies; mesh the bodies "
+                      "one by one",
+                      *orthotropic));
+  }
   for (const auto& [name, body] : deck.bodies)
     if (body.method == fem::Method::boundary_elements) check_boundary_elements(deck, name, body, document);
   for (const auto& [name, block] : deck.mesh.blocks) {
@@ -268,6 +293,9 @@ void check_axes(const Deck& deck, deck::Document& document)
     document.error(path + ".axes", fmt::format("there are no axes \"{}\"{}", name, deck::suggestion(name, keys_of(deck.axes))));
     return nullptr;
   };
+  for (const auto& [name, material] : deck.materials)
+    if (material.orthotropic && !material.orthotropic->axes.empty())
+      find(material.orthotropic->axes, "materials." + name + ".orthotropic");
   for (std::size_t i = 0; i < deck.supports.size(); ++i) {
     const auto& support = deck.supports[i];
     const auto path = fmt::format("supports[{}]", i);
@@ -606,9 +634,8 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
         break;
       }
       const auto any = std::find_if(deck.materials.begin(), deck.materials.end(), of_body);
-      const bool expands = std::any_of(deck.materials.begin(), deck.materials.end(), [&](const auto& material) {
-        return of_body(material) && material.second.thermal_expansion != 0;
-      });
+      const bool expands = std::any_of(deck.materials.begin(), deck.materials.end(),
+                                       [&](const auto& material) { return of_body(material) && material.second.expands(); });
       if (load.temperature_change && any != deck.materials.end() && !expands) {
         document.error(at, fmt::format("a temperature_change needs a thermal_expansion (strain a degree) of the material \"{}\"",
                                        any->first));

@@ -62,8 +62,8 @@ std::string why_indefinite(const partition::Subdomain& subdomain, const fem::Mat
   double softest = std::numeric_limits<double>::infinity(), stiffest = 0;
   for (std::size_t c = 0; c < subdomain.mesh.cells.size(); ++c) {
     const auto& material = materials[materials.index(c)];
-    softest = std::min(softest, material.young_modulus);
-    stiffest = std::max(stiffest, material.young_modulus);
+    softest = std::min(softest, material.modulus());
+    stiffest = std::max(stiffest, material.modulus());
     if (material.poisson_ratio <= nearly_incompressible) continue;
     cause(fmt::format("Poisson's ratio is {}: take at most {}", material.poisson_ratio, nearly_incompressible));
     break;

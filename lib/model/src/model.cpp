@@ -57,11 +57,17 @@ fem::Materials Model::materials(const partition::Subdomain& subdomain) const
 {
   const auto& catalogue = decomposition_.catalogue;
   const auto& body = body_entry(deck_, catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group)->second;
-  if (body.volumes.empty()) return deck_.materials.at(body.material);
+  const auto placed = [&](const std::string& name) {
+    auto material = deck_.materials.at(name);
+    if (material.orthotropic && !material.orthotropic->axes.empty())
+      material.directions = std::make_shared<const deck::LocalAxes>(local_axes(material.orthotropic->axes));
+    return material;
+  };
+  if (body.volumes.empty()) return placed(body.material);
   // In every subdomain of a body the materials stand in the same order.
   const auto names = material_names(body);
   std::vector<fem::Material> materials;
-  for (const auto& name : names) materials.push_back(deck_.materials.at(name));
+  for (const auto& name : names) materials.push_back(placed(name));
   std::vector<int> of_volume, of_cell;
   for (const auto& volume : catalogue.volumes) {
     const auto own = body.volumes.find(volume);
@@ -224,6 +230,9 @@ std::vector<partition::CopyOf> Model::congruent() const
     const auto& body = body_entry(deck_, decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group)->second;
     const auto own = materials(subdomain);
     std::vector<std::size_t> detail{static_cast<std::size_t>(formulation(subdomain))};
+    // An orthotropic piece is another one when it is turned, with cylindrical directions even when it is moved.
+    for (std::size_t m = 0; m < own.count(); ++m)
+      if (own[m].orthotropic) detail.push_back(static_cast<std::size_t>(subdomain.id));
     for (std::size_t c = 0; own.count() > 1 && c < subdomain.mesh.cells.size(); ++c) detail.push_back(own.index(c));
     kind.push_back(
         kinds.emplace(std::pair(material_names(body), std::move(detail)), static_cast<int>(kinds.size())).first->second);
@@ -466,7 +475,7 @@ Model::Facts Model::facts(const std::string& boundary, const Communicator& comm)
     sums[3] += moments.area;
     for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)] += moments.first[c];
     const auto own = materials(subdomain);
-    for (std::size_t m = 0; m < own.count(); ++m) softest = std::min(softest, own[m].young_modulus);
+    for (std::size_t m = 0; m < own.count(); ++m) softest = std::min(softest, own[m].modulus());
   }
   comm.sum_in_place(sums);
   softest = comm.min(softest);

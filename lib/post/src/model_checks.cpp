@@ -62,13 +62,13 @@ std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const 
   }
   for (const auto& b : bodies) {
     if (!(b.material.density > 0)) continue;
-    const double time = b.size / std::sqrt(b.material.young_modulus / b.material.density);
+    const double time = b.size / std::sqrt(b.material.modulus() / b.material.density);
     if (time <= longest && time >= shortest) continue;
     Warning w{"mixed_units",
               fmt::format(
                   "a sound wave would take {:.2g} s through body \"{}\" of size {:.3g} (Young's modulus {:.4g}, density {:.4g}): "
                   "units look mixed",
-                  time, b.body, b.size, b.material.young_modulus, b.material.density),
+                  time, b.body, b.size, b.material.modulus(), b.material.density),
               "take one set: N, mm, MPa and density in t/mm3 (steel 7.85e-9), or N, m, Pa and kg/m3"};
     w.body = b.body;
     w.value = time;

@@ -80,16 +80,24 @@ class Description {
   /// A check of the whole once its keys are read without error: reports to the document.
   void check(std::function<void(const T&, const std::string& path, Document&)> function) { check_ = std::move(function); }
 
+  /// A check of which keys are given: which of them go together.
+  void check_keys(std::function<void(const std::vector<std::string>& given, const std::string& path, Document&)> function)
+  {
+    key_check_ = std::move(function);
+  }
+
   const std::vector<std::unique_ptr<Key<T>>>& keys() const { return keys_; }
   const std::vector<std::string>& unavailable() const { return unavailable_; }
   const std::string& help() const { return help_; }
   const auto& whole_check() const { return check_; }
+  const auto& key_check() const { return key_check_; }
 
  private:
   std::string help_;
   std::vector<std::unique_ptr<Key<T>>> keys_;
   std::vector<std::string> unavailable_;
   std::function<void(const T&, const std::string&, Document&)> check_;
+  std::function<void(const std::vector<std::string>&, const std::string&, Document&)> key_check_;
 };
 
 /// The description of T, made once.
@@ -142,6 +150,7 @@ struct Codec {
     for (const auto& key : d.keys())
       if (key->is_required && std::find(seen.begin(), seen.end(), key->name) == seen.end())
         document.error(path, "the key \"" + key->name + "\" is missing: " + key->help);
+    if (d.key_check()) d.key_check()(seen, path, document);
     if (document.error_count() == before && d.whole_check()) d.whole_check()(value, path, document);
   }
   static YAML::Node write(const T& value)

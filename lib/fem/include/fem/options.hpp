@@ -3,24 +3,43 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "deck/description.hpp"
 #include "deck/formula.hpp"
+#include "deck/local_axes.hpp"
 #include "deck/place.hpp"
 #include "mesh/cell.hpp"
 #include "mesh/instances.hpp"
 
 namespace mortise::fem {
 
-/// Linear isotropic elasticity. Stresses in the unit of Young's modulus.
+/// Constants along three orthogonal directions 1, 2, 3. A stress along i strains j by -poisson_ij / E_i of it; poisson_ji / E_j =
+/// poisson_ij / E_i.
+struct Orthotropy {
+  std::array<double, 3> young_modulus{}, poisson_ratio{}, shear_modulus{};  ///< E: 1, 2, 3; the others: 12, 13, 23
+  std::optional<std::array<double, 3>> thermal_expansion;                   ///< strain a degree; none: that of the material
+  std::string axes;                                                         ///< directions by name; none: those of the model
+};
+/// Strains 11, 22, 33 by stresses 11, 22, 33.
+Eigen::Matrix3d flexibility(const Orthotropy& m);
+
+/// Linear elasticity, isotropic unless it is orthotropic. Stresses in the unit of Young's modulus.
 struct Material {
-  double young_modulus = 0;      ///< > 0, required
-  double poisson_ratio = 0;      ///< in (-1, 0.5), required
+  double young_modulus = 0;      ///< > 0; of an orthotropic one 0, see modulus()
+  double poisson_ratio = 0;      ///< in (-1, 0.5)
   double density = 0;            ///< mass a volume; needed by accelerations only
   double thermal_expansion = 0;  ///< strain a degree
+  std::optional<Orthotropy> orthotropic = {};
+  std::shared_ptr<const deck::LocalAxes> directions = {};  ///< what orthotropic->axes names; none: the axes of the model
+
+  /// Young's modulus, of an orthotropic material the smallest: what stresses and sizes are compared with.
+  double modulus() const;
+  /// Whether changes of temperature strain it.
+  bool expands() const { return thermal_expansion != 0 || (orthotropic && orthotropic->thermal_expansion); }
 };
 
 /// Plane states have thickness 1. Axisymmetric bodies lie in x >= 0, r = x, and go once round the y axis: forces are those of the
@@ -79,6 +98,7 @@ struct LoadOptions {
 };
 
 /// The keywords.
+void describe(deck::Description<Orthotropy>& d);
 void describe(deck::Description<Material>& d);
 void describe(deck::Description<BodyOptions>& d);
 void describe(deck::Description<Centrifugal>& d);

@@ -9,16 +9,17 @@
 
 namespace mortise::fem {
 
-/// Lame's constants as the kinematics sees them: in plane stress lambda is 2 lambda mu / (lambda + 2 mu).
+/// Lame's constants of an isotropic material as the kinematics sees them: in plane stress lambda is 2 lambda mu / (lambda + 2
+/// mu).
 struct Lame {
   double lambda, mu;
 };
 Lame lame(const Material& material, Kinematics kinematics);
 
 /// Lower triangle of K, K_ij = integral of lambda div v_i div v_j + 2 mu e(v_i):e(v_j), full integration, lambda and mu
-/// those of the cell; other formulations as they have it. Unknown d * node + component, d = dimension(kinematics). In axisymmetry
-/// the hoop strain u_r / r counts as well. Throws Error(bad_input) that names the cell if its Jacobian is not positive at an
-/// integration point.
+/// those of the cell, or of e(v_i) : C : e(v_j); other formulations as they have it. Unknown d * node + component, d =
+/// dimension(kinematics). In axisymmetry the hoop strain u_r / r counts as well. Throws Error(bad_input) that names the cell if
+/// its Jacobian is not positive at an integration point.
 Eigen::SparseMatrix<double, Eigen::ColMajor, int> stiffness(const mesh::Mesh& mesh, const Materials& materials,
                                                             Kinematics kinematics,
                                                             Formulation formulation = Formulation::standard);
