@@ -12,16 +12,19 @@ install(TARGETS mortise_gmsh LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/mor
 install(PROGRAMS mortise DESTINATION ${shared})
 install(DIRECTORY inputs docs DESTINATION ${shared} USE_SOURCE_PERMISSIONS PATTERN "*.out" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY postproc DESTINATION ${shared} USE_SOURCE_PERMISSIONS PATTERN "__pycache__" EXCLUDE)
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
-install(CODE "
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mortise)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/mortise RENAME copyright)
+install(CODE [[
   function(link_to target name)
-    file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/\${name}/..\")
-    file(CREATE_LINK \${target} \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/\${name}\" SYMBOLIC)
+    cmake_path(SET link "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/${name}")
+    cmake_path(GET link PARENT_PATH directory)
+    file(MAKE_DIRECTORY ${directory})
+    file(CREATE_LINK ${target} ${link} SYMBOLIC)
   endfunction()
   link_to(../share/mortise/mortise bin/mortise)
   link_to(../../mortise/docs share/doc/mortise/docs)
-  link_to(../../mortise/inputs share/doc/mortise/examples)")
+  link_to(../../mortise/inputs share/doc/mortise/examples)
+]])
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME mortise)
@@ -29,14 +32,14 @@ set(CPACK_PACKAGE_VENDOR Mortise)
 set(CPACK_PACKAGE_CONTACT "The Mortise team <mortise@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_PACKAGE_DESCRIPTION "Contact of elastic bodies by Total FETI and boundary elements:
- a mesh of gmsh, a short deck in YAML, fields for ParaView.
- .
- Needs a processor with AVX2 and FMA.")
+a mesh of gmsh, a short deck in YAML, fields for ParaView.
+
+Needs a processor with AVX2 and FMA.")
 set(CPACK_PACKAGE_FILE_NAME mortise_${PROJECT_VERSION}_amd64)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "openmpi-bin, python3, python3-numpy, python3-yaml")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libopenblas0-serial, openmpi-bin, python3, python3-numpy, python3-yaml")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-vtk9, python3-matplotlib")
 include(CPack)
