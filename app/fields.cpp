@@ -5,11 +5,13 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "contact_pressure.hpp"
 #include "fem/quantity.hpp"
 #include "interior.hpp"
 #include "io/files.hpp"
 #include "io/results.hpp"
 #include "io/vtk.hpp"
+#include "local_fields.hpp"
 #include "model/patterns.hpp"
 
 namespace mortise {
@@ -50,7 +52,8 @@ struct Volume {
 };
 
 Volume volume_piece(const model::Deck& deck, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& u,
-                    const std::vector<Eigen::MatrixXd>& holding, const post::Results& results)
+                    const std::vector<Eigen::MatrixXd>& holding, const std::vector<Eigen::MatrixXd>& pressing,
+                    const post::Results& results)
 {
   io::Piece piece;
   const bool with_principal = wanted(deck, "principal_stress");
@@ -74,7 +77,9 @@ Volume volume_piece(const model::Deck& deck, const partition::Decomposition& dec
   io::Field displacement{"displacement", 3, std::vector<double>(3 * count, 0.0)},
       von_mises{"von_mises", 1, std::vector<double>(count)}, stress{"stress", 6, std::vector<double>(6 * count)},
       principal{"principal_stress", 3, std::vector<double>(with_principal ? 3 * count : 0)},
-      reaction{"reaction_force", 3, std::vector<double>(holding.empty() ? 0 : 3 * count, 0.0)};
+      reaction{"reaction_force", 3, std::vector<double>(holding.empty() ? 0 : 3 * count, 0.0)},
+      pressure{"contact_pressure", 1, std::vector<double>(pressing.empty() ? 0 : count, 0.0)};
+  LocalFields local(deck, count);
   io::Field cell_von_mises{"von_mises", 1, {}}, body{"body", 1, {}, true}, owner{"subdomain", 1, {}, true};
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
@@ -101,8 +106,10 @@ Volume volume_piece(const model::Deck& deck, const partition::Decomposition& dec
       }
       for (std::size_t c = 0; c < 3; ++c) displacement.values[3 * at + c] = moved[static_cast<Eigen::Index>(c)];
       von_mises.values[at] = fem::von_mises(own);
+      local.set(at, mesh.points[n], moved, own);
       for (std::size_t c = 0; c < 6; ++c) stress.values[6 * at + c] = own[static_cast<Eigen::Index>(c)];
       if (with_principal) Eigen::Map<Eigen::Vector3d>(&principal.values[3 * at]) = fem::principal_stresses(own);
+      if (!pressing.empty() && n < on_mesh) pressure.values[at] = pressing[s](row, 0);
       if (!holding.empty() && n < on_mesh) Eigen::Map<Eigen::RowVector3d>(&reaction.values[3 * at]) = holding[s].row(row);
     }
     const auto& of_cells = &mesh == &subdomain.mesh ? results.stress.cell_von_mises[s] : results.interior.cell_von_mises[s];
@@ -123,7 +130,9 @@ Volume volume_piece(const model::Deck& deck, const partition::Decomposition& dec
   }
   if (wanted(deck, "stress")) piece.point_fields.push_back(std::move(stress));
   if (with_principal) piece.point_fields.push_back(std::move(principal));
+  local.move_to(piece);
   if (wanted(deck, "reaction_force")) piece.point_fields.push_back(std::move(reaction));
+  if (!pressing.empty()) piece.point_fields.push_back(std::move(pressure));
   piece.cell_fields.push_back(std::move(body));
   piece.cell_fields.push_back(std::move(owner));
   result.piece = std::move(piece);
@@ -353,9 +362,11 @@ void FieldFiles::write_fields(const partition::Decomposition& decomposition, con
   };
   io::Piece contacts;
   if (!pairs.empty()) put(contact_, contacts = contact_piece(pairs, results.contact.surfaces));
-  std::vector<Eigen::MatrixXd> holding;
+  std::vector<Eigen::MatrixXd> holding, pressing;
+  if (wanted(deck_, "contact_pressure"))
+    pressing = contact_pressure(decomposition, interface, pairs, results.contact.surfaces, comm);
   if (wanted(deck_, "reaction_force")) holding = post::holding_forces(problem, decomposition, interface, state.solved.solution.x);
-  const auto volume = volume_piece(deck_, decomposition, state.displacement, holding, results);
+  const auto volume = volume_piece(deck_, decomposition, state.displacement, holding, pressing, results);
   put(volume_, volume.piece);
   const auto count = decomposition.catalogue.bodies.size() + pairs.size() + boundaries_in_use(deck_).size();
   const bool usual = count <= io::Options::usual_blocks && decomposition.catalogue.node_count <= io::Options::usual_nodes;

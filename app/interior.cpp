@@ -8,6 +8,7 @@
 #include <span>
 
 #include "fem/quantity.hpp"
+#include "local_fields.hpp"
 
 namespace mortise {
 
@@ -97,12 +98,14 @@ io::Piece plane_piece(const model::Deck& deck, const partition::Decomposition& d
       principal{"principal_stress", 3, {}};
   const bool with_principal = wanted(deck, principal.name);
   io::Field body{"body", 1, {}, true}, owner{"subdomain", 1, {}, true};
+  LocalFields local(deck, section.places.size());
   for (std::size_t p = 0; p < section.places.size(); ++p) {
     const auto row = static_cast<Eigen::Index>(p);
     piece.points.push_back(section.places[p].at);
     for (const double x : values.displacement.row(row)) displacement.values.push_back(x);
     von_mises.values.push_back(fem::von_mises(values.stress.row(row).transpose()));
     for (const double x : values.stress.row(row)) stress.values.push_back(x);
+    local.set(p, section.places[p].at, values.displacement.row(row).transpose(), values.stress.row(row).transpose());
     if (!with_principal) continue;
     for (const double x : fem::principal_stresses(values.stress.row(row).transpose())) principal.values.push_back(x);
   }
@@ -114,6 +117,7 @@ io::Piece plane_piece(const model::Deck& deck, const partition::Decomposition& d
   }
   for (auto* field : {&displacement, &von_mises, &stress, &principal})
     if (wanted(deck, field->name)) piece.point_fields.push_back(std::move(*field));
+  local.move_to(piece);
   piece.cell_fields = {std::move(body), std::move(owner)};
   return piece;
 }

@@ -220,14 +220,16 @@ void print_results(const post::Results& results, const io::Summary& s, Log& log)
 void print_probes(const io::StateSummary& summary, Log& log)
 {
   for (const auto& p : summary.probes) {
+    const auto along = p.axes.empty() ? "" : " along " + p.axes;
     if (p.path)
       log.line("  probe {}: {} points over a length of {:.6g} in {}", p.name, p.path->points, p.path->length, p.path->file);
     else if (p.at_point)
-      log.line("  probe {}: displacement {}, von Mises {:.6g}, principal stresses {} at {}", p.name,
-               vector(p.at_point->displacement), p.at_point->von_mises, vector(p.at_point->principal_stress), place(p.place));
+      log.line("  probe {}: displacement {}{}, von Mises {:.6g}, principal stresses {} at {}", p.name,
+               vector(p.at_point->displacement), along, p.at_point->von_mises, vector(p.at_point->principal_stress),
+               place(p.place));
     else
-      log.line("  probe {}: {} {} {:.6g} at {}", p.name, p.largest.empty() ? "smallest" : "largest",
-               p.largest.empty() ? p.smallest : p.largest, p.value, place(p.place));
+      log.line("  probe {}: {} {}{} {:.6g} at {}", p.name, p.largest.empty() ? "smallest" : "largest",
+               p.largest.empty() ? p.smallest : p.largest, along, p.value, place(p.place));
   }
 }
 

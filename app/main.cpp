@@ -77,7 +77,7 @@ ExitStatus solve(const CommandLine& command_line, const Context& context)
   report.resolution(resolved);
 
   const auto attempt = [&](const partition::Decomposition& bodies, analysis::Approach& approach) {
-    const model::Model model(deck, resolved.contacts, bodies);
+    const model::Model model(deck, resolved.contacts, bodies, resolved.temperatures);
     model.require_fit(document, context.comm);
     const auto probes = analysis::find_probes(model, document, context.comm);
     return solve_load_steps(model, probes, approach, restart, report, context);

@@ -29,9 +29,21 @@ struct Sample {
   std::array<double, width> values;
 };
 
-// Those of all ranks, by their rows. Collective.
-std::vector<Sample> gather_samples(const post::Probes& probes, const post::Results& results, const Communicator& comm)
+// Of each point of all probes the axes that its components are along.
+std::vector<std::optional<deck::LocalAxes>> axes_of_points(const model::Deck& deck)
 {
+  std::vector<std::optional<deck::LocalAxes>> result;
+  for (const auto& [name, probe] : deck.output.probes)
+    result.insert(result.end(), probe.points().size(),
+                  probe.axes.empty() ? std::nullopt : std::optional(model::local_axes(deck, probe.axes)));
+  return result;
+}
+
+// Those of all ranks, by their rows. Collective.
+std::vector<Sample> gather_samples(const model::Deck& deck, const post::Probes& probes, const post::Results& results,
+                                   const Communicator& comm)
+{
+  const auto axes = axes_of_points(deck);
   std::vector<Sample> mine;
   for (std::size_t i = 0; i < probes.sampled.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -39,7 +51,10 @@ std::vector<Sample> gather_samples(const post::Probes& probes, const post::Resul
     const fem::Stress stress = values.stress.row(row).transpose();
     auto& sample = mine.emplace_back(Sample{probes.sampled[i].row, probes.sampled[i].point, probes.sampled[i].body, {}});
     Eigen::Map<Eigen::Matrix<double, width, 1>> all(sample.values.data());
-    all << values.displacement.row(row).transpose(), stress, fem::von_mises(stress), fem::principal_stresses(stress);
+    const auto& own = axes[probes.sampled[i].point];
+    const Eigen::Matrix3d turn = own ? own->everywhere(probes.sampled[i].place.at) : Eigen::Matrix3d::Identity();
+    all << turn * values.displacement.row(row).transpose(), own ? fem::along(turn, stress) : stress, fem::von_mises(stress),
+        fem::principal_stresses(stress);
   }
   auto all = comm.all_gather(mine);
   std::sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.row < b.row; });
@@ -108,7 +123,7 @@ std::vector<Probe> probe_summaries(const model::Deck& deck, const mesh::Catalogu
 {
   std::vector<Probe> summaries;
   if (deck.output.probes.empty()) return summaries;
-  const auto samples = gather_samples(probes, results, comm);
+  const auto samples = gather_samples(deck, probes, results, comm);
   const auto body_name = [&](int body) {
     return body < 0 ? std::string() : catalogue.bodies[static_cast<std::size_t>(body)].name;
   };
@@ -119,6 +134,7 @@ std::vector<Probe> probe_summaries(const model::Deck& deck, const mesh::Catalogu
     entry.name = name;
     entry.largest = probe.largest;
     entry.smallest = probe.smallest;
+    entry.axes = probe.axes;
     const auto points = probe.points();
     if (probe.is_extreme()) {
       entry.value = extreme->value;
@@ -146,7 +162,7 @@ void ProbeFiles::write(const mesh::Catalogue& catalogue, const model::LoadState&
                        const post::Results& results, const std::vector<Probe>& summaries, const Communicator& comm)
 {
   if (deck_.output.probes.empty()) return;
-  auto samples = gather_samples(probes, results, comm);
+  auto samples = gather_samples(deck_, probes, results, comm);
   const auto scalars = entries(summaries);
   if (!scalars.empty()) {
     const auto line = [&](std::string text, auto member) {

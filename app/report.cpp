@@ -33,9 +33,11 @@ Report::Report(const model::Deck& deck, const deck::Document& document, const Co
     : deck_(deck), command_line_(command_line), context_(context), history_(deck.solver.programme, context)
 {
   if (command_line.resume && context.comm.root()) history_.take_up(io::text_of(deck.output.directory + "/history.csv"));
-  if (!command_line.check)
-    directory_.emplace(deck.output.directory, std::vector{document.file(), deck.mesh.file, deck.output.interior.point_file},
-                       context.comm);
+  if (command_line.check) return;
+  std::vector files{document.file(), deck.mesh.file, deck.output.interior.point_file};
+  for (const auto& load : deck.loads)
+    if (load.temperature_change && load.temperature_change->file) files.push_back(load.temperature_change->file->file);
+  directory_.emplace(deck.output.directory, files, context.comm);
 }
 
 // The line of a stage: the time since it was last asked for.

@@ -113,6 +113,7 @@ class Whereabouts {
     post::ExtremeProbe probe;
     probe.quantity = *fem::quantity(options.quantity());
     probe.smallest = options.largest.empty();
+    if (!options.axes.empty()) probe.axes = model::local_axes(model_.deck(), options.axes);
     const auto path = "output.probes." + name + (options.of.empty() ? "" : ".of");
     const bool of_contact = probe.quantity == fem::Quantity::pressure;
     const bool known = on_bodies(options.of, probe) || on_boundary(options.of, probe);

@@ -40,7 +40,7 @@ class Analysis {
   {
     document_.check();
     resolved_ = model::resolve(deck_, document_, partition::decompose(deck_.mesh, deck_.decomposition, 3, context_), context_);
-    model_.emplace(deck_, resolved_.contacts, resolved_.decomposition);
+    model_.emplace(deck_, resolved_.contacts, resolved_.decomposition, resolved_.temperatures);
     states_ = model::load_states(deck_, resolved_.contacts);
     const auto copies = model_->congruent();
     assembly_.emplace(*model_, copies, context_);
@@ -160,7 +160,7 @@ TEST(Checks, ABodyThatNothingTouchesIsNamed)
   deck::Document document(blocks + supports, "deck.yaml", {});
   const auto deck = model::read_deck(document, "");
   const auto resolved = model::resolve(deck, document, partition::decompose(deck.mesh, deck.decomposition, 3, context), context);
-  const model::Model model(deck, resolved.contacts, resolved.decomposition);
+  const model::Model model(deck, resolved.contacts, resolved.decomposition, resolved.temperatures);
   auto rows = make_rows(model, model::load_states(deck, resolved.contacts).front(), {}, context);
   Warnings warnings;
   EXPECT_NO_THROW(check_unconstrained_bodies(model, rows, context, warnings));  // the guide holds it

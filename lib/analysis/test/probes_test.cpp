@@ -34,7 +34,7 @@ class Asked {
     const auto on_surface = model::bodies_of_boundary_elements(deck_, decomposition.catalogue);
     decomposition = partition::skins(std::move(decomposition), on_surface, true, comm);
     resolved_ = model::resolve(deck_, document_, std::move(decomposition), context_);
-    model_.emplace(deck_, resolved_.contacts, resolved_.decomposition);
+    model_.emplace(deck_, resolved_.contacts, resolved_.decomposition, resolved_.temperatures);
   }
   post::Probes find() { return find_probes(*model_, document_, comm); }
   const model::Deck& deck() const { return deck_; }

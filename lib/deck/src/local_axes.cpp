@@ -14,7 +14,8 @@ Point vector(const std::array<double, 3>& v)
   return {v[0], v[1], v[2]};
 }
 
-constexpr double parallel = 1e-6;  // sine of the angle below which two directions are one
+constexpr double on_the_axis = 1e-9;  // of the distance from its point
+constexpr double parallel = 1e-6;     // sine of the angle below which two directions are one
 
 }  // namespace
 
@@ -63,6 +64,15 @@ std::optional<Eigen::Matrix3d> LocalAxes::at(const Point& place, double rounding
   result.row(0) = radius.normalized().transpose();
   result.row(1) = along.cross(Point(radius.normalized())).transpose();
   return result;
+}
+
+Eigen::Matrix3d LocalAxes::everywhere(const Point& place) const
+{
+  if (const auto found = at(place, on_the_axis * (place - point_).norm())) return *found;
+  const Point along = axis();
+  Eigen::Index least = 0;
+  along.cwiseAbs().minCoeff(&least);
+  return *at(point_ + along.cross(Point::Unit(least)));
 }
 
 }  // namespace mortise::deck

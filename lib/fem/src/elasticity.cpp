@@ -5,22 +5,11 @@
 #include <Eigen/Dense>
 
 #include "base/error.hpp"
+#include "tensor.hpp"
 
 namespace mortise::fem {
 
 namespace {
-
-using Tensor = Eigen::Matrix3d;
-
-Tensor tensor(const Stress& s)
-{
-  return (Tensor() << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]).finished();
-}
-
-Stress entries(const Tensor& t)
-{
-  return (Stress() << t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(0, 2)).finished();
-}
 
 // T of local strain = T strain, shear strains as angles.
 Elasticity::Matrix strain_rotation(const Eigen::Matrix3d& axes)

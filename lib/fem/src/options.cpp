@@ -8,6 +8,8 @@
 #include <map>
 #include <numbers>
 
+#include "deck/cases.hpp"
+
 namespace mortise::fem {
 
 namespace {
@@ -46,6 +48,23 @@ auto& names_key(deck::Description<BodyOptions>& d, const std::string& key, const
         return YAML::Node();
       },
       [](const deck::Limits& limits) { return deck::Codec<std::string>::schema(limits); });
+}
+
+void read_temperature(LoadOptions& load, const YAML::Node& node, const std::string& path, deck::Document& document,
+                      const deck::Limits& limits)
+{
+  auto& change = load.temperature_change.emplace();
+  if (node.IsMap())
+    deck::Codec<TemperatureFile>::read(change.file.emplace(), node, path, document, limits);
+  else
+    deck::Codec<deck::Formula>::read(change.formula, node, path, document, limits);
+}
+
+YAML::Node write_temperature(const LoadOptions& load)
+{
+  if (!load.temperature_change) return YAML::Node();
+  const auto& change = *load.temperature_change;
+  return change.file ? deck::Codec<TemperatureFile>::write(*change.file) : deck::Codec<deck::Formula>::write(change.formula);
 }
 
 }  // namespace
@@ -236,6 +255,17 @@ Point centrifugal_acceleration(const Centrifugal& load, const Point& x)
   return load.speed * load.speed * (arm - axis * axis.dot(arm));
 }
 
+void describe(deck::Description<TemperatureFile>& d)
+{
+  d.help("Temperatures from a file, interpolated: those of a heat analysis on another mesh, or of points.");
+  d.key("file", &TemperatureFile::file,
+        "A .vtu file with a field of points, or a .csv file with a line of names, x, y, z (plane models: x, y) among them; "
+        "relative to the deck, in the deck's unit of length.")
+      .required();
+  d.key("field", &TemperatureFile::field, "Its field or column; default: the only one, or `temperature`.");
+  d.key("reference", &TemperatureFile::reference, "The temperature at which the body has no stress.");
+}
+
 void describe(deck::Description<LoadOptions>& d)
 {
   d.help(
@@ -259,10 +289,14 @@ void describe(deck::Description<LoadOptions>& d)
   d.key("moment", &LoadOptions::moment, "Of a coupling: about its point, as a vector (plane models: [0, 0, m], a thickness).");
   d.key("acceleration", &LoadOptions::acceleration, "Body force is density times this.");
   d.key("centrifugal", &LoadOptions::centrifugal, "Of a body: it turns about an axis, {axis, speed, point}.");
-  d.key(
-      "temperature_change", &LoadOptions::temperature_change,
-      "Degrees that the body is warmer than when it had no stress: a number, or a formula in x, y, z, r, theta, t; its material "
-      "has a thermal_expansion. Several on one body add.");
+  d.custom(
+      "temperature_change",
+      "Degrees that the body is warmer than when it had no stress: a number, a formula in x, y, z, r, theta, t, or a file with "
+      "temperatures of nodes; its material has a thermal_expansion. Several on one body add.",
+      read_temperature, write_temperature, [](const deck::Limits& limits) {
+        return deck::schema_by_case({{"type", "object"}}, deck::Codec<TemperatureFile>::schema(limits),
+                                    deck::Codec<deck::Formula>::schema(limits));
+      });
   d.check([](const LoadOptions& load, const std::string& path, deck::Document& document) {
     if (!load.coupling.empty()) {
       if (!load.boundary.empty() || !load.body.empty()) document.error(path, "expected one of `coupling`, `boundary` and `body`");

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "tensor.hpp"
+
 namespace mortise::fem {
 
 const std::vector<std::string>& quantity_names()
@@ -22,9 +24,12 @@ std::optional<Quantity> quantity(const std::string& name)
 
 Eigen::Vector3d principal_stresses(const Stress& s)
 {
-  Eigen::Matrix3d tensor;
-  tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues().reverse();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor(s), Eigen::EigenvaluesOnly).eigenvalues().reverse();
+}
+
+Stress along(const Eigen::Matrix3d& axes, const Stress& stress)
+{
+  return entries(axes * tensor(stress) * axes.transpose());
 }
 
 double value(Quantity quantity, bool smallest, const Point& displacement, const Stress& stress)

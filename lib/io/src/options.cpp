@@ -42,6 +42,9 @@ void check_probe(const ProbeOptions& probe, const std::string& path, deck::Docum
   else if (probe.from && probe.from == probe.to)
     document.error(path + ".to", "a path has two ends, but both are the same point");
   if (probe.count && !probe.is_path()) document.error(path + ".count", "this is for paths, which have `from` and `to`");
+  constexpr std::array<const char*, 4> alike{"von_mises", "principal_stress", "displacement", "pressure"};
+  if (!probe.axes.empty() && std::find(alike.begin(), alike.end(), probe.quantity()) != alike.end())
+    document.error(path + ".axes", "this is for components, ux to sxz; " + probe.quantity() + " is the same along all axes");
   if (!probe.of.empty() && !probe.is_extreme()) document.error(path + ".of", "this is for `largest` and `smallest`");
 }
 
@@ -137,6 +140,9 @@ void describe(deck::Description<ProbeOptions>& d)
   d.key("point", &ProbeOptions::point, "A point in or on a body: displacement and stresses there.");
   d.key("from", &ProbeOptions::from, "Where a path begins: displacement and stresses along it go into probe.NAME.csv.");
   d.key("to", &ProbeOptions::to, "Where a path ends.");
+  d.key("axes", &ProbeOptions::axes,
+        "Local axes, by their name in the section `axes`, that components are along: of cylindrical ones x, y and z are radial, "
+        "tangential and axial.");
   d.key("count", &ProbeOptions::count, "Points on a path, both ends among them; default: 21.").at_least(2).below(most_points + 1);
   d.check(check_probe);
 }
@@ -147,12 +153,16 @@ void describe(deck::Description<Options>& d)
   d.key("directory", &Options::directory, "Relative to the deck; default: <deck name>.out beside the deck.");
   d.key("fields", &Options::fields,
         "Fields of solution.pvd and of sections; reaction_force is what holds each node that a support holds, supports and "
-        "contact together.")
-      .one_of({"displacement", "von_mises", "stress", "principal_stress", "reaction_force"});
+        "contact together; contact_pressure stands on both sides of a contact, on the primary one as what presses there.")
+      .one_of({"displacement", "von_mises", "stress", "principal_stress", "reaction_force", "contact_pressure"});
   d.key(
       "blocks", &Options::blocks,
       "Whether blocks.pvd is written, in which bodies, contacts and held or loaded boundaries are blocks with their names, to be "
       "shown or hidden one by one; auto: where these are at most 40, of at most 30,000 nodes.");
+  d.key("axes", &Options::axes,
+        "Local axes, by their name in the section `axes`: displacements and stresses are written along these as well, as the "
+        "fields "
+        "displacement_local and stress_local.");
   d.key("every", &Options::every,
         "Of each load step every so many increments and the last one are written to solution.pvd, contact.pvd, sections and "
         "results.h5.")

@@ -3,41 +3,18 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "base/error.hpp"
+#include "words.hpp"
 
 namespace mortise::io {
 
 namespace {
 
-constexpr double largest_coordinate = 1e50;
 constexpr std::size_t longest_line = 1000;
-
-// The words of a line, without what comes after a #.
-std::vector<std::string> words(const std::string& line)
-{
-  std::vector<std::string> result;
-  const std::string text = line.substr(0, line.find('#'));
-  for (std::size_t begin = 0; (begin = text.find_first_not_of(" \t\r,;", begin)) != std::string::npos;) {
-    const auto end = std::min(text.find_first_of(" \t\r,;", begin), text.size());
-    result.push_back(text.substr(begin, end - begin));
-    begin = end;
-  }
-  return result;
-}
-
-bool is_number(const std::string& word, double& value)
-{
-  const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
-  const char* end = word.data() + word.size();
-  const auto read = std::from_chars(begin, end, value);
-  return read.ec == std::errc() && read.ptr == end && std::abs(value) <= largest_coordinate;
-}
 
 std::vector<ListedPoint> read(const std::string& path, int dimension)
 {

@@ -72,6 +72,7 @@ Json probe(const StateSummary::Probe& p)
     json[p.largest.empty() ? "smallest" : "largest"] = p.largest.empty() ? p.smallest : p.largest;
     json["value"] = number(p.value);
   }
+  if (!p.axes.empty()) json["axes"] = p.axes;
   json["place"] = place(p.place);
   return json;
 }

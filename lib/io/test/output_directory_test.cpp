@@ -17,12 +17,6 @@ using Names = std::set<std::string>;
 // Of the files that a run reads.
 const std::vector<std::string> nothing;
 
-void put(const std::string& path, const std::string& text, const Communicator& comm)
-{
-  if (comm.root()) std::ofstream(path) << text;
-  comm.sum(0LL);
-}
-
 template <class Work>
 std::string message_of(ExitStatus status, const Work& work)
 {

@@ -85,6 +85,13 @@ std::string message_of_machine_error(const Work& work)
   return {};
 }
 
+/// A file with this text, which all ranks see from then on.
+inline void put(const std::string& path, const std::string& text, const Communicator& comm)
+{
+  if (comm.root()) std::ofstream(path) << text;
+  comm.sum(0LL);
+}
+
 inline std::string content(const std::string& path)
 {
   std::ifstream stream(path);

@@ -257,7 +257,7 @@ void check_formulas_of_rings(const Deck& deck, deck::Document& document)
     std::vector<deck::Formula> formulas;
     if (deck.loads[i].pressure) formulas.push_back(*deck.loads[i].pressure);
     if (const auto& traction = deck.loads[i].traction) formulas.insert(formulas.end(), traction->begin(), traction->end());
-    if (deck.loads[i].temperature_change) formulas.push_back(*deck.loads[i].temperature_change);
+    if (deck.loads[i].temperature_change) formulas.push_back(deck.loads[i].temperature_change->formula);
     check(formulas, fmt::format("loads[{}]", i));
   }
   for (std::size_t i = 0; i < deck.supports.size(); ++i) {
@@ -296,6 +296,9 @@ void check_axes(const Deck& deck, deck::Document& document)
   for (const auto& [name, material] : deck.materials)
     if (material.orthotropic && !material.orthotropic->axes.empty())
       find(material.orthotropic->axes, "materials." + name + ".orthotropic");
+  if (!deck.output.axes.empty()) find(deck.output.axes, "output");
+  for (const auto& [name, probe] : deck.output.probes)
+    if (!probe.axes.empty()) find(probe.axes, "output.probes." + name);
   for (std::size_t i = 0; i < deck.supports.size(); ++i) {
     const auto& support = deck.supports[i];
     const auto path = fmt::format("supports[{}]", i);
@@ -549,6 +552,10 @@ Deck read_deck(deck::Document& document, const std::string& output)
   if (!deck.mesh.file.empty()) deck.mesh.file = (file.parent_path() / deck.mesh.file).lexically_normal().string();
   if (auto& points = deck.output.interior.point_file; !points.empty())
     points = (file.parent_path() / points).lexically_normal().string();
+  for (auto& load : deck.loads)
+    if (load.temperature_change && load.temperature_change->file)
+      load.temperature_change->file->file =
+          (file.parent_path() / load.temperature_change->file->file).lexically_normal().string();
   if (!output.empty())
     deck.output.directory = fs::absolute(output).lexically_normal().string();
   else if (deck.output.directory.empty())
@@ -624,7 +631,7 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
       }
       if (load.temperature_change && !load.temperature_change->is_constant() &&
           entry->second.method == fem::Method::boundary_elements) {
-        document.error(at, fmt::format("a temperature by a formula is for finite elements, and the body \"{}\" is of boundary "
+        document.error(at, fmt::format("a temperature that varies is for finite elements, and the body \"{}\" is of boundary "
                                        "elements, which take a number",
                                        body.name));
         break;
@@ -648,6 +655,11 @@ void check_names(const Deck& deck, const Contacts& contacts, deck::Document& doc
     check(contacts[i].secondary, contacts.path(i) + ".secondary");
     if (!contacts[i].obstacle) check(contacts[i].primary, contacts.path(i) + ".primary");
   }
+}
+
+deck::LocalAxes local_axes(const Deck& deck, const std::string& name)
+{
+  return deck::LocalAxes(deck.axes.at(name), deck.dimension() == 2);
 }
 
 std::string write_deck(const Deck& deck)

@@ -60,7 +60,7 @@ fem::Materials Model::materials(const partition::Subdomain& subdomain) const
   const auto placed = [&](const std::string& name) {
     auto material = deck_.materials.at(name);
     if (material.orthotropic && !material.orthotropic->axes.empty())
-      material.directions = std::make_shared<const deck::LocalAxes>(local_axes(material.orthotropic->axes));
+      material.directions = std::make_shared<const deck::LocalAxes>(local_axes(deck_, material.orthotropic->axes));
     return material;
   };
   if (body.volumes.empty()) return placed(body.material);
@@ -97,12 +97,19 @@ fem::Temperature Model::temperature_change(const partition::Subdomain& subdomain
     const auto& load = deck_.loads[i];
     if (!load.temperature_change || state.load[i] == 0 || !bodies_named(load.body)[static_cast<std::size_t>(subdomain.body)])
       continue;
-    if (load.temperature_change->is_constant()) {
-      warmer.uniform += state.load[i] * load.temperature_change->constant();
+    const auto& change = *load.temperature_change;
+    if (change.is_constant()) {
+      warmer.uniform += state.load[i] * change.formula.constant();
       continue;
     }
-    warmer.varying = [before = warmer.varying, formula = load.temperature_change->at(state.load[i], state.time),
-                      i](const Point& x) {
+    if (change.file) {
+      warmer.varying = [before = warmer.varying, factor = state.load[i], zero = change.file->reference,
+                        field = temperatures_.at(i)](const Point& x) {
+        return factor * ((*field)(x)-zero) + (before ? before(x) : 0);
+      };
+      continue;
+    }
+    warmer.varying = [before = warmer.varying, formula = change.formula.at(state.load[i], state.time), i](const Point& x) {
       const double value = formula(x, 0);
       if (!std::isfinite(value))
         throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: \"{}\" is no number at ({:.6g}, {:.6g}, {:.6g})", i,
@@ -171,6 +178,25 @@ void Model::require_axis(deck::Document& document, double rounding) const
   }
 }
 
+// Files with temperatures have to cover the nodes of their bodies.
+void Model::require_temperatures(deck::Document& document) const
+{
+  for (const auto& [load, field] : temperatures_) {
+    const auto on_body = bodies_named(deck_.loads[load].body);
+    for (const auto& subdomain : decomposition_.subdomains) {
+      if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+      try {
+        for (const auto& x : subdomain.mesh.points) (*field)(x);
+      } catch (const Error& error) {
+        const auto& body = decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];
+        document.error(fmt::format("loads[{}].temperature_change.file", load),
+                       fmt::format("body \"{}\": {}", body.name, error.what()));
+        break;
+      }
+    }
+  }
+}
+
 void Model::require_fit(deck::Document& document, const Communicator& comm) const
 {
   const double near = rounding(comm);
@@ -217,6 +243,7 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
                                    contacts_[c].secondary, contacts_[c].primary));
     require_formulations(document);
     if (deck_.axisymmetric()) require_axis(document, near);
+    require_temperatures(document);
     document.check();
   });
   require_points(document, comm);
@@ -323,7 +350,7 @@ Point Model::force_of(const fem::LoadOptions& load) const
 {
   const Point force = point(*load.force);
   if (load.axes.empty()) return force;
-  return local_axes(load.axes).at(Point::Zero())->transpose() * force;
+  return local_axes(deck_, load.axes).at(Point::Zero())->transpose() * force;
 }
 
 // Pressure, traction or force of loads[index].
@@ -346,7 +373,7 @@ void Model::add_boundary_load(std::size_t index, const LoadState& state, std::ve
     return factor * found;
   };
   std::optional<deck::LocalAxes> axes;
-  if (!load.axes.empty()) axes = local_axes(load.axes);
+  if (!load.axes.empty()) axes = local_axes(deck_, load.axes);
   const auto turned = [&](const Point& along, const Point& x) {
     if (!axes) return along;
     const auto rows = axes->at(x);
@@ -381,7 +408,7 @@ std::vector<constraint::Support> Model::supports(const LoadState& state) const
     auto& support = supports.emplace_back();
     support.boundary = options.points.empty() ? options.boundary : "points";
     support.name = options.name;
-    if (!options.axes.empty()) support.axes = local_axes(options.axes);
+    if (!options.axes.empty()) support.axes = local_axes(deck_, options.axes);
     if (!options.coupling.empty() || !state.acting[i]) continue;  // motions of points are those of their couplings
     const auto act = [&](const std::optional<deck::Formula>& value) -> std::optional<deck::Formula> {
       return value ? std::optional(value->at(state.support[i], state.time)) : std::nullopt;
@@ -398,11 +425,6 @@ std::vector<constraint::Support> Model::supports(const LoadState& state) const
     supports.back().name = name;
   }
   return supports;
-}
-
-deck::LocalAxes Model::local_axes(const std::string& name) const
-{
-  return deck::LocalAxes(deck_.axes.at(name), deck_.dimension() == 2);
 }
 
 std::vector<constraint::SupportNodes> Model::support_nodes(std::span<const constraint::Support> supports,

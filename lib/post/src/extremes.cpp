@@ -52,6 +52,13 @@ std::vector<bool> blocks_of_nodes(const partition::Subdomain& subdomain, const s
   return used;
 }
 
+double value_of(const ExtremeProbe& probe, const Point& at, const Point& displacement, const fem::Stress& stress)
+{
+  if (!probe.axes) return fem::value(probe.quantity, probe.smallest, displacement, stress);
+  const auto axes = probe.axes->everywhere(at);
+  return fem::value(probe.quantity, probe.smallest, axes * displacement, fem::along(axes, stress));
+}
+
 void at_nodes(const partition::Decomposition& decomposition, const ExtremeProbe& probe,
               const std::vector<Eigen::VectorXd>& displacement, const StressField& stress, Search& search)
 {
@@ -70,8 +77,8 @@ void at_nodes(const partition::Decomposition& decomposition, const ExtremeProbe&
       u.head(dimension) = displacement[s].segment(row * dimension, dimension);
       for (std::size_t k = 0; k < blocks; ++k)
         if (!mixed || used[n * blocks + k])
-          search.take(fem::value(probe.quantity, probe.smallest, u,
-                                 nodal.row(row).segment(6 * static_cast<Eigen::Index>(k), 6).transpose()),
+          search.take(value_of(probe, subdomain.mesh.points[n], u,
+                               nodal.row(row).segment(6 * static_cast<Eigen::Index>(k), 6).transpose()),
                       subdomain.mesh.points[n], subdomain.mesh.node_id[n], subdomain.body);
     }
   }
@@ -85,8 +92,7 @@ void at_places(const partition::Decomposition& decomposition, const ExtremeProbe
     const auto& subdomain = decomposition.subdomains[places[i].subdomain];
     const auto row = static_cast<Eigen::Index>(i);
     if (subdomain.skin && probe.on_body[static_cast<std::size_t>(subdomain.body)])
-      search.take(fem::value(probe.quantity, probe.smallest, values.displacement.row(row).transpose(),
-                             values.stress.row(row).transpose()),
+      search.take(value_of(probe, places[i].at, values.displacement.row(row).transpose(), values.stress.row(row).transpose()),
                   places[i].at, no_node, subdomain.body);
   }
 }
@@ -108,7 +114,7 @@ void inside(const partition::Decomposition& decomposition, const ExtremeProbe& p
     for (Eigen::Index i = 0; i < values.stress.rows(); ++i) {
       const auto n = subdomain.mesh.node_count() + static_cast<std::size_t>(i);
       search.take(
-          fem::value(probe.quantity, probe.smallest, values.displacement.row(i).transpose(), values.stress.row(i).transpose()),
+          value_of(probe, subdomain.inside.points[n], values.displacement.row(i).transpose(), values.stress.row(i).transpose()),
           subdomain.inside.points[n], subdomain.inside.node_id[n], subdomain.body);
     }
   }

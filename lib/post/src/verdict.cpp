@@ -32,7 +32,8 @@ std::string unfit(const Evidence& e)
   std::string text;
   const auto check = [&](const char* name, double value, double limit) {
     if (value <= limit) return;
-    text += fmt::format("{}{} {:.2g} (limit {:.2g})", text.empty() ? "" : ", ", name, value, limit);
+    const std::string size = std::isfinite(value) ? fmt::format("{:.2g}", value) : "unknown";
+    text += fmt::format("{}{} {} (limit {:.2g})", text.empty() ? "" : ", ", name, size, limit);
   };
   if (!(e.algebraic_error <= error_that_excuses) || !std::isfinite(e.projected_gradient))
     check("gradient", e.projected_gradient, std::max(gradient_limit, e.tolerance));

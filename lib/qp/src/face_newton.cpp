@@ -33,7 +33,8 @@ constexpr int max_retreats_to_z = 2;      // quarters of the way back, before th
 constexpr int max_safeguards = 12;        // after which another algorithm will do better
 constexpr double at_rest = 0.05;          // of normal forces: change that is still to come
 constexpr double certain = 0.1;           // of the allowed error, at which their change does not matter
-constexpr double first_look = 0.1;        // part of the first error at which the allowed one is asked for
+constexpr double least_size = 0.01;  // of ||A||^1/2 ||x||_A: where b asks for nearly nothing, ||P b|| is no measure of residuals
+constexpr double first_look = 0.1;   // part of the first error at which the allowed one is asked for
 
 // Whether normal forces are at rest: by how much they are still to change, if they change like the error.
 class ContactForces {
@@ -322,7 +323,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   result.gradient.assign(g);
   result.hessian_norm = norm_;
   result.preconditionings = preconditionings_;
-  result.projected_gradient = residual / size;
+  const double work = std::max(z.dot(g) + z.dot(linear), 0.0);  // z'A z
+  result.projected_gradient = residual / std::max(size, least_size * std::sqrt(norm_ * work));
   result.equality = equality.size() > 0 ? equality.norm(equality.right_side() - equality.apply(z)) * norm_ / size : 0.0;
   return result;
 }

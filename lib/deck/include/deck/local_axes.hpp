@@ -29,6 +29,8 @@ class LocalAxes {
 
   /// Rows: radial (away from the axis), tangential, axial; or x, y, z. None where the axis is as near as `rounding`.
   std::optional<Eigen::Matrix3d> at(const Point& place, double rounding = 0) const;
+  /// The same, and on the axis with some radial direction, one for all places there.
+  Eigen::Matrix3d everywhere(const Point& place) const;
   bool cylindrical() const { return cylindrical_; }
   bool operator==(const LocalAxes& other) const
   {

@@ -79,6 +79,21 @@ struct Centrifugal {
 /// The acceleration that keeps x from its circle: speed^2 (x - its place on the axis).
 Point centrifugal_acceleration(const Centrifugal& load, const Point& x);
 
+/// Values at nodes or points of a file, see io/nodal_field.hpp.
+struct TemperatureFile {
+  std::string file;      ///< absolute by the time it gets here
+  std::string field;     ///< empty: the only one, or `temperature`
+  double reference = 0;  ///< the temperature without stress: what is taken from the file's
+};
+
+/// Degrees that a body is warmer than when it had no stress: a number or a formula, or what a file says.
+struct TemperatureChange {
+  deck::Formula formula;
+  std::optional<TemperatureFile> file = {};
+
+  bool is_constant() const { return !file && formula.is_constant(); }
+};
+
 /// One load; exactly one of the six quantities is given, `boundary` for the first three and `body` for the others. On a coupling
 /// a force, a moment, or both.
 struct LoadOptions {
@@ -89,12 +104,12 @@ struct LoadOptions {
   std::optional<std::array<double, 3>> force;            ///< resultant, spread evenly over the boundary (plane: a thickness)
   std::optional<std::array<double, 3>> acceleration;     ///< body force is density times this
   std::optional<Centrifugal> centrifugal = {};  ///< body force is density times speed squared times the distance from the axis
-  std::optional<deck::Formula> temperature_change = {};  ///< degrees; several on one body add
-  std::string name = {};                                 ///< default: the boundary, the body or the coupling
-  std::string coupling = {};                             ///< its point takes `force` and `moment`
-  std::optional<std::array<double, 3>> moment = {};      ///< about the point; in a plane z alone, a thickness
-  std::string axes = {};                                 ///< name of local axes of a traction or a force
-  std::vector<deck::Place> points = {};                  ///< instead of a boundary: the nodes that share `force`
+  std::optional<TemperatureChange> temperature_change = {};  ///< several on one body add
+  std::string name = {};                                     ///< default: the boundary, the body or the coupling
+  std::string coupling = {};                                 ///< its point takes `force` and `moment`
+  std::optional<std::array<double, 3>> moment = {};          ///< about the point; in a plane z alone, a thickness
+  std::string axes = {};                                     ///< name of local axes of a traction or a force
+  std::vector<deck::Place> points = {};                      ///< instead of a boundary: the nodes that share `force`
 };
 
 /// The keywords.
@@ -102,6 +117,7 @@ void describe(deck::Description<Orthotropy>& d);
 void describe(deck::Description<Material>& d);
 void describe(deck::Description<BodyOptions>& d);
 void describe(deck::Description<Centrifugal>& d);
+void describe(deck::Description<TemperatureFile>& d);
 void describe(deck::Description<LoadOptions>& d);
 
 }  // namespace mortise::fem

@@ -33,6 +33,9 @@ std::optional<Quantity> quantity(const std::string& name);
 /// The eigenvalues of the stress tensor, the largest first.
 Eigen::Vector3d principal_stresses(const Stress& stress);
 
+/// The stress along other axes: unit vectors, in rows.
+Stress along(const Eigen::Matrix3d& axes, const Stress& stress);
+
 /// Of displacement and stress at a point; of principal stresses the largest or the smallest. Not for pressures.
 double value(Quantity quantity, bool smallest, const Point& displacement, const Stress& stress);
 

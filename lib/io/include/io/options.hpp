@@ -34,6 +34,7 @@ struct InteriorOptions {
 struct ProbeOptions {
   std::string largest, smallest;  ///< names of quantities; one of them, or
   std::optional<std::array<double, 3>> point, from, to;
+  std::string axes;          ///< name of those that components are along; empty: those of the model
   std::string of;            ///< of extremes: bodies or a boundary, where; of pressures also contacts. Empty: everywhere
   std::optional<int> count;  ///< of points on a path
 
@@ -51,6 +52,7 @@ struct Options {
   static constexpr Global usual_nodes = 30000;  ///< so that blocks take a tenth of a second
   std::string directory;                        ///< absolute by the time it gets here
   std::vector<std::string> fields{"displacement", "von_mises", "stress", "principal_stress"};
+  std::string axes;           ///< name of those that displacement_local and stress_local are along
   deck::OrAuto<bool> blocks;  ///< blocks.pvd; auto: where it has at most `usual_blocks` of `usual_nodes`
   int every = 1;              ///< increment of a load step is written, and its last one
   std::array<double, 3> moments_about{0, 0, 0};

@@ -42,6 +42,7 @@ struct StateSummary {
   struct Probe {
     std::string name;
     std::string largest, smallest;  ///< of an extreme: its quantity
+    std::string axes = {};          ///< that components are along; empty: those of the model
     double value = 0;
     Place place;
     struct State {

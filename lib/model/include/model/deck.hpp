@@ -59,6 +59,9 @@ Deck read_deck(deck::Document& document, const std::string& output);
 /// For each body of the catalogue whether its entry says `method: boundary_elements`.
 std::vector<bool> bodies_of_boundary_elements(const Deck& deck, const mesh::Catalogue& catalogue);
 
+/// An entry of the deck's section `axes`.
+deck::LocalAxes local_axes(const Deck& deck, const std::string& name);
+
 /// A boundary by its name in the deck: `boundary`, or `body:boundary` for the part of it that lies on one body, instance or
 /// group. A name with wild cards is one boundary: see patterns.hpp.
 struct BoundaryName {

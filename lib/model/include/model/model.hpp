@@ -7,6 +7,7 @@
 #include "fem/constitution.hpp"
 #include "feti/dual_problem.hpp"
 #include "friction/friction.hpp"
+#include "io/nodal_field.hpp"
 #include "model/deck.hpp"
 #include "partition/congruence.hpp"
 
@@ -15,11 +16,14 @@ namespace mortise::model {
 /// The names of a body's materials, each once.
 std::vector<std::string> material_names(const fem::BodyOptions& body);
 
+/// What files say of temperatures, by the number of the load.
+using Temperatures = std::map<std::size_t, std::shared_ptr<const io::NodalField>>;
+
 /// The deck on this rank's subdomains. Refers to its arguments, and does not change.
 class Model {
  public:
-  Model(const Deck& deck, const Contacts& contacts, const partition::Decomposition& decomposition)
-      : deck_(deck), contacts_(contacts), decomposition_(decomposition)
+  Model(const Deck& deck, const Contacts& contacts, const partition::Decomposition& decomposition, Temperatures temperatures)
+      : deck_(deck), contacts_(contacts), decomposition_(decomposition), temperatures_(std::move(temperatures))
   {
   }
 
@@ -102,7 +106,6 @@ class Model {
   std::vector<bool> bodies_named(const std::string& name) const;
   void add_boundary_load(std::size_t index, const LoadState& state, std::vector<Eigen::VectorXd>& f,
                          const Communicator& comm) const;
-  deck::LocalAxes local_axes(const std::string& name) const;
   Point force_of(const fem::LoadOptions& load) const;
   struct NodeAtPoint;
   struct NodesAtPoints;
@@ -120,10 +123,12 @@ class Model {
   Area area_of(const constraint::CouplingOptions& coupling, const Communicator& comm) const;
   void require_formulations(deck::Document& document) const;
   void require_axis(deck::Document& document, double rounding) const;
+  void require_temperatures(deck::Document& document) const;
 
   const Deck& deck_;
   const Contacts& contacts_;
   const partition::Decomposition& decomposition_;
+  Temperatures temperatures_;
 };
 
 }  // namespace mortise::model

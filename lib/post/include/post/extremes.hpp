@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/state.hpp"
+#include "deck/local_axes.hpp"
 #include "fem/quantity.hpp"
 #include "post/stress_recovery.hpp"
 
@@ -21,6 +22,7 @@ struct ExtremeProbe {
   std::vector<std::vector<bool>> nodes;  ///< of each subdomain, where a boundary is meant; empty: all of the bodies
   /// Of each contact the nodes of its secondary side, for pressures; else empty.
   std::vector<std::vector<bool>> contact_nodes;
+  std::optional<deck::LocalAxes> axes = {};  ///< that components are along; none: those of the model
 };
 
 struct Extreme {

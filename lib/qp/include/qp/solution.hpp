@@ -56,7 +56,7 @@ struct Solution {
   int outer_iterations = 0;
   int preconditionings = 0;
   int safeguards = 0;             ///< steps of face Newton that went up and were taken back
-  double projected_gradient = 0;  ///< relative to ||P b||
+  double projected_gradient = 0;  ///< relative to ||P b|| or, if that is larger, a hundredth of ||A||^1/2 ||x||_A
   /// ||x - x*|| in the norm of A, estimated by face Newton; not a number of SMALSE-M, for which error_bound() serves.
   double error = std::numeric_limits<double>::quiet_NaN();
   double equality = 0;  ///< relative, ||Q x - Q x_e|| / ||P b|| in the scaling ||P A P|| = 1
