@@ -132,7 +132,7 @@ Volume volume_piece(const model::Deck& deck, const partition::Decomposition& dec
   if (with_principal) piece.point_fields.push_back(std::move(principal));
   local.move_to(piece);
   if (wanted(deck, "reaction_force")) piece.point_fields.push_back(std::move(reaction));
-  if (!pressing.empty()) piece.point_fields.push_back(std::move(pressure));
+  if (wanted(deck, "contact_pressure")) piece.point_fields.push_back(std::move(pressure));
   piece.cell_fields.push_back(std::move(body));
   piece.cell_fields.push_back(std::move(owner));
   result.piece = std::move(piece);

@@ -15,6 +15,27 @@
 
 namespace mortise::io {
 
+namespace {
+
+constexpr double within = 1e-6;  // of the reference cell, that rounding may leave it
+
+// Moves a place of the reference cell that lies outside it towards its middle, until it lies on its border.
+void draw_in(vtkCell* cell, std::array<double, 3>& place)
+{
+  if (!(cell->GetParametricDistance(place.data()) > 0)) return;
+  std::array<double, 3> middle{}, now{};
+  cell->GetParametricCenter(middle.data());
+  double inside = 0, outside = 1;
+  for (int step = 0; step < 50; ++step) {
+    const double part = (inside + outside) / 2;
+    for (std::size_t c = 0; c < 3; ++c) now[c] = middle[c] + part * (place[c] - middle[c]);
+    (cell->GetParametricDistance(now.data()) > 0 ? outside : inside) = part;
+  }
+  for (std::size_t c = 0; c < 3; ++c) place[c] = middle[c] + inside * (place[c] - middle[c]);
+}
+
+}  // namespace
+
 void CellArrays::add(const std::vector<Point>& at, const std::vector<double>& value, mesh::CellType type)
 {
   std::vector<Local> numbers(at.size());
@@ -58,19 +79,21 @@ CellField::CellField(CellArrays arrays) : locator_(std::make_shared<Locator>())
 
 CellField::Nearest CellField::nearest(const Point& x) const
 {
-  const auto& [arrays, grid, cells, cell, weights] = *locator_;
-  std::array<double, 3> at{x[0], x[1], x[2]}, parameters{}, place = at, again{};
+  const auto& [arrays, grid, cells, cell, all_weights] = *locator_;
+  std::array<double, 3> at{x[0], x[1], x[2]}, parameters{}, place{}, unused{};
+  double* const weights = locator_->weights.data();
   int part = 0;
-  double square = 0, size = 0;
-  vtkIdType found = cells->FindCell(at.data(), 0, cell, parameters.data(), locator_->weights.data());
-  if (found < 0) {
+  double square = 0;
+  vtkIdType found = cells->FindCell(at.data(), 0, cell, parameters.data(), weights);
+  if (found < 0 || cell->GetParametricDistance(parameters.data()) > within) {
     cells->FindClosestPoint(at.data(), place.data(), cell, found, part, square);
     grid->GetCell(found, cell);
-    size = std::sqrt(cell->GetLength2());
-    double of_place = 0;
-    cell->EvaluatePosition(place.data(), again.data(), part, parameters.data(), of_place, locator_->weights.data());
+    cell->EvaluatePosition(at.data(), unused.data(), part, parameters.data(), square, weights);
   }
-  Nearest result{0, Point(place.data()), std::sqrt(square), static_cast<std::size_t>(found), size};
+  draw_in(cell, parameters);
+  cell->EvaluateLocation(part, parameters.data(), place.data(), weights);
+  const Point there(place.data());
+  Nearest result{0, there, (x - there).norm(), static_cast<std::size_t>(found), std::sqrt(cell->GetLength2())};
   const auto first = arrays.offsets[result.cell], end = arrays.offsets[result.cell + 1];
   for (auto i = first; i < end; ++i)
     result.value += weights[static_cast<std::size_t>(i - first)] *

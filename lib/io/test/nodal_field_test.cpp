@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "io/cell_field.hpp"
 #include "scratch.hpp"
 
 namespace mortise::io {
@@ -52,6 +53,33 @@ TEST(NodalField, IsThatOfTheCellsOfAnotherMesh)
     EXPECT_NEAR(field(x), product(x), 1e-9) << x.transpose();
   EXPECT_NEAR(field(Point(2.1, 0.5, 0.5)), product(Point(2, 0.5, 0.5)), 1e-9);  // beside it, as on its skin
   EXPECT_THROW(field(Point(4, 0.5, 0.5)), Error);
+}
+
+// Of a face of second order VTK says that a place beside it, in its plane, lies in it.
+TEST(CellField, KnowsWhatLiesBesideAFace)
+{
+  using enum mesh::CellType;
+  for (const auto type : {quad4, quad8, quad9, tri3, tri6}) {
+    CellArrays arrays;
+    std::vector<Point> points{{0, 0, 0},   {1, 0, 0},   {1, 1, 0},   {0, 1, 0},    {0.5, 0, 0},
+                              {1, 0.5, 0}, {0.5, 1, 0}, {0, 0.5, 0}, {0.5, 0.5, 0}};
+    if (mesh::first_order(type) == tri3) points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}};
+    points.resize(static_cast<std::size_t>(mesh::node_count(type)));
+    std::vector<double> values;
+    for (const auto& p : points) values.push_back(linear(p));
+    arrays.add(points, values, type);
+    const CellField field(arrays);
+    const auto inside = field.nearest(Point(0.25, 0.3, 0));
+    EXPECT_NEAR(inside.distance, 0, 1e-9) << mesh::name(type);
+    EXPECT_NEAR(inside.value, linear(Point(0.25, 0.3, 0)), 1e-9);
+    const auto above = field.nearest(Point(0.25, 0.3, 0.2));
+    EXPECT_NEAR(above.distance, 0.2, 1e-9);
+    EXPECT_NEAR(above.value, linear(Point(0.25, 0.3, 0)), 1e-9);
+    const auto beside = field.nearest(Point(-0.25, 0.3, 0));
+    EXPECT_GE(beside.distance, 0.25 - 1e-9) << mesh::name(type);
+    EXPECT_LE(beside.distance, 0.4);
+    EXPECT_NEAR(beside.value, linear(beside.at), 1e-9);
+  }
 }
 
 TEST(NodalField, IsExactForLinearFieldsAmongPoints)

@@ -25,10 +25,10 @@ class CellField {
 
   struct Nearest {
     double value = 0;  ///< by the shape functions of the cell
-    Point at;          ///< of the cells the place next to x: x, if it lies in one
+    Point at;          ///< a place of the cells next to x: x, if it lies in one
     double distance;   ///< from x
     std::size_t cell;
-    double size;  ///< of that cell, its diagonal; 0 where x lies in it
+    double size;  ///< of that cell, its diagonal
   };
   Nearest nearest(const Point& x) const;
 
