@@ -1,5 +1,7 @@
 """Materials and sections: what the elements are made of."""
 
+import orthotropy
+
 IGNORED = {"CONDUCTIVITY", "SPECIFICHEAT", "LATENTHEAT", "ELECTRICALCONDUCTIVITY", "DAMPING", "DEPVAR", "INELASTICHEATFRACTION"}
 PROPERTIES = IGNORED | {"MATERIAL", "ELASTIC", "EXPANSION", "DENSITY"}
 LEFT_OUT = {
@@ -40,7 +42,8 @@ OTHER_SECTIONS = {
 
 
 def read_materials(model):
-    """Materials by name in capitals: {name, young_modulus, poisson_ratio, density, thermal_expansion}; cards that are done."""
+    """Materials by name in capitals: {name, density, thermal_expansion} and {young_modulus, poisson_ratio} or {orthotropic}; cards that are
+    done."""
     materials, current, done = {}, None, set()
     for card in model.cards:
         if card.name == "MATERIAL":
@@ -51,6 +54,8 @@ def read_materials(model):
             read_property(model, card, current)
         elif card.name not in ("AMPLITUDE",):
             current = current if card.name in ("ORIENTATION",) else None
+    for material in materials.values():
+        orthotropy.finish(model, material)
     return materials, done
 
 
@@ -61,12 +66,15 @@ def read_property(model, card, material):
     if card.name in IGNORED:
         model.note(card, f'material "{material["name"]}": without influence on a static equilibrium at given temperatures')
         return
-    kind = card.get("TYPE", "ISO").upper()
+    kind = orthotropy.kind_of(card)
+    if kind in {"ELASTIC": orthotropy.ELASTIC, "EXPANSION": orthotropy.EXPANSION}.get(card.name, ()):
+        orthotropy.read(model, card, material)
+        return
     rows = [[card.value(w, line, 0.0) for w in words] for line, words in card.rows() if words]
     if not rows:
         raise card.error("expected a line with values")
     if not (kind in ("ISO", "ISOTROPIC") or card.name == "DENSITY"):
-        model.leave_out(card, f'material "{material["name"]}": TYPE={kind}; isotropic constants alone are translated; write those of an orthotropic material under its `orthotropic`')
+        model.leave_out(card, f'material "{material["name"]}": TYPE={kind}; isotropic and orthotropic constants alone are translated')
         return
     constants = {"ELASTIC": 2, "EXPANSION": 1, "DENSITY": 1}[card.name]
     values = [row[:constants] for row in rows]
@@ -87,8 +95,9 @@ def read_sections(model, materials):
         name, material = card.need("ELSET"), card.need("MATERIAL").upper()
         if material not in materials:
             raise card.error(f'there is no *MATERIAL "{card.get("MATERIAL")}"')
-        if "young_modulus" not in materials[material]:
-            raise card.error(f'the material "{card.get("MATERIAL")}" has no linear isotropic *ELASTIC: there is nothing to solve it with')
+        if not {"young_modulus", "orthotropic"} & materials[material].keys():
+            raise card.error(f'the material "{card.get("MATERIAL")}" has no linear *ELASTIC: there is nothing to solve it with')
+        material = orthotropy.of_section(model, card, scope, materials, material)
         used.add(material)
         rows = card.rows()
         t = card.value(rows[0][1][0], rows[0][0], 1.0) if rows and rows[0][1] else 1.0

@@ -60,6 +60,7 @@ class Scope:
         self.node_sets, self.element_sets = {}, {}
         self.surfaces, self.node_surfaces = {}, {}  # one name may stand for one of each
         self.sections = []  # (card, scope)
+        self.turned = False  # an instance that is
 
     def set_of(self, sets, name):
         return sets.setdefault(name.upper(), SetDefinition(name))
@@ -266,6 +267,7 @@ class Builder:
         moves = [[card.value(w, line, 0.0) for w in words] for line, words in card.rows()]
         if any(len(m) not in (0, 1, 2, 3, 7) for m in moves) or len(moves) > 2:
             raise card.error("expected a line with a translation and one with a rotation (two points and an angle)")
+        scope.turned = any(len(m) == 7 for m in moves)
         points = np.array(self.model.points[first:], dtype=float).reshape(-1, 3)
         for move in moves:
             points = rotated(points, move) if len(move) == 7 else points + np.array((*move, 0, 0, 0)[:3])

@@ -5,6 +5,7 @@ import numpy as np
 import history
 import interactions
 import materials
+import orthotropy
 import pretension
 import springs
 from bodies import Bodies, clean, unique
@@ -137,7 +138,7 @@ class Translation:
         for e in self.used:
             material = self.materials[e]
             shapes = {self.model.elements[i].shape for i in self.bodies.solid}
-            if material["poisson_ratio"] >= 0.45 and shapes & {"hex8", "quad4", "prism6"}:
+            if material.get("poisson_ratio", 0) >= 0.45 and shapes & {"hex8", "quad4", "prism6"}:
                 self.model.note(
                     material["card"],
                     f'nearly incompressible: Abaqus averages volumes in such cells; `formulation: bbar` of the bodies of "{material["name"]}" does so',
@@ -651,12 +652,12 @@ class Translation:
             base = initial.get(n, 0.0)
             changes[n] = ([0.0 if v is None else v - base for v in values], entry)
         if any(any(values) for values, _ in changes.values()):
-            for material in [self.materials[m] for m in self.used if not self.materials[m].get("thermal_expansion")]:
+            for material in [self.materials[m] for m in self.used if not orthotropy.expands(self.materials[m])]:
                 self.model.note(material["card"], f'"{material["name"]}" has no *EXPANSION: its temperature changes nothing')
         expanding = {
             b
             for b, body in enumerate(self.bodies.bodies)
-            if any(self.materials[m].get("thermal_expansion") for m, _ in body.volumes.values())
+            if any(orthotropy.expands(self.materials[m]) for m, _ in body.volumes.values())
         }
         of_body = {b: [n for n in self.bodies.nodes_of_body(b)] for b in expanding}
         for n in list(changes):
@@ -912,11 +913,17 @@ class Translation:
         label = {}
         for m in used:
             label[m] = clean(self.materials[m]["name"])
-            deck["materials"][label[m]] = {
+            material = deck["materials"][label[m]] = {
                 k: self.materials[m][k]
                 for k in ("young_modulus", "poisson_ratio", "density", "thermal_expansion")
                 if k in self.materials[m]
             }
+            if "orthotropic" in self.materials[m]:
+                material["orthotropic"] = dict(self.materials[m]["orthotropic"])
+            if "axes" in self.materials[m]:
+                name, axes = self.materials[m]["axes"]
+                deck.setdefault("axes", {})[clean(name)] = axes
+                material["orthotropic"]["axes"] = clean(name)
         deck["bodies"] = {}
         for body in self.bodies.bodies:
             if len(body.volumes) == 1:
@@ -953,6 +960,9 @@ class Translation:
             found.setdefault(self.model.elements[i].formulation, i)
         wanted = [f for f in found if f != "standard"]
         if not wanted:
+            return "standard"
+        if wanted[0] == "bbar" and any("orthotropic" in self.materials[m] for m, _ in body.volumes.values()):
+            self.model.note(self.model.elements[found["bbar"]].card, f'the orthotropic body "{body.name}" has full integration')
             return "standard"
         fits = {"incompatible": {"hex8", "quad4"}, "bbar": {"hex8", "quad4", "prism6"}}[wanted[0]]
         if len(found) > 1 and not shapes <= fits or not shapes <= fits:

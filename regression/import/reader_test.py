@@ -185,6 +185,55 @@ class Mesh(Import):
         self.assertIn('has no face "P7"', self.refused(MODEL + step("*DLOAD\nCUBE, P7, 1.\n")))
 
 
+class Orthotropy(Import):
+    WOOD = "*MATERIAL, NAME=WOOD\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n11,6,4,.35,.4,.3,.7,.8\n.06\n"
+
+    def wood(self, section="", more="", head=CUBE):
+        return self.deck(head + self.WOOD + more + f"*SOLID SECTION, ELSET=CUBE, MATERIAL=WOOD{section}\n" + HELD + step(""))
+
+    def test_constants(self):
+        found = self.wood(more="*EXPANSION, TYPE=ORTHO\n1.E-5, 2.E-5, 3.E-5\n")["materials"]["WOOD"]
+        self.assertEqual(found["orthotropic"]["shear_modulus"], [0.7, 0.8, 0.06])
+        self.assertEqual(found["orthotropic"]["thermal_expansion"], [1e-5, 2e-5, 3e-5])
+        self.assertNotIn("axes", found["orthotropic"])
+        deck = self.deck(MODEL.replace("*EXPANSION\n1.E-5", "*EXPANSION, TYPE=ORTHO\n1.E-5, 2.E-5, 3.E-5") + step(""))
+        steel = deck["materials"]["STEEL"]["orthotropic"]
+        self.assertEqual(steel["young_modulus"], [210000.0] * 3)
+        self.assertAlmostEqual(steel["shear_modulus"][2], 210000 / 2.6, 6)
+
+    def test_stiffness(self):
+        text = self.WOOD.replace("ENGINEERING CONSTANTS\n11,6,4,.35,.4,.3,.7,.8\n.06", "ORTHO\n4,1,3,0,0,2,.7,.8\n.06")
+        found = self.deck(CUBE + text + "*SOLID SECTION, ELSET=CUBE, MATERIAL=WOOD\n" + HELD + step(""))["materials"]["WOOD"]
+        for value, expected in zip(found["orthotropic"]["young_modulus"], (11 / 3, 11 / 4, 2)):  # of [[4, 1], [1, 3]] and 2
+            self.assertAlmostEqual(value, expected, 12)
+        self.assertAlmostEqual(found["orthotropic"]["poisson_ratio"][0], 1 / 3, 12)
+        self.assertEqual(found["orthotropic"]["shear_modulus"], [0.7, 0.8, 0.06])
+
+    def test_directions(self):
+        turned = self.wood(", ORIENTATION=GRAIN", "*ORIENTATION, NAME=GRAIN\n2,0,0, 0,3,0\n3, 90.\n")
+        self.assertEqual(turned["materials"]["WOOD"]["orthotropic"]["axes"], "GRAIN")
+        for name, expected in (("x", (0, 1, 0)), ("y", (-1, 0, 0))):
+            for value, one in zip(turned["axes"]["GRAIN"][name], expected):
+                self.assertAlmostEqual(value, one, 12)
+        moved = self.wood(", ORIENTATION=GRAIN", "*ORIENTATION, NAME=GRAIN\n1,1,0, 0,2,0, 0,1,0\n")
+        self.assertEqual(moved["axes"]["GRAIN"], {"x": [1, 0, 0], "y": [0, 1, 0]})
+        rings = self.wood(", ORIENTATION=GRAIN", "*ORIENTATION, NAME=GRAIN, SYSTEM=CYLINDRICAL\n1,2,0, 1,2,5\n")
+        self.assertEqual(rings["axes"]["GRAIN"], {"axis": [0, 0, 5], "point": [1, 2, 0]})
+
+    def test_what_cannot_be_said(self):
+        for section, more, why in (
+            (", ORIENTATION=GRAIN", "", 'there is no *ORIENTATION "GRAIN"'),
+            (", ORIENTATION=G", "*ORIENTATION, NAME=G\n1,0,0, 2,0,0\n", "lie on one line"),
+            (", ORIENTATION=G", "*ORIENTATION, NAME=G, SYSTEM=SPHERICAL\n1,0,0, 2,0,0\n", "SYSTEM=RECTANGULAR and CYLINDRICAL"),
+            (", ORIENTATION=G", "*ORIENTATION, NAME=G, SYSTEM=CYLINDRICAL\n1,0,0, 2,0,0\n3, 5.\n", "has no counterpart"),
+        ):
+            text = CUBE + self.WOOD + more + f"*SOLID SECTION, ELSET=CUBE, MATERIAL=WOOD{section}\n" + HELD + step("")
+            self.assertIn(why, self.refused(text))
+        part = f"*PART, NAME=P\n{CUBE}*SOLID SECTION, ELSET=CUBE, MATERIAL=WOOD, ORIENTATION=G\n*END PART\n"
+        place = "*INSTANCE, NAME=A, PART=P\n0,0,0\n0,0,0, 0,0,1, 30.\n*END INSTANCE\n"
+        self.assertIn("is turned", self.refused(part + place + self.WOOD + "*ORIENTATION, NAME=G\n1,0,0, 0,1,0\n" + step("")))
+
+
 class Loads(Import):
     def loads(self, text):
         return self.deck(MODEL + step(text))["loads"]
