@@ -9,9 +9,12 @@ import re
 import resource
 import signal
 import subprocess
-import zlib
+import sys
 
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "verification"))
+import results  # noqa: E402
 
 CPU_SECONDS, WALL_SECONDS, RESIDENT = 20, 180, 3e9  # of one run on one rank; more is a find
 ADDRESS_SPACE = 8 << 30  # protects the machine
@@ -68,35 +71,9 @@ def run(mortise, deck, arguments=(), ranks=1, mpiexec="mpirun"):
 
 
 def arrays(path):
-    """The arrays of a .vtu file, as VTK's XML writer leaves them (appended, base64 or raw, zlib)."""
-    data = path.read_bytes()
-    start = data.find(b"<AppendedData")
-    base64 = b'encoding="base64"' in data[start:start + 60]
-    begin = data.index(b"_", start) + 1
-    for found in re.finditer(rb"<DataArray ([^>]*)", data[:start]):
-        attributes = dict(re.findall(rb'(\w+)="\s*([^"]*?)\s*"', found[1]))
-        kind = {b"Float64": "<f8", b"Float32": "<f4"}.get(attributes[b"type"])
-        if kind is not None:
-            yield attributes[b"Name"].decode(), np.frombuffer(inflate(data, begin + int(attributes[b"offset"]), base64), kind)
-
-
-def inflate(data, at, base64):
-    import base64 as b64
-    if base64:
-        count = int(np.frombuffer(b64.b64decode(data[at:at + 8])[:4], "<u4")[0])
-        length = 4 * -(-4 * (3 + count) // 3)
-        head = np.frombuffer(b64.b64decode(data[at:at + length])[:4 * (3 + count)], "<u4")
-        size = int(head[3:].sum())
-        body = b64.b64decode(data[at + length:at + length + 4 * -(-size // 3)])
-    else:
-        count = int(np.frombuffer(data[at:at + 4], "<u4")[0])
-        head = np.frombuffer(data[at:at + 4 * (3 + count)], "<u4")
-        body = data[at + 4 * (3 + count):]
-    parts, place = [], 0
-    for size in head[3:].tolist():
-        parts.append(zlib.decompress(body[place:place + size]))
-        place += size
-    return b"".join(parts)
+    """The arrays of numbers of a .vtu file by name."""
+    for fields in results.read_vtu(path).values():
+        yield from ((name, values) for name, values in fields.items() if values.dtype.kind == "f")
 
 
 def not_finite(value, path=""):

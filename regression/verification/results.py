@@ -1,5 +1,6 @@
 """What a run of Mortise left behind: summary.json and the .vtu files of solution.pvd and contact.pvd, without a library for VTK."""
 
+import base64
 import json
 import pathlib
 import re
@@ -10,13 +11,13 @@ import numpy as np
 TYPES = {"Float64": np.float64, "Float32": np.float32, "Int64": np.int64, "Int32": np.int32, "UInt8": np.uint8}
 
 
-def unpacked(data, start):
-    """One array of an appended, compressed block: number of blocks, size of a block, of the last one, sizes compressed."""
-    blocks = int(np.frombuffer(data, np.uint32, 1, start)[0])
-    if blocks == 0:
-        return b""
-    sizes = np.frombuffer(data, np.uint32, blocks, start + 12)
-    at, parts = start + 12 + 4 * blocks, []
+def unpacked(text):
+    """The bytes of an array: base64 of a head of four-byte numbers (blocks, size of a block, size of the last, sizes of all as they are
+    packed), and of the blocks."""
+    count = int(np.frombuffer(base64.b64decode(text[:8])[:4], "<u4")[0])
+    length = 4 * -(-4 * (3 + count) // 3)
+    sizes = np.frombuffer(base64.b64decode(text[:length])[: 4 * (3 + count)], "<u4")[3:]
+    data, parts, at = base64.b64decode(text[length:]), [], 0
     for size in sizes:
         parts.append(zlib.decompress(data[at : at + int(size)]))
         at += int(size)
@@ -24,16 +25,13 @@ def unpacked(data, start):
 
 
 def read_vtu(path):
-    """{section: {name: array}} of a .vtu file with raw appended data."""
-    data = pathlib.Path(path).read_bytes()
-    mark = data.index(b"<AppendedData")
-    head, start = data[:mark].decode(), data.index(b"_", mark) + 1
+    """{section: {name: array}} of a .vtu file."""
     result = {}
-    for section, body in re.findall(r"<(PointData|CellData|Points|Cells)>(.*?)</\1>", head, re.S):
+    for section, body in re.findall(r"<(PointData|CellData|Points|Cells)>(.*?)</\1>", pathlib.Path(path).read_text(), re.S):
         arrays = result.setdefault(section, {})
-        for tag in re.findall(r"<DataArray[^>]*>", body):
+        for tag, text in re.findall(r"<DataArray([^>]*)>([^<]*)", body):
             field = dict(re.findall(r'(\w+)="([^"]*)"', tag))
-            values = np.frombuffer(unpacked(data, start + int(field["offset"])), TYPES[field["type"]])
+            values = np.frombuffer(unpacked(text.strip()), TYPES[field["type"]])
             columns = int(field.get("NumberOfComponents", 1))
             arrays[field["Name"]] = values.reshape(-1, columns) if columns > 1 else values
     return result

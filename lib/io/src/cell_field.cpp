@@ -88,12 +88,15 @@ CellField::Nearest CellField::nearest(const Point& x) const
   if (found < 0 || cell->GetParametricDistance(parameters.data()) > within) {
     cells->FindClosestPoint(at.data(), place.data(), cell, found, part, square);
     grid->GetCell(found, cell);
-    cell->EvaluatePosition(at.data(), unused.data(), part, parameters.data(), square, weights);
+    // Of a place beside a face of second order, in its plane, VTK gives that place itself, and the distance all the same.
+    const Point away = x - Point(place.data());
+    const bool is_it = std::abs(away.squaredNorm() - square) <= within * square;
+    double again = 0;
+    cell->EvaluatePosition(is_it ? place.data() : at.data(), unused.data(), part, parameters.data(), again, weights);
   }
   draw_in(cell, parameters);
   cell->EvaluateLocation(part, parameters.data(), place.data(), weights);
-  const Point there(place.data());
-  Nearest result{0, there, (x - there).norm(), static_cast<std::size_t>(found), std::sqrt(cell->GetLength2())};
+  Nearest result{0, Point(place.data()), std::sqrt(square), static_cast<std::size_t>(found), std::sqrt(cell->GetLength2())};
   const auto first = arrays.offsets[result.cell], end = arrays.offsets[result.cell + 1];
   for (auto i = first; i < end; ++i)
     result.value += weights[static_cast<std::size_t>(i - first)] *

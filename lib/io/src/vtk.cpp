@@ -89,8 +89,7 @@ void write_piece(const std::string& path, const Piece& piece, const decltype(Blo
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
     writer->SetFileName(temporary.c_str());
     writer->SetInputData(grid);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
+    writer->SetDataModeToBinary();  // base64 in its place: what is appended VTK cannot read with expat 2.6, or 2.5 as Debian mended it
     writer->SetCompressorTypeToZLib();
     writer->SetCompressionLevel(1);  // of 9: files a little larger, in a third of the time
     // An observer also keeps VTK from printing the message itself.
