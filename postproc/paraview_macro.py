@@ -120,6 +120,7 @@ def side_by_side(layout, views):
 
 def open_run(out):
     """The views of a run, from left to right."""
+    simple._DisableFirstRenderCameraReset()  # of ParaView's own traces
     summary = json.loads((out / "summary.json").read_text())
     solution = simple.PVDReader(registrationName="solution", FileName=str(out / "solution.pvd"))
     last_state(solution)
