@@ -86,7 +86,9 @@ Content read_vtu(const std::string& path, const std::string& name)
   reader->Update();
   auto* grid = reader->GetOutput();
   if (reader->GetErrorCode() != 0 || !grid || grid->GetNumberOfPoints() == 0 || grid->GetNumberOfCells() == 0)
-    fail(path + ": holds no cells that can be read");
+    fail(path +
+         ": holds no cells that can be read; data that are appended VTK cannot read beside a new expat: save the file as ASCII "
+         "or binary");
   auto* data = grid->GetPointData();
   std::vector<std::string> names;
   for (int a = 0; a < data->GetNumberOfArrays(); ++a)
