@@ -18,10 +18,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 #include "base/error.hpp"
 #include "io/files.hpp"
@@ -53,18 +50,6 @@ void add_fields(const std::vector<Field>& fields, vtkDataSetAttributes* data)
   }
 }
 
-// VTK does not look whether the last block of a file reached the disk.
-void require_end(const std::string& path)
-{
-  const std::string end = "</VTKFile>";
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const auto size = static_cast<std::streamoff>(file.tellg());
-  std::string tail(64, ' ');
-  file.seekg(std::max<std::streamoff>(size - static_cast<std::streamoff>(tail.size()), 0));
-  file.read(tail.data(), static_cast<std::streamsize>(tail.size()));
-  if (tail.find(end) == std::string::npos) throw std::runtime_error("its end is missing: no space is left on the disk");
-}
-
 void write_piece(const std::string& path, const Piece& piece, const decltype(Block::words)& words = {})
 {
   vtkNew<vtkPoints> points;
@@ -85,32 +70,28 @@ void write_piece(const std::string& path, const Piece& piece, const decltype(Blo
     for (const auto& entry : entries) array->InsertNextValue(entry);
     grid->GetFieldData()->AddArray(array);
   }
-  write_whole(path, [&](const std::string& temporary) {
-    vtkNew<vtkXMLUnstructuredGridWriter> writer;
-    writer->SetFileName(temporary.c_str());
-    writer->SetInputData(grid);
-    writer->SetDataModeToBinary();  // base64 in its place: what is appended VTK cannot read with expat 2.6, or 2.5 as Debian mended it
-    writer->SetCompressorTypeToZLib();
-    writer->SetCompressionLevel(1);  // of 9: files a little larger, in a third of the time
-    // An observer also keeps VTK from printing the message itself.
-    std::string message;
-    vtkNew<vtkCallbackCommand> observer;
-    observer->SetClientData(&message);
-    observer->SetCallback([](vtkObject*, unsigned long, void* text, void* said) {
-      auto& first = *static_cast<std::string*>(text);
-      if (said && first.empty()) first = static_cast<const char*>(said);
-    });
-    writer->AddObserver(vtkCommand::ErrorEvent, observer);
-    writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, observer);
-    writer->Write();
-    const auto code = writer->GetErrorCode();
-    if (code == vtkErrorCode::OutOfDiskSpaceError) throw std::runtime_error("no space is left on the disk");
-    if (code != vtkErrorCode::NoError || !message.empty())
-      throw std::runtime_error(code > 0 && code < vtkErrorCode::FirstVTKErrorCode
-                                   ? std::strerror(static_cast<int>(code))  // the system's own
-                                   : fmt::format("VTK's writer failed ({}) {}", code, message));
-    require_end(temporary);
+  // Into memory, and then onto the disk: on a full one VTK's writer frees what it never had.
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->WriteToOutputStringOn();
+  writer->SetInputData(grid);
+  writer->SetDataModeToBinary();  // base64 in its place: what is appended VTK cannot read with expat 2.6, or 2.5 as Debian mended
+                                  // it
+  writer->SetCompressorTypeToZLib();
+  writer->SetCompressionLevel(1);  // of 9: files a little larger, in a third of the time
+  // An observer also keeps VTK from printing the message itself.
+  std::string message;
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(&message);
+  observer->SetCallback([](vtkObject*, unsigned long, void* text, void* said) {
+    auto& first = *static_cast<std::string*>(text);
+    if (said && first.empty()) first = static_cast<const char*>(said);
   });
+  writer->AddObserver(vtkCommand::ErrorEvent, observer);
+  writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, observer);
+  writer->Write();
+  if (const auto code = writer->GetErrorCode(); code != vtkErrorCode::NoError || !message.empty())
+    throw Error(ExitStatus::machine, fmt::format("{}: VTK's writer failed ({}) {}", path, code, message));
+  write_text(path, writer->GetOutputString());
 }
 
 std::string declare(const std::vector<Field>& fields)
