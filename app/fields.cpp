@@ -286,6 +286,29 @@ std::vector<io::Table> node_tables(const partition::Decomposition& decomposition
   return tables;
 }
 
+// Connectivity and what belongs to cells; of boundary elements the cells are the panels.
+std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition, const post::Results& results,
+                                   const Communicator& comm)
+{
+  std::vector<const mesh::Mesh*> meshes;
+  const Global total = decomposition.catalogue.cell_count;
+  io::Table body{"cells/body", "number of the cell's body, from 0, as in body_names of summary.json", 1, total, {}, {}},
+      von_mises{"cells/von_mises", "von Mises stress, mean of the cell", 1, total, {}, {}};
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    const auto& mesh = subdomain.mesh;
+    const auto& stress = results.stress.cell_von_mises[s];
+    meshes.push_back(&mesh);
+    body.values.insert(body.values.end(), mesh.cells.size(), static_cast<double>(subdomain.body));
+    von_mises.values.insert(von_mises.values.end(), stress.begin(), stress.end());
+    for (auto* table : {&body, &von_mises}) table->row.insert(table->row.end(), mesh.cell_id.begin(), mesh.cell_id.end());
+  }
+  auto tables = io::cell_tables(meshes, total, comm);
+  tables.push_back(std::move(body));
+  tables.push_back(std::move(von_mises));
+  return tables;
+}
+
 io::Table contact_table(const post::Results& results, const Communicator& comm)
 {
   const auto mine = static_cast<long long>(results.contact.points.size());
@@ -350,6 +373,7 @@ void FieldFiles::write_fields(const partition::Decomposition& decomposition, con
   const auto& directory = deck_.output.directory;
   const auto& pairs = state.rows->pairs;
   auto tables = node_tables(decomposition, interface, state.displacement, results);
+  for (auto& table : cell_tables(decomposition, results, comm)) tables.push_back(std::move(table));
   tables.push_back(multiplier_table(problem, state.solved.solution.x));
   if (!pairs.empty()) tables.push_back(contact_table(results, comm));
   for (auto& table : interior_tables(decomposition, probes, results, comm)) tables.push_back(std::move(table));

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""The fields of solution.pvd that a deck asks for: contact pressure on both sides, components along local axes.
+"""The fields of solution.pvd that a deck asks for: contact pressure on both sides, components along local axes; the tables of results.h5.
 
     fields_test.py MORTISE --mpiexec MPIEXEC
 """
 import argparse
 import pathlib
+import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -67,6 +69,49 @@ class Fields(unittest.TestCase):
         x, pressure = fields["Points"], fields["contact_pressure"][:, 0]
         middle = (np.abs(x - [1, 1, 1]) < [0.2, 0.2, 1e-9]).all(axis=1)
         self.assertTrue((pressure[middle] > 1).all() and (pressure[middle] < 3).all() and middle.any())
+
+    def test_results_file_is_read_without_the_program(self):
+        """The example of docs/running.md in the output folder, and the cells of results.h5 beside those of the .vtu."""
+        import h5py
+
+        page = (HERE.parents[1] / "docs/running.md").read_text()
+        example = re.search(r"```python\n(.*?)```", page, re.S)[1]
+        tables = []
+        for ranks in (1, 3):
+            with tempfile.TemporaryDirectory() as directory:
+                out = pathlib.Path(directory) / "out"
+                done = oracle.run(MORTISE, HERE / "both_sides.yaml", ["--output", str(out)], ranks, MPIEXEC)
+                assert done.status == 0, done.err
+                said = subprocess.run([sys.executable, "-c", example], cwd=out, capture_output=True, text=True)
+                self.assertEqual(said.returncode, 0, said.stderr)
+                grid = oracle.results.Grid(sorted(out.glob("solution_*.vtu")))
+                with h5py.File(out / "results.h5") as file:
+                    tables.append({f"{group}/{name}": file[group][name][:] for group in ("nodes", "cells") for name in file[group]})
+                for name in tables[-1]:
+                    self.assertIn(name, page.replace("`", ""))
+                    self.assertIn(name, said.stdout)
+            moved = [float(line.split()[-1]) for line in said.stdout.splitlines() if line.startswith("body")]
+            self.assertEqual(len(moved), 2)
+            highest = np.linalg.norm(grid.fields["displacement"], axis=1).max()
+            self.assertAlmostEqual(max(moved), highest, delta=1e-12 * highest)
+            self.assertEqual(cells_of_tables(tables[-1]), cells_of_grid(grid))
+        for name, table in tables[0].items():
+            self.assertEqual(table.shape, tables[1][name].shape)
+        np.testing.assert_array_equal(tables[0]["cells/nodes"], tables[1]["cells/nodes"])
+
+
+def cell(kind, body, corners):
+    return int(kind), int(body), tuple(np.round(corners, 9).ravel() + 0.0)
+
+
+def cells_of_tables(tables):
+    """Shape, body and places of the nodes of each cell."""
+    rows = zip(tables["cells/type"][:, 0], tables["cells/body"][:, 0], tables["cells/nodes"].astype(int))
+    return sorted(cell(kind, body, tables["nodes/points"][nodes[nodes >= 0]]) for kind, body, nodes in rows)
+
+
+def cells_of_grid(grid):
+    return sorted(cell(kind, body, grid.points[nodes]) for kind, body, nodes in zip(grid.types, grid.cell_fields["body"], grid.cells))
 
 
 if __name__ == "__main__":

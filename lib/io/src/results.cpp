@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "io/files.hpp"
+#include "vtk_cells.hpp"
 
 namespace mortise::io {
 
@@ -252,6 +253,26 @@ void write_file(const std::string& path, const std::vector<Table>& tables, const
 }
 
 }  // namespace
+
+std::vector<Table> cell_tables(const std::vector<const mesh::Mesh*>& meshes, Global total, const Communicator& comm)
+{
+  int widest = 0;
+  for (const auto* mesh : meshes)
+    for (const auto type : mesh->cells.type) widest = std::max(widest, mesh::node_count(type));
+  widest = static_cast<int>(comm.max(static_cast<long long>(widest)));
+  Table nodes{"cells/nodes", "numbers of the cell's nodes in VTK's order, -1 after the last", widest, total, {}, {}},
+      type{"cells/type", "VTK's number of the cell's shape", 1, total, {}, {}};
+  for (const auto* mesh : meshes)
+    for (std::size_t c = 0; c < mesh->cells.size(); ++c) {
+      const auto own = vtk_nodes(mesh->cells.type[c], mesh->cells[c]);
+      for (const auto n : own) nodes.values.push_back(static_cast<double>(mesh->node_id[static_cast<std::size_t>(n)]));
+      nodes.values.insert(nodes.values.end(), static_cast<std::size_t>(widest) - own.size(), -1.0);
+      type.values.push_back(vtk_type(mesh->cells.type[c]));
+      nodes.row.push_back(mesh->cell_id[c]);
+      type.row.push_back(mesh->cell_id[c]);
+    }
+  return {std::move(nodes), std::move(type)};
+}
 
 std::vector<double> read_table(const std::string& path, const std::string& name)
 {

@@ -74,6 +74,28 @@ TEST(Results, RowsStandAtTheirNumbersWhoeverHadThem)
   EXPECT_EQ(read(scratch / "results.h5", "deep/er/none").shape, (std::vector<hsize_t>{0, 3}));
 }
 
+// A prism on one rank, a triangle on the last: VTK's wedge has its triangles the other way round.
+TEST(Results, CellsStandAtTheirNumbersInTheOrderOfVtk)
+{
+  const Communicator comm;
+  const Scratch scratch(comm);
+  mesh::Mesh prism, triangle;
+  prism.node_id = {3, 4, 5, 10, 11, 12};
+  prism.cells.add(mesh::CellType::prism6, std::vector<Local>{0, 1, 2, 3, 4, 5});
+  prism.cell_id = {1};
+  triangle.node_id = {4, 7, 9};
+  triangle.cells.add(mesh::CellType::tri3, std::vector<Local>{2, 0, 1});
+  triangle.cell_id = {0};
+  std::vector<const mesh::Mesh*> mine;
+  if (comm.root()) mine.push_back(&prism);
+  if (comm.rank() == comm.size() - 1) mine.push_back(&triangle);
+  write_results(scratch / "results.h5", cell_tables(mine, 2, comm), comm);
+  if (!comm.root()) return;
+  EXPECT_EQ(read(scratch / "results.h5", "cells/nodes").shape, (std::vector<hsize_t>{2, 6}));
+  EXPECT_EQ(read(scratch / "results.h5", "cells/nodes").values, (std::vector<double>{9, 4, 7, -1, -1, -1, 3, 5, 4, 10, 12, 11}));
+  EXPECT_EQ(read(scratch / "results.h5", "cells/type").values, (std::vector<double>{5, 13}));
+}
+
 TEST(Results, TableWithoutEachRowOnceIsRefused)
 {
   const Communicator comm;

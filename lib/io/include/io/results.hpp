@@ -6,6 +6,7 @@
 
 #include "base/communicator.hpp"
 #include "base/types.hpp"
+#include "mesh/mesh.hpp"
 
 namespace mortise::io {
 
@@ -18,6 +19,11 @@ struct Table {
   std::vector<Global> row;  ///< numbers of this rank's rows
   std::vector<double> values;
 };
+
+/// The tables "cells/nodes", the numbers of a cell's nodes in VTK's order, -1 after the last, and "cells/type", VTK's number of
+/// its shape, of the cells of these meshes. `total`: the cells of all ranks, whose numbers (Mesh::cell_id) are below it.
+/// Collective.
+std::vector<Table> cell_tables(const std::vector<const mesh::Mesh*>& meshes, Global total, const Communicator& comm);
 
 /// Writes all tables collectively: row i of the data set is the row with number i. Throws Error(machine) on all ranks if the file
 /// cannot be written or a table has not each of its rows once; then there is no file. Collective.
