@@ -234,6 +234,20 @@ def resumed(options, scratch):
     for ranks, words, why in ((1, ["--set", "solver.tolerance=1e-9"], "another deck"), (2, exact, "had 1 ranks, not 2")):
         run = Run(options, SLOW, scratch / "other", ranks, words + ["--resume"])
         expect(run.wait() == 1 and why in run.said, f"{why}: {run.said}")
+    heated = scratch / "heated.yaml"
+    heated.write_text(SLOW.read_text().replace("loads:\n", "loads:\n  - {body: upper, temperature_change: {file: heat.csv, field: T}}\n")
+                      .replace("poisson_ratio: 0.3", "poisson_ratio: 0.3, thermal_expansion: 1e-5"))
+    heat = lambda by: (scratch / "heat.csv").write_text("x,y,z,T\n" + "".join(
+        f"{x},{y},{z},{by * (10 + z)}\n" for x in (0, 0.5, 1) for y in (0, 0.5, 1) for z in (1, 1.5, 2)))
+    heat(1)
+    ended = Run(options, heated, scratch / "hot", 1, exact)
+    expect(ended.has("restart.2.h5"), "hot: too late for the test")
+    os.kill(ended.process.pid, signal.SIGTERM)
+    ended.wait()
+    for by, status, why in ((1.001, 1, "was changed since"), (1, 0, "Solved.")):
+        heat(by)
+        run = Run(options, heated, scratch / "hot", 1, exact + ["--resume"])
+        expect(run.wait() == status and why in run.said, f"{why}: {run.said}")
 
 
 def interrupted_direct(options, scratch):

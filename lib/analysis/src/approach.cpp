@@ -114,7 +114,8 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
     try {
       if (const auto status = attempt(partition::whole_bodies(cut, comm), approach)) return *status;
     } catch (const Error& error) {
-      if (!is_tried_again(approach, error)) throw;
+      const bool stale = resumed && error.status() == ExitStatus::bad_input;  // a record of another model
+      if (stale || !is_tried_again(approach, error)) throw;
       if (error.cause() == Error::Cause::memory) why = "finds no room in memory";
     } catch (const std::bad_alloc&) {
       if (comm.size() > 1) throw;  // the other ranks know nothing of it

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "analysis/load_step_solver.hpp"
@@ -28,6 +29,8 @@ enum : std::size_t {
   error,
   hessian_norm,
   precision,
+  linear,
+  energy,
   count
 };
 }
@@ -51,6 +54,29 @@ std::vector<double> head_of(const Approach& approach, double time, const Communi
 {
   return {static_cast<double>(comm.size()), time, static_cast<double>(approach.kind), approach.smaller ? 1.0 : 0.0,
           static_cast<double>(approach.spent)};
+}
+
+// Figures by which another problem shows, though its deck is the same: a mesh or a file of temperatures that was changed.
+struct Fingerprint {
+  double linear;                      // r'b, where r is of no direction that models prefer
+  double energy;                      // x'A x
+  double linear_scale, energy_scale;  // what their rounding is relative to
+};
+
+Fingerprint fingerprint(const Vector& x, const Vector& gradient, const Vector& linear)
+{
+  Vector r(linear.getMap());
+  auto values = view(r);
+  const auto rows = linear.getMap()->getNodeElementList();
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    values[i] = std::sin(1.0 + static_cast<double>(rows[static_cast<Teuchos::Ordinal>(i)]));
+  const double energy = x.dot(gradient) + x.dot(linear), norm = linear.norm2();
+  return {r.dot(linear), energy, norm, std::abs(energy) + x.norm2() * norm};
+}
+
+bool differ(double a, double b, double scale)
+{
+  return !(std::abs(a - b) <= 1e-8 * scale);  // the same run again: 1e-12
 }
 
 [[noreturn]] void throw_not_resumable(const std::string& directory, const std::string& why)
@@ -129,6 +155,9 @@ void Restart::keep(std::size_t index, const Approach& approach, const LoadStepSo
   counts[figure::error] = solution.error;
   counts[figure::hessian_norm] = solution.hessian_norm;
   counts[figure::precision] = solution.precision;
+  const auto print = fingerprint(solution.x, solution.gradient, problem.linear());
+  counts[figure::linear] = print.linear;
+  counts[figure::energy] = print.energy;
   numbers.insert(numbers.end(), counts.begin(), counts.end());
 
   io::Table multipliers{"dual/multipliers", "multipliers of the scaled rows", 1, problem.dual_unknowns(), {}, {}};
@@ -187,6 +216,13 @@ friction::Result solution_of(const Record& record, feti::DualProblem& problem)
   }
   Vector gradient(problem.linear(), Teuchos::Copy);
   problem.hessian().apply(x, gradient, Teuchos::NO_TRANS, 1, -1);
+  const auto print = fingerprint(x, gradient, problem.linear());
+  if (differ(print.linear, record.counts[figure::linear], print.linear_scale) ||
+      differ(print.energy, record.counts[figure::energy], print.energy_scale))
+    throw Error(ExitStatus::bad_input,
+                fmt::format("--resume: {}: a mesh or another file that the deck names was changed since this state was solved; "
+                            "run the deck without it",
+                            record.file));
   qp::Solution solution(x, gradient, Eigen::Map<const Eigen::VectorXd>(nu.data(), static_cast<Eigen::Index>(nu.size())));
   solution.converged = true;
   solution.projected_gradient = record.counts[figure::projected_gradient];

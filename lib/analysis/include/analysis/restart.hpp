@@ -49,7 +49,7 @@ class Restart {
 };
 
 /// The solution that a record tells of, for the problem that it comes from; puts the radii into the problem's set. Throws
-/// Error(bad_input) if it is another problem. Collective.
+/// Error(bad_input) if it is another problem, of a mesh or of temperatures that were changed, say. Collective.
 friction::Result solution_of(const Record& record, feti::DualProblem& problem);
 
 }  // namespace mortise::analysis
