@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "face_newton_run.hpp"
 #include "qp/error_estimate.hpp"
 #include "qp/norm.hpp"
 
@@ -35,37 +36,6 @@ constexpr double at_rest = 0.05;          // of normal forces: change that is st
 constexpr double certain = 0.1;           // of the allowed error, at which their change does not matter
 constexpr double least_size = 0.01;  // of ||A||^1/2 ||x||_A: where b asks for nearly nothing, ||P b|| is no measure of residuals
 constexpr double first_look = 0.1;   // part of the first error at which the allowed one is asked for
-
-// Whether normal forces are at rest: by how much they are still to change, if they change like the error.
-class ContactForces {
- public:
-  explicit ContactForces(const Problem& problem) : problem_(problem) {}
-
-  // Relative, of the forces at x, whose error is `error`; infinite where that cannot be told. Collective.
-  double change_to_come(const Vector& x, double error)
-  {
-    const auto values = view(x);
-    std::vector<double> now;
-    std::vector<double> sums(2, 0.0);
-    for (const auto& bound : problem_.set.bounds()) {
-      now.push_back(values[bound.index]);
-      sums[0] += now.back() * now.back();
-      if (!before_.empty()) sums[1] += std::pow(now.back() - before_[now.size() - 1], 2);
-    }
-    problem_.equality.communicator().sum_in_place(sums);
-    const double part = error / error_;
-    const bool known = error_ > 0 && part < 1;
-    before_ = std::move(now);
-    error_ = error;
-    if (sums[0] == 0 || sums[1] == 0) return known || sums[0] == 0 ? 0.0 : std::numeric_limits<double>::infinity();
-    return known ? std::sqrt(sums[1] / sums[0]) * part / (1 - part) : std::numeric_limits<double>::infinity();
-  }
-
- private:
-  const Problem& problem_;
-  std::vector<double> before_;
-  double error_ = 0;
-};
 
 }  // namespace
 
@@ -119,21 +89,18 @@ bool FaceNewton::soft_between(const Vector& a, const Vector& ga, const Vector& b
 bool FaceNewton::improve_start(State& state, double energy)
 {
   auto& [z, g, y, gy] = state;
-  auto& hessian = problem_.hessian;
-  const auto& linear = problem_.linear;
-  Vector downhill(linear, Teuchos::Copy);
+  Vector downhill(problem_.linear, Teuchos::Copy);
   problem_.equality.project(downhill);
   double step = step_length / norm_;
   bool found = false;
-  for (int attempt = 0; attempt < max_starts && !hessian.exhausted(); ++attempt) {
+  for (int attempt = 0; attempt < max_starts && !problem_.hessian.exhausted(); ++attempt) {
     step *= longer;
     Vector trial(downhill, Teuchos::Copy);
     trial.scale(step);
     const Projection next = projector_(trial);
     if (!next.found) break;
-    hessian.apply(next.point, gy);
-    gy.update(-1, linear, 1);
-    const double next_energy = 0.5 * (next.point.dot(gy) - next.point.dot(linear));
+    evaluate(next.point, gy);
+    const double next_energy = energy_of(next.point, gy);
     if (!(next_energy < energy)) break;
     z.assign(next.point);
     g.assign(gy);
@@ -145,188 +112,258 @@ bool FaceNewton::improve_start(State& state, double energy)
   return found;
 }
 
-Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const SlipBoundUpdate* slip_bound_update,
-                           const Observer& observer)
+void FaceNewton::evaluate(const Vector& x, Vector& gradient) const
 {
-  auto& [hessian, linear, equality, set, driven] = problem_;
-  const auto map = hessian.map();
-  Projection feasible = projector_(start ? start->x : Vector(map));
-  Solution result(feasible.point, Vector(map), feasible.nu);
-  if (!feasible.found) {
-    result.feasible = false;
-    result.empty = feasible.empty;
-    return result;
+  problem_.hessian.apply(x, gradient);
+  gradient.update(-1, problem_.linear, 1);
+}
+
+double FaceNewton::energy_of(const Vector& x, const Vector& gradient) const
+{
+  return 0.5 * (x.dot(gradient) - x.dot(problem_.linear));
+}
+
+void FaceNewton::report(const Run& run, const char* what, bool outer) const
+{
+  if (run.observer)
+    run.observer({what, run.result.outer_iterations, problem_.hessian.count(), run.residual / run.size, run.mismatch / run.size,
+                  0, run.active, preconditionings_, run.energy, run.result.error, outer ? &run.state.z : nullptr});
+}
+
+// Projects a step from y, which follows the gradient there or, where bounds follow the solution, is `beyond`. Those bounds are
+// updated on the way, and taken back where they leave no feasible point; if that does not help either, none is found.
+FaceNewton::Trial FaceNewton::project_step(Run& run)
+{
+  const double step = step_length / norm_;
+  Vector to(run.state.y, Teuchos::Copy);
+  if (run.beyond)
+    to.assign(*run.beyond);
+  else
+    to.update(-step, run.state.gy, 1);
+  const auto* bounds = run.slip_bound_update;
+  const bool follow = bounds && !run.first();
+  if (follow) bounds->update(run.state.y, true);
+  Projection next = projector_(to, run.nu);
+  // The normal forces that the projection changes change the bounds once more.
+  for (int pass = 0; follow && next.found && pass < max_updates; ++pass) {
+    bounds->update(next.point, true);
+    next = projector_(to, next.nu);
   }
-  preconditionings_ = 0;
-  if (norm_ == 0) {
-    norm_ = start && start->hessian_norm > 0 ? start->hessian_norm : projected_norm(hessian, equality, norm_accuracy);
-    if (observer) observer({"norm", 0, hessian.count()});
-    if (norm_ == 0) norm_ = 1;
+  for (int retreat = 0; bounds && !next.found && retreat < max_retreats; ++retreat) {
+    bounds->retreat();
+    next = projector_(to, run.nu);
   }
-  double size = relative_size(problem_, goal.allowed_error ? tolerances::finest : goal.residual);
-  if (size == 0) size = 1;
+  return {std::move(next), step, Vector(run.state.y.getMap())};
+}
 
-  State state(map);
-  auto& [z, g, y, gy] = state;
-  const auto evaluate = [&](const Vector& at, Vector& gradient) {
-    hessian.apply(at, gradient);
-    gradient.update(-1, linear, 1);
-  };
-  const auto energy_of = [&](const Vector& at, const Vector& gradient) { return 0.5 * (at.dot(gradient) - at.dot(linear)); };
-  z.assign(feasible.point);
-  evaluate(z, g);
+void FaceNewton::evaluate(Trial& trial) const
+{
+  evaluate(trial.next.point, trial.gradient);
+  trial.energy = energy_of(trial.next.point, trial.gradient);
+}
 
-  double energy = energy_of(z, g);
-  y.assign(z);
-  gy.assign(g);
-  double residual = 0, mismatch = 0, best = std::numeric_limits<double>::infinity(), best_error = best;
-  int since_best = 0;
-  FeasibleSet::Active active{};
-  const auto report = [&](const char* what, bool outer = false) {
-    if (observer)
-      observer({what, result.outer_iterations, hessian.count(), residual / size, mismatch / size, 0, active, preconditionings_,
-                energy, result.error, outer ? &z : nullptr});
-  };
-  Eigen::VectorXd nu =
-      start && start->nu.size() == equality.size() ? Eigen::VectorXd(start->nu * (step_length / norm_)) : Eigen::VectorXd();
-  bool moved = false;            // y differs from z
-  std::optional<Vector> beyond;  // y after a longer step, where bounds follow the solution
-  double active_set_tolerance = slip_bound_update ? first_active_set_tolerance_updated : first_active_set_tolerance;
-  double first_error = 0, allowed = -1;  // negative: not asked for yet
-  bool doubtful = false;                 // a small residual beside a large error
-  ContactForces contact(problem_);
-  while (true) {
-    double step = step_length / norm_;
-    Vector trial(y, Teuchos::Copy);
-    if (beyond)
-      trial.assign(*beyond);
-    else
-      trial.update(-step, gy, 1);
-    if (slip_bound_update && result.outer_iterations > 0) slip_bound_update->update(y, true);
-    Projection next = projector_(trial, nu);
-    // The normal forces that the projection changes change the bounds once more.
-    for (int pass = 0; slip_bound_update && result.outer_iterations > 0 && next.found && pass < max_updates; ++pass) {
-      slip_bound_update->update(next.point, true);
-      next = projector_(trial, next.nu);
-    }
-    for (int retreat = 0; slip_bound_update && !next.found && retreat < max_retreats; ++retreat) {
-      slip_bound_update->retreat();
-      next = projector_(trial, nu);
-    }
-    if (!next.found) {  // bounds that leave no feasible point, for a start there was one
-      result.feasible = false;
-      result.empty = next.empty;
-      result.nu = next.nu;
-      return result;
-    }
-    Vector gradient(map);
-    evaluate(next.point, gradient);
-    double next_energy = energy_of(next.point, gradient);
-    if (!start && !unconstrained_ && result.outer_iterations == 0 && soft_between(z, g, next.point, gradient) &&
-        improve_start(state, next_energy)) {
-      energy = energy_of(z, g);
-      trial.update(1, z, -step, g, 0);
-      if (Projection onward = projector_(trial); onward.found) {
-        next = std::move(onward);
-        evaluate(next.point, gradient);
-        next_energy = energy_of(next.point, gradient);
-      }
-    }
-    // Where the active set was picked badly the minimiser on it is far away: go back towards z until the function falls.
-    double part = 1;
-    for (int attempt = 0; !slip_bound_update && moved && next_energy > energy + 1e-9 * std::abs(energy) && !hessian.exhausted();
-         ++attempt) {
-      part = attempt < max_retreats_to_z ? part * 0.25 : 0;
-      step = part > 0 ? step : safe_length / norm_;
-      trial.update(1 - part, z, part, y, 0);
-      trial.update(-step * (1 - part), g, -step * part, gy, 1);
-      next = projector_(trial, Eigen::VectorXd(nu * (step * norm_ / step_length)));
-      evaluate(next.point, gradient);
-      next_energy = energy_of(next.point, gradient);
-      ++result.safeguards;
-      if (part == 0) break;
-    }
-    z.assign(next.point);
-    g.assign(gradient);
-    energy = next_energy;
-    nu = next.nu * (step_length / norm_ / step);
-    active = set.active(view(std::as_const(z)));
-
-    trial.assign(z);
-    trial.update(-1 / norm_, g, 1);
-    const Projection natural = projector_(trial, Eigen::VectorXd(nu / step_length));
-    trial.update(1, z, -1, natural.point, 0);
-    residual = trial.norm2() * norm_;
-    mismatch = slip_bound_update ? slip_bound_update->update(z, false) * norm_ / step_length : 0.0;
-    result.nu = natural.nu * norm_;
-    ++result.outer_iterations;
-    const double worst = std::max(residual, mismatch);
-    result.error = error_bound(problem_, z, natural, norm_, preconditioner_) * (residual > 0 ? worst / residual : 1.0);
-    preconditionings_ += preconditioner_ ? 1 : 0;
-    report("outer", true);
-    const double to_come = contact.change_to_come(z, result.error);
-    // Infinite while points stick whose bounds are still to come.
-    if (first_error == 0 && std::isfinite(result.error)) first_error = result.error;
-    const bool small = worst <= (goal.allowed_error ? tolerances::finest : goal.residual) * size;
-    result.converged = small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal,
-                                           worst <= tolerances::rounding * size);
-    doubtful = small && !result.converged;
-    if (goal.allowed_error && !result.converged && std::isfinite(result.error) &&
-        result.error <= (allowed < 0 ? first_look * first_error : allowed)) {
-      allowed = goal.allowed_error(z, result.nu);
-      result.converged = result.error <= (to_come <= at_rest ? 1 : certain) * allowed &&
-                         (worst <= Goal::largest_residual * size || believable(result.error, 0, z, result.nu, goal));
-    }
-    if (goal.allowed_error && result.converged && goal.contact_converged && preconditioner_) {
-      Vector gap(z, Teuchos::Copy), change(map);
-      gap.update(-norm_, natural.point, norm_);
-      preconditioner_->fix({});
-      preconditioner_->apply(gap, change);
-      ++preconditionings_;
-      result.converged = goal.contact_converged(z, natural.argument, change);
-    }
-    if (!result.converged && goal.exact > 0 && std::isfinite(result.error))
-      result.converged = result.error <= goal.exact * goal.energy_norm(z, result.nu);
-    since_best = worst < 0.9 * best || (doubtful && result.error < 0.9 * best_error) ? 0 : since_best + 1;
-    best = std::min(best, worst);
-    best_error = std::min(best_error, result.error);
-    if (since_best > 1) active_set_tolerance *= 0.1;  // perhaps it is these that matter
-    if (result.converged || hessian.exhausted() || result.outer_iterations >= max_active_sets ||
-        since_best >= (slip_bound_update ? update_patience : patience) || result.safeguards > max_safeguards)
-      break;
-
-    const ActiveSet active_set(projector_, next.argument, beyond ? longer_step * step : step, slip_stiffness * norm_,
-                               active_set_tolerance, slip_bound_update != nullptr);
-    if (preconditioner_) preconditioner_->fix(active_set.fixed());
-    // The residual to come down to on this face, if inner_reduction does not end it before.
-    double enough = 0;
-    if (doubtful)
-      enough = inner_reduction * worst;
-    else if (!goal.allowed_error)
-      enough = (unconstrained_ ? 0.5 : 0.1) * goal.residual * size;
-    else if (allowed > 0)
-      enough = 0.3 * worst * std::min(1.0, allowed / result.error);
-    else if (unconstrained_)
-      enough = inner_reduction * worst;
-    // Where the last active set was picked badly, what others know leads astray: cells of aspect 1000 tell little of each other.
-    const bool trusted = slip_bound_update || (part == 1 && since_best == 0);
-    const double weight = constraint_weight * norm_ / (slip_bound_update ? longer_step * step_length : step_length);
-    const auto watch = [&] { report("inner"); };
-    moved = unconstrained_ ? descend_alone(active_set, enough, watch, state)
-                           : descend(active_set, enough, weight, trusted, watch, state);
-    if (slip_bound_update) {
-      beyond.emplace(long_gradient_step(active_set, state));
-      nu.setZero();  // it has gone into that
-    }
+// A first step along which the curvature is small says that there is a better start: the step is taken again from there.
+void FaceNewton::improve_soft_start(Run& run, Trial& trial)
+{
+  auto& [z, g, y, gy] = run.state;
+  if (run.start || unconstrained_ || !run.first()) return;
+  if (!soft_between(z, g, trial.next.point, trial.gradient) || !improve_start(run.state, trial.energy)) return;
+  run.energy = energy_of(z, g);
+  Vector to(z, Teuchos::Copy);
+  to.update(-trial.step, g, 1);
+  if (Projection onward = projector_(to); onward.found) {
+    trial.next = std::move(onward);
+    evaluate(trial);
   }
+}
+
+// Where the active set was picked badly the minimiser on it is far away: goes back towards z until the function falls.
+void FaceNewton::safeguard(Run& run, Trial& trial)
+{
+  const auto& [z, g, y, gy] = run.state;
+  Vector to(z.getMap());
+  for (int attempt = 0; !run.slip_bound_update && run.moved && trial.energy > run.energy + 1e-9 * std::abs(run.energy) &&
+                        !problem_.hessian.exhausted();
+       ++attempt) {
+    double& part = trial.part_of_way;
+    part = attempt < max_retreats_to_z ? part * 0.25 : 0;
+    trial.step = part > 0 ? trial.step : safe_length / norm_;
+    to.update(1 - part, z, part, y, 0);
+    to.update(-trial.step * (1 - part), g, -trial.step * part, gy, 1);
+    trial.next = projector_(to, Eigen::VectorXd(run.nu * (trial.step * norm_ / step_length)));
+    evaluate(trial);
+    ++run.result.safeguards;
+    if (part == 0) break;
+  }
+}
+
+// z becomes the trial's point. Returns the natural projection there, ||z - P_C(z - a g)|| / a being the residual; sets that, the
+// mismatch of radii and the error.
+Projection FaceNewton::accept(Run& run, const Trial& trial)
+{
+  auto& z = run.state.z;
+  auto& result = run.result;
+  z.assign(trial.next.point);
+  run.state.g.assign(trial.gradient);
+  run.energy = trial.energy;
+  run.nu = trial.next.nu * (step_length / norm_ / trial.step);
+  run.active = problem_.set.active(view(std::as_const(z)));
+
+  Vector to(z, Teuchos::Copy);
+  to.update(-1 / norm_, run.state.g, 1);
+  Projection natural = projector_(to, Eigen::VectorXd(run.nu / step_length));
+  to.update(1, z, -1, natural.point, 0);
+  run.residual = to.norm2() * norm_;
+  run.mismatch = run.slip_bound_update ? run.slip_bound_update->update(z, false) * norm_ / step_length : 0.0;
+  result.nu = natural.nu * norm_;
+  ++result.outer_iterations;
+  result.error =
+      error_bound(problem_, z, natural, norm_, preconditioner_) * (run.residual > 0 ? run.worst() / run.residual : 1.0);
+  preconditionings_ += preconditioner_ ? 1 : 0;
+  return natural;
+}
+
+// Whether the residual or the error at z is what the goal asks for.
+bool FaceNewton::is_solved(Run& run, const Projection& natural)
+{
+  const auto& goal = run.goal;
+  const auto& z = run.state.z;
+  const auto& result = run.result;
+  const double worst = run.worst();
+  const double to_come = run.contact.change_to_come(z, result.error);
+  // Infinite while points stick whose bounds are still to come.
+  if (run.first_error == 0 && std::isfinite(result.error)) run.first_error = result.error;
+  const bool small = worst <= (goal.allowed_error ? tolerances::finest : goal.residual) * run.size;
+  bool solved = small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal,
+                                    worst <= tolerances::rounding * run.size);
+  run.doubtful = small && !solved;
+  if (goal.allowed_error && !solved && std::isfinite(result.error) &&
+      result.error <= (run.allowed < 0 ? first_look * run.first_error : run.allowed)) {
+    run.allowed = goal.allowed_error(z, result.nu);
+    solved = result.error <= (to_come <= at_rest ? 1 : certain) * run.allowed &&
+             (worst <= Goal::largest_residual * run.size || believable(result.error, 0, z, result.nu, goal));
+  }
+  if (goal.allowed_error && solved && goal.contact_converged && preconditioner_) {
+    Vector gap(z, Teuchos::Copy), change(z.getMap());
+    gap.update(-norm_, natural.point, norm_);
+    preconditioner_->fix({});
+    preconditioner_->apply(gap, change);
+    ++preconditionings_;
+    solved = goal.contact_converged(z, natural.argument, change);
+  }
+  if (!solved && goal.exact > 0 && std::isfinite(result.error))
+    solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
+  return solved;
+}
+
+// Whether products, active sets or patience have run out.
+bool FaceNewton::gives_up(Run& run) const
+{
+  const double worst = run.worst();
+  const bool better = worst < 0.9 * run.best || (run.doubtful && run.result.error < 0.9 * run.best_error);
+  run.since_best = better ? 0 : run.since_best + 1;
+  run.best = std::min(run.best, worst);
+  run.best_error = std::min(run.best_error, run.result.error);
+  if (run.since_best > 1) run.active_set_tolerance *= 0.1;  // perhaps it is these that matter
+  return problem_.hessian.exhausted() || run.result.outer_iterations >= max_active_sets ||
+         run.since_best >= (run.slip_bound_update ? update_patience : patience) || run.result.safeguards > max_safeguards;
+}
+
+// The residual to come down to on the next active set, if inner_reduction does not end it before.
+double FaceNewton::residual_to_reach(const Run& run) const
+{
+  if (run.doubtful) return inner_reduction * run.worst();
+  if (!run.goal.allowed_error) return (unconstrained_ ? 0.5 : 0.1) * run.goal.residual * run.size;
+  if (run.allowed > 0) return 0.3 * run.worst() * std::min(1.0, run.allowed / run.result.error);
+  return unconstrained_ ? inner_reduction * run.worst() : 0;
+}
+
+// y becomes the solution on the active set that the trial picked, nearly.
+void FaceNewton::minimise(Run& run, const Trial& trial)
+{
+  const bool follow = run.slip_bound_update != nullptr;
+  const ActiveSet active_set(projector_, trial.next.argument, run.beyond ? longer_step * trial.step : trial.step,
+                             slip_stiffness * norm_, run.active_set_tolerance, follow);
+  if (preconditioner_) preconditioner_->fix(active_set.fixed());
+  const double enough = residual_to_reach(run);
+  // Where the last active set was picked badly, what others know leads astray: cells of aspect 1000 tell little of each other.
+  const bool trusted = follow || (trial.part_of_way == 1 && run.since_best == 0);
+  const double weight = constraint_weight * norm_ / (follow ? longer_step * step_length : step_length);
+  const auto watch = [&] { report(run, "inner", false); };
+  run.moved = unconstrained_ ? descend_alone(active_set, enough, watch, run.state)
+                             : descend(active_set, enough, weight, trusted, watch, run.state);
+  if (follow) {
+    run.beyond.emplace(long_gradient_step(active_set, run.state));
+    run.nu.setZero();  // it has gone into that
+  }
+}
+
+// ||P A P||, from an earlier solve if there was one.
+void FaceNewton::find_norm(const std::optional<Solution>& start, const Observer& observer)
+{
+  if (norm_ != 0) return;
+  norm_ =
+      start && start->hessian_norm > 0 ? start->hessian_norm : projected_norm(problem_.hessian, problem_.equality, norm_accuracy);
+  if (observer) observer({"norm", 0, problem_.hessian.count()});
+  if (norm_ == 0) norm_ = 1;
+}
+
+// What the last point of a run is as a solution.
+Solution FaceNewton::solution_of(Run run) const
+{
+  const auto& [z, g, y, gy] = run.state;
+  const auto& equality = problem_.equality;
+  auto& result = run.result;
   result.x.assign(z);
   result.gradient.assign(g);
   result.hessian_norm = norm_;
   result.preconditionings = preconditionings_;
-  const double work = std::max(z.dot(g) + z.dot(linear), 0.0);  // z'A z
-  result.projected_gradient = residual / std::max(size, least_size * std::sqrt(norm_ * work));
-  result.equality = equality.size() > 0 ? equality.norm(equality.right_side() - equality.apply(z)) * norm_ / size : 0.0;
-  return result;
+  const double work = std::max(z.dot(g) + z.dot(problem_.linear), 0.0);  // z'A z
+  result.projected_gradient = run.residual / std::max(run.size, least_size * std::sqrt(norm_ * work));
+  result.equality = equality.size() > 0 ? equality.norm(equality.right_side() - equality.apply(z)) * norm_ / run.size : 0.0;
+  return std::move(result);
+}
+
+Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const SlipBoundUpdate* slip_bound_update,
+                           const Observer& observer)
+{
+  const auto map = problem_.hessian.map();
+  const auto infeasible = [](Solution result, const Projection& projection) {
+    result.feasible = false;
+    result.empty = projection.empty;
+    result.nu = projection.nu;
+    return result;
+  };
+  const Projection feasible = projector_(start ? start->x : Vector(map));
+  Solution result(feasible.point, Vector(map), feasible.nu);
+  if (!feasible.found) return infeasible(std::move(result), feasible);
+  preconditionings_ = 0;
+  find_norm(start, observer);
+
+  Run run{start, goal, slip_bound_update, observer, std::move(result), State(map), ContactForces(problem_)};
+  const double size = relative_size(problem_, goal.allowed_error ? tolerances::finest : goal.residual);
+  if (size != 0) run.size = size;
+  run.active_set_tolerance = slip_bound_update ? first_active_set_tolerance_updated : first_active_set_tolerance;
+  if (start && start->nu.size() == problem_.equality.size()) run.nu = start->nu * (step_length / norm_);
+  auto& [z, g, y, gy] = run.state;
+  z.assign(feasible.point);
+  evaluate(z, g);
+  run.energy = energy_of(z, g);
+  y.assign(z);
+  gy.assign(g);
+  while (true) {
+    Trial trial = project_step(run);
+    if (!trial.next.found)
+      return infeasible(std::move(run.result), trial.next);  // bounds leave no point, for a start there was one
+    evaluate(trial);
+    improve_soft_start(run, trial);
+    safeguard(run, trial);
+    const Projection natural = accept(run, trial);
+    report(run, "outer", true);
+    run.result.converged = is_solved(run, natural);
+    if (run.result.converged || gives_up(run)) return solution_of(std::move(run));
+    minimise(run, trial);
+  }
 }
 
 }  // namespace mortise::qp

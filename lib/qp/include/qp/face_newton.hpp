@@ -47,6 +47,25 @@ class FaceNewton {
     Vector z, g;   // a point of C and A z - b
     Vector y, gy;  // the solution on its active set, which may lie outside Omega, and A y - b
   };
+  struct Run;    // one solve
+  struct Trial;  // a point to go on from
+  // The steps of solve(), in their order.
+  void find_norm(const std::optional<Solution>& start, const Observer& observer);
+  Trial project_step(Run& run);
+  void improve_soft_start(Run& run, Trial& trial);
+  void safeguard(Run& run, Trial& trial);
+  Projection accept(Run& run, const Trial& trial);
+  bool is_solved(Run& run, const Projection& natural);
+  bool gives_up(Run& run) const;
+  void minimise(Run& run, const Trial& trial);
+  Solution solution_of(Run run) const;
+
+  void evaluate(const Vector& x, Vector& gradient) const;
+  void evaluate(Trial& trial) const;
+  double energy_of(const Vector& x, const Vector& gradient) const;
+  double residual_to_reach(const Run& run) const;
+  void report(const Run& run, const char* what, bool outer) const;
+
   void precondition(const ActiveSet& active_set, const Vector& residual, Vector& z) const;
   bool soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const;
   bool improve_start(State& state, double energy);
