@@ -49,6 +49,22 @@ void add_orthotropic(const CellGeometry& cell, const Elasticity& elasticity, Eig
   }
 }
 
+// H = sum over the nodes of u g', d x d.
+template <int d>
+void displacement_gradient(const CellGeometry& cell, const Eigen::MatrixXd& displacement, std::size_t q, Eigen::Matrix3d& h)
+{
+  const auto gradient = cell.gradient(q);
+  const double* u = displacement.data();
+  const double* g = gradient.data();
+  const Eigen::Index n = gradient.rows();
+  double sum[d][d] = {};
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (int b = 0; b < d; ++b)
+      for (int a = 0; a < d; ++a) sum[b][a] += u[i * d + a] * g[b * n + i];
+  for (int b = 0; b < d; ++b)
+    for (int a = 0; a < d; ++a) h(a, b) = sum[b][a];
+}
+
 }  // namespace
 
 // The stiffness of nodes and modes together, from `enriched_`, which it fills.
@@ -118,7 +134,8 @@ const std::vector<Eigen::Matrix3d>& CellFormulation::gradients(const CellGeometr
   const Eigen::Index n = cell.element().nodes, d = dimension_;
   result_.assign(cell.volumes().size(), Eigen::Matrix3d::Zero());
   for (std::size_t q = 0; q < result_.size(); ++q) {
-    result_[q].topLeftCorner(d, d) = displacement.lazyProduct(cell.gradient(q));
+    d == 2 ? displacement_gradient<2>(cell, displacement, q, result_[q])
+           : displacement_gradient<3>(cell, displacement, q, result_[q]);
     if (cell.axisymmetric()) result_[q](2, 2) = displacement.row(0).dot(cell.hoop(q));
   }
   if (formulation_ == Formulation::bbar) {

@@ -11,7 +11,15 @@ namespace mortise::fem {
 
 namespace {
 
-// Calls visit(c, cell, stress, elasticity) for every cell c; stress is q x 6.
+using Stresses = Eigen::Matrix<double, 6, Eigen::Dynamic>;  // one a column
+
+// Where point q of a cell is, for a law that wants to know.
+Point place_for(const Elasticity& elasticity, const CellGeometry& cell, std::size_t q)
+{
+  return elasticity.uniform() ? Point::Zero() : place_of(cell, q);
+}
+
+// Calls visit(c, cell, stress, elasticity) for every cell c; stress is 6 x q.
 template <class Visit>
 void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, Formulation formulation,
                    const Temperature& temperature_change, const Eigen::VectorXd& u, const Visit& visit)
@@ -24,7 +32,8 @@ void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematic
     cell_formulation.emplace_back(formulation, elasticity.back(), kinematics);
   }
   CellGeometry cell(kinematics);
-  Eigen::MatrixXd displacement, stress;
+  Eigen::MatrixXd displacement;
+  Stresses stress;
   std::vector<double> warmer;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto nodes = mesh.cells[c];
@@ -32,12 +41,12 @@ void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematic
     cell.evaluate();
     displacement.resize(d, cell.element().nodes);
     for (int i = 0; i < cell.element().nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
-    stress.resize(static_cast<Eigen::Index>(cell.volumes().size()), 6);
+    stress.resize(6, static_cast<Eigen::Index>(cell.volumes().size()));
     const auto& own = elasticity[materials.index(c)];
     cell_temperature(temperature_change, cell, mesh, c, warmer);
     const auto& gradients = cell_formulation[materials.index(c)].gradients(cell, displacement);
     for (std::size_t q = 0; q < gradients.size(); ++q)
-      stress.row(static_cast<Eigen::Index>(q)) = own.stress(gradients[q], warmer[q], place_of(cell, q)).transpose();
+      stress.col(static_cast<Eigen::Index>(q)) = own.stress(gradients[q], warmer[q], place_for(own, cell, q));
     visit(c, cell, stress, own);
   }
 }
@@ -57,21 +66,24 @@ StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinemat
   field.nodal_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), 7 * static_cast<Eigen::Index>(blocks));
   field.cell_von_mises.resize(static_cast<Eigen::Index>(mesh.cells.size()));
   for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
-                [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress, const Elasticity& elasticity) {
+                [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
                   Stress sum = Stress::Zero();
                   double volume = 0;
                   for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
-                    sum += cell.volumes()[q] * stress.row(static_cast<Eigen::Index>(q)).transpose();
+                    const Stress here = stress.col(static_cast<Eigen::Index>(q));
+                    sum += cell.volumes()[q] * here;
                     volume += cell.volumes()[q];
                     field.strain_energy +=
-                        0.5 * cell.volumes()[q] *
-                        elasticity.complementary(stress.row(static_cast<Eigen::Index>(q)).transpose(), place_of(cell, q));
+                        0.5 * cell.volumes()[q] * elasticity.complementary(here, place_for(elasticity, cell, q));
                   }
                   field.cell_von_mises[static_cast<Eigen::Index>(c)] = von_mises(sum / volume);
+                  const auto& extrapolation = cell.element().extrapolation;
                   for (int i = 0; i < cell.element().nodes; ++i) {
+                    Stress at_node = Stress::Zero();
+                    for (Eigen::Index q = 0; q < stress.cols(); ++q) at_node += extrapolation(i, q) * stress.col(q);
                     auto row = field.nodal_sums.row(mesh.cells[c][static_cast<std::size_t>(i)])
                                    .segment(7 * static_cast<Eigen::Index>(materials.index(c)), 7);
-                    row.head(6) += volume * cell.element().extrapolation.row(i).lazyProduct(stress);
+                    row.head(6) += volume * at_node.transpose();
                     row[6] += volume;
                   }
                 });
@@ -83,19 +95,24 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
                                const Temperature& temperature_change)
 {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
+  Stresses nodal;  // of one cell
   for_each_cell(
       mesh, materials, kinematics, formulation, temperature_change, u,
-      [&](std::size_t c, const CellGeometry& cell, const Eigen::MatrixXd& stress, const Elasticity& elasticity) {
+      [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
         double& sum = result[static_cast<Eigen::Index>(c)];
-        const auto own = recovered.middleCols(6 * static_cast<Eigen::Index>(materials.index(c)), 6);
+        nodal.resize(6, cell.element().nodes);
+        for (int i = 0; i < cell.element().nodes; ++i)
+          nodal.col(i) = recovered.row(mesh.cells[c][static_cast<std::size_t>(i)])
+                             .segment(6 * static_cast<Eigen::Index>(materials.index(c)), 6)
+                             .transpose();
         if (cell.volumes().size() == 1) {  // one point misses what is linear in s* - s; that is a simplex with nodes 0 .. n - 1:
           // the integral of a quadratic form q of a linear function is V / (n (n + 1)) (sum of q(f_i) + q(sum of f_i)).
           const int n = cell.element().nodes;
-          const Point x = place_of(cell, 0);
+          const Point x = place_for(elasticity, cell, 0);
           Stress total = Stress::Zero();
           double energy = 0;
-          for (const Local node : mesh.cells[c]) {
-            const Stress difference = (own.row(node) - stress.row(0)).transpose();
+          for (int i = 0; i < n; ++i) {
+            const Stress difference = nodal.col(i) - stress.col(0);
             total += difference;
             energy += elasticity.complementary(difference, x);
           }
@@ -103,10 +120,9 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
           return;
         }
         for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
-          Stress difference = -stress.row(static_cast<Eigen::Index>(q)).transpose();
-          for (int i = 0; i < cell.element().nodes; ++i)
-            difference += cell.element().shape[q][i] * own.row(mesh.cells[c][static_cast<std::size_t>(i)]).transpose();
-          sum += cell.volumes()[q] * elasticity.complementary(difference, place_of(cell, q));
+          Stress difference = -stress.col(static_cast<Eigen::Index>(q));
+          for (int i = 0; i < cell.element().nodes; ++i) difference += cell.element().shape[q][i] * nodal.col(i);
+          sum += cell.volumes()[q] * elasticity.complementary(difference, place_for(elasticity, cell, q));
         }
       });
   return result;

@@ -1,5 +1,6 @@
 #include "post/deformation.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +15,8 @@ namespace mortise::post {
 
 namespace {
 
-constexpr double large = 0.05;  // of a body's size
+constexpr double large = 0.05;   // of a body's size
+constexpr int most_places = 64;  // nodes and integration points of a cell
 
 // Gradients of the shape functions at the nodes and at the integration points.
 const std::vector<Eigen::MatrixXd>& gradients(mesh::CellType type)
@@ -34,20 +36,32 @@ const std::vector<Eigen::MatrixXd>& gradients(mesh::CellType type)
   return table;
 }
 
+// det of dx / dxi at a place, x: d x n.
+template <int d>
+double jacobian(const Eigen::MatrixXd& x, const Eigen::MatrixXd& gradient)
+{
+  const double *at = x.data(), *g = gradient.data();
+  const Eigen::Index n = gradient.rows();
+  Eigen::Matrix<double, d, d> result = Eigen::Matrix<double, d, d>::Zero();
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (int b = 0; b < d; ++b)
+      for (int a = 0; a < d; ++a) result(a, b) += at[i * d + a] * g[b * n + i];
+  return result.determinant();
+}
+
 // The smallest det of the deformed cell over that of the undeformed one, where that is not collapsed.
+template <int d>
 double least_volume_ratio(const Eigen::MatrixXd& x, const Eigen::MatrixXd& deformed, const std::vector<Eigen::MatrixXd>& tables)
 {
-  std::vector<double> before, after;
-  double largest = 0;
-  for (const auto& gradient : tables) {
-    before.push_back((x * gradient).determinant());
-    after.push_back((deformed * gradient).determinant());
-    largest = std::max(largest, before.back());
+  using Values = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_places, 1>;  // on the stack: this is asked for each cell
+  const auto count = static_cast<Eigen::Index>(tables.size());
+  Values before(count), after(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    before[i] = jacobian<d>(x, tables[static_cast<std::size_t>(i)]);
+    after[i] = jacobian<d>(deformed, tables[static_cast<std::size_t>(i)]);
   }
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < before.size(); ++i)
-    if (before[i] > 1e-6 * largest) least = std::min(least, after[i] / before[i]);
-  return least;
+  const double collapsed = 1e-6 * std::max(before.maxCoeff(), 0.0);
+  return (before > collapsed).select(after / before, std::numeric_limits<double>::infinity()).minCoeff();
 }
 
 // What a row needs to know of a node: its displacement, and the size of the faces of secondary sides at it.
@@ -185,14 +199,19 @@ std::vector<Warning> inverted_cells(const partition::Decomposition& decompositio
   for (std::size_t s = 0; s < displacement.size(); ++s) {
     if (decomposition.subdomains[s].skin) continue;  // panels enclose no volume of their own
     const auto& mesh = decomposition.subdomains[s].mesh;
+    Eigen::MatrixXd x, deformed;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       const auto nodes = mesh.cells[c];
-      Eigen::MatrixXd x(dimension, static_cast<Eigen::Index>(nodes.size())), u = x;
+      x.resize(dimension, static_cast<Eigen::Index>(nodes.size()));
+      deformed.resize(dimension, x.cols());
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        x.col(static_cast<Eigen::Index>(i)) = mesh.points[static_cast<std::size_t>(nodes[i])].head(dimension);
-        u.col(static_cast<Eigen::Index>(i)) = displacement[s].segment(nodes[i] * dimension, dimension);
+        const auto at = static_cast<Eigen::Index>(i);
+        x.col(at) = mesh.points[static_cast<std::size_t>(nodes[i])].head(dimension);
+        deformed.col(at) = x.col(at) + displacement[s].segment(nodes[i] * dimension, dimension);
       }
-      const double ratio = least_volume_ratio(x, x + u, gradients(mesh.cells.type[c]));
+      const auto& tables = gradients(mesh.cells.type[c]);
+      const double ratio =
+          dimension == 2 ? least_volume_ratio<2>(x, deformed, tables) : least_volume_ratio<3>(x, deformed, tables);
       if (ratio > 0) continue;
       ++count;
       Point centre = Point::Zero();
