@@ -219,83 +219,111 @@ void solve_8(const SupernodalFactor& factor, double* y)
 }
 #endif
 
-// One right-hand side, registers along the rows.
-void solve_1(const SupernodalFactor& factor, double* y)
-{
+// A few right-hand sides, row i of which starts at y + i * Count; registers along the rows, so that each number of the factor is
+// read once for all of them.
+template <int Count>
+struct AlongRows {
   using Memory = Loose<tile>;
   using Rows = Memory::Lane;
-  const auto add_product = [&](const double* values, int columns, const double* x, Rows& even) {
-    Rows odd{}, value;
+
+  [[gnu::always_inline]] static double total(const Rows& v)
+  {
+    return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+  }
+
+  // y[target(r)] -= sum_j values[j][r] x[j] for the 8 rows r; two sums in turn, for one waits for its last addition.
+  template <class Target>
+  [[gnu::always_inline]] static void subtract(const double* values, int columns, const double* x, double* y, const Target& target)
+  {
+    Rows even[Count] = {}, odd[Count] = {}, value;
     int j = 0;
     for (; j + 1 < columns; j += 2) {
       Memory::load(value, values + j * tile);
-      even += value * x[j];
+      for (int n = 0; n < Count; ++n) even[n] += value * x[j * Count + n];
       Memory::load(value, values + (j + 1) * tile);
-      odd += value * x[j + 1];
+      for (int n = 0; n < Count; ++n) odd[n] += value * x[(j + 1) * Count + n];
     }
     if (j < columns) {
       Memory::load(value, values + j * tile);
-      even += value * x[j];
+      for (int n = 0; n < Count; ++n) even[n] += value * x[j * Count + n];
     }
-    even += odd;
-  };
-  const auto total = [](const Rows& v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); };
+    for (int n = 0; n < Count; ++n) even[n] += odd[n];
+    for (int r = 0; r < tile; ++r)
+      for (int n = 0; n < Count; ++n) y[target(r) * Count + n] -= even[n][r];
+  }
 
-  for (const auto& piece : factor.pieces()) {
-    const double* values = factor.values() + piece.value;
-    double* x = y + piece.first;
-    for (int b = 0; b < piece.width; b += tile) {
-      Rows sum{};
-      add_product(values, b, x, sum);
-      Memory::subtract_at(x + b, sum);
-      values += b * tile;
-      Tiles<1, 1, 8>::forwards(values, x + b);
-      values += diagonal_values;
-    }
-    const int* below = factor.rows() + piece.row;
-    for (int t = 0; t < piece.tiles; ++t, values += piece.width * tile, below += tile) {
-      Rows sum{};
-      add_product(values, piece.width, x, sum);
-      for (int r = 0; r < tile; ++r) y[below[r]] -= sum[r];
+  [[gnu::always_inline]] static void forwards(const SupernodalFactor& factor, double* y)
+  {
+    for (const auto& piece : factor.pieces()) {
+      const double* values = factor.values() + piece.value;
+      double* x = y + static_cast<std::ptrdiff_t>(piece.first) * Count;
+      for (int b = 0; b < piece.width; b += tile) {
+        subtract(values, b, x, x, [b](int r) { return b + r; });
+        values += b * tile;
+        Tiles<1, Count, 8>::forwards(values, x + b * Count);
+        values += diagonal_values;
+      }
+      const int* below = factor.rows() + piece.row;
+      for (int t = 0; t < piece.tiles; ++t, values += piece.width * tile, below += tile)
+        subtract(values, piece.width, x, y, [below](int r) { return static_cast<std::ptrdiff_t>(below[r]); });
     }
   }
-  for (auto p = factor.pieces().rbegin(); p != factor.pieces().rend(); ++p) {
-    const Piece& piece = *p;
-    double* x = y + piece.first;
-    const double* values = factor.values() + piece.value + triangle_values(piece.width) + panel_values(piece);
-    const int* below = factor.rows() + piece.row + static_cast<std::ptrdiff_t>(piece.tiles) * tile;
-    Rows sum[widest] = {};
-    for (int t = 0; t < piece.tiles; ++t) {
-      values -= piece.width * tile;
-      below -= tile;
-      Rows z, value;
-      for (int r = 0; r < tile; ++r) z[r] = y[below[r]];
-      for (int j = 0; j < piece.width; ++j) {
-        Memory::load(value, values + j * tile);
-        sum[j] += value * z;
+
+  // z[n][r] = y[source(r)].
+  template <class Source>
+  [[gnu::always_inline]] static void gather(Rows (&z)[Count], const double* y, const Source& source)
+  {
+    for (int r = 0; r < tile; ++r)
+      for (int n = 0; n < Count; ++n) z[n][r] = y[source(r) * Count + n];
+  }
+
+  [[gnu::always_inline]] static void backwards(const SupernodalFactor& factor, double* y)
+  {
+    for (auto p = factor.pieces().rbegin(); p != factor.pieces().rend(); ++p) {
+      const Piece& piece = *p;
+      double* x = y + static_cast<std::ptrdiff_t>(piece.first) * Count;
+      const double* values = factor.values() + piece.value + triangle_values(piece.width) + panel_values(piece);
+      const int* below = factor.rows() + piece.row + static_cast<std::ptrdiff_t>(piece.tiles) * tile;
+      Rows sum[widest][Count] = {}, z[Count], value;
+      for (int t = 0; t < piece.tiles; ++t) {
+        values -= piece.width * tile;
+        below -= tile;
+        gather(z, y, [below](int r) { return static_cast<std::ptrdiff_t>(below[r]); });
+        for (int j = 0; j < piece.width; ++j) {
+          Memory::load(value, values + j * tile);
+          for (int n = 0; n < Count; ++n) sum[j][n] += value * z[n];
+        }
       }
-    }
-    for (int j = 0; j < piece.width; ++j) x[j] -= total(sum[j]);
-    for (int b = (blocks(piece.width) - 1) * tile; b >= 0; b -= tile) {
-      values -= diagonal_values;
-      Tiles<1, 1, 8>::backwards(values, x + b);
-      values -= b * tile;
-      Rows z, value;
-      Memory::load(z, x + b);
-      for (int j = 0; j < b; ++j) {
-        Memory::load(value, values + j * tile);
-        x[j] -= total(value * z);
+      for (int j = 0; j < piece.width; ++j)
+        for (int n = 0; n < Count; ++n) x[j * Count + n] -= total(sum[j][n]);
+      for (int b = (blocks(piece.width) - 1) * tile; b >= 0; b -= tile) {
+        values -= diagonal_values;
+        Tiles<1, Count, 8>::backwards(values, x + b * Count);
+        values -= b * tile;
+        gather(z, x, [b](int r) { return b + r; });
+        for (int j = 0; j < b; ++j) {
+          Memory::load(value, values + j * tile);
+          for (int n = 0; n < Count; ++n) x[j * Count + n] -= total(value * z[n]);
+        }
       }
     }
   }
+};
+
+template <int Count>
+void solve_few(const SupernodalFactor& factor, double* y)
+{
+  AlongRows<Count>::forwards(factor, y);
+  AlongRows<Count>::backwards(factor, y);
 }
 
 // From the widest on, for this processor.
 std::span<const Kernel> kernels()
 {
-  static constexpr Kernel any[] = {{8, solve_8}, {4, solve_4}, {1, solve_1}};
+  static constexpr Kernel any[] = {{8, solve_8}, {4, solve_4}, {2, solve_few<2>}, {1, solve_few<1>}};
 #if MORTISE_AVX512
-  static constexpr Kernel avx512[] = {{16, solve_16_avx512}, {8, solve_8_avx512}, {4, solve_4}, {1, solve_1}};
+  static constexpr Kernel avx512[] = {
+      {16, solve_16_avx512}, {8, solve_8_avx512}, {4, solve_4}, {2, solve_few<2>}, {1, solve_few<1>}};
   static const bool has_avx512 =
       __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
   if (has_avx512) return avx512;

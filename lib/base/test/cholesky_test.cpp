@@ -44,7 +44,7 @@ TEST(Cholesky, PreparedFactorSolvesTheSame)
     Cholesky factor(a, n % 2 == 0 ? 2 : 1);
     for (const double scale : {1.0, 3.0}) {
       ASSERT_TRUE(factor.factorize(SparseMatrix(scale * a)));
-      const Eigen::MatrixXd expected = Eigen::MatrixXd::Random(n, 31);  // 3 x 8 + 4 + 3
+      const Eigen::MatrixXd expected = Eigen::MatrixXd::Random(n, 31);  // one of each kernel: 16 + 8 + 4 + 2 + 1
       const Eigen::MatrixXd b = a.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd(scale * expected);
       factor.prepare_for_many_solves();
       Eigen::MatrixXd x = Eigen::MatrixXd::Constant(n + 2, 31, 7);
