@@ -138,10 +138,25 @@ void ActiveSet::extend_transpose(Vector& x) const
 
 void ActiveSet::keep_constrained(Vector& x) const
 {
-  Vector moved(x, Teuchos::Copy);
-  restrict(moved, 0);
-  extend(moved);
-  x.update(-1, moved, 1);
+  Vector result(x.getMap());
+  add_constrained(1, x, result);
+  x.assign(result);
+}
+
+void ActiveSet::add_constrained(double factor, const Vector& x, Vector& y) const
+{
+  const auto in = view(x);
+  auto out = view(y);
+  for (const Local i : fixed_) out[i] += factor * in[i];
+  for (const auto& slip : slips_) {
+    const double along = in[slip.index[0]] * slip.tangent[0] + in[slip.index[1]] * slip.tangent[1];
+    for (std::size_t k = 0; k < 2; ++k)
+      out[slip.index[k]] += factor * (in[slip.index[k]] - along * slip.tangent[static_cast<Eigen::Index>(k)]);
+  }
+  for (const auto& coupling : couplings_)
+    for (std::size_t k = 0; k < 2; ++k)
+      if (coupling.index[k] >= 0)
+        out[coupling.index[k]] -= factor * coupling.direction[static_cast<Eigen::Index>(k)] * in[coupling.normal];
 }
 
 void ActiveSet::project_trial(Vector& x, const Vector& constrained) const

@@ -1,5 +1,8 @@
 // What face Newton does on one active set: the linear algebra between two projections.
+#include <algorithm>
 #include <cmath>
+#include <deque>
+#include <vector>
 
 #include "qp/face_newton.hpp"
 
@@ -15,20 +18,81 @@ constexpr double least_recycled = 1e-4;  // of x: below, rounding spoils what th
 // [E'(A + Sigma) d, weight * constrained part of d], what an active set feels of a direction d; `product`: A d.
 Vector projected_image(const ActiveSet& active_set, const Vector& direction, const Vector& product, double weight, int sweeps)
 {
-  Vector image(product, Teuchos::Copy), constrained(direction, Teuchos::Copy);
+  Vector image(product, Teuchos::Copy);
   active_set.add_curvature(direction, image);
   active_set.project_gradient(image, sweeps);
-  active_set.keep_constrained(constrained);
-  image.update(weight, constrained, 1);
+  active_set.add_constrained(weight, direction, image);
   return image;
 }
 
-// y, which goes along directions whose products are known, as far as the residual on the active set falls.
+// Vectors of one length, that of this rank. What is done with many of them at once goes through them in parts that fit in a
+// cache, so that the other operand is read once.
+class Columns {
+ public:
+  std::size_t size() const { return columns_.size(); }
+  void push_back(const Vector& v) { columns_.push_back(view(v).data()); }
+
+  // x += sum of factor[i] v_i.
+  void add(const Eigen::VectorXd& factor, Vector& x) const
+  {
+    auto values = view(x);
+    for_each_part(values.size(), [&](Eigen::Index first, Eigen::Index count) { add_part(factor, values, first, count); });
+  }
+  // The dot products v_i'x on this rank.
+  Eigen::VectorXd dots(const Vector& x) const
+  {
+    const auto values = view(x);
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(size()));
+    for_each_part(values.size(), [&](Eigen::Index first, Eigen::Index count) { add_dots(values, first, count, result); });
+    return result;
+  }
+  // Both in one pass: add(), and the dot products with what x has become.
+  Eigen::VectorXd add_then_dots(const Eigen::VectorXd& factor, Vector& x) const
+  {
+    auto values = view(x);
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(size()));
+    for_each_part(values.size(), [&](Eigen::Index first, Eigen::Index count) {
+      add_part(factor, values, first, count);
+      add_dots(values, first, count, result);
+    });
+    return result;
+  }
+
+ private:
+  static constexpr Eigen::Index part = 1024;
+
+  template <class Visit>
+  static void for_each_part(Eigen::Index size, const Visit& visit)
+  {
+    for (Eigen::Index first = 0; first < size; first += part) visit(first, std::min(part, size - first));
+  }
+  Eigen::Map<const Eigen::VectorXd> column(std::size_t i, Eigen::Index first, Eigen::Index count) const
+  {
+    return {columns_[i] + first, count};
+  }
+  template <class Values>
+  void add_part(const Eigen::VectorXd& factor, Values& values, Eigen::Index first, Eigen::Index count) const
+  {
+    for (std::size_t i = 0; i < size(); ++i)
+      values.segment(first, count) += factor[static_cast<Eigen::Index>(i)] * column(i, first, count);
+  }
+  template <class Values>
+  void add_dots(const Values& values, Eigen::Index first, Eigen::Index count, Eigen::VectorXd& result) const
+  {
+    for (std::size_t i = 0; i < size(); ++i)
+      result[static_cast<Eigen::Index>(i)] += column(i, first, count).dot(values.segment(first, count));
+  }
+
+  std::vector<const double*> columns_;
+};
+
+// y, which goes along directions whose products are known, as far as the residual on the active set falls. With the images of
+// the directions D as columns, images = Q R, Q'Q = I, it goes by D R^-1 Q' residual.
 class Descent {
  public:
   // From the point of the active set with gradient `gy`.
-  Descent(const ActiveSet& active_set, const Communicator& comm, Vector& y, Vector& gy)
-      : residual(gy, Teuchos::Copy), active_set_(active_set), comm_(comm), y_(y), gy_(gy)
+  Descent(const ActiveSet& active_set, const Communicator& comm, const Vector& gy)
+      : residual(gy, Teuchos::Copy), active_set_(active_set), comm_(comm)
   {
     residual.scale(-1);
     active_set.project_gradient(residual);
@@ -49,42 +113,60 @@ class Descent {
     active_set_.scale(free);
     return std::hypot(free.norm2(), constrained.norm2());
   }
-  // Generalised conjugate residuals; `image` is what the active set feels. False if less than `least` of it is new.
-  bool go(Vector direction, Vector product, Vector image, double least)
+  // Generalised conjugate residuals; `image` is what the active set feels. False if less than `least` of it is new. `direction`
+  // and `product` must stay where they are.
+  bool go(const Vector& direction, const Vector& product, Vector image, double least)
   {
     const double whole = image.norm2();
-    std::vector<double> part(steps_.size());
-    for (int sweep = 0; sweep < 2 && !steps_.empty(); ++sweep) {  // Gram and Schmidt, twice: one sum over the ranks each
-      for (std::size_t i = 0; i < steps_.size(); ++i)
-        part[i] = view(std::as_const(image)).dot(view(std::as_const(steps_[i].image)));
-      comm_.sum_in_place(part);
-      for (std::size_t i = 0; i < steps_.size(); ++i) {
-        image.update(-part[i], steps_[i].image, 1);
-        direction.update(-part[i], steps_[i].direction, 1);
-        product.update(-part[i], steps_[i].product, 1);
-      }
+    Eigen::VectorXd coefficient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(images_.size()));
+    if (!images_.empty()) {  // Gram and Schmidt, twice: one sum over the ranks each
+      Eigen::VectorXd part = columns_.dots(image);
+      sum(part);
+      coefficient = part;
+      part = columns_.add_then_dots(-part, image);
+      sum(part);
+      coefficient += part;
+      columns_.add(-part, image);
     }
     const double size = image.norm2();
     if (!(size > least * whole)) return false;
-    for (Vector* v : {&direction, &product, &image}) v->scale(1 / size);
+    image.scale(1 / size);
     const double length = image.dot(residual);
-    y_.update(length, direction, 1);
-    gy_.update(length, product, 1);
     residual.update(-length, image, 1);
-    steps_.push_back({std::move(direction), std::move(product), std::move(image)});
+    images_.push_back(std::move(image));
+    columns_.push_back(images_.back());
+    directions_.push_back(direction);
+    products_.push_back(product);
+    coefficient.conservativeResize(coefficient.size() + 1);
+    coefficient.tail(1)[0] = size;
+    triangle_.push_back(std::move(coefficient));
+    lengths_.push_back(length);
     return true;
+  }
+  // Takes y along all of them, and gy = A y - b with it.
+  void finish(Vector& y, Vector& gy) const
+  {
+    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(lengths_.data(), static_cast<Eigen::Index>(lengths_.size()));
+    for (Eigen::Index j = x.size() - 1; j >= 0; --j) {
+      const auto& column = triangle_[static_cast<std::size_t>(j)];
+      x[j] /= column[j];
+      x.head(j) -= x[j] * column.head(j);
+    }
+    directions_.add(x, y);
+    products_.add(x, gy);
   }
 
   Vector residual;  // in free rows, and in constrained ones once a direction has left the constraints
 
  private:
-  struct Step {
-    Vector direction, product, image;
-  };
+  void sum(Eigen::VectorXd& part) const { comm_.sum_in_place({part.data(), static_cast<std::size_t>(part.size())}); }
+
   const ActiveSet& active_set_;
   const Communicator& comm_;
-  Vector &y_, &gy_;
-  std::vector<Step> steps_;  // images are orthonormal
+  std::vector<Vector> images_;  // Q
+  Columns columns_, directions_, products_;
+  std::vector<Eigen::VectorXd> triangle_;  // R by columns
+  std::vector<double> lengths_;            // Q'residual
 };
 
 }  // namespace
@@ -183,26 +265,24 @@ bool FaceNewton::descend(const ActiveSet& active_set, double goal, double weight
   if (direction.norm2() > least_recycled * z.norm2()) recycle(active_set, direction, product, false);
   y.assign(z);
   gy.assign(g);
-  Descent descent(active_set, problem_.equality.communicator(), y, gy);
+  Descent descent(active_set, problem_.equality.communicator(), gy);
   const double start = descent.size();
   if (start <= 1e-2 * goal) return false;
   goal = std::max(goal, inner_reduction * start);
   for (auto pair = recycled_directions_.rbegin(); trusted && pair != recycled_directions_.rend(); ++pair)
-    descent.go(Vector(pair->direction, Teuchos::Copy), Vector(pair->product, Teuchos::Copy),
-               projected_image(active_set, pair->direction, pair->product, weight, 1), least_new);
-  std::vector<std::pair<Vector, Vector>> fresh;
+    descent.go(pair->direction, pair->product, projected_image(active_set, pair->direction, pair->product, weight, 1), least_new);
+  std::deque<std::pair<Vector, Vector>> fresh;
   for (int step = 0; step < max_inner && descent.size() > goal && !problem_.hessian.exhausted(); ++step) {
     const Vector free = descent.split(constrained);
     constrained.scale(1 / weight);
     precondition(active_set, free, direction);
     active_set.project_trial(direction, constrained);
     problem_.hessian.apply(direction, product);
-    fresh.emplace_back(Vector(direction, Teuchos::Copy), Vector(product, Teuchos::Copy));
-    if (!descent.go(Vector(direction, Teuchos::Copy), Vector(product, Teuchos::Copy),
-                    projected_image(active_set, direction, product, weight, 2), 0))
-      break;
+    const auto& [d, p] = fresh.emplace_back(Vector(direction, Teuchos::Copy), Vector(product, Teuchos::Copy));
+    if (!descent.go(d, p, projected_image(active_set, d, p, weight, 2), 0)) break;
     report();
   }
+  descent.finish(y, gy);
   for (const auto& [d, p] : fresh) recycle(active_set, d, p, true);
   return true;
 }

@@ -198,7 +198,7 @@ void FaceNewton::safeguard(Run& run, Trial& trial)
 }
 
 // z becomes the trial's point. Returns the natural projection there, ||z - P_C(z - a g)|| / a being the residual; sets that, the
-// mismatch of radii and the error.
+// mismatch of radii and, if it is wanted, the error.
 Projection FaceNewton::accept(Run& run, const Trial& trial)
 {
   auto& z = run.state.z;
@@ -217,10 +217,19 @@ Projection FaceNewton::accept(Run& run, const Trial& trial)
   run.mismatch = run.slip_bound_update ? run.slip_bound_update->update(z, false) * norm_ / step_length : 0.0;
   result.nu = natural.nu * norm_;
   ++result.outer_iterations;
-  result.error =
-      error_bound(problem_, z, natural, norm_, preconditioner_) * (run.residual > 0 ? run.worst() / run.residual : 1.0);
-  preconditionings_ += preconditioner_ ? 1 : 0;
+  const bool near = run.worst() <= run.goal.residual * run.size, slow = run.worst() >= 0.9 * run.best;
+  result.error = std::numeric_limits<double>::quiet_NaN();
+  if (run.goal.allowed_error || run.goal.exact > 0 || near || slow) find_error(run, natural);
   return natural;
+}
+
+// The bound of the error at z. It costs as much as some products, so it is found where somebody asks for it alone: not as long as
+// a residual that is to come down to a number does so.
+void FaceNewton::find_error(Run& run, const Projection& natural)
+{
+  run.result.error =
+      error_bound(problem_, run.state.z, natural, norm_, preconditioner_) * (run.residual > 0 ? run.worst() / run.residual : 1.0);
+  preconditionings_ += preconditioner_ ? 1 : 0;
 }
 
 // Whether the residual or the error at z is what the goal asks for.
@@ -361,7 +370,10 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     const Projection natural = accept(run, trial);
     report(run, "outer", true);
     run.result.converged = is_solved(run, natural);
-    if (run.result.converged || gives_up(run)) return solution_of(std::move(run));
+    if (run.result.converged || gives_up(run)) {
+      if (std::isnan(run.result.error)) find_error(run, natural);
+      return solution_of(std::move(run));
+    }
     minimise(run, trial);
   }
 }

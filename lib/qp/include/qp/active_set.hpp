@@ -28,6 +28,8 @@ class ActiveSet {
   /// x becomes x - T d, d its free part: how far it leads off the constraints. T d = d + coefficient d[normal] n at discs that
   /// slip in the direction n and follow a normal unknown.
   void keep_constrained(Vector& x) const;
+  /// y += factor times what keep_constrained() would leave of x, which touches no other unknowns.
+  void add_constrained(double factor, const Vector& x, Vector& y) const;
   /// x becomes T d + constrained with G x = 0, d nearly its free part; `constrained` as keep_constrained() leaves it. Collective.
   void project_trial(Vector& x, const Vector& constrained) const;
 

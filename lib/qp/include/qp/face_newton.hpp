@@ -55,6 +55,7 @@ class FaceNewton {
   void improve_soft_start(Run& run, Trial& trial);
   void safeguard(Run& run, Trial& trial);
   Projection accept(Run& run, const Trial& trial);
+  void find_error(Run& run, const Projection& natural);
   bool is_solved(Run& run, const Projection& natural);
   bool gives_up(Run& run) const;
   void minimise(Run& run, const Trial& trial);
