@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures whether errors are what runs claim: random models, each solved at `tolerance: auto` and again tightly.
 
-    claimed_error.py MORTISE [--count 40] [--seed 1] [--family NAME ...] [--set key=value ...] [--keep DIRECTORY] [--limit SECONDS]
+    claimed_error.py MORTISE [--count 40] [--seed 1] [--family NAME ...] [--set key=value ...] [--keep DIRECTORY] [--limit SECONDS] [--write]
     claimed_error.py MORTISE --decks DIRECTORY [...]
 
 With --decks the models are the decks in the folders of a directory, such as ../population/generate.py writes. A line a model: exit status, products (auto,
@@ -9,7 +9,7 @@ tight), the error that the run claims and the true one, of the solver, in the en
 and the ratio of true to claimed. The energy norm of the difference comes from the dual energies in history.csv where there is no Coulomb friction and the same
 algorithm solved both (2 (E - E_tight) is no less than its square), else from the stresses at the nodes. A tight run that does not converge tells nothing, and
 the model does not count. Fails if more than 5 % of the runs with exit status 0 are off by more than 1.5 times what they claim.
-Errors below 1e-3 count as claimed: they matter to nobody.
+Errors below 1e-3 count as claimed: they matter to nobody. --write puts the row of the seed into README.md.
 """
 import argparse
 import csv
@@ -30,9 +30,13 @@ sys.path.insert(0, str(HERE.parent / "verification"))
 import models  # noqa: E402
 import results  # noqa: E402
 
+sys.path.insert(0, str(HERE.parent))
+import page_tables  # noqa: E402
+
 INPUTS = HERE.parent.parent / "inputs"
 TIGHT = ["solver.tolerance=1e-10", "solver.preconditioner=dirichlet", "friction_loop.tolerance=1e-8"]
 FACTOR, PART, FLOOR = 1.5, 0.05, 1e-3
+HEAD = ["seed", "models", "judged", "off by more than 1.5 times", "median of true over claimed", "not solved"]
 
 
 def solve(mortise, deck, directory, settings, limit):
@@ -137,6 +141,12 @@ def measure(arguments, family, name, path):
     return {"family": family, "status": status, "judged": True, **row}
 
 
+def counted(words):
+    """How many there are, and which."""
+    words = list(words)
+    return f"{len(words)} ({'; '.join(words)})" if words else "0"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mortise", type=lambda p: str(pathlib.Path(p).resolve()))
@@ -147,6 +157,7 @@ def main():
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--keep", type=pathlib.Path, help="where decks and results stay")
     parser.add_argument("--limit", type=float, default=120, help="seconds of each run")
+    parser.add_argument("--write", action="store_true")
     arguments = parser.parse_args()
     rows = []
     with tempfile.TemporaryDirectory() as scratch:
@@ -159,6 +170,10 @@ def main():
           f"{np.median([r['ratio'] for r in judged]) if judged else float('nan'):.2f}")
     not_solved = [r for r in rows if r["status"] != 0]
     print(f"{len(not_solved)} not solved: {[(r['family'], r['status']) for r in not_solved]}")
+    if arguments.write and not arguments.decks:
+        row = [arguments.seed, len(rows), len(judged), counted(f"{r['family']}, {r['ratio']:.1f} times" for r in bad),
+               f"{np.median([r['ratio'] for r in judged]):.2f}", counted(f"{r['family']}, exit {r['status']}" for r in not_solved)]
+        page_tables.write(HERE / "README.md", "random models", HEAD, [row])
     return 1 if len(bad) > PART * len(judged) or not judged else 0
 
 

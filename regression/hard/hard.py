@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Solves the hard cases with both algorithms, judges each run and prints one table.
 
-    hard.py MORTISE [CASE ...] [--kind fast|study] [--algorithm face_newton|smalse] [--ranks N] [--mpiexec MPIEXEC] [--limit SECONDS] [--show]
+    hard.py MORTISE [CASE ...] [--kind fast|study] [--algorithm face_newton|smalse] [--ranks N] [--mpiexec MPIEXEC] [--limit SECONDS] [--show] [--write]
     hard.py --list [--kind fast|study]
 
 CASE is a name in decks/ (or NAME@VARIANT, or a pattern such as 'scale*'); all cases if absent. A deck NAME.yaml has its expectations beside it in
@@ -17,6 +17,8 @@ NAME.expected.json, with the keys of ../run.py ("quantities", "residuals", "exit
     "limit": 60                                          seconds after which a run counts as hanging
     "smalse": {...}                                      what replaces the deck's keys with the paper's algorithm; {"skip": "why"} leaves it out
     "study": true                                        not for the normal suite
+
+--write puts the rows into results.md.
 
 Always judged: the exit status, no signal, no NaN in summary.json (an unknown number is null: allowed in error_estimate alone), the KKT residuals,
 no temporary file left behind, no end without a word.
@@ -35,7 +37,9 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
+PAGE = HERE / "results.md"
 sys.path.insert(0, str(HERE.parent))
+import page_tables  # noqa: E402
 import run as regression  # noqa: E402
 
 ALGORITHMS = ("face_newton", "smalse")
@@ -188,18 +192,46 @@ class Runner:
         return complaints, error, summary["hessian_multiplications"] if summary else None, seconds, text
 
 
-HEAD = ("| case | error found | face Newton: products | s | SMALSE: products | s | verdict |\n|---|---|---|---|---|---|---|")
+HEAD = ["case", "error found", "face Newton: products", "s", "SMALSE: products", "s", "verdict"]
+
+
+def in_order(every):
+    """The names of all runs as they stand in the table: by group and deck."""
+    return sorted(every, key=lambda name: (every[name]["group"], name))
+
+
+def headings(name, every, before):
+    """The rows that come before that of a run: of its group and of its deck, where `before`, the run before, has others."""
+    entry, rows = every[name], []
+    if before is None or entry["group"] != every[before]["group"]:
+        rows.append(f"**{entry['group']}**")
+    if before is None or name.split("@")[0] != before.split("@")[0]:
+        rows.append(f"*{name.split('@')[0]}*: {entry['expected']}")
+    return [[row] + [""] * (len(HEAD) - 1) for row in rows]
+
+
+def known_keys():
+    """Of the rows that the table of the page has."""
+    every, before, keys = cases(), None, []
+    for name in in_order(every):
+        keys += [(row[0],) for row in headings(name, every, before)] + [(shown(name, every[name]),)]
+        before = name
+    return keys
+
+
+def shown(name, entry):
+    return name + (" (study)" if entry.get("study") else "")
 
 
 def table_row(name, results):
-    """A row of the table: results holds (complaints, error, products, seconds, text) by algorithm."""
+    """A row of the table, and whether it fails: results holds (complaints, error, products, seconds, text) by algorithm."""
     errors = [r[1] for r in results.values() if r and r[1] is not None]
     cells = [name, f"{max(errors):.0e}" if errors else ""]
     for algorithm in ALGORITHMS:
         result = results.get(algorithm)
-        cells += ["", ""] if not result else [str(result[2]) if result[2] is not None else "-", f"{result[3]:.1f}"]
+        cells += [None, None] if algorithm not in results else ["", ""] if not result else [str(result[2]) if result[2] is not None else "-", f"{result[3]:.1f}"]
     failed = [f"{a}: {'; '.join(r[0])}" for a, r in results.items() if r and r[0]]
-    return "| " + " | ".join(cells + [" / ".join(failed) if failed else "passed"]) + " |", bool(failed)
+    return cells + ["**fails**: " + " / ".join(failed).replace("|", "/").replace("\n", " ") if failed else "passed"], bool(failed)
 
 
 def main():
@@ -212,6 +244,7 @@ def main():
     parser.add_argument("--limit", type=float, default=None, help="seconds for each run instead of the stored limits")
     parser.add_argument("--scratch", default=None)
     parser.add_argument("--keep", default=None, help="folder for the results")
+    parser.add_argument("--write", action="store_true", help="of both algorithms: the table into results.md")
     parser.add_argument("--show", action="store_true", help="print the terminal of runs that fail")
     parser.add_argument("--kind", choices=("fast", "study"), help="of the cases, those for the normal suite, or the others")
     parser.add_argument("--list", action="store_true", help="print the names of the decks and stop")
@@ -226,22 +259,23 @@ def main():
         return 0
     if not names:
         parser.error("no such case")
-    print(HEAD)
-    failures, group, deck = 0, None, None
-    for name in sorted(names, key=lambda n: (runner.all[n]["group"], n)):
+    if arguments.write and (arguments.algorithm or arguments.ranks):
+        parser.error("--write is for both algorithms and the stored ranks")
+    print(page_tables.line_of(HEAD), "|" + "---|" * len(HEAD), sep="\n")
+    failures, before = 0, None
+    for name in (n for n in in_order(runner.all) if n in names):
         entry, results = runner.all[name], {}
-        if entry["group"] != group:
-            group = entry["group"]
-            print(f"| **{group}** | | | | | | |")
-        if name.split("@")[0] != deck:
-            deck = name.split("@")[0]
-            print(f"| *{deck}*: {entry['expected']} | | | | | | |")
+        rows = headings(name, runner.all, before)
+        before = name
         for algorithm in arguments.algorithm or ALGORITHMS:
             results[algorithm] = None
             if "skip" not in entry.get(algorithm, {}):
                 results[algorithm] = runner.judge(name, algorithm, arguments.ranks or entry.get("ranks", 1))
-        row, failed = table_row(name, results)
-        print(row, flush=True)
+        row, failed = table_row(shown(name, entry), results)
+        rows.append(row)
+        print(*(page_tables.line_of([cell or "" for cell in cells]) for cells in rows), sep="\n", flush=True)
+        if arguments.write:
+            page_tables.write(PAGE, "hard", HEAD, rows, known=known_keys())
         failures += failed
         if failed and arguments.show:
             for algorithm, result in results.items():

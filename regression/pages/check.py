@@ -26,10 +26,10 @@ LIST_ITEM = re.compile(r"\s*([-*+]|\d+[.)])\s")
 
 
 def pages(root):
-    """The READMEs of the tree and all pages of docs/, results left out."""
+    """The READMEs of the tree and all pages of docs/ and regression/, results left out."""
     found = [root / "README.md", *(root / "docs").rglob("*.md")]
     for folder in FOLDERS:
-        found += (root / folder).rglob("README.md")
+        found += (root / folder).rglob("*.md" if folder == "regression" else "README.md")
     hidden = lambda path: any(part.startswith(".") or part.endswith(".out") for part in path.relative_to(root).parts)
     return sorted({path for path in found if path.is_file() and not hidden(path)})
 

@@ -1,7 +1,7 @@
 // What the coarse problem of a cube of n x n x n cubic subdomains costs each rank: the Cholesky factor of G G', 6 kernels a
 // subdomain.
 //
-//     coarse N...
+//     coarse N... | regression/page_tables.py regression/scaling/README.md coarse
 //
 // G G' is that of unit gluing: subdomains that share a face, an edge or a corner are joined. Its pattern is the real one; the
 // values are some positive definite matrix of it, for costs depend on the pattern alone.
@@ -51,7 +51,8 @@ double seconds()
 
 int main(int argc, char** argv)
 {
-  std::printf("subdomains | entries of G G' | of its factor | analysis s | factorization s | solution ms (CPU)\n");
+  std::printf(
+      "| subdomains | entries of the factor | MB | analysis s | factorization s | solution ms |\n|---|---|---|---|---|---|\n");
   for (int i = 1; i < argc; ++i) {
     const int n = std::atoi(argv[i]);
     if (n < 1 || n > 100) {
@@ -68,9 +69,9 @@ int main(int argc, char** argv)
     Eigen::VectorXd x = Eigen::VectorXd::Ones(matrix.rows());
     for (int s = 0; s < solutions; ++s) x = factor.solve(x);
     const double solved = seconds();
-    std::printf("%d | %lld | %zu | %.2f | %.2f | %.1f\n", n * n * n, static_cast<long long>(matrix.nonZeros()),
-                factor.factor_bytes() / sizeof(double), analysed - start, factorized - analysed,
-                1e3 * (solved - factorized) / solutions);
+    std::printf("| %d | %.1e | %.0f | %.2f | %.2f | %.1f |\n", n * n * n,
+                static_cast<double>(factor.factor_bytes()) / sizeof(double), static_cast<double>(factor.factor_bytes()) / 1e6,
+                analysed - start, factorized - analysed, 1e3 * (solved - factorized) / solutions);
     std::fflush(stdout);
   }
 }

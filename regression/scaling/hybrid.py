@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
 """TFETI and hybrid TFETI where there are many subdomains: two beams in contact cut into small cubes.
 
-    hybrid.py MORTISE [--edges 4 8 12 16] [--clusters 1 64] [--cells 2] [--ranks 1] [--set KEY=VALUE ...]
+    hybrid.py MORTISE [--edges 4 8 12 16] [--clusters 1 64] [--cells 2] [--ranks 1] [--set KEY=VALUE ...] [--write]
 
 The beams of inputs/cantilever_3d, 2n x n x n subdomains each of 2^3 cells, for each n of --edges; --clusters are the values of
 decomposition.subdomains_per_cluster, 1 for TFETI. All subdomains are copies of one, so that what is seen is the dual space and the coarse problem.
 Seconds are CPU seconds of all ranks; of them `joints` factorizes clusters (and the one subdomain), `solution` holds all from G on; both are
-the clock's, of the slowest rank. Exit status 1 if, at the same n, the strain energies differ by more than 1e-5.
+the clock's, of the slowest rank. --write puts kernels, products, CPU seconds and memory into README.md.
+Exit status 1 if, at the same n, the strain energies differ by more than 1e-5.
 """
 import argparse
 import resource
 import sys
 
-from scaling import ROOT, run
+from scaling import PAGE, ROOT, page_tables, run
 
+HEAD = ["subdomains", "primal unknowns", "TFETI: kernels", "products", "CPU s", "GB", "clusters of 64: kernels", "products", "CPU s", "GB"]
+COLUMN = {1: 2, 64: 6}  # where the figures of a size of clusters begin
 TOLERANCE = 1e-5  # of the energy, at the deck's tolerance of 1e-4 for forces
 
 
@@ -38,6 +41,7 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--mpiexec", default="mpirun")
     parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--write", action="store_true", help="of TFETI and clusters of 64")
     arguments = parser.parse_args()
     deck = ROOT / "inputs/cantilever_3d/cantilever_3d.yaml"
     print("subdomains | clusters | kernels | primal | dual | products | joints s | solution s | CPU s | GB")
@@ -53,6 +57,10 @@ def main():
             figures += [f"{summary['time'][key]:.1f}" for key in ("factorization", "solve")]
             figures += [f"{spent:.1f}", f"{summary['peak_memory_bytes'] / 1e9:.2f}"]
             print(" | ".join(str(x) for x in figures), flush=True)
+            if arguments.write and size in COLUMN:
+                row = [f"{summary['subdomains']:,}", f"{summary['primal_unknowns']:,}"] + [None] * 8
+                row[COLUMN[size]:COLUMN[size] + 4] = [f"{figures[2]:,}", str(figures[5]), *figures[8:]]
+                page_tables.write(PAGE, "clusters", HEAD, [row])
         if max(energies) - min(energies) > TOLERANCE * max(energies):
             sys.exit(f"n = {edge}: strain energies {energies}")
 

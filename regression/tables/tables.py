@@ -1,24 +1,31 @@
 #!/usr/bin/env python3
 """Solves the rows of the two scalability tables of Dostal et al. (DD20) and prints them beside the paper's.
 
-    tables.py MORTISE [--dimension 2|3] [--method finite_elements|boundary_elements] [--rows N ...] [--ranks R] [--mpiexec MPIEXEC] [--scratch DIR] [--set KEY=VALUE ...]
+    tables.py MORTISE [--dimension 2|3] [--method finite_elements|boundary_elements] [--rows N ...] [--ranks R] [--mpiexec MPIEXEC] [--scratch DIR] [--set KEY=VALUE ...] [--write]
 
 Two beams 2:1(:1), each cut into 2n x n (x n) squares or cubes; the decks are those of inputs/cantilever_2d and cantilever_3d with other
 numbers. "product/limit" is the time of a product with F over the time its floating point operations take at the rate of a
 matrix-matrix product of the same machine, measured at the start. With boundary elements (the paper's TBETI, in space) a subdomain is a dense
 matrix of its surface. The results of a row are deleted once it is judged, unless
---keep is given.
+--keep is given. --write puts the rows into README.md.
 """
 import argparse
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGE = pathlib.Path(__file__).resolve().parent / "README.md"
+sys.path.insert(0, str(ROOT / "regression"))
+import page_tables  # noqa: E402
+
+HEAD = ["row", "preconditioner", "primal unknowns", "paper: outer / products / s", "outer / products", "wall s (solve, products)", "product / limit", "GB"]
 CELLS = {2: 50, 3: 10}  # along the edge of a subdomain
 # n: subdomains, primal, dual, kernel; outer iterations / products / seconds of the paper on 48 cores.
 PAPER = {
@@ -74,6 +81,14 @@ def solve(arguments, dimension, n, directory):
     return json.loads((directory / "summary.json").read_text()), wall
 
 
+def page_row(n, directory, summary, paper, wall, ratio):
+    """The row in the table of the page."""
+    seconds = summary["time"]
+    preconditioner = re.search(r"preconditioner: (\w+)", (directory / "deck.yaml").read_text())[1]
+    return [f"n = {n}", preconditioner, f"{summary['primal_unknowns']:,}", paper, f"{summary['outer_iterations']} / {summary['hessian_multiplications']}",
+            f"{wall:.3g} ({seconds['solve']:.2g}, {seconds['multiplication']:.2g})", f"{ratio:.1f}", f"{summary['peak_memory_bytes'] / 1e9:.2g}"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mortise")
@@ -85,6 +100,7 @@ def main():
     parser.add_argument("--scratch", default=None)
     parser.add_argument("--keep", action="store_true")
     parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--write", action="store_true")
     arguments = parser.parse_args()
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     rate = dgemm_rate() * min(arguments.ranks, os.cpu_count() or 1)
@@ -112,6 +128,9 @@ def main():
                   f"{seconds['assembly'] + seconds['factorization']:.1f} | {seconds['solve']:.1f} | {seconds['multiplication']:.1f} | "
                   f"{seconds['output']:.1f} | {seconds['multiplication'] / products / limit:.1f} | "
                   f"{summary['peak_memory_bytes'] / 1e9:.2f}", flush=True)
+            if arguments.write:
+                page_tables.write(PAGE, "boundary elements" if boundary else f"{dimension}D", HEAD,
+                                  [page_row(n, directory, summary, paper, wall, seconds["multiplication"] / products / limit)], keys=2)
             if arguments.keep:
                 print(f"  results in {directory}")
             else:

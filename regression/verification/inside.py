@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Stresses inside bodies against formulas: boundary elements beside finite elements of first and second order on the same surface mesh.
 
-    inside.py MORTISE [--markdown FILE] [--plot FILE.png] [CASE ...]
+    inside.py MORTISE [--write] [--plot FILE.png] [CASE ...]
 
 cavity   an octant of a cube with a spherical cavity, pulled: the stress along the pull over the plane across it [Goodier, J. Appl. Mech. 1
          (1933); Timoshenko and Goodier, Theory of elasticity, section 137]
@@ -11,7 +11,7 @@ line     inputs/hertz_cylinder under a sixteenth of its force, a = 0.03 R, below
 point    inputs/hertz_sphere, a = 0.06 R, below the middle of the contact [Johnson, section 3.4]
 
 The error is the root of the mean square over the points, over the largest exact value; CPU seconds are those of the whole run with its
-meshing. Fails if boundary elements do not converge, or if on some mesh they are farther off than first order.
+meshing. --write puts them into results.md. Fails if boundary elements do not converge, or if on some mesh they are farther off than first order.
 """
 import argparse
 import csv
@@ -19,6 +19,7 @@ import math
 import pathlib
 import tempfile
 
+import study
 from methods import ROOT, solve
 
 DECKS = ROOT / "regression/verification/decks"
@@ -169,16 +170,19 @@ def judge(case, found):
     return failures
 
 
+HEAD = ["case", "size"] + [f"{method}: unknowns, error, CPU s" for method in METHODS]
+
+
 def table(found):
-    lines = ["| case | size | " + " | ".join(f"{m}: unknowns, error, CPU s" for m in METHODS) + " |", "|---|---|" + "---|" * len(METHODS)]
+    lines = []
     for case, results in found.items():
         for size in dict.fromkeys(size for method in METHODS for size in results[method]):
             cells = []
             for method in METHODS:
                 unknowns, error, seconds = results[method].get(size, (None, None, None))
                 cells.append("-" if unknowns is None else f"{unknowns:,}: {100 * error:.2g} %, {seconds:.1f}")
-            lines.append(f"| `{case}` | {size} | " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+            lines.append([f"`{case}`", str(size), *cells])
+    return lines
 
 
 def plot(found, path):
@@ -206,7 +210,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mortise")
     parser.add_argument("cases", nargs="*", metavar="CASE")
-    parser.add_argument("--markdown", type=pathlib.Path)
+    parser.add_argument("--write", action="store_true")
     parser.add_argument("--plot", type=pathlib.Path)
     arguments = parser.parse_args()
     found, failures = {}, []
@@ -217,10 +221,11 @@ def main():
             for size in sizes:
                 with tempfile.TemporaryDirectory(prefix="mortise_inside_") as directory:
                     found[case][method][size] = run(arguments.mortise, case, method, size, pathlib.Path(directory))
-        print(table({case: found[case]}), flush=True)
+        print(*(" | ".join(row) for row in [HEAD, *table({case: found[case]})]), "", sep="\n", flush=True)
         failures += judge(case, found[case])
-    if arguments.markdown:
-        arguments.markdown.write_text(table(found))
+    if arguments.write:
+        sizes = [(f"`{case}`", str(size)) for case in CASES for size in dict.fromkeys(size for sizes in CASES[case][4] for size in sizes)]
+        study.page_tables.write(study.PAGE, "inside", HEAD, table(found), keys=2, known=sizes)
     if arguments.plot:
         plot(found, arguments.plot)
     if failures:

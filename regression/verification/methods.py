@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Boundary elements beside finite elements on the same surface mesh: error against unknowns and CPU seconds.
 
-    methods.py MORTISE [--quick] [CASE ...]
+    methods.py MORTISE [--quick | --write] [CASE ...]
 
 hertz    inputs/hertz_sphere against Hertz's largest pressure, sizes 0.2 to 0.05
 punch    a punch on a nearly incompressible block (Poisson's ratio 0.49): the work of the force against hex20 of half the size
 beam     a cantilever 4 : 1 : 1 under a shear at its end: the same against hex20
 
-Prints a markdown table for each case. Fails if an error of boundary elements exceeds the bound of its size, if they are worse than linear cells
+Prints a table for each case; --write puts them into results.md. Fails if an error of boundary elements exceeds the bound of its size, if they are worse than linear cells
 of the same mesh, or if an estimated error is less than two thirds of the true one (cases with an energy to compare with). --quick: the
 two coarsest sizes.
 """
@@ -19,6 +19,8 @@ import pathlib
 import resource
 import subprocess
 import tempfile
+
+import study
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERTZ = (6 * 4 * 830.77 * (210e3 / (2 * (1 - 0.3**2)))**2 / (math.pi**3 * 10**2))**(1 / 3)  # largest pressure [Johnson 1985, 4.24]
@@ -106,10 +108,11 @@ def runs(mortise, case, quick, directory):
 
 
 def judge(case, rows, energy):
-    found = {}
-    print(f"| {case} | method | unknowns | error of the {'pressure' if energy is None else 'energy'} | "
-          "error in the energy norm: estimated, true | products | CPU s |\n|---|---|---|---|---|---|---|")
-    failures = []
+    """What is wrong with the runs of a case; its table: the heading and the rows."""
+    found, failures = {}, []
+    head = [case, "method", "unknowns", f"error of the {'pressure' if energy is None else 'energy'}",
+            "error in the energy norm: estimated, true", "products", "CPU s"]
+    table = []
     for size, method, summary, seconds in rows:
         claimed, true = summary["error_estimate"]["discretization"], None
         if energy is None:
@@ -120,9 +123,9 @@ def judge(case, rows, energy):
             if method == "boundary_elements" and true > 1.5 * claimed:
                 failures.append(f"{case}, {size}: {method} claim {claimed:.3f}, and {true:.3f} is true")
         found[size, method] = abs(error)
-        print(f"| {size} | {method.replace('_', ' ')} | {summary['primal_unknowns']} | {100 * error:+.2f} % | {100 * claimed:.1f} %"
-              f"{'' if true is None else f', {100 * true:.1f} %'} | {summary['hessian_multiplications']} | {seconds:.1f} |", flush=True)
-    print()
+        table.append([str(size), method.replace("_", " "), f"{summary['primal_unknowns']:,}", f"{100 * error:+.2f} %",
+                      f"{100 * claimed:.1f} %{'' if true is None else f', {100 * true:.1f} %'}", str(summary["hessian_multiplications"]), f"{seconds:.1f}"])
+    print(*(" | ".join(row) for row in [head, *table]), "", sep="\n", flush=True)
     sizes = [size for size, method, *_ in rows if method == "boundary_elements"]
     if found[sizes[0], "boundary_elements"] > BOUND[case]:
         failures.append(f"{case}: boundary elements are {100 * found[sizes[0], 'boundary_elements']:.1f} % off on the coarsest mesh")
@@ -131,7 +134,7 @@ def judge(case, rows, energy):
             failures.append(f"{case}, {size}: boundary elements are farther off than finite elements")
     if found[sizes[-1], "boundary_elements"] > 0.7 * found[sizes[0], "boundary_elements"]:
         failures.append(f"{case}: boundary elements do not converge")
-    return failures
+    return failures, head, table
 
 
 def main():
@@ -139,11 +142,15 @@ def main():
     parser.add_argument("mortise")
     parser.add_argument("cases", nargs="*", metavar="CASE")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--write", action="store_true", help="the tables into results.md")
     arguments = parser.parse_args()
     failures = []
     for case in arguments.cases or BOUND:
         with tempfile.TemporaryDirectory(prefix="mortise_methods_") as directory:
-            failures += judge(case, *runs(arguments.mortise, case, arguments.quick, pathlib.Path(directory)))
+            complaints, head, table = judge(case, *runs(arguments.mortise, case, arguments.quick, pathlib.Path(directory)))
+        failures += complaints
+        if arguments.write and not arguments.quick:
+            study.page_tables.write(study.PAGE, f"methods: {case}", head, table, keys=2, known=[tuple(row[:2]) for row in table])
     if failures:
         raise SystemExit("\n".join(failures))
 

@@ -3,19 +3,19 @@
 and with contacts that are found.
 
     sides.py MORTISE [model ...] [--quick] [--cells hex20 tet10 ...] [--laws frictionless coulomb] [--sizes 0 1 2] [--commands]
-             [--markdown FILE] [--ranks N] [--mpiexec MPIEXEC] [--list]
+             [--write] [--ranks N] [--mpiexec MPIEXEC] [--list]
 
 A model may be a pattern. --quick solves a selection on the first meshes. Figures: the largest recovered pressure and the largest von Mises
 stress, both farther than `away` from the lines where the exact ones are infinite (edges pressed into a surface, clamped borders); the strain
 energy; forces. Required: the three solutions within 10 % of each other in stress and 2 % in energy on every mesh, forces to 1e-6; the last
 mesh near the reference, which is a much finer mesh's. Blocks loaded a fiftieth of a cell inside or beyond the edge they would tip about must
-stand or end with exit 3. Exit status 1 if a case fails. --commands prints how to run what failed. Needs numpy.
+stand or end with exit 3. Exit status 1 if a case fails. --commands prints how to run what failed; --quick --write puts the selection into
+results.md. Needs numpy.
 """
 
 import argparse
 import dataclasses
 import fnmatch
-import pathlib
 import sys
 from typing import Callable, Optional
 
@@ -382,6 +382,7 @@ def far_from_reference(run):
 # Blocks that stand or tip. The edge a block tips about crosses cells of the upper block that hangs over it (`edge`), or of the lower block
 # on which the upper one stands (`foot`); a `pad` stands inside one of the lower block's cells. The load's resultant is `offset` cells of the side
 # that is partly covered beyond the edge.
+TIPPING_QUICK = ["quad8", "tet10"]
 TIPPING = [(kind, across, offset) for kind in ("edge", "foot") for across in (6, 5) for offset in (-0.02, 0.02)] + [("pad", 3, -0.02), ("pad", 3, 0.02)]
 
 
@@ -468,23 +469,31 @@ def cases(arguments):
 def tipping_cells(arguments):
     if arguments.model and not any(fnmatch.fnmatch("tipping", pattern) for pattern in arguments.model):
         return []
-    cells = ["quad8", "tet10"] if arguments.quick else PLANE + SOLIDS
+    cells = TIPPING_QUICK if arguments.quick else PLANE + SOLIDS
     return [cell for cell in cells if not arguments.cells or cell in arguments.cells]
 
 
-def markdown(groups, tipped):
-    """A line a model, law and cell: the first and the last mesh, the secondary sides and `auto` in turn."""
+TABLE = ["model, law", "cell", "unknowns", "pressure", "von Mises", "energy", "other", "verdict"]
+
+
+def known_keys():
+    """Of the rows that the table of the page has, those of the quick selection."""
+    selection = [(f"`{model.name}`, {law}", cell) for model in MODELS for cell in model.cells for law in model.laws if (cell, law) in model.quick]
+    return selection + [("`tipping`", cell) for cell in TIPPING_QUICK]
+
+
+def table_rows(groups, tipped):
+    """A row a model, law and cell: the secondary sides and `auto` in turn."""
     of = lambda runs, name: " / ".join(f"{run.figures[name]:.4g}" if name in run.figures else f"exit {run.status}" for run in runs)
-    text = ["| model, law | cell | unknowns | pressure | von Mises | energy | other | verdict |", "|---|---|---|---|---|---|---|---|"]
+    rows = []
     for (model, cell, law, _), (runs, complaints) in groups.items():
         other = "; ".join(f"{name} {of(runs, name)}" for name in runs[0].figures if name not in ("pressure", "von Mises", "energy", "force"))
-        text.append(
-            f"| `{model.name}`, {law} | {cell} | {runs[0].unknowns:,} | {of(runs, 'pressure')} | {of(runs, 'von Mises')} | {of(runs, 'energy')} | {other} | "
-            f"{'**fails**' if complaints else 'passed'} |"
-        )
+        figures = [of(runs, name) for name in ("pressure", "von Mises", "energy")]
+        rows.append([f"`{model.name}`, {law}", cell, f"{runs[0].unknowns:,}", *figures, other, "**fails**" if complaints else "passed"])
     for cell, complaints in tipped.items():
-        text.append(f"| `tipping` | {cell} | | | | | stands inside the edge, tips beyond it | {f'**{len(complaints)} of {3 * len(TIPPING)} fail**' if complaints else 'passed'} |")
-    return "\n".join(text) + "\n"
+        verdict = f"**{len(complaints)} of {3 * len(TIPPING)} fail**" if complaints else "passed"
+        rows.append(["`tipping`", cell, "", "", "", "", "stands inside the edge, tips beyond it", verdict])
+    return rows
 
 
 def main():
@@ -496,7 +505,7 @@ def main():
     parser.add_argument("--laws", nargs="*")
     parser.add_argument("--sizes", nargs="*", type=int)
     parser.add_argument("--commands", action="store_true")
-    parser.add_argument("--markdown", type=pathlib.Path)
+    parser.add_argument("--write", action="store_true")
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--mpiexec", default="mpirun")
     parser.add_argument("--list", action="store_true")
@@ -504,6 +513,8 @@ def main():
     if arguments.list or arguments.mortise is None:
         print(*(model.name for model in MODELS), "tipping", sep="\n")
         return 0
+    if arguments.write and not arguments.quick:
+        parser.error("--write is for the quick selection")
     program = study.Program(arguments.mortise, arguments.ranks, arguments.mpiexec)
     groups, tipped, seconds = {}, {}, 0.0
     print(HEAD)
@@ -524,8 +535,8 @@ def main():
     print(f"{failed} of {len(groups) + len(tipped)} cases failed; {seconds:.0f} s of CPU in the program, without the tipping blocks")
     if not groups and not tipped:
         parser.error("no such case")
-    if arguments.markdown:
-        arguments.markdown.write_text(markdown(groups, tipped))
+    if arguments.write:
+        study.page_tables.write(study.PAGE, "sides", TABLE, table_rows(groups, tipped), keys=2, known=known_keys())
     return 1 if failed else 0
 
 

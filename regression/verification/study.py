@@ -5,6 +5,7 @@ import os
 import pathlib
 import resource
 import subprocess
+import sys
 import tempfile
 from typing import Callable, Optional
 
@@ -12,7 +13,11 @@ import numpy as np
 
 from results import Result
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import page_tables  # noqa: E402, F401: for the scripts here
+
 HERE = pathlib.Path(__file__).resolve().parent
+PAGE = HERE / "results.md"  # with the tables of figures
 INPUTS = HERE.parent.parent / "inputs"
 ORDER_SLACK = 0.3  # what a measured order may stay below the expected one: meshes are not asymptotic
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Runs verification cases and compares them with formulas: table, judgement, plots.
 
-    verify.py MORTISE [case ...] [--quick] [--plots DIR] [--markdown FILE] [--ranks N] [--mpiexec MPIEXEC] [--list]
+    verify.py MORTISE [case ...] [--quick] [--plots DIR] [--write] [--markdown FILE] [--ranks N] [--mpiexec MPIEXEC] [--list]
 
 A case is named by itself or by its family (a module of cases/). --quick runs the coarsest mesh of each case and compares its errors
-with the bounds stated; without it the orders of convergence are judged as well. Exit status 1 if a case fails. Needs numpy, and
-matplotlib for --plots.
+with the bounds stated; without it the orders of convergence are judged as well. --write puts a row for each case into results.md,
+--markdown a table for each case, with all meshes, into a file. Exit status 1 if a case fails. Needs numpy, and matplotlib for --plots.
 """
 
 import argparse
@@ -71,6 +71,42 @@ def markdown(case, head, lines, complaints):
     return "\n".join(text + [""] + ([f"Fails: {'; '.join(complaint.splitlines()[0] for complaint in complaints)}.", ""] if complaints else []))
 
 
+HEAD = ["case", "meshes: unknowns", "errors on the finest mesh (order: expected / measured)", "effectivity", "CPU s"]
+
+
+def key(case):
+    return f"`{case.name}`: {case.title}"
+
+
+def known_keys():
+    """Of the rows that the table of the page has."""
+    return [(key(case),) for cases in all_cases().values() for case in cases]
+
+
+def percent(error):
+    return f"{error:.1e}" if error < 1e-3 else f"{100 * error:.2g} %"
+
+
+def row_of(case, rows, complaints):
+    """The row of a case in the table of the page."""
+    errors = []
+    for quantity in case.quantities:
+        measured = study.order(quantity, rows)
+        orders = "" if quantity.order is None else f" ({quantity.order:g}/{shown(measured, '{:.2f}')})"
+        errors.append(f"{quantity.name} {percent(rows[-1].errors[quantity.name])}{orders}")
+    if complaints:
+        errors.append("**fails**")
+    unknowns = [row.result.summary["primal_unknowns"] for row in rows]
+    effectivities = [row.effectivity for row in rows if row.effectivity is not None]
+    return [
+        key(case),
+        f"{len(rows)}: {min(unknowns):,} to {max(unknowns):,}",
+        "; ".join(errors),
+        f"{min(effectivities):.2f} to {max(effectivities):.2f}" if effectivities else "-",
+        f"{sum(row.result.seconds for row in rows):.0f}",
+    ]
+
+
 def draw(case, rows, directory):
     """One picture a case: the distribution beside the formula, and the errors over h."""
     import matplotlib
@@ -109,6 +145,7 @@ def main():
     parser.add_argument("case", nargs="*")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--plots", type=pathlib.Path)
+    parser.add_argument("--write", action="store_true")
     parser.add_argument("--markdown", type=pathlib.Path)
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--mpiexec", default="mpirun")
@@ -118,6 +155,8 @@ def main():
         for family, cases in all_cases().items():
             print(f"{family}: {', '.join(case.name for case in cases)}")
         return 0
+    if arguments.write and arguments.quick:
+        parser.error("--write is for all meshes")
     program = study.Program(arguments.mortise, arguments.ranks, arguments.mpiexec)
     failed, skipped, seconds, text = [], [], 0.0, []
     for case in chosen(arguments.case):
@@ -135,6 +174,8 @@ def main():
         failed += [case.name] if complaints else []
         seconds += sum(row.result.seconds for row in rows)
         text.append(markdown(case, head, lines, complaints))
+        if arguments.write and rows:
+            study.page_tables.write(study.PAGE, "formulas", HEAD, [row_of(case, rows, complaints)], known=known_keys())
         if arguments.plots and rows:
             draw(case, rows, arguments.plots)
     print(f"{len(failed)} failed{': ' if failed else ''}{', '.join(failed)}; {len(skipped)} skipped; {seconds:.0f} s of CPU in the program")
