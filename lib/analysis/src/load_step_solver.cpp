@@ -98,7 +98,8 @@ void LoadStepSolver::make_solver()
   auto options = assembly_.deck().solver.programme;
   options.algorithm = approach_.algorithm;
   if (auto& most = options.max_multiplications.value) *most -= before_;
-  solver_.emplace(*problem_, assembly_.model().friction_laws(), assembly_.deck().friction_loop, options, approach_.patience);
+  solver_.emplace(*problem_, model::friction_laws(assembly_.model().contacts()), assembly_.deck().friction_loop, options,
+                  approach_.patience);
 }
 
 // The problem for what acts now, in place if its rows stay, and `from`, the state before, as a start for it.

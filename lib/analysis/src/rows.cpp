@@ -19,7 +19,7 @@ void find_pretension_sections(const model::Model& model, const std::vector<doubl
                               Rows& rows)
 {
   rows.constraints.pretension_sections = constraint::find_pretension_sections(
-      rows.constraints.contacts, model.preloads(rows.acts, shortenings), model.deck().axisymmetric(), comm);
+      rows.constraints.contacts, model::preloads(model.contacts(), rows.acts, shortenings), model.deck().axisymmetric(), comm);
 }
 
 // What supports and rigid couplings prescribe, but for unknown motions.

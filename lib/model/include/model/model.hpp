@@ -16,6 +16,12 @@ namespace mortise::model {
 /// The names of a body's materials, each once.
 std::vector<std::string> material_names(const fem::BodyOptions& body);
 
+/// The law of each contact.
+std::vector<friction::Law> friction_laws(const Contacts& contacts);
+/// Of the preloaded contacts. Those that are locked are prescribed at `shortenings`, one for each, of the state before.
+std::vector<constraint::Preload> preloads(const Contacts& contacts, const LoadState& state,
+                                          const std::vector<double>& shortenings);
+
 /// What files say of temperatures, by the number of the load.
 using Temperatures = std::map<std::size_t, std::shared_ptr<const io::NodalField>>;
 
@@ -31,17 +37,13 @@ class Model {
   const Contacts& contacts() const { return contacts_; }
   const partition::Decomposition& decomposition() const { return decomposition_; }
 
+  /// Of each cell, in the same order in every subdomain of a body.
   fem::Materials materials(const partition::Subdomain& subdomain) const;
   /// The largest number of materials in one body.
   std::size_t most_materials() const;
-  fem::Formulation formulation(const partition::Subdomain& subdomain) const;
   /// Throws Error(bad_input), with the line of the deck, if a body has cells that its formulation is not for, or reaches beyond
   /// the axis of revolution, or if a support or a contact names a boundary that has no part on its body. Collective.
   void require_fit(deck::Document& document, const Communicator& comm) const;
-  /// Degrees, the sum of all loads on its body.
-  fem::Temperature temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const;
-  /// The sum of all accelerations of its body.
-  Point acceleration(const partition::Subdomain& subdomain, const LoadState& state) const;
   /// Materials, formulation, temperature change and acceleration of every subdomain of this rank.
   std::vector<fem::Constitution> constitution(const LoadState& state) const;
   /// For each subdomain the first one of this rank with the same shape and material.
@@ -60,9 +62,6 @@ class Model {
                                                       const Communicator& comm) const;
   /// How near to an axis is on it. Collective.
   double rounding(const Communicator& comm) const;
-  /// Throws Error(bad_input), with the line of the deck, where no node of the surface lies at a place that supports or loads
-  /// name. Collective.
-  void require_points(deck::Document& document, const Communicator& comm) const;
   /// The boundaries of those of supports() that hold along normals, this rank's faces; the others are empty.
   std::vector<mesh::Surface> support_surfaces() const;
   /// The boundaries of supports that act along their normals alone, this rank's faces: prescribed or on springs.
@@ -92,10 +91,8 @@ class Model {
                                                        const Communicator& comm) const;
   /// The number of the first coupling among supports().
   int first_coupling() const { return static_cast<int>(deck_.supports.size()); }
+  /// This rank's faces of both sides of each contact, with its options; overlaps are those of the state.
   std::vector<contact::Pair> contact_pairs(const LoadState& state) const;
-  std::vector<friction::Law> friction_laws() const;
-  /// Of the preloaded contacts. Those that are locked are prescribed at `shortenings`, one for each, of the state before.
-  std::vector<constraint::Preload> preloads(const LoadState& state, const std::vector<double>& shortenings) const;
 
  private:
   struct Selection {
@@ -104,6 +101,11 @@ class Model {
   };
   Selection select(const std::string& name) const;
   std::vector<bool> bodies_named(const std::string& name) const;
+  fem::Formulation formulation(const partition::Subdomain& subdomain) const;
+  /// Degrees, the sum of all loads on its body.
+  fem::Temperature temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const;
+  /// The sum of all accelerations of its body.
+  Point acceleration(const partition::Subdomain& subdomain, const LoadState& state) const;
   void add_boundary_load(std::size_t index, const LoadState& state, std::vector<Eigen::VectorXd>& f,
                          const Communicator& comm) const;
   Point force_of(const fem::LoadOptions& load) const;
@@ -124,6 +126,8 @@ class Model {
   void require_formulations(deck::Document& document) const;
   void require_axis(deck::Document& document, double rounding) const;
   void require_temperatures(deck::Document& document) const;
+  /// That some node of the surface lies at each place that supports or loads name. Throws as require_fit. Collective.
+  void require_points(deck::Document& document, const Communicator& comm) const;
 
   const Deck& deck_;
   const Contacts& contacts_;

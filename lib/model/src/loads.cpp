@@ -1,0 +1,124 @@
+// The consistent load of every subdomain.
+#include "fem/loads.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "model/model.hpp"
+#include "points.hpp"
+
+namespace mortise::model {
+
+std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communicator& comm) const
+{
+  const int dimension = deck_.dimension();
+  std::vector<Eigen::VectorXd> f;
+  for (const auto& subdomain : decomposition_.subdomains)
+    f.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension));
+  collectively(comm, [&] {
+    for (std::size_t s = 0; s < f.size(); ++s) {
+      const auto& subdomain = decomposition_.subdomains[s];
+      if (const auto warmer = temperature_change(subdomain, state); warmer.any() && !subdomain.skin)
+        fem::add_expansion(subdomain.mesh, materials(subdomain), deck_.kinematics, warmer, f[s]);
+    }
+  });
+  for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
+    const auto& load = deck_.loads[i];
+    const double factor = state.load[i];
+    if (factor == 0 || load.temperature_change || !load.coupling.empty() || !load.points.empty()) continue;
+    if (load.acceleration) {
+      const auto on_body = bodies_named(load.body);
+      for (std::size_t s = 0; s < f.size(); ++s)
+        if (const auto& subdomain = decomposition_.subdomains[s];
+            on_body[static_cast<std::size_t>(subdomain.body)] && !subdomain.skin)
+          fem::add_acceleration(subdomain.mesh, deck_.kinematics, materials(subdomain), Point(factor * place(*load.acceleration)),
+                                f[s]);
+      continue;
+    }
+    if (load.centrifugal) {
+      const auto on_body = bodies_named(load.body);
+      for (std::size_t s = 0; s < f.size(); ++s)
+        if (const auto& subdomain = decomposition_.subdomains[s]; on_body[static_cast<std::size_t>(subdomain.body)])
+          fem::add_acceleration(
+              subdomain.mesh, deck_.kinematics, materials(subdomain),
+              [&](const Point& x) { return Point(factor * fem::centrifugal_acceleration(*load.centrifugal, x)); }, f[s]);
+      continue;
+    }
+    add_boundary_load(i, state, f, comm);
+  }
+  add_distributed(couplings(state, comm), f, comm);
+  add_point_forces(state, f, comm);
+  return f;
+}
+
+void Model::add_point_forces(const LoadState& state, std::vector<Eigen::VectorXd>& f, const Communicator& comm) const
+{
+  const auto places = nodes_at_points(comm);
+  const int dimension = deck_.dimension();
+  for (std::size_t i = 0; i < deck_.loads.size(); ++i)
+    for (const auto& found : places.loads[i]) {
+      if (found.subdomain < 0 || decomposition_.rank_of(found.subdomain) != comm.rank()) continue;
+      const auto s = static_cast<std::size_t>(found.subdomain - decomposition_.subdomains.front().id);
+      const Point force = state.load[i] * found.share * force_of(deck_.loads[i]);
+      f[s].segment(found.local * dimension, dimension) += force.head(dimension);
+    }
+}
+
+// The resultant of a load along the axes of the model.
+Point Model::force_of(const fem::LoadOptions& load) const
+{
+  const Point force = place(*load.force);
+  if (load.axes.empty()) return force;
+  return local_axes(deck_, load.axes).at(Point::Zero())->transpose() * force;
+}
+
+// Pressure, traction or force of loads[index].
+void Model::add_boundary_load(std::size_t index, const LoadState& state, std::vector<Eigen::VectorXd>& f,
+                              const Communicator& comm) const
+{
+  const auto& load = deck_.loads[index];
+  const double factor = state.load[index];
+  const auto [boundary, on_body] = select(load.boundary);
+  double area = 0;
+  for (const auto& subdomain : decomposition_.subdomains)
+    if (on_body[static_cast<std::size_t>(subdomain.body)]) area += fem::area(subdomain.mesh, boundary, deck_.kinematics);
+  area = comm.sum(area);
+  if (area == 0) throw Error(ExitStatus::bad_input, "the loaded boundary \"" + load.boundary + "\" has no area");
+  const auto value = [&](const deck::Formula& formula, const Point& x) {
+    const double found = formula(x, state.time);
+    if (!std::isfinite(found))
+      throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: \"{}\" is no number at ({:.6g}, {:.6g}, {:.6g}), t = {:.6g}",
+                                                     index, formula.text(), x[0], x[1], x[2], state.time));
+    return factor * found;
+  };
+  std::optional<deck::LocalAxes> axes;
+  if (!load.axes.empty()) axes = local_axes(deck_, load.axes);
+  const auto turned = [&](const Point& along, const Point& x) {
+    if (!axes) return along;
+    const auto rows = axes->at(x);
+    if (!rows)
+      throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: ({:.6g}, {:.6g}, {:.6g}) lies on the axis of \"{}\", where "
+                                                     "nothing is radial or tangential",
+                                                     index, x[0], x[1], x[2], load.axes));
+    return Point(rows->transpose() * along);
+  };
+  collectively(comm, [&] {
+    for (std::size_t s = 0; s < f.size(); ++s) {
+      const auto& subdomain = decomposition_.subdomains[s];
+      if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+      if (load.pressure)
+        fem::add_pressure(
+            subdomain.mesh, boundary, deck_.kinematics, [&](const Point& x) { return value(*load.pressure, x); }, f[s]);
+      if (load.traction)
+        fem::add_traction(
+            subdomain.mesh, boundary, deck_.kinematics,
+            [&, t = *load.traction](const Point& x) { return turned(Point(value(t[0], x), value(t[1], x), value(t[2], x)), x); },
+            f[s]);
+      if (load.force) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, Point(factor * force_of(load) / area), f[s]);
+    }
+  });
+}
+
+}  // namespace mortise::model
