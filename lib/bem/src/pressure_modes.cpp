@@ -8,7 +8,8 @@ namespace mortise::bem {
 
 namespace {
 
-// The closed surface that each node lies on, 0, 1, ..: panels that share an edge with one other are on one.
+// The closed surface that each panel lies on, 0, 1, ..: panels with a common node are on one, since fields that are linear on
+// panels and continuous cannot tell two surfaces apart that touch in a node or an edge.
 struct Sheets {
   std::vector<int> of_panel;
   int count = 0;
@@ -16,21 +17,19 @@ struct Sheets {
 
 Sheets sheets(const Panels& panels)
 {
-  std::map<std::pair<Local, Local>, std::vector<std::size_t>> edges;
-  for (std::size_t p = 0; p < panels.corners.size(); ++p)
-    for (std::size_t k = 0; k < 3; ++k) edges[std::minmax(panels.corners[p][k], panels.corners[p][(k + 1) % 3])].push_back(p);
-  std::vector<std::size_t> leader(panels.corners.size());
-  std::iota(leader.begin(), leader.end(), std::size_t{0});
-  const auto find = [&](std::size_t p) {
-    while (leader[p] != p) p = leader[p] = leader[leader[p]];
-    return p;
+  std::vector<Local> leader(panels.points.size());
+  std::iota(leader.begin(), leader.end(), Local{0});
+  const auto find = [&](Local node) {
+    const auto at = [&](Local n) -> Local& { return leader[static_cast<std::size_t>(n)]; };
+    while (at(node) != node) node = at(node) = at(at(node));
+    return node;
   };
-  for (const auto& [edge, both] : edges)
-    if (both.size() == 2) leader[find(both[0])] = find(both[1]);
+  for (const auto& corners : panels.corners)
+    for (std::size_t k = 1; k < 3; ++k) leader[static_cast<std::size_t>(find(corners[0]))] = find(corners[k]);
   Sheets result;
-  std::map<std::size_t, int> number;
-  for (std::size_t p = 0; p < panels.corners.size(); ++p)
-    result.of_panel.push_back(number.emplace(find(p), static_cast<int>(number.size())).first->second);
+  std::map<Local, int> number;
+  for (const auto& corners : panels.corners)
+    result.of_panel.push_back(number.emplace(find(corners[0]), static_cast<int>(number.size())).first->second);
   result.count = static_cast<int>(number.size());
   return result;
 }
