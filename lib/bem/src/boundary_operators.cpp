@@ -20,44 +20,78 @@ Kelvin kelvin(const fem::Material& material)
   return {(1 + nu) / (2 * material.young_modulus * (1 - nu)), 3 - 4 * nu};
 }
 
-// Of the functions of all panels, three each: the matrix of M_ij = n_j d_i - n_i d_j, and the curl n x grad.
+// The k-th function of a panel, 1 in a node: M_ij = n_j d_i - n_i d_j = (g n' - n g')_ij, and the surface curl c = n x g.
 struct Derivatives {
-  std::vector<Eigen::Matrix3d> tangential;
-  std::vector<Point> curl;
+  std::size_t panel;
+  Point g, n, c;
+
+  Eigen::Matrix3d tangential() const { return g * n.transpose() - n * g.transpose(); }
 };
-Derivatives derivatives(const Panels& panels)
+
+// At each node, one for each of its panels.
+std::vector<std::vector<Derivatives>> derivatives(const Panels& panels)
 {
-  Derivatives result;
+  std::vector<std::vector<Derivatives>> result(panels.points.size());
   for (std::size_t p = 0; p < panels.corners.size(); ++p)
     for (int k = 0; k < 3; ++k) {
       const Point g = panels.gradient(p, k);
       const Point& n = panels.normal[p];
-      result.tangential.push_back(g * n.transpose() - n * g.transpose());
-      result.curl.push_back(n.cross(g));
+      result[static_cast<std::size_t>(panels.corners[p][static_cast<std::size_t>(k)])].push_back({p, g, n, n.cross(g)});
     }
   return result;
 }
 
-// result += a (M u): column blocks of a by panel, of result by node.
-void add_times_tangential(const Panels& panels, const Derivatives& of, const Eigen::MatrixXd& a, double factor,
-                          Eigen::MatrixXd& result)
+// Of u = 1 in one node, in each of its three components.
+struct Images {
+  Eigen::Matrix<double, Eigen::Dynamic, 3> single, kelvin;  // V_L (M u), V (M u), 3 m
+  Eigen::Matrix<double, 3, Eigen::Dynamic> curl;            // V_L c, m columns
+
+  explicit Images(Eigen::Index m) : single(3 * m, 3), kelvin(3 * m, 3), curl(3, m) {}
+
+  void make(const std::vector<Derivatives>& of, const Eigen::MatrixXd& v_single, const Eigen::MatrixXd& v)
+  {
+    const auto m = v_single.rows();
+    single.setZero();
+    kelvin.setZero();
+    curl.setZero();
+    for (const auto& f : of) {
+      const auto p = static_cast<Eigen::Index>(f.panel);
+      const Eigen::Matrix3d w = f.tangential();
+      kelvin.noalias() += v.middleCols<3>(3 * p) * w;
+      for (Eigen::Index q = 0; q < m; ++q) {
+        single.middleRows<3>(3 * q) += v_single(q, p) * w;
+        curl.col(q) += v_single(q, p) * f.c;
+      }
+    }
+  }
+};
+
+// M / 2 + K_L of one node's function, in each component: added to three columns of K.
+void add_laplace(const Panels& panels, const std::vector<Derivatives>& of, const Eigen::MatrixXd& double_layer, Eigen::Index node,
+                 Eigen::Ref<Eigen::MatrixXd> columns)
 {
-  for (std::size_t p = 0; p < panels.corners.size(); ++p)
-    for (int k = 0; k < 3; ++k)
-      result.middleCols<3>(3 * panels.corners[p][static_cast<std::size_t>(k)]) +=
-          a.middleCols<3>(3 * static_cast<Eigen::Index>(p)) * (factor * of.tangential[3 * p + static_cast<std::size_t>(k)]);
+  for (int c = 0; c < 3; ++c) {
+    for (Eigen::Index q = 0; q < double_layer.rows(); ++q) columns(3 * q + c, c) += double_layer(q, node);
+    for (const auto& f : of) columns(3 * static_cast<Eigen::Index>(f.panel) + c, c) += panels.area[f.panel] / 6;
+  }
 }
 
-// result += (M .)' a: row blocks of a by panel, of result by node.
-void add_tangential_times(const Panels& panels, const Derivatives& of, const Eigen::MatrixXd& a, Eigen::MatrixXd& result)
+// (M .)' (2 mu V_L - 4 mu^2 V) (M u) + mu (2 tr Y I - Y): three columns of D.
+void add_hypersingular(const std::vector<std::vector<Derivatives>>& functions, double mu, const Images& of,
+                       Eigen::Ref<Eigen::MatrixXd> columns)
 {
-  // Column by column, since matrices stand by columns.
-  for (Eigen::Index c = 0; c < a.cols(); ++c)
-    for (std::size_t p = 0; p < panels.corners.size(); ++p)
-      for (int k = 0; k < 3; ++k)
-        result.col(c).segment<3>(3 * panels.corners[p][static_cast<std::size_t>(k)]) +=
-            of.tangential[3 * p + static_cast<std::size_t>(k)].transpose() *
-            a.col(c).segment<3>(3 * static_cast<Eigen::Index>(p));
+  const Eigen::Matrix<double, Eigen::Dynamic, 3> force = 2 * mu * of.single - 4 * mu * mu * of.kelvin;
+  for (std::size_t a = 0; a < functions.size(); ++a) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const auto& f : functions[a]) {
+      const auto p = static_cast<Eigen::Index>(f.panel);
+      const Eigen::Matrix3d own = force.middleRows<3>(3 * p);
+      const Point curl = mu * of.curl.col(p);
+      sum += f.n * (f.g.transpose() * own) - f.g * (f.n.transpose() * own) - f.c * curl.transpose();
+      sum.diagonal().array() += 2 * curl.dot(f.c);
+    }
+    columns.middleRows<3>(3 * static_cast<Eigen::Index>(a)) += sum;
+  }
 }
 
 }  // namespace
@@ -100,61 +134,19 @@ BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& 
   auto layers = integrate_layers(panels, material, accuracy);
   const auto m = panels.size(), n = panels.node_count();
   const double mu = material.young_modulus / (2 * (1 + material.poisson_ratio));
-  BoundaryOperators result{std::move(layers.kelvin), {}, {}};
-
-  const auto of = derivatives(panels);
-
-  // V (M u), which K and D need, and with it K = M / 2 + K_L u - V_L (M u) + 2 mu V (M u).
-  Eigen::MatrixXd image = Eigen::MatrixXd::Zero(3 * m, 3 * n);
-  add_times_tangential(panels, of, result.v, 2 * mu, image);
-  result.k = image;
-  Eigen::MatrixXd single_image = Eigen::MatrixXd::Zero(3 * m, 3 * n);
-  for (Eigen::Index p = 0; p < m; ++p)
-    for (int k = 0; k < 3; ++k) {
-      const auto& w = of.tangential[static_cast<std::size_t>(3 * p + k)];
-      const Eigen::Index node = 3 * panels.corners[static_cast<std::size_t>(p)][static_cast<std::size_t>(k)];
-      for (int j = 0; j < 3; ++j)
-        for (Eigen::Index q = 0; q < m; ++q) single_image.col(node + j).segment<3>(3 * q) += layers.single(q, p) * w.col(j);
-    }
-  result.k -= single_image;
-  for (Eigen::Index node = 0; node < n; ++node)
-    for (Eigen::Index q = 0; q < m; ++q)
-      for (int c = 0; c < 3; ++c) result.k(3 * q + c, 3 * node + c) += layers.double_layer(q, node);
-  for (Eigen::Index q = 0; q < m; ++q)
-    for (std::size_t k = 0; k < 3; ++k)
-      for (int c = 0; c < 3; ++c)
-        result.k(3 * q + c, 3 * panels.corners[static_cast<std::size_t>(q)][k] + c) +=
-            panels.area[static_cast<std::size_t>(q)] / 6;
-  make_exact_for_pressure(panels, material, layers.single, result);
-  if (which == Operators::of_tractions) return result;
-
-  // (M v)' (2 mu V_L - 4 mu^2 V) (M u)
-  image = 2 * mu * single_image - 2 * mu * image;
-  result.d = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-  add_tangential_times(panels, of, image, result.d);
-
-  // Surface curls c = n x grad, constant on a panel: Y_ij = c_i' V_L c_j, to which mu (tr Y I - Y) belongs.
-  std::array<Eigen::MatrixXd, 3> curl_image;
-  for (int j = 0; j < 3; ++j) {
-    auto& x = curl_image[static_cast<std::size_t>(j)] = Eigen::MatrixXd::Zero(m, n);
-    for (std::size_t p = 0; p < panels.corners.size(); ++p)
-      for (int k = 0; k < 3; ++k)
-        x.col(panels.corners[p][static_cast<std::size_t>(k)]) +=
-            of.curl[3 * p + static_cast<std::size_t>(k)][j] * layers.single.col(static_cast<Eigen::Index>(p));
+  const auto functions = derivatives(panels);
+  BoundaryOperators result{std::move(layers.kelvin), Eigen::MatrixXd(3 * m, 3 * n), {}};
+  if (which == Operators::all) result.d = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  Images images(m);
+  for (Eigen::Index node = 0; node < n; ++node) {
+    const auto& own = functions[static_cast<std::size_t>(node)];
+    images.make(own, layers.single, result.v);
+    auto columns = result.k.middleCols<3>(3 * node);
+    columns = 2 * mu * images.kelvin - images.single;
+    add_laplace(panels, own, layers.double_layer, node, columns);
+    if (which == Operators::all) add_hypersingular(functions, mu, images, result.d.middleCols<3>(3 * node));
   }
-  for (int j = 0; j < 3; ++j)
-    for (Eigen::Index b = 0; b < n; ++b) {
-      const auto x = curl_image[static_cast<std::size_t>(j)].col(b);
-      for (std::size_t p = 0; p < panels.corners.size(); ++p)
-        for (int k = 0; k < 3; ++k) {
-          const Eigen::Index a = panels.corners[p][static_cast<std::size_t>(k)];
-          const Point y = mu * x[static_cast<Eigen::Index>(p)] * of.curl[3 * p + static_cast<std::size_t>(k)];
-          for (int i = 0; i < 3; ++i) {
-            result.d(3 * a + i, 3 * b + i) += 2 * y[j];
-            result.d(3 * a + i, 3 * b + j) -= y[i];
-          }
-        }
-    }
+  make_exact_for_pressure(panels, material, layers.single, result);
   return result;
 }
 
