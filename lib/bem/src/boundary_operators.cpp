@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "crossing.hpp"
 #include "pair_integrals.hpp"
 #include "pressure_modes.hpp"
 
@@ -134,6 +135,7 @@ BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& 
   auto layers = integrate_layers(panels, material, accuracy);
   const auto m = panels.size(), n = panels.node_count();
   const double mu = material.young_modulus / (2 * (1 + material.poisson_ratio));
+  require_border(panels, layers.double_layer);
   const auto functions = derivatives(panels);
   BoundaryOperators result{std::move(layers.kelvin), Eigen::MatrixXd(3 * m, 3 * n), {}};
   if (which == Operators::all) result.d = Eigen::MatrixXd::Zero(3 * n, 3 * n);

@@ -366,14 +366,15 @@ struct PairQuadrature::Touching {
     Etas low, size;
   };
 
-  // Appends the parts into which the etas are cut; false if there are more than `limit` of them.
+  // Appends the parts into which the etas are cut; false if there are more than `limit` of them, or too small ones.
   bool cut(const Box& box, int depth, std::size_t limit, std::vector<Box>& parts) const
   {
-    const std::size_t along = depth < deepest ? to_halve(box.map, box.low, box.size) : none;
+    const std::size_t along = to_halve(box.map, box.low, box.size);
     if (along == none) {
       parts.push_back(box);
       return parts.size() <= limit;
     }
+    if (depth == deepest) return false;
     Box first = box;
     first.size[along] /= 2;
     Box second = first;

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "bem/boundary_operators.hpp"
+#include "crossing.hpp"
 #include "line_integrals.hpp"
 
 namespace mortise::bem {
@@ -109,6 +110,7 @@ double unit_of_length(const PlanePanels& panels)
 BoundaryOperators boundary_operators(const PlanePanels& panels, const fem::Material& material, Operators which)
 {
   const auto layers = integrate_plane_layers(panels);
+  require_border(panels, layers.double_layer);
   const auto m = panels.size();
   const double nu = material.poisson_ratio, mu = material.young_modulus / (2 * (1 + nu)), pi = std::numbers::pi;
   BoundaryOperators result{combine(layers, 1 / (8 * pi * mu * (1 - nu)), -(3 - 4 * nu)), {}, {}};

@@ -124,6 +124,16 @@ TEST(PairIntegrals, AgreeWithRulesOnSmallParts)
   }
 }
 
+// A slab's side, 1 : 40,000, and its top: seen from the edge, a face at right angles fills a quarter of all directions.
+TEST(PairIntegrals, OfSlenderPanelsWithACommonEdge)
+{
+  auto panels =
+      two_panels({Point(0, 0, 0), Point(0.4, 0, 0), Point(0, 0, -1e-5), Point(0, -0.2, 0), Point(0.4, 0, 0), Point(0, 0, 0)});
+  panels.corners[1] = {3, 1, 0};
+  const auto found = pair(panels, 0, 1, 1e-4);
+  EXPECT_NEAR(std::abs(found.double_y[0] + found.double_y[1] + found.double_y[2]) / panels.area[0], 0.25, 1e-3);
+}
+
 std::size_t work(const Panels& panels)
 {
   const PairQuadrature quadrature(panels, 1e-4);

@@ -141,6 +141,47 @@ TEST(SteklovPoincare, RejectsSurfacesThatAreNone)
   EXPECT_THROW(make_panels(flat.points, flat.corners), Error);
 }
 
+std::string refusal(const Panels& panels)
+{
+  try {
+    steklov_poincare(panels, elastic(0.3));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), ExitStatus::bad_input);
+    return error.what();
+  }
+  return "";
+}
+
+// A bar that is bent until its end stands in its side, or that comes to lie on it, has no border that V and K could tell from a
+// good one.
+TEST(SteklovPoincare, RejectsSurfacesThatCrossThemselves)
+{
+  const auto bar = test::box({12, 2, 2}, Point(12, 1, 1));
+  const auto bent = [&](double radius) {  // round an axis along y
+    auto points = bar.points;
+    for (auto& x : points) {
+      const double angle = x[0] / radius, r = radius + x[2];
+      x = Point(r * std::sin(angle), x[1], r * std::cos(angle));
+    }
+    return make_panels(std::move(points), bar.corners);
+  };
+  EXPECT_EQ(refusal(bent(2.5)), "");
+  EXPECT_NE(refusal(bent(1.7)).find("crosses itself or lies on itself near ("), std::string::npos) << refusal(bent(1.7));
+
+  // Two boxes, one set into the other: as one surface of theirs without a common node.
+  auto both = test::box({3, 3, 3}, Point(1, 1, 1));
+  const auto first = static_cast<Local>(both.points.size());
+  const auto set_in = [&](const Point& by) {
+    auto points = both.points;
+    auto corners = both.corners;
+    for (const auto& x : both.points) points.push_back(x + by);
+    for (const auto& c : both.corners) corners.push_back({first + c[0], first + c[1], first + c[2]});
+    return make_panels(std::move(points), std::move(corners));
+  };
+  EXPECT_EQ(refusal(set_in(Point(1.01, 0, 0))), "");
+  for (const double by : {0.99, 0.5, 1.0}) EXPECT_NE(refusal(set_in(Point(by, 0.05, 0.05))), "") << by;
+}
+
 // A block that stands on a plane and is warmed: f = S (u - u_p) + integral of t_p phi has u's forces alone.
 TEST(SteklovPoincare, LoadsOfWeightAndWarmth)
 {
