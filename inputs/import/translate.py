@@ -8,6 +8,7 @@ import materials
 import orthotropy
 import pretension
 import springs
+import transforms
 from bodies import Bodies, clean, unique
 from model import rotated
 from reader import InputError
@@ -103,11 +104,14 @@ class Translation:
             )
 
     def read_transforms(self):
-        """Nodes with axes of their own."""
-        result = {}
-        for card in [c for c in self.model.cards if c.name == "TRANSFORM"]:
-            for n in self.model.nodes_of(card, card.line, card.need("NSET")):
-                result[n] = card
+        """Node -> its axes, of those that a model of this kind has; the others are left out."""
+        result, used = {}, set()
+        for n, axes in transforms.read(self.model).items():
+            if axes.fits(self.plane, self.bodies.dimension == "axisymmetric"):
+                result[n] = axes
+            elif axes.name not in used:
+                self.model.leave_out(axes.card, "axes out of the plane of the model")
+            used.add(axes.name)
         return result
 
     def report_rest(self, done):
@@ -118,8 +122,6 @@ class Translation:
             self.leave_out(card)
         for card in self.history.others:
             self.leave_out(card)
-        for card in [c for c in self.model.cards if c.name == "TRANSFORM"]:
-            self.model.note(card, "axes of nodes matter for supports and forces alone, which are listed where they have them")
         for value, card in self.interactions.clearances.values():
             self.model.leave_out(card, "there is no *CONTACT PAIR of these surfaces")
         if not self.model.steps:
@@ -284,41 +286,41 @@ class Translation:
                 elif axis > 3 and any(values):
                     odd.setdefault((id(entry.card), entry.line, "a rotation of a solid's node", True), entry)
                 continue
-            key = (tuple(values), axis - 1)
+            key = (tuple(values), axis - 1, self.transforms.get(node))
             group = groups.setdefault(key, {})
             for n in (node, copies[node]) if node in copies else (node,):
                 for hint in entry.hints:
                     group.setdefault(hint, {})[n] = entry
         for (_, _, reason, changes), entry in odd.items():
             self.model.leave_out(entry.card, reason, entry.line, changes=changes)
-        self.drop_transformed(groups)
-        found = {}  # (boundary, acting) -> {axis: values}
+        groups = self.along_any_axes(groups)
+        found = {}  # (boundary, acting, axes) -> {axis: values}
         uncovered = {}
-        for (values, axis), by_hint in groups.items():
+        for (values, axis, turned), by_hint in groups.items():
             every = {n: e for entries in by_hint.values() for n, e in entries.items()}
             covered = set()
             rest = set(self.bodies.faces_within(every))
             for hint, entries in by_hint.items():
                 keys = self.bodies.faces_within(entries) if hint else []
                 if keys:
-                    self.hold(found, self.add_boundary(hint, keys), axis, values)
+                    self.hold(found, self.add_boundary(hint, keys), axis, values, turned)
                     rest -= set(keys)
                     covered |= {n for key in keys for n in self.bodies.nodes(key)}
             if rest:
-                self.hold(found, self.add_boundary("held", sorted(rest)), axis, values)
+                self.hold(found, self.add_boundary("held", sorted(rest)), axis, values, turned)
                 covered |= {n for key in rest for n in self.bodies.nodes(key)}
             left = {n: e for n, e in every.items() if n not in covered}
             for n, e in left.items():
-                uncovered.setdefault((n, axis), (values, e))
+                uncovered.setdefault((n, axis, turned), (values, e))
         self.report_uncovered(uncovered, found)
-        for (boundary, acting), axes in found.items():
-            displacement, factors = {}, {}
+        for (boundary, acting, turned), axes in found.items():
+            displacement = {}
             for axis, values in sorted(axes.items()):
                 base = self.largest(values)
-                displacement.setdefault(tuple(self.factors(values, base)), {})[AXES[axis]] = base + 0.0
+                displacement.setdefault(tuple(self.factors(values, base)), {})[self.component(axis, turned)] = base + 0.0
             for course, components in displacement.items():
                 name = self.name_of(boundary)
-                item = {"boundary": boundary, "displacement": components}
+                item = {"boundary": boundary, **self.named_axes(turned), "displacement": components}
                 if name != boundary:
                     item["name"] = name
                 self.supports.append((item, name, course, acting))
@@ -327,53 +329,58 @@ class Translation:
     def factors(values, base):
         return [None if v is None else 1.0 if base == 0 else v / base for v in values]
 
+    def named_axes(self, turned):
+        """What a support says of its axes; they become an entry of the deck."""
+        if turned is None:
+            return {}
+        self.deck.setdefault("axes", {})[turned.name] = turned.entry(self.plane)
+        return {"axes": turned.name}
+
     @staticmethod
-    def hold(found, boundary, axis, values):
+    def component(axis, turned):
+        return AXES[axis] if turned is None else turned.component(axis)
+
+    @staticmethod
+    def hold(found, boundary, axis, values, turned):
         acting = tuple(v is not None for v in values)
-        axes = found.setdefault((boundary, acting), {})
+        axes = found.setdefault((boundary, acting, turned), {})
         if axis in axes and axes[axis] != values:
             raise InputError(f'the boundary "{boundary}" has two displacements along {AXES[axis]}')
         axes[axis] = values
 
-    def drop_transformed(self, groups):
-        """Supports along axes of a node's own, but where all axes are held at 0 alike."""
-        if not self.transforms:
-            return
+    def along_any_axes(self, groups):
+        """Nodes that are held at 0 along all axes are so along those of the model."""
         held = {}
-        for (values, axis), by_hint in groups.items():
-            for entries in by_hint.values():
-                for n in entries:
-                    if n in self.transforms:
-                        held.setdefault((n, values), set()).add(axis)
-        told = set()
-        for (values, axis), by_hint in groups.items():
+        for (values, axis, turned), by_hint in groups.items():
+            for n in set().union(*by_hint.values()):
+                if turned is not None and not any(values):
+                    held.setdefault((n, values), set()).add(axis)
+        result = {}
+        for (values, axis, turned), by_hint in groups.items():
             for hint, entries in by_hint.items():
-                for n in [n for n in entries if n in self.transforms]:
-                    if len(held[n, values]) < self.axes or any(values):
-                        entry = entries.pop(n)  # every set that has it forgets it
-                        if (id(entry.card), entry.line) not in told:
-                            told.add((id(entry.card), entry.line))
-                            self.model.leave_out(
-                                entry.card, "along axes of *TRANSFORM; a boundary can be held along its `normal`", entry.line
-                            )
+                for n, entry in entries.items():
+                    fixed = len(held.get((n, values), ())) == self.axes
+                    key = (values, axis, None if fixed else turned)
+                    result.setdefault(key, {}).setdefault(hint, {})[n] = entry
+        return result
 
     def report_uncovered(self, uncovered, found):
         """Nodes that are held but lie on no face that is: inside a body that is held all over they change nothing."""
         implied = {}
-        for (boundary, acting), axes in found.items():
+        for (boundary, acting, turned), axes in found.items():
             nodes = {n for key in self.boundaries[boundary] for n in self.bodies.nodes(key)}
             for axis, values in axes.items():
                 for n in nodes:
-                    implied.setdefault((n, axis), set()).add(values)
+                    implied.setdefault((n, axis, turned), set()).add(values)
         surface = set(self.bodies.faces_of_node)
         quiet = self.quiet_bodies(implied)
         body_of = {n: b for b in range(len(self.bodies.bodies)) for n in self.bodies.nodes_of_body(b)}
         told, alone = {}, {}
-        for (n, axis), (values, entry) in uncovered.items():
-            if values in implied.get((n, axis), ()) or n not in surface and body_of[n] in quiet and not any(values):
+        for (n, axis, turned), (values, entry) in uncovered.items():
+            if values in implied.get((n, axis, turned), ()) or n not in surface and body_of[n] in quiet and not any(values):
                 continue
-            if n in surface and (n, axis) not in implied:
-                alone.setdefault(n, {})[axis] = values
+            if n in surface and (n, axis, turned) not in implied:
+                alone.setdefault((n, turned), {})[axis] = values
                 continue
             told.setdefault((id(entry.card), entry.line), (entry, {}))[1].setdefault(axis, set()).add(n)
         merged = {}
@@ -398,16 +405,16 @@ class Translation:
     def hold_points(self, alone, body_of):
         """Nodes of surfaces that are held, but no face with them, as the 3-2-1 rule has it: supports on points."""
         groups = {}
-        for n, axes in sorted(alone.items()):
-            groups.setdefault((body_of[n], tuple(sorted(axes.items()))), []).append(n)
-        for (body, axes), nodes in groups.items():
+        for (n, turned), axes in sorted(alone.items(), key=lambda item: item[0][0]):
+            groups.setdefault((body_of[n], tuple(sorted(axes.items())), turned), []).append(n)
+        for (body, axes, turned), nodes in groups.items():
             displacement = {}
             for axis, values in axes:
                 base = self.largest(values)
                 acting = tuple(v is not None for v in values)
-                displacement.setdefault((tuple(self.factors(values, base)), acting), {})[AXES[axis]] = base + 0.0
+                displacement.setdefault((tuple(self.factors(values, base)), acting), {})[self.component(axis, turned)] = base + 0.0
             for (course, acting), components in displacement.items():
-                item = {"points": self.places(nodes), "body": self.bodies.bodies[body].name, "displacement": components}
+                item = {"points": self.places(nodes), "body": self.bodies.bodies[body].name, **self.named_axes(turned), "displacement": components}
                 name = self.name_of("points")
                 self.supports.append((dict(item, name=name), name, list(course), acting))
 
@@ -422,7 +429,7 @@ class Translation:
         zero = {tuple(0.0 for _ in self.history.states)}
         for b in range(len(self.bodies.bodies)):
             nodes = {n for key, of in self.bodies.outer.items() if of == b for n in self.bodies.nodes(key)}
-            if all(implied.get((n, a), set()) & zero for n in nodes for a in range(self.axes)):
+            if all(implied.get((n, a, None), set()) & zero for n in nodes for a in range(self.axes)):
                 result.add(b)
         return result
 
@@ -443,13 +450,13 @@ class Translation:
                     entry.line,
                 )
                 continue
-            if node in self.transforms:
-                self.model.leave_out(entry.card, "a force along axes of *TRANSFORM", entry.line)
+            direction = self.direction(node, axis - 1, entry)
+            if direction is None:
                 continue
             base = self.largest(values)
             course = tuple(round(v / base, 9) if v is not None else 0.0 for v in values)
             group = groups.setdefault((entry.hint, id(entry.card) if not entry.hint else 0, course), {})
-            group.setdefault(node, (np.zeros(3), entry))[0][axis - 1] = base
+            group.setdefault(node, (np.zeros(3), entry))[0][:] += base * direction
         merged = {}
         for (hint, card, course), forces in groups.items():
             if not self.try_force(hint, course, forces):
@@ -467,6 +474,17 @@ class Translation:
                 left = {n: v for n, v in forces.items() if n in together}
                 if left:
                     self.approximate_force(hint, course, left)
+
+    def direction(self, node, axis, entry):
+        """Of a force on a node, along its own axes; None if it is left out."""
+        turned = self.transforms.get(node)
+        if turned is None:
+            return np.eye(3)[axis]
+        rows = turned.at(self.model.points[node])
+        if rows is None:
+            self.model.leave_out(entry.card, "a force on the axis of *TRANSFORM, where radial means nothing", entry.line)
+            return None
+        return rows[axis]
 
     def patches(self, forces):
         """Loaded nodes that hang together by loaded faces."""
@@ -850,9 +868,12 @@ class Translation:
             owner = turns.get(node, node)
             if owner in names and any(values):
                 kind, a = ("moment", axis - 1 if node in turns else axis - 4) if node in turns or axis > 3 else ("force", axis - 1)
+                direction = self.direction(node, a, entry)
+                if direction is None:
+                    continue
                 base = self.largest(values)
                 course = tuple((v or 0.0) / base for v in values)
-                groups.setdefault((owner, course), {}).setdefault(kind, np.zeros(3))[a] = base
+                groups.setdefault((owner, course), {}).setdefault(kind, np.zeros(3))[:] += base * direction
         for (owner, course), parts in groups.items():
             item = {"coupling": names[owner]}
             for kind, vector in parts.items():
@@ -869,6 +890,8 @@ class Translation:
             a = axis - 1 if node in turns or axis <= 3 else axis - 4
             if self.plane and ((a == 2) != rotation):
                 continue
+            if node in self.transforms:
+                self.model.leave_out(entry.card, "a coupling's point that is held along axes of *TRANSFORM: it is held along those of the model", entry.line)
             base = self.largest(values)
             course = tuple(self.factors(values, base))
             key = (owner, course, tuple(v is not None for v in values))

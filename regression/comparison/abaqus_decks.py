@@ -54,7 +54,7 @@ def calculix_input(path, target, factor):
     every = "*NSET,NSET=ALLOFTHEM\n" + "".join(f"{n},\n" for n in numbers)
     at = re.search(r"(?im)^\s*\*\s*step", text)
     text = text[: at.start()] + every + text[at.start() :]
-    wanted = "*NODE PRINT,NSET=ALLOFTHEM,FREQUENCY=100000\nU\n"
+    wanted = "*NODE PRINT,NSET=ALLOFTHEM,FREQUENCY=100000,GLOBAL=YES\nU\n"
     for pair in re.finditer(r"(?im)^\s*\*\s*contact\s*pair.*surface\s*to\s*surface.*\n\s*([^,\s]+)\s*,\s*([^,\s]+)", text):
         wanted += f"*CONTACT PRINT,SLAVE={pair[1]},MASTER={pair[2]},FREQUENCY=100000\nCF\n"
     text = re.sub(r"(?im)^\s*\*\s*end\s*step", wanted + "*END STEP", text)
@@ -71,9 +71,14 @@ def contact_forces(path):
         elif "total surface force" in line:
             expected = True
         elif expected and pair and len(line.split()) >= 3:
-            found[pair] = float(np.linalg.norm([float(w) for w in line.split()[:3]]))
+            found[pair] = float(np.linalg.norm([number(w) for w in line.split()[:3]]))
             expected = False
     return found
+
+
+def number(word):
+    """Of Fortran, which leaves the E out where an exponent has three digits."""
+    return float(re.sub(r"(?<=\d)([+-]\d{3})$", r"e\1", word))
 
 
 def last_displacements(path, of="ALLOFTHEM"):
@@ -87,7 +92,7 @@ def last_displacements(path, of="ALLOFTHEM"):
         elif current is not None:
             words = line.split()
             if len(words) == 4:
-                current[int(words[0])] = [float(w) for w in words[1:]]
+                current[int(words[0])] = [number(w) for w in words[1:]]
             elif words:
                 current = None
     return blocks[-1] if blocks else {}
