@@ -10,9 +10,9 @@ Parsed parse_command_line(int argc, const char* const* argv)
   CommandLine result;
   bool version = false;
   app.add_option("DECK", result.deck, "YAML file that says what is solved");
-  app.add_option("--set", result.settings, "key.path=value, laid over the deck; may be repeated")
+  app.add_option("--set", result.settings, "laid over the deck; each setting takes its own --set")
       ->allow_extra_args(false)
-      ->type_name("KEY.PATH=VALUE");
+      ->option_text("KEY.PATH=VALUE");
   app.add_option("--output", result.output, "directory for the results, instead of the deck's")->type_name("DIR");
   app.add_flag("--resume", result.resume, "go on where a run of the same deck was ended, after its last finished load state");
   app.add_flag("--check", result.check, "read deck and mesh, print what would be solved, and stop");
@@ -26,6 +26,10 @@ Parsed parse_command_line(int argc, const char* const* argv)
     app.parse(argc, const_cast<char**>(argv));
   } catch (const CLI::CallForHelp&) {
     return {{}, app.help(), 0};
+  } catch (const CLI::ExtrasError& error) {
+    const bool setting = std::string(error.what()).find('=') != std::string::npos && !result.settings.empty();
+    const std::string cure = setting ? "Each setting takes its own --set: --set a=1 --set b=2.\n" : "";
+    return {{}, std::string("mortise: ") + error.what() + "\n" + cure + "Try mortise --help.\n", 1};
   } catch (const CLI::ParseError& error) {
     return {{}, std::string("mortise: ") + error.what() + "\nTry mortise --help.\n", 1};
   }

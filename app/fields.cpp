@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "base/error.hpp"
 #include "contact_pressure.hpp"
@@ -144,19 +145,26 @@ void append(std::vector<double>& to, const Point& p)
   to.insert(to.end(), {p[0], p[1], p[2]});
 }
 
-// The secondary sides of all contacts.
+// The secondary sides of all contacts: faces with a node that lies near enough to the other side to have a state. Nodes of theirs
+// that do not have no gap.
 io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vector<contact::SurfaceState>& states)
 {
   io::Piece piece;
   io::Field pressure{"contact_pressure", 1, {}}, recovered{"contact_pressure_recovered", 1, {}},
       traction{"contact_traction", 3, {}}, gap{"gap", 1, {}}, slip{"slip", 3, {}}, status{"contact_status", 1, {}, true},
       index{"contact", 1, {}, true};
+  std::vector<std::string> names;
+  std::vector<std::size_t> shown;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
+    names.push_back(fmt::format("{}: {}", c, pairs[c].options.name));
     const auto& surface = pairs[c].secondary;
+    const auto& near = states[c].near;
     const auto base = static_cast<Local>(piece.points.size());
     piece.points.insert(piece.points.end(), surface.points.begin(), surface.points.end());
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
       std::vector<Local> nodes(surface.faces[f].begin(), surface.faces[f].end());
+      if (std::any_of(nodes.begin(), nodes.end(), [&](Local n) { return near[static_cast<std::size_t>(n)] != 0; }))
+        shown.push_back(piece.cells.size());
       for (auto& n : nodes) n += base;
       piece.cells.add(surface.faces.type[f], nodes);
       index.values.push_back(static_cast<double>(c));
@@ -165,14 +173,16 @@ io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vect
       pressure.values.push_back(states[c].pressure[n]);
       recovered.values.push_back(states[c].recovered_pressure[n]);
       append(traction.values, states[c].traction[n]);
-      gap.values.push_back(states[c].gap[n]);
+      gap.values.push_back(near[n] ? states[c].gap[n] : std::numeric_limits<double>::quiet_NaN());
       append(slip.values, states[c].slip[n]);
       status.values.push_back(states[c].status[n]);
     }
   }
   piece.point_fields = {pressure, recovered, traction, gap, slip, status};
   piece.cell_fields = {index};
-  return piece;
+  piece.words = {{"contact_status: words", {"0: open", "1: sticks, or closed without friction", "2: slips"}},
+                 {"contact: names", std::move(names)}};
+  return io::part_of(piece, shown);
 }
 
 // The cells of a piece by their values in one of its cell fields, which are numbers from 0 on.
@@ -229,7 +239,7 @@ io::Piece boundary_piece(const std::string& name, const partition::Decomposition
   return io::part_of(faces, all);
 }
 
-// The parts of the model by name. Of contacts, faces with a node that lies near enough to the other side to matter.
+// The parts of the model by name.
 std::vector<io::Block> named_blocks(const model::Deck& deck, const partition::Decomposition& decomposition,
                                     const analysis::Rows& rows, const post::Results& results, const Volume& volume,
                                     const io::Piece& contacts)
@@ -238,22 +248,12 @@ std::vector<io::Block> named_blocks(const model::Deck& deck, const partition::De
   const auto& bodies = decomposition.catalogue.bodies;
   const auto of_bodies = cells_by(volume.piece, "body", bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    blocks.push_back({"bodies", bodies[b].name, io::part_of(volume.piece, of_bodies[b]), {}});
-  auto of_contacts = cells_by(contacts, "contact", rows.pairs.size());
-  std::vector<char> near;
-  for (const auto& state : results.contact.surfaces) near.insert(near.end(), state.near.begin(), state.near.end());
-  for (std::size_t c = 0; c < rows.pairs.size(); ++c) {
-    std::erase_if(of_contacts[c], [&](std::size_t face) {
-      const auto nodes = contacts.cells[face];
-      return std::none_of(nodes.begin(), nodes.end(), [&](Local n) { return near[static_cast<std::size_t>(n)] != 0; });
-    });
-    blocks.push_back({"contacts",
-                      rows.pairs[c].options.name,
-                      io::part_of(contacts, of_contacts[c]),
-                      {{"contact_status: words", {"0: open", "1: sticks, or closed without friction", "2: slips"}}}});
-  }
+    blocks.push_back({"bodies", bodies[b].name, io::part_of(volume.piece, of_bodies[b])});
+  const auto of_contacts = cells_by(contacts, "contact", rows.pairs.size());
+  for (std::size_t c = 0; c < rows.pairs.size(); ++c)
+    blocks.push_back({"contacts", rows.pairs[c].options.name, io::part_of(contacts, of_contacts[c])});
   for (const auto& name : boundaries_in_use(deck))
-    blocks.push_back({"boundaries", name, boundary_piece(name, decomposition, results, volume), {}});
+    blocks.push_back({"boundaries", name, boundary_piece(name, decomposition, results, volume)});
   return blocks;
 }
 

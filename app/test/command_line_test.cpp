@@ -24,6 +24,7 @@ TEST(CommandLine, KnowsItsOptions)
   EXPECT_EQ(parse({}).status, 1);
   EXPECT_EQ(parse({"a.yaml", "--frobnicate"}).status, 1);
   EXPECT_EQ(parse({"a.yaml", "b.yaml"}).status, 1);
+  EXPECT_NE(parse({"a.yaml", "--set", "title=x", "dimension=2"}).text.find("its own --set"), std::string::npos);
 }
 
 }  // namespace

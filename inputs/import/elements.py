@@ -35,6 +35,18 @@ GMSH_TYPE = {
     "hex20": 17,
     "prism15": 18,
 }
+VTK_TYPE = {
+    "tri3": 5,
+    "quad4": 9,
+    "tet4": 10,
+    "hex8": 12,
+    "prism6": 13,
+    "tri6": 22,
+    "quad8": 23,
+    "tet10": 24,
+    "hex20": 25,
+    "prism15": 26,
+}
 # Corners of each node in the middle of an edge, in the order of Abaqus and in that of gmsh.
 EDGES = {
     "line": [(0, 1)],

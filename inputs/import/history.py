@@ -1,6 +1,7 @@
 """What acts at the end of each step: supports, forces, pressures, accelerations, temperatures."""
 
 import dataclasses
+import itertools
 import re
 
 from reader import is_number
@@ -101,6 +102,7 @@ class Entry:
     card: object
     line: int
     hints: tuple = ()  # of a support: all sets that say the same
+    cards: tuple = ()  # that add up to the value, where there are several
 
 
 @dataclasses.dataclass
@@ -139,12 +141,16 @@ class Amplitudes:
             known = form in ("TABULAR", "SMOOTHSTEP", "SMOOTH STEP") and len(values) % 2 == 0 and values
             relative = card.get("VALUE", "RELATIVE").upper() != "ABSOLUTE"
             table = sorted(zip(values[::2], values[1::2]), key=lambda p: p[0]) if known else None
-            shift = card.value(card.get("SHIFTX") or "0", card.line)
+            shift, rise = (card.value(card.get(key) or "0", card.line) for key in ("SHIFTX", "SHIFTY"))
             self.tables[card.need("NAME").upper()] = (
-                table and [(t + shift, v) for t, v in table],
+                table and [(t + shift, v + rise) for t, v in table],
                 card.get("TIME").upper().replace(" ", "") == "TOTALTIME",
                 relative,
             )
+
+    def in_total_time(self, card):
+        """Whether the amplitude of a load goes on in the steps after it."""
+        return self.tables.get(card.get("AMPLITUDE").upper(), (None, False))[1]
 
     def of(self, card, begin, end):
         """(factors at the start and the end of a step, whether it runs straight between them), or None."""
@@ -173,6 +179,14 @@ class Amplitudes:
         return start, stop, straight
 
 
+def turned_away(entry, vector):
+    """Whether a load of a step before has another direction."""
+    if entry is None or not any(entry.value) or not any(vector):
+        return False
+    cross = [a * d - b * c for (a, c), (b, d) in itertools.combinations(list(zip(entry.value, vector)), 2)]
+    return max(map(abs, cross)) > 1e-9 * max(map(abs, entry.value)) * max(map(abs, vector))
+
+
 class History:
     """States of the static steps of a model; what else its steps hold goes to the model's findings."""
 
@@ -184,6 +198,7 @@ class History:
         self.initial = {}
         self.with_rotations = set()
         self.bent = []  # cards whose amplitude is no straight line
+        self.followed = []  # cards whose amplitude goes on in the steps after theirs
         before = State("", None)
         for card in model.cards:
             if card.name == "BOUNDARY":
@@ -220,14 +235,31 @@ class History:
                     if (card.name, table) not in fresh:
                         fresh[card.name, table] = True
                         self.clear(now, card, table)
+        self.follow(now, time, time + period)
         touched = {}
         for card in cards:
             if card.name in State.TABLES:
                 self.read(card, now, touched, time, time + period)
+                if self.amplitudes.in_total_time(card):
+                    self.followed.append(card)
             elif card.name not in QUIET:
                 self.others.append(card)
         self.states.append(now)
         return now, time + period
+
+    def follow(self, now, begin, end):
+        """What steps before have loaded by an amplitude in total time goes on as that says."""
+        for card in self.followed:
+            later = State("", None)
+            self.read(card, later, {}, begin, end)
+            for table in State.TABLES[card.name]:
+                own = getattr(now, table)
+                for key, entry in getattr(later, table).items():
+                    cards = own[key].cards or (own[key].card,) if key in own else ()
+                    if cards == (card,):
+                        own[key] = entry
+                    elif card in cards:
+                        self.model.leave_out(card, "adds to another load; its amplitude in total time is not followed in the steps after it")
 
     def clear(self, now, card, table):
         own = getattr(now, table)
@@ -268,7 +300,8 @@ class History:
         if (name, key) in touched:
             old = table[key]
             value = old.value + entry.value if not isinstance(entry.value, tuple) else tuple(a + b for a, b in zip(old.value, entry.value))
-            entry = Entry(value, old.hint, entry.card, entry.line)
+            cards = (old.cards or (old.card,)) + (() if entry.card in (old.cards or (old.card,)) else (entry.card,))
+            entry = Entry(value, old.hint, entry.card, entry.line, cards=cards)
         touched[name, key] = True
         table[key] = entry
 
@@ -342,6 +375,12 @@ class History:
                     raise card.error("GRAV needs a direction", line)
                 vector = tuple(factor * numbers[0] * g / length for g in numbers[1:])
                 of = self.model.elements_of(card, line, words[0]) if words[0] else range(len(self.model.elements))
+                if any(("gravity", e) not in touched and turned_away(now.accelerations.get(e), vector) for e in of):
+                    self.model.note(
+                        card,
+                        "GRAV in another direction than in the step before: it replaces that one, as in Abaqus; CalculiX keeps both unless OP=NEW stands here",
+                        line,
+                    )
                 for e in of:
                     self.add(now.accelerations, touched, "gravity", e, Entry(vector, words[0], card, line))
             elif label == "CENTRIF":

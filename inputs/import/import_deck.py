@@ -25,13 +25,16 @@ def import_file(path, target, schema):
     cards = read_cards(path)
     heading = next((c for c in cards if c.name == "HEADING"), None)
     title = first_line(path, heading) or path.stem
-    result = translate.Translation(model.build(cards), schema, title)
+    result = translate.Translation(model.build(cards), schema, title, target.stem)
     mesh = target.with_suffix(".msh")
     deck = {"title": title, "dimension": result.deck["dimension"], "mesh": {"file": mesh.name}, **result.deck}
     head = [f"From {path.name}, by ./mortise import."]
     if result.thickness != 1:
         head.append(f"Forces are those of a thickness 1; the sections of {path.name} have {result.thickness:g}.")
     writers.write_mesh(mesh, result.model, result.bodies, result.boundaries)
+    for body, (number, fields) in result.temperatures.items():
+        file = target.with_name(result.file_of_temperatures(body))
+        writers.write_fields(file, result.model, result.bodies.bodies[number].elements, fields)
     target.write_text(writers.deck_text(deck, result.model.findings, head), encoding="utf-8")
     return result
 

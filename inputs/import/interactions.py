@@ -68,7 +68,14 @@ class Interactions:
             law["bonded"] = True
         if "NOSEPARATION" in card.parameters:
             self.model.leave_out(card, "NO SEPARATION: the sides may part in the deck")
-        if kind in ("LINEAR", "EXPONENTIAL", "TABULAR", "TIED"):
+        values = [card.value(w, line, 0.0) for line, words in card.rows()[:1] for w in words]
+        if kind in ("LINEAR", "TIED") and values:
+            law["stiffness"] = (values[0], card)
+        elif kind == "EXPONENTIAL" and len(values) > 1:
+            law["clearance"] = (values[0], card)
+        if kind == "TABULAR":
+            self.model.leave_out(card, "PRESSURE-OVERCLOSURE=TABULAR: sides in contact do not overlap, whatever the table says")
+        elif kind in ("LINEAR", "EXPONENTIAL", "TIED"):
             self.model.note(card, f"PRESSURE-OVERCLOSURE={kind}: sides in contact do not overlap at all, instead of by a penalty")
         elif kind != "HARD":
             self.model.leave_out(card, f"PRESSURE-OVERCLOSURE={kind}: sides in contact do not overlap")
@@ -125,6 +132,7 @@ class Interactions:
                 contact["friction"] = {"bonded": True}
             elif law.get("friction"):
                 contact["friction"] = {"coulomb": law["friction"]}
+            contact["law"] = law
             self.contacts.append(contact)
 
     def read_tie(self, card):

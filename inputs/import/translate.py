@@ -17,12 +17,16 @@ AXES = ("x", "y", "z")
 MODEL_CARDS = {"SOLIDSECTION", "AMPLITUDE", "BOUNDARY", "INITIALCONDITIONS", "PRE-TENSIONSECTION", "ORIENTATION", "SURFACE"}
 COUPLINGS = {"COUPLING", "DISTRIBUTING", "KINEMATIC", "DISTRIBUTINGCOUPLING", "RIGIDBODY"}
 SAME_FORCES = 1e-3  # of the largest one: how far forces on nodes may be from those of a uniform traction
+SOFT, VISIBLE = 0.3, 0.02  # how far a law of contact gives way, in parts of what the bodies do: no penalty any more; worth a word
+FAR = 1e-4  # of that size: clearances at which exponential contact begins to press
 MOST_POINTS = 500  # with forces of their own that a deck lists
 
 
 class Translation:
-    def __init__(self, model, schema, title):
-        self.model, self.schema = model, schema
+    def __init__(self, model, schema, title, stem):
+        """stem: what names of files beside the deck begin with."""
+        self.model, self.schema, self.stem = model, schema, stem
+        self.temperatures = {}  # body -> (its number, field -> node -> change), for files
         self.boundaries, self.names = {}, set()
         self.deck = {"title": title}
         self.materials, done = materials.read_materials(model)
@@ -684,9 +688,36 @@ class Translation:
         for n in set().union(*of_body.values()) if of_body else ():
             if n not in changes and changes:
                 changes[n] = ([0.0] * len(states), next(iter(changes.values()))[1])
-        for body, course, entry in self.whole_bodies(changes, lambda b: of_body.get(b, []), "the change of temperature"):
-            base = self.largest(course)
-            self.add_load({"body": body.name, "temperature_change": base}, f"warmth_{body.name}", tuple(v / base for v in course))
+        for b, nodes in of_body.items():
+            name = self.bodies.bodies[b].name
+            courses = {tuple(changes[n][0]) for n in nodes if n in changes}
+            if not any(any(course) for course in courses):
+                continue
+            if len(courses) == 1:
+                (course,) = courses
+                base = self.largest(course)
+                self.add_load({"body": name, "temperature_change": base}, f"warmth_{name}", tuple(v / base for v in course))
+            else:
+                self.add_temperatures(name, b, {n: np.array(changes[n][0]) for n in nodes})
+
+    def add_temperatures(self, name, b, values):
+        """Of a body whose nodes are not alike: a file of their changes, for each state one field, or one for all that it is a multiple of."""
+        table = np.array(list(values.values()))
+        base = table[:, np.argmax(np.abs(table).max(axis=0))]
+        factors = base @ table / (base @ base)
+        if np.abs(table - np.outer(base, factors)).max() <= 1e-12 * np.abs(table).max():
+            fields, courses = [base], [tuple(factors)]
+        else:
+            states = [s for s in range(table.shape[1]) if table[:, s].any()]
+            fields, courses = [table[:, s] for s in states], [tuple(float(s == k) for k in range(table.shape[1])) for s in states]
+        names = [f"warmth_{k + 1}" for k in range(len(fields))]
+        self.temperatures[name] = (b, {field: dict(zip(values, own)) for field, own in zip(names, fields)})
+        for field, course in zip(names, courses):
+            file = {"file": self.file_of_temperatures(name), "field": field}
+            self.add_load({"body": name, "temperature_change": file}, f"warmth_{name}", course)
+
+    def file_of_temperatures(self, body):
+        return f"{self.stem}.{clean(body)}.vtu"
 
     # Contacts.
     def make_contacts(self):
@@ -706,6 +737,8 @@ class Translation:
                 names = ", ".join(self.bodies.bodies[b].name for b in sorted(own[0] & own[1]))
                 self.model.leave_out(card, f"both sides belong to one body ({names}): bodies of the deck do not touch themselves", line)
                 continue
+            if "law" in contact:
+                self.report_soft(contact["law"], own)
             if contact.get("name"):
                 item["name"] = self.name_of(clean(contact["name"]))
             if contact.get("adjust") == 0:
@@ -724,6 +757,28 @@ class Translation:
                 if distance:
                     item["search_distance"] = distance
             self.contacts.append(item)
+
+    def report_soft(self, law, sides):
+        """Laws of contact that give way, beside the bodies that they press on: not a penalty but a spring."""
+        size = min(
+            max(np.ptp([self.model.points[n] for n in self.bodies.nodes_of_body(b)], axis=0).max() for b in side) for side in sides
+        )
+        young = min(
+            self.stiffness_of(m) for side in sides for b in side for m, _ in self.bodies.bodies[b].volumes.values()
+        )
+        if "stiffness" in law:
+            value, card = law["stiffness"]
+            part = young / (value * size) if value > 0 else 1.0
+            if part > VISIBLE:
+                text = f"{value:g} an area and length gives way by some {100 * part:.2g} % of what a body of {size:.3g} and Young's modulus {young:.3g} does"
+                self.model.leave_out(card, text + ": contact of the deck gives way by nothing", changes=part > SOFT)
+        if "clearance" in law and law["clearance"][0] > FAR * size:
+            value, card = law["clearance"]
+            self.model.leave_out(card, f"pressure from a clearance of {value:g} on, beside bodies of {size:.3g}: contact of the deck begins at 0")
+
+    def stiffness_of(self, m):
+        material = self.materials[m]
+        return material["young_modulus"] if "young_modulus" in material else min(material["orthotropic"]["young_modulus"])
 
     def turned_right(self, cyclic, sides):
         """The turn brings the primary side to the secondary one."""

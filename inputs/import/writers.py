@@ -1,8 +1,16 @@
 """Writes the mesh as a .msh file of gmsh (4.1, text) and the deck as YAML."""
 
+import itertools
 import re
 
 import elements
+
+
+def of_one_order(by_shape):
+    """Cells of first and of second order apart: gmsh reads those of one order alone from an entity."""
+    first = {shape: cells for shape, cells in by_shape.items() if elements.NODES[shape] == elements.CORNERS[elements.family(shape)]}
+    second = {shape: cells for shape, cells in by_shape.items() if shape not in first}
+    return [part for part in (first, second) if part]
 
 
 def write_mesh(path, model, bodies, boundaries):
@@ -17,7 +25,8 @@ def write_mesh(path, model, bodies, boundaries):
                 element = model.elements[i]
                 order = elements.to_gmsh(element.shape)
                 by_shape.setdefault(element.shape, []).append([element.nodes[k] for k in order])
-            groups.append((top, len(groups) + 1, [len(physical)], by_shape))
+            for part in of_one_order(by_shape):
+                groups.append((top, len(groups) + 1, [len(physical)], part))
     names_of = {}
     for name, keys in boundaries.items():
         physical.append((top - 1, len(physical) + 1, name))
@@ -26,7 +35,8 @@ def write_mesh(path, model, bodies, boundaries):
     entities = {}
     for key, tags in sorted(names_of.items()):
         entities.setdefault(tuple(tags), []).append(key)
-    for number, (tags, keys) in enumerate(entities.items(), 1):
+    number = 0
+    for tags, keys in entities.items():
         by_shape = {}
         for key in keys:
             shape, nodes = bodies.shape(key), bodies.nodes(key)
@@ -34,7 +44,9 @@ def write_mesh(path, model, bodies, boundaries):
                 nodes = bodies.corners(key)
                 shape = {2: "line2", 3: "tri3", 4: "quad4"}[len(nodes)]
             by_shape.setdefault(shape, []).append(nodes)
-        groups.append((top - 1, number, list(tags), by_shape))
+        for part in of_one_order(by_shape):
+            number += 1
+            groups.append((top - 1, number, list(tags), part))
     used = sorted({n for _, _, _, by_shape in groups for cells in by_shape.values() for cell in cells for n in cell})
     points = [model.points[n] for n in used]
     box = " ".join(f"{f(p[c] for p in points):.17g}" for f in (min, max) for c in range(3))
@@ -62,6 +74,34 @@ def write_mesh(path, model, bodies, boundaries):
                 number += 1
                 print(number, *(n + 1 for n in cell), file=out)
         print("$EndElements", file=out)
+
+
+def write_fields(path, model, members, fields):
+    """A .vtu of these elements with values at their nodes; VTK counts the nodes of a cell as CalculiX does."""
+    cells = [model.elements[i] for i in members]
+    used = sorted({n for cell in cells for n in cell.nodes})
+    place = {n: k for k, n in enumerate(used)}
+    offsets = list(itertools.accumulate(len(cell.nodes) for cell in cells))
+
+    def array(kind, name, values, columns=1):
+        text = " ".join(f"{v:.17g}" if kind == "Float64" else str(v) for v in values)
+        return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{columns}" format="ascii">{text}</DataArray>'
+
+    lines = [
+        '<?xml version="1.0"?>',
+        '<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>',
+        f'<Piece NumberOfPoints="{len(used)}" NumberOfCells="{len(cells)}">',
+        "<PointData>",
+        *(array("Float64", name, [values[n] for n in used]) for name, values in fields.items()),
+        "</PointData>",
+        f"<Points>{array('Float64', 'Points', [c for n in used for c in model.points[n]], 3)}</Points>",
+        "<Cells>",
+        array("Int64", "connectivity", [place[n] for cell in cells for n in cell.nodes]),
+        array("Int64", "offsets", offsets),
+        array("UInt8", "types", [elements.VTK_TYPE[cell.shape] for cell in cells]),
+        "</Cells></Piece></UnstructuredGrid></VTKFile>",
+    ]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 PLAIN = re.compile(r"[A-Za-z_][\w.+-]*( [\w.+-]+)*")

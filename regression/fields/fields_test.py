@@ -70,6 +70,28 @@ class Fields(unittest.TestCase):
         middle = (np.abs(x - [1, 1, 1]) < [0.2, 0.2, 1e-9]).all(axis=1)
         self.assertTrue((pressure[middle] > 1).all() and (pressure[middle] < 3).all() and middle.any())
 
+    def test_contact_shows_what_is_near(self):
+        """Of the base's upper side the faces about the punch; gaps where they were measured."""
+        for ranks in (1, 3):
+            with tempfile.TemporaryDirectory() as directory:
+                out = pathlib.Path(directory) / "out"
+                swapped = ["--set", "contacts[0].secondary=base.zmax", "--set", "contacts[0].primary=punch.zmin"]
+                swapped += ["--set", "mesh.blocks.base.cells=[20, 20, 2]"]
+                done = oracle.run(MORTISE, HERE / "both_sides.yaml", ["--output", str(out), *swapped], ranks, MPIEXEC)
+                assert done.status == 0, done.err
+                grid = oracle.results.Grid(sorted(out.glob("contact_*.vtu")))
+                text = "".join(path.read_text() for path in out.glob("contact_*.vtu"))
+            self.assertEqual(len(grid.cells), 144)  # of 400: 10 x 10 below the punch, and those that have a node with them
+            middles = np.array([grid.points[nodes].mean(axis=0) for nodes in grid.cells])
+            self.assertLess(np.abs(middles[:, :2] - 1).max(), 0.6)
+            unknown = np.isnan(grid.fields["gap"])
+            self.assertTrue((grid.fields["contact_pressure"][unknown] == 0).all())
+            below = np.abs(grid.points[:, :2] - 1).max(axis=1) < 0.5
+            self.assertFalse(unknown[below].any())
+            self.assertTrue(unknown.any())
+            for words in ("contact_status: words", "contact: names"):
+                self.assertIn(words, text)
+
     def test_results_file_is_read_without_the_program(self):
         """The example of docs/running.md in the output folder, and the cells of results.h5 beside those of the .vtu."""
         import h5py

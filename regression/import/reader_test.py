@@ -246,7 +246,36 @@ class Loads(Import):
         self.assertEqual(loads, [{"body": "CUBE", "acceleration": [0, 0, -9810]}, {"body": "CUBE", "temperature_change": 80}])
         warm = self.deck(MODEL + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 20.\n" + step("*TEMPERATURE\nALL, 80.\n"))
         self.assertEqual(warm["loads"], [{"body": "CUBE", "temperature_change": 60}])
-        self.assertIn("not the same all over", self.left_out(MODEL + step("*TEMPERATURE\nTOP, 80.\n"))[0][2])
+
+    def test_warmth_that_varies(self):
+        """A file for each body, of as many fields as it takes; what is a multiple of one field needs no other."""
+        one = self.translate(MODEL + step("*TEMPERATURE\nTOP, 80.\n") + step("*TEMPERATURE\nTOP, 20.\n"))
+        loads = one.deck["loads"]
+        self.assertEqual([load["temperature_change"]["field"] for load in loads], ["warmth_1"])
+        self.assertEqual(one.deck["steps"][1]["scale"], {loads[0]["name"]: 0.25})
+        (number, fields), = one.temperatures.values()
+        self.assertEqual(sorted(fields["warmth_1"].values()), [0, 0, 0, 0, 80, 80, 80, 80])
+        two = self.translate(MODEL + step("*TEMPERATURE\nTOP, 80.\n") + step("*TEMPERATURE\nTOP, 20.\nBOTTOM, 10.\n"))
+        self.assertEqual([load["temperature_change"]["field"] for load in two.deck["loads"]], ["warmth_1", "warmth_2"])
+
+    def test_amplitudes_in_total_time_go_on(self):
+        rising = "*AMPLITUDE, NAME=A, TIME=TOTAL TIME\n0.,0., 4.,8.\n"
+        deck = self.deck(MODEL + rising + step("*DLOAD, AMPLITUDE=A\n1, P2, 1.\n") + step("") + step("*DLOAD\n1, P2, 5.\n"))
+        self.assertEqual(deck["loads"][0]["pressure"], 5)
+        self.assertEqual([s["scale"] for s in deck["steps"]], [{"pressure_loaded": 0.4}, {"pressure_loaded": 0.8}, {"pressure_loaded": 1.0}])
+        moved = self.deck(MODEL + rising + step("*BOUNDARY, AMPLITUDE=A\nTOP, 3, 3, 0.1\n") + step(""))
+        self.assertEqual([s.get("scale") for s in moved["steps"]], [{"TOP": 0.5}, {"TOP": 1.0}])
+        text = MODEL + rising + step("*CLOAD, AMPLITUDE=A\nTOP, 3, 1.\n*CLOAD\nTOP, 3, 1.\n") + step("")
+        self.assertIn("is not followed", self.left_out(text)[0][2])
+
+    def test_amplitudes_are_shifted(self):
+        text = MODEL + "*AMPLITUDE, NAME=A, SHIFTX=0.5, SHIFTY=1.\n0.,0., 1.,0.5, 2.,3.\n" + step("*DLOAD, AMPLITUDE=A\n1, P2, 8.\n")
+        self.assertEqual(self.deck(text)["loads"], [{"boundary": "loaded", "pressure": 10.0}])
+
+    def test_gravity_that_turns(self):
+        both = MODEL + step("*DLOAD\nCUBE, GRAV, 9., 0., 0., -1.\n") + step("*DLOAD\nCUBE, GRAV, 5., 0., 1., 0.\n")
+        reasons = [f.reason for f in self.translate(both).model.findings]
+        self.assertEqual(sum("CalculiX keeps both" in r for r in reasons), 1)
 
     def test_turning(self):
         loads = self.loads("*DLOAD\nCUBE, CENTRIF, 9.E4, 1., 2., 0., 0., 0., 2.\n")
@@ -318,6 +347,16 @@ class Contacts(Import):
     def contact(self, law="", more="", extra=""):
         text = MODEL + SECOND + self.PAIR.format(law=law, more=more) + extra
         return self.deck(text + step("*DLOAD\nUPPER, P2, 5.\n"))["contacts"][0]
+
+    def test_laws_that_give_way(self):
+        law = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={}\n"
+        text = lambda own: MODEL + SECOND + self.PAIR.format(law=own, more="") + step("*DLOAD\nUPPER, P2, 5.\n")
+        reasons = lambda own, changes: [f.reason for f in self.translate(text(own)).model.findings if f.changes == changes]
+        self.assertIn("1e+02 %", self.left_out(text(law.format("LINEAR") + "2.1E5\n"))[0][2])
+        self.assertTrue(any("10 %" in r for r in reasons(law.format("LINEAR") + "2.1E6\n", False)))
+        self.assertEqual(reasons(law.format("LINEAR") + "1.E9\n", True), [])
+        self.assertIn("clearance of 0.01", self.left_out(text(law.format("EXPONENTIAL") + "0.01, 10.\n"))[0][2])
+        self.assertIn("TABULAR", self.left_out(text(law.format("TABULAR") + "0., 0.\n10., 0.1\n"))[0][2])
 
     def test_laws(self):
         sides = {"secondary": "UPPER_BOTTOM", "primary": "CUBE_TOP"}

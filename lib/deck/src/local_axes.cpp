@@ -16,6 +16,7 @@ Point vector(const std::array<double, 3>& v)
 
 constexpr double on_the_axis = 1e-9;  // of the distance from its point
 constexpr double parallel = 1e-6;     // sine of the angle below which two directions are one
+constexpr double the_same = 1e-9;     // of unit vectors, and of sizes
 
 }  // namespace
 
@@ -73,6 +74,20 @@ Eigen::Matrix3d LocalAxes::everywhere(const Point& place) const
   Eigen::Index least = 0;
   along.cwiseAbs().minCoeff(&least);
   return *at(point_ + along.cross(Point::Unit(least)));
+}
+
+LocalAxes LocalAxes::moved(const Eigen::Matrix3d& rotation, const Point& translation) const
+{
+  LocalAxes result(*this);
+  result.point_ = rotation * point_ + translation;
+  result.axes_ = axes_ * rotation.transpose();
+  return result;
+}
+
+bool LocalAxes::coincides(const LocalAxes& other, double size) const
+{
+  if (cylindrical_ != other.cylindrical_ || (axes_ - other.axes_).norm() > the_same) return false;
+  return !cylindrical_ || axis().cross(Point(point_ - other.point_)).norm() <= the_same * size;
 }
 
 }  // namespace mortise::deck

@@ -149,7 +149,8 @@ void describe(deck::Description<Orthotropy>& d)
   d.key(
       "axes", &Orthotropy::axes,
       "The directions, by their name in the section `axes`: 1, 2, 3 are x, y, z or radial, tangential, axial; default: the axes "
-      "of the model. In plane models 3 is across the plane, in axisymmetric ones along the hoop.");
+      "of the model. They are those of the part, and move with its `instances`. In plane models 3 is across the plane, in "
+      "axisymmetric ones along the hoop.");
   d.check([](const Orthotropy& m, const std::string& path, deck::Document& document) {
     for (const auto& [constants, name] : {std::pair(m.young_modulus, ".young_modulus"), {m.shear_modulus, ".shear_modulus"}})
       if (!(constants[2] > 0)) return document.error(path + name, "expected three entries, in plane models too");

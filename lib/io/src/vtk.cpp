@@ -50,7 +50,7 @@ void add_fields(const std::vector<Field>& fields, vtkDataSetAttributes* data)
   }
 }
 
-void write_piece(const std::string& path, const Piece& piece, const decltype(Block::words)& words = {})
+void write_piece(const std::string& path, const Piece& piece)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -64,7 +64,7 @@ void write_piece(const std::string& path, const Piece& piece, const decltype(Blo
   }
   add_fields(piece.point_fields, grid->GetPointData());
   add_fields(piece.cell_fields, grid->GetCellData());
-  for (const auto& [name, entries] : words) {
+  for (const auto& [name, entries] : piece.words) {
     vtkNew<vtkStringArray> array;
     array->SetName(name.c_str());
     for (const auto& entry : entries) array->InsertNextValue(entry);
@@ -182,6 +182,7 @@ std::string multiblock_file(const std::string& name, const std::vector<Block>& b
 Piece part_of(const Piece& piece, const std::vector<std::size_t>& cells)
 {
   Piece part;
+  part.words = piece.words;
   std::vector<Local> number(piece.points.size(), -1);
   std::vector<std::size_t> points;
   for (const std::size_t c : cells) {
@@ -225,7 +226,7 @@ void write_blocks(const std::string& directory, Series& series, std::optional<do
   try {
     collectively(comm, [&] {
       for (std::size_t b = 0; b < blocks.size(); ++b)
-        if (mine[b]) write_piece(own_file(b), blocks[b].piece, blocks[b].words);
+        if (mine[b]) write_piece(own_file(b), blocks[b].piece);
     });
     collectively(comm, [&] {
       if (!comm.root()) return;

@@ -138,12 +138,13 @@ TEST(Vtk, BlocksHaveTheirNames)
 {
   const Communicator comm;
   const Scratch scratch(comm);
-  const auto piece = row_of_cells(comm);
+  auto piece = row_of_cells(comm);
+  piece.words = {{"words", {"a", "b c"}}};
   std::vector<std::size_t> some;
   for (std::size_t c = 0; c < piece.cells.size(); c += 2) some.push_back(c);
-  std::vector<Block> blocks{{"bodies", "all", piece, {}},
-                            {"bodies", "first <one>", comm.root() ? part_of(piece, some) : Piece{}, {{"words", {"a", "b c"}}}},
-                            {"contacts", "none", Piece{}, {}}};
+  std::vector<Block> blocks{{"bodies", "all", piece},
+                            {"bodies", "first <one>", comm.root() ? part_of(piece, some) : Piece{}},
+                            {"contacts", "none", Piece{}}};
   Series series{"blocks", {}};
   write_blocks(scratch.path(), series, {}, blocks, comm);
   write_blocks(scratch.path(), series, 2.0, blocks, comm);

@@ -11,6 +11,7 @@ struct GmshLibrary {
   decltype(gmsh::initialize)* initialize = gmsh::initialize;
   decltype(gmsh::open)* open = gmsh::open;
   decltype(gmsh::option::setNumber)* setNumber = gmsh::option::setNumber;
+  decltype(gmsh::option::getNumber)* getNumber = gmsh::option::getNumber;
   decltype(gmsh::logger::start)* startLogger = gmsh::logger::start;
   decltype(gmsh::logger::get)* getLog = gmsh::logger::get;
   decltype(gmsh::model::getEntities)* getEntities = gmsh::model::getEntities;

@@ -242,6 +242,33 @@ void read_cells(const Options& options, int dimension, const std::vector<Group>&
                                  options.surfaces.begin()->first, fmt::join(known, ", ")));
 }
 
+// gmsh gives of each shape in an entity the cells of one order alone, and says nothing of the others.
+void require_whole(const std::string& file, int dimension)
+{
+  std::map<CellType, double> given;
+  gmsh::vectorpair entities;
+  library().getEntities(entities, -1);
+  for (const auto& [dim, entity] : entities) {
+    if (dim < 2 || dim > dimension) continue;
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    library().getElements(types, tags, nodes, dim, entity);
+    for (std::size_t t = 0; t < types.size(); ++t)
+      given[first_order(cell_type(file, types[t]))] += static_cast<double>(tags[t].size());
+  }
+  for (const auto& [shape, counter] : {std::pair(CellType::tri3, "Mesh.NbTriangles"), {CellType::quad4, "Mesh.NbQuadrangles"},
+                                       {CellType::tet4, "Mesh.NbTetrahedra"}, {CellType::hex8, "Mesh.NbHexahedra"},
+                                       {CellType::prism6, "Mesh.NbPrisms"}}) {
+    if (mesh::dimension(shape) > dimension) continue;
+    double there = 0;
+    library().getNumber(counter, there);
+    if (there != given[shape])
+      fail(file, fmt::format("{:.0f} of {:.0f} cells of the shape of {} stand in one entity with cells of another order, where gmsh does "
+                             "not give them: write cells of first and of second order into entities of their own",
+                             there - given[shape], there, name(shape)));
+  }
+}
+
 // The faces of an entity.
 void add_faces(const Options& options, int dimension, int entity, const NumberedNodes& nodes, RawMesh::Boundary& boundary)
 {
@@ -318,6 +345,7 @@ RawMesh take_from_gmsh(const Options& options, int dimension)
   const auto bodies = groups(dimension);
   NumberedNodes nodes = read_nodes(options, dimension);
   RawMesh raw;
+  if (!is_cad(kind_of(options.file))) require_whole(options.file, dimension);
   for (const auto& body : bodies) raw.volumes.push_back(body.name);
   read_cells(options, dimension, bodies, nodes, raw);
   for (const auto& group : groups(dimension - 1)) {

@@ -1,9 +1,9 @@
 #include "model/curved_faces.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "partition/skin.hpp"
+#include "parts.hpp"
 
 namespace mortise::model {
 
@@ -20,17 +20,6 @@ std::vector<Global> asked_faces(const std::vector<contact::Pair>& pairs)
   }
   std::sort(faces.begin(), faces.end());
   return faces;
-}
-
-// How a body was moved from where its part lies in the mesh.
-std::optional<mesh::Motion> motion_of(const mesh::Body& body, const Deck& deck)
-{
-  const auto copies = deck.mesh.instances.find(body.group);
-  if (body.instance.empty() || copies == deck.mesh.instances.end()) return {};
-  std::size_t number = 0;  // group.number, from 1
-  const char* end = body.instance.data() + body.instance.size();
-  std::from_chars(body.instance.data() + body.group.size() + 1, end, number);
-  return copies->second.at(number - 1);
 }
 
 }  // namespace

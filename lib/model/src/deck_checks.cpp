@@ -78,12 +78,6 @@ void check_orthotropic_bodies(const Deck& deck, deck::Document& document)
           fmt::format("bbar is for isotropic materials, and \"{}\" is orthotropic; expected standard, or cells of second "
                       "order",
                       *orthotropic));
-    if (!body.instances.empty())
-      document.error(
-          "bodies." + name + ".instances",
-          fmt::format("\"{}\" is orthotropic along axes in space, which would not turn with the copies; mesh the bodies "
-                      "one by one",
-                      *orthotropic));
   }
 }
 

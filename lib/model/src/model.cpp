@@ -12,6 +12,7 @@
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
 #include "model/patterns.hpp"
+#include "parts.hpp"
 #include "points.hpp"
 
 namespace mortise::model {
@@ -42,11 +43,17 @@ std::vector<std::string> material_names(const fem::BodyOptions& body)
 fem::Materials Model::materials(const partition::Subdomain& subdomain) const
 {
   const auto& catalogue = decomposition_.catalogue;
-  const auto& body = body_entry(deck_, catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group)->second;
+  const auto& named = catalogue.bodies[static_cast<std::size_t>(subdomain.body)];
+  const auto& body = body_entry(deck_, named.group)->second;
   const auto placed = [&](const std::string& name) {
     auto material = deck_.materials.at(name);
-    if (material.orthotropic && !material.orthotropic->axes.empty())
-      material.directions = std::make_shared<const deck::LocalAxes>(local_axes(deck_, material.orthotropic->axes));
+    if (!material.orthotropic) return material;
+    const auto motion = motion_of(named, deck_);  // directions are those of the part, and go with its copies
+    const auto& axes = material.orthotropic->axes;
+    if (axes.empty() && !motion) return material;
+    const auto of_part = axes.empty() ? deck::LocalAxes() : local_axes(deck_, axes);
+    material.directions =
+        std::make_shared<const deck::LocalAxes>(motion ? of_part.moved(motion->rotation, motion->translation) : of_part);
     return material;
   };
   if (body.volumes.empty()) return placed(body.material);
@@ -134,15 +141,30 @@ std::vector<partition::CopyOf> Model::congruent() const
     const auto& body = body_entry(deck_, decomposition_.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group)->second;
     const auto own = materials(subdomain);
     std::vector<std::size_t> detail{static_cast<std::size_t>(formulation(subdomain))};
-    // An orthotropic piece is another one when it is turned, with cylindrical directions even when it is moved.
-    for (std::size_t m = 0; m < own.count(); ++m)
-      if (own[m].orthotropic) detail.push_back(static_cast<std::size_t>(subdomain.id));
     for (std::size_t c = 0; own.count() > 1 && c < subdomain.mesh.cells.size(); ++c) detail.push_back(own.index(c));
     kind.push_back(
         kinds.emplace(std::pair(material_names(body), std::move(detail)), static_cast<int>(kinds.size())).first->second);
   }
+  // The directions of orthotropic materials have to be moved alike.
+  const auto alike = [&](const partition::Subdomain& original, const partition::Subdomain& copy, const Eigen::Matrix3d& rotation) {
+    const auto first = materials(original), second = materials(copy);
+    const Point& from = original.mesh.points.front();
+    const Point& to = copy.mesh.points.front();
+    const double size = (original.mesh.points.back() - from).norm();
+    for (std::size_t m = 0; m < first.count(); ++m) {
+      if (!first[m].orthotropic) continue;
+      const auto directions = [](const fem::Material& material) {
+        return material.directions ? *material.directions : deck::LocalAxes();
+      };
+      if (!directions(first[m]).moved(rotation, to - rotation * from).coincides(directions(second[m]), size)) return false;
+    }
+    return true;
+  };
+  const bool directed =
+      std::any_of(deck_.materials.begin(), deck_.materials.end(), [](const auto& m) { return m.second.orthotropic.has_value(); });
   return partition::congruent(decomposition_.subdomains, kind,
-                              deck_.axisymmetric() ? partition::Motions::along_y : partition::Motions::rigid);
+                              deck_.axisymmetric() ? partition::Motions::along_y : partition::Motions::rigid,
+                              directed ? alike : partition::Alike());
 }
 
 SparseMatrix Model::stiffness(const partition::Subdomain& subdomain) const

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "model/patterns.hpp"
@@ -132,6 +133,16 @@ bool is_made_of(const fem::BodyOptions& body, const std::string& material)
 {
   if (body.volumes.empty()) return body.material == material;
   return std::any_of(body.volumes.begin(), body.volumes.end(), [&](const auto& volume) { return volume.second == material; });
+}
+
+std::optional<mesh::Motion> motion_of(const mesh::Body& body, const Deck& deck)
+{
+  const auto copies = deck.mesh.instances.find(body.group);
+  if (body.instance.empty() || copies == deck.mesh.instances.end()) return {};
+  std::size_t number = 0;  // group.number, from 1
+  const char* end = body.instance.data() + body.instance.size();
+  std::from_chars(body.instance.data() + body.group.size() + 1, end, number);
+  return copies->second.at(number - 1);
 }
 
 }  // namespace mortise::model

@@ -17,4 +17,7 @@ void check_volumes(const Deck& deck, deck::Document& document, const mesh::Catal
 /// Whether the material is one of the body's.
 bool is_made_of(const fem::BodyOptions& body, const std::string& material);
 
+/// How a body was moved from where its part lies in the mesh; none: it has no copies.
+std::optional<mesh::Motion> motion_of(const mesh::Body& body, const Deck& deck);
+
 }  // namespace mortise::model

@@ -79,11 +79,42 @@ std::vector<double> between(const std::vector<double>& from, const std::vector<d
   return result;
 }
 
+bool holds_time(const std::optional<deck::Formula>& formula)
+{
+  return formula && !(formula->at(1, 0) == formula->at(1, 1));
+}
+
+bool holds_time(const fem::LoadOptions& load)
+{
+  const auto in_time = [](const auto& formula) { return holds_time(std::optional(formula)); };
+  return holds_time(load.pressure) || (load.traction && std::any_of(load.traction->begin(), load.traction->end(), in_time)) ||
+         (load.temperature_change && in_time(load.temperature_change->formula));
+}
+
+bool holds_time(const constraint::SupportOptions& support)
+{
+  return holds_time(support.normal) || std::any_of(support.displacement.begin(), support.displacement.end(),
+                                                   [](const auto& formula) { return holds_time(formula); });
+}
+
+// Factors before the first step, which comes from nothing: but formulas that hold t rise by themselves.
+template <class T>
+std::vector<double> at_first(const std::vector<T>& list, const std::vector<double>& of_first_step)
+{
+  std::vector<double> result(list.size(), 0.0);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (holds_time(list[i])) result[i] = of_first_step[i];
+  return result;
+}
+
 }  // namespace
 
 void describe(deck::Description<StepOptions>& d)
 {
-  d.help("One load step. What it does not name stays as the step before left it; before the first step every factor is 1.");
+  d.help(
+      "One load step. What it does not name stays as the step before left it. Loads, displacements and overlaps come from 0 in the "
+      "first step, and are whole at its end where no factor is named; those whose formulas hold t follow their formula from the "
+      "start.");
   d.key("name", &StepOptions::name, "For results; its number if not given.");
   d.key("scale", &StepOptions::scale,
         "Factors, reached at the end of the step, of loads, of the displacements of supports and of the interference or preload "
@@ -134,8 +165,7 @@ std::vector<LoadState> load_states(const Deck& deck, const Contacts& on_mesh)
   if (deck.steps.empty()) return {{"", 1, now.load, now.support, now.contact, now.acting, none}};
   const auto loads = names_of(deck.loads), supports = names_of(deck.supports), contacts = names_of_contacts(deck, on_mesh);
   std::vector<LoadState> states;
-  // The first step comes from nothing: no load, no displacement, no overlap.
-  std::vector<double> load(deck.loads.size(), 0.0), support(deck.supports.size(), 0.0), contact(on_mesh.size(), 0.0);
+  std::vector<double> load, support, contact(on_mesh.size(), 0.0);
   for (std::size_t s = 0; s < deck.steps.size(); ++s) {
     const auto& step = deck.steps[s];
     scale(loads, step, now.load);
@@ -144,6 +174,10 @@ std::vector<LoadState> load_states(const Deck& deck, const Contacts& on_mesh)
     toggle(deck.loads, step, now.loaded);
     toggle(deck.supports, step, now.acting);
     const auto acting = now.acting_load();
+    if (s == 0) {
+      load = at_first(deck.loads, acting);
+      support = at_first(deck.supports, now.support);
+    }
     std::vector<bool> locked;
     for (const auto& name : contacts) locked.push_back(s > 0 && !step.scale.contains(name));
     for (int i = 1; i <= step.increments; ++i) {

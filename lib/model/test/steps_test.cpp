@@ -73,6 +73,21 @@ TEST(Steps, TheFirstStepComesFromNothing)
   EXPECT_EQ(states[0].contact, std::vector<double>{0.5});
 }
 
+// They would rise twice.
+TEST(Steps, FormulasOfTimeAreNotScaledUpInTheFirstStep)
+{
+  deck::Document document(text("steps: [{increments: 4, scale: {upper.ymin: 3}}, {increments: 2, scale: {upper.ymin: 1}}]"), "deck.yaml",
+                          {"loads[1].pressure=2*t", "supports[1].displacement.z=-0.1*t*x"});
+  Deck deck = read_deck(document, "");
+  document.check();
+  const auto states = states_of(deck);
+  ASSERT_EQ(states.size(), 6U);
+  EXPECT_EQ(states[0].load, (std::vector<double>{0.25, 3}));
+  EXPECT_EQ(states[0].support, (std::vector<double>{0.25, 1}));
+  EXPECT_EQ(states[3].load, (std::vector<double>{1, 3}));
+  EXPECT_EQ(states[4].load, (std::vector<double>{1, 2}));
+}
+
 TEST(Steps, WhatIsSwitchedOffKeepsItsFactorForLater)
 {
   const auto states = states_of(deck_of("steps: [{scale: {upper.ymin: 3}}, {off: [upper.ymin, ram]}, {on: [upper.ymin, ram]}]"));

@@ -82,7 +82,8 @@ std::optional<CopyOf> compare(std::size_t index, const Shape& a, const Shape& b,
 
 }  // namespace
 
-std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind, Motions motions)
+std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind, Motions motions,
+                              const Alike& alike)
 {
   std::vector<CopyOf> result;
   std::vector<Shape> shapes;
@@ -94,7 +95,12 @@ std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const st
     std::optional<CopyOf> found;
     const auto [begin, end] = originals.equal_range(key);
     for (auto it = begin; it != end && !found; ++it)
-      if (kind[it->second] == kind[s]) found = compare(it->second, shapes[it->second], shapes[s], motions);
+      if (kind[it->second] == kind[s]) {
+        found = compare(it->second, shapes[it->second], shapes[s], motions);
+        if (found && alike &&
+            !alike(subdomains[it->second], subdomains[s], found->rotation.value_or(Eigen::Matrix3d::Identity())))
+          found.reset();
+      }
     if (!found) originals.emplace(key, s);
     result.push_back(found.value_or(CopyOf{s, {}}));
   }

@@ -24,6 +24,8 @@ void describe(Description<AxesOptions>& d);
 /// Unit vectors by place.
 class LocalAxes {
  public:
+  /// Those of the model.
+  LocalAxes() : cylindrical_(false), point_(Point::Zero()), axes_(Eigen::Matrix3d::Identity()) {}
   /// `planar`: in the plane z = 0, a turned `x` alone gives both axes.
   LocalAxes(const AxesOptions& options, bool planar);
 
@@ -32,6 +34,10 @@ class LocalAxes {
   /// The same, and on the axis with some radial direction, one for all places there.
   Eigen::Matrix3d everywhere(const Point& place) const;
   bool cylindrical() const { return cylindrical_; }
+  /// Those of a body that was moved by x -> rotation x + translation.
+  LocalAxes moved(const Eigen::Matrix3d& rotation, const Point& translation) const;
+  /// Whether both are the same to 1e-9; axes of cylindrical ones, to that part of `size`.
+  bool coincides(const LocalAxes& other, double size) const;
   bool operator==(const LocalAxes& other) const
   {
     return cylindrical_ == other.cylindrical_ && point_ == other.point_ && axes_ == other.axes_;

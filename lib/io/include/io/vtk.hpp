@@ -22,9 +22,11 @@ struct Piece {
   std::vector<Point> points;
   mesh::Cells cells;
   std::vector<Field> point_fields, cell_fields;  ///< the same names on every rank
+  /// What stands in the field data: an array's name and its entries.
+  std::vector<std::pair<std::string, std::vector<std::string>>> words = {};
 };
 
-/// These cells of a piece, with the points that they use.
+/// These cells of a piece, with the points that they use and the words.
 Piece part_of(const Piece& piece, const std::vector<std::size_t>& cells);
 
 /// Writes `name`_0.vtu, `name`_1.vtu ... (compressed), `name`.pvtu on several ranks, and last `name`.pvd, which opens them.
@@ -39,12 +41,10 @@ struct Series {
 /// The same for one state of many: `series.name`.1_0.vtu ... and a .pvd of all that were written so far. Collective.
 void write_vtk(const std::string& directory, Series& series, double time, const Piece& piece, const Communicator& comm);
 
-/// A part of the model with a name, which can be hidden: "bodies", "ring". `words` stand in its field data: an array's name and
-/// entries.
+/// A part of the model with a name, which can be hidden: "bodies", "ring".
 struct Block {
   std::string group, name;
   Piece piece;  ///< of this rank, without cells if it has none of it
-  std::vector<std::pair<std::string, std::vector<std::string>>> words;
 };
 
 /// `series.name`.vtm, or of one state of many `series.name`.K.vtm, which groups the blocks under their names; a file

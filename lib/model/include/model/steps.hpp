@@ -12,7 +12,8 @@ namespace mortise::model {
 struct Deck;
 struct Contacts;
 
-/// One load step. What it does not name stays as the step before left it; before the first step every factor is 1.
+/// One load step. What it does not name stays as the step before left it. The first one comes from nothing and ends with factors
+/// 1, but formulas that hold t rise by themselves.
 struct StepOptions {
   std::string name;  ///< default: its number
   std::map<std::string, double>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,8 +22,9 @@ enum class Motions { rigid, along_y };
 
 /// For each subdomain of this rank the first one of this rank with the same cells (in the same local numbering), the same points
 /// up to one of the `motions`, to 1e-10 of its size, and the same `kind` (one number a subdomain: whatever else must agree, such
-/// as the material).
+/// as the material). `alike`: whether what has directions agrees as well, for an original, a copy and how that is turned.
+using Alike = std::function<bool(const Subdomain& original, const Subdomain& copy, const Eigen::Matrix3d& rotation)>;
 std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind,
-                              Motions motions = Motions::rigid);
+                              Motions motions = Motions::rigid, const Alike& alike = {});
 
 }  // namespace mortise::partition
