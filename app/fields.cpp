@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
 
 #include "base/error.hpp"
 #include "contact_pressure.hpp"
@@ -309,19 +311,27 @@ std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition
   return tables;
 }
 
+// Rows by contact and node whatever ranks they come from; at a kink two points share a node.
 io::Table contact_table(const post::Results& results, const Communicator& comm)
 {
-  const auto mine = static_cast<long long>(results.contact.points.size());
+  const auto& points = results.contact.points;
+  using Key = std::array<double, 5>;
+  std::vector<Key> own;
+  for (const auto& p : points)
+    own.push_back({static_cast<double>(p.contact), static_cast<double>(p.node), p.area, p.gap, static_cast<double>(comm.rank())});
+  auto all = comm.all_gather(own);
+  std::sort(all.begin(), all.end());
+  std::map<Key, Global> repeated;
   io::Table table{
       "contact/points",
       "contact, node, area, normal force, force on the secondary side (3), gap, slip (3), status 0 open 1 stick 2 slip",
       12,
-      comm.sum(mine),
+      static_cast<Global>(all.size()),
       {},
       {}};
-  Global row = comm.offset(mine);
-  for (const auto& p : results.contact.points) {
-    table.row.push_back(row++);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& p = points[i];
+    table.row.push_back(std::lower_bound(all.begin(), all.end(), own[i]) - all.begin() + repeated[own[i]]++);
     table.values.insert(table.values.end(), {static_cast<double>(p.contact), static_cast<double>(p.node), p.area, p.force});
     append(table.values, p.force_on_secondary);
     table.values.push_back(p.gap);

@@ -32,7 +32,10 @@ bool ends_a_step(const model::LoadState& acts)
 Report::Report(const model::Deck& deck, const deck::Document& document, const CommandLine& command_line, const Context& context)
     : deck_(deck), command_line_(command_line), context_(context), history_(deck.solver.programme, context)
 {
-  if (command_line.resume && context.comm.root()) history_.take_up(io::text_of(deck.output.directory + "/history.csv"));
+  if (command_line.resume && context.comm.root()) {
+    history_.take_up(io::text_of(deck.output.directory + "/history.csv"));
+    sizes_as_cut_ = sizes_told(io::text_of(deck.output.directory + "/summary.json"));
+  }
   if (command_line.check) return;
   std::vector files{document.file(), deck.mesh.file, deck.output.interior.point_file};
   for (const auto& load : deck.loads)
@@ -133,7 +136,7 @@ void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepS
   const bool first = summary_.version.empty();
   auto summary = summarise(model, solver.problem(), state, probes, results, comm);
   summary.algorithm = approach.algorithm == "auto" ? "face_newton" : approach.algorithm;
-  if (approach.kind == Kind::direct_instead) copy_sizes(sizes_as_cut_, summary);
+  if (approach.kind == Kind::direct_instead && sizes_as_cut_.subdomains > 0) copy_sizes(sizes_as_cut_, summary);
   if (first) summary.hessian_multiplications += solver.spent_before();
   accumulate_steps(acts_, summary_, summary);
   warnings_.add(analysis::check_results(model, state, results, comm));

@@ -1,6 +1,7 @@
 #include "summary.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "base/traffic_counted.hpp"
 #include "probes.hpp"
@@ -120,6 +121,22 @@ io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::
   result.subdomains = decomposition.subdomain_count();
   result.clusters = decomposition.clustered() ? decomposition.cluster_count() : 0;
   result.kernel_dimension = problem.kernel_dimension();
+  return result;
+}
+
+io::Summary sizes_told(const std::string& json)
+{
+  const auto told = nlohmann::json::parse(json, nullptr, false);
+  io::Summary result;
+  const auto take = [&](const char* key, auto& size) {
+    if (const auto found = told.find(key); found != told.end() && found->is_number_integer()) found->get_to(size);
+  };
+  if (!told.is_object()) return result;
+  take("primal_unknowns", result.primal_unknowns);
+  take("dual_unknowns", result.dual_unknowns);
+  take("subdomains", result.subdomains);
+  take("clusters", result.clusters);
+  take("kernel_dimension", result.kernel_dimension);
   return result;
 }
 

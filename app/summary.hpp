@@ -9,6 +9,8 @@ namespace mortise {
 
 /// Of the problem that is solved. Collective.
 io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const Communicator& comm);
+/// Those that a summary.json tells; zeros where it does not.
+io::Summary sizes_told(const std::string& json);
 void copy_sizes(const io::Summary& from, io::Summary& to);
 
 /// One equilibrium; nothing of time, memory and communication. Collective.

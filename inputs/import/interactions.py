@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from reader import InputError
+
 CARDS = {
     "CONTACTPAIR",
     "SURFACEINTERACTION",
@@ -121,8 +123,8 @@ class Interactions:
             if adjust:
                 try:
                     value = card.value(adjust, card.line)
-                except Exception:
-                    self.model.leave_out(card, f'ADJUST={adjust}: nodes of a set are not moved; "adjust" of the contact is a length')
+                except InputError:
+                    contact["adjusted"] = self.model.nodes_of(card, card.line, adjust)
                 else:
                     contact["adjust"] = value
             clearance = self.clearances.pop((words[0].upper(), words[1].upper()), None)

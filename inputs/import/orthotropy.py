@@ -91,6 +91,16 @@ def axes_of(model, name, section):
     return {"x": numbers(x), "y": numbers(y)}
 
 
+def in_plane(axes, axisymmetric):
+    """The same in a model of the plane, where the third direction is across it; None if they are not of that kind."""
+    if "axis" in axes:
+        along = np.abs(axes["axis"])
+        return None if axisymmetric or max(along[:2]) > 1e-9 * along[2] else {"axis": [0.0, 0.0, 1.0], "point": axes["point"][:2]}
+    x, y = np.array(axes["x"]), np.array(axes["y"])
+    flat = max(abs(x[2]) / np.linalg.norm(x), abs(y[2]) / np.linalg.norm(y)) < 1e-9
+    return {"x": axes["x"][:2]} if flat else None
+
+
 def turned(v, axis, angle):
     return v * np.cos(angle) + np.cross(axis, v) * np.sin(angle) + axis * axis.dot(v) * (1 - np.cos(angle))
 

@@ -24,7 +24,9 @@ def read(model, bodies):
             element = model.elements[i]
             done_elements.add(i)
             ends = element.nodes
-            if len(ends) != 2 or any(n not in owner for n in ends):
+            if bodies.dimension == "axisymmetric":
+                model.leave_out(card, f"the spring {element.number}: a point of an axisymmetric model of the deck is a ring")
+            elif len(ends) != 2 or any(n not in owner for n in ends):
                 model.leave_out(card, f"the spring {element.number}: its nodes are not both of solids; hold them by a `stiffness` of a support")
             elif not stiffness > 0 or model.points[ends[0]] == model.points[ends[1]]:
                 model.leave_out(card, f"the spring {element.number} has no length, or no stiffness")

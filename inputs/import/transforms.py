@@ -30,7 +30,7 @@ class Axes:
         """What stands in the deck's section `axes`."""
         count = 2 if plane else 3
         if self.cylindrical:
-            return {"axis": numbers(self.rows[2]), "point": numbers(self.point[:count])}
+            return {"axis": [0.0, 0.0, 1.0] if plane else numbers(self.rows[2]), "point": numbers(self.point[:count])}
         return {"x": numbers(self.rows[0][:count])} if plane else {"x": numbers(self.rows[0]), "y": numbers(self.rows[1])}
 
     def fits(self, plane, axisymmetric):

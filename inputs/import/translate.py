@@ -744,6 +744,8 @@ class Translation:
             if contact.get("adjust") == 0:
                 self.model.note(card, "ADJUST=0: Abaqus removes initial overlaps, the deck takes them as they are", line)
                 del contact["adjust"]
+            if "adjusted" in contact:
+                self.adjust_nodes(contact, sides[0])
             for key in ("friction", "cyclic", "adjust", "clearance"):
                 if key in contact:
                     item[key] = contact[key]
@@ -757,6 +759,15 @@ class Translation:
                 if distance:
                     item["search_distance"] = distance
             self.contacts.append(item)
+
+    def adjust_nodes(self, contact, secondary):
+        """ADJUST with a set moves its nodes onto the other side: of a whole side that is a contact without gaps."""
+        nodes = {n for key in self.boundaries[secondary] for n in self.bodies.nodes(key)}
+        if nodes <= set(contact["adjusted"]):
+            contact.setdefault("clearance", 0)
+            self.model.note(contact["card"], "ADJUST: nodes stay where they are; the contact takes its gaps for 0")
+        else:
+            self.model.leave_out(contact["card"], "ADJUST with a set of some of the slave's nodes: nodes are not moved")
 
     def report_soft(self, law, sides):
         """Laws of contact that give way, beside the bodies that they press on: not a penalty but a spring."""
@@ -932,7 +943,8 @@ class Translation:
         for (owner, course), parts in groups.items():
             item = {"coupling": names[owner]}
             for kind, vector in parts.items():
-                item[kind] = self.vector(vector) if kind == "force" or not self.plane else [float(vector[2])]
+                vector = vector / self.thickness
+                item[kind] = self.vector(vector) if kind == "force" or not self.plane else [0.0, 0.0, float(vector[2])]
             self.add_load(item, f"load_{names[owner]}", course)
 
     def coupled_supports(self, names, turns):
@@ -1000,6 +1012,11 @@ class Translation:
                 material["orthotropic"] = dict(self.materials[m]["orthotropic"])
             if "axes" in self.materials[m]:
                 name, axes = self.materials[m]["axes"]
+                if self.plane:
+                    axes = orthotropy.in_plane(axes, self.bodies.dimension == "axisymmetric")
+                    if axes is None:
+                        self.model.leave_out(self.materials[m]["card"], f'"{name}": directions out of the plane of the model')
+                        continue
                 deck.setdefault("axes", {})[clean(name)] = axes
                 material["orthotropic"]["axes"] = clean(name)
         deck["bodies"] = {}
@@ -1021,7 +1038,11 @@ class Translation:
             if any(value != 1.0 for value in scale.values()) or "off" in single:
                 steps = [single]
         deck["springs"] = {
-            clean(name): {**spring, "points": [self.vector(self.model.points[n]) for n in spring["points"]]}
+            clean(name): {
+                **spring,
+                "points": [self.vector(self.model.points[n]) for n in spring["points"]],
+                "stiffness": spring["stiffness"] / self.thickness,
+            }
             for name, spring in self.springs.items()
         }
         deck["supports"] = [item for item, *_ in self.supports]

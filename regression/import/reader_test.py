@@ -305,6 +305,18 @@ class Loads(Import):
         lost = self.left_out(MODEL + springs.replace("*SPRING,", "*SPRING, NONLINEAR,") + step("*DLOAD\nCUBE, P2, 1.\n"))
         self.assertEqual(sorted(entry[1] for entry in lost), ["*ELEMENT", "*SPRING"])
 
+    def test_thickness(self):
+        """Of plane models: what acts on nodes, and springs between them, is that of a thickness 1 in the deck."""
+        text = (
+            "*NODE, NSET=ALL\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n9, 0.5, 2\n*ELEMENT, TYPE=CPS4, ELSET=PLATE\n1, 1,2,3,4\n"
+            + "*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1E5, 0.3\n*SOLID SECTION, ELSET=PLATE, MATERIAL=STEEL\n0.25\n"
+            + "*ELEMENT, TYPE=SPRINGA, ELSET=STRUT\n77, 1, 3\n*SPRING, ELSET=STRUT\n\n30.\n*NSET, NSET=TOP\n3, 4\n"
+            + "*RIGID BODY, NSET=TOP, REF NODE=9\n*BOUNDARY\n1, 1, 2\n2, 1, 2\n"
+        )
+        deck = self.deck(text + step("*CLOAD\n9, 2, 1.\n9, 6, 2.\n"))
+        self.assertEqual(deck["springs"]["spring.77"]["stiffness"], 120)
+        self.assertEqual(deck["loads"], [{"coupling": "TOP_2", "force": [0, 4], "moment": [0, 0, 8]}])
+
     def test_supports_at_common_edges(self):
         """A node that two sets hold belongs to the faces of both, and one that a face holds already needs no more."""
         text = (

@@ -86,6 +86,8 @@ std::vector<post::PointForce> point_forces(const model::Model& model, const mode
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
     if (!deck.supports[i].points.empty())
       result.push_back({"support " + deck.supports[i].name, length(results.reactions[i].force)});
+  auto spring = deck.springs.begin();
+  for (const auto& found : results.springs) result.push_back({"spring " + (spring++)->first, std::abs(found.force)});
   return result;
 }
 

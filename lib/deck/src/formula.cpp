@@ -9,6 +9,21 @@
 
 namespace mortise::deck {
 
+namespace {
+
+// muParser's `=` gives a coordinate another value for the rest of the formula: a slip of the pen.
+bool assigns(const std::string& text)
+{
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    const bool before = i > 0 && std::string("=<>!").find(text[i - 1]) != std::string::npos;
+    if (!before && (i + 1 == text.size() || text[i + 1] != '=')) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 struct Formula::Parser {
   std::string text;
   double x = 0, y = 0, z = 0, r = 0, theta = 0, t = 0;
@@ -21,6 +36,7 @@ struct Formula::Parser {
                                          std::pair("theta", &theta), std::pair("t", &t)})
       parser.DefineVar(name, variable);
     parser.DefineConst("pi", std::numbers::pi);
+    if (assigns(text)) throw mu::ParserError("a formula assigns nothing; == compares");
     parser.SetExpr(text);
     int results = 0;
     parser.Eval(results);

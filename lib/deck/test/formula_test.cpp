@@ -17,6 +17,7 @@ TEST(Formula, HasItsValueAtAPlaceAndTime)
   EXPECT_DOUBLE_EQ(Formula("theta / pi")(Point(-1, 0, 0), 0), 1);
   EXPECT_DOUBLE_EQ(Formula("x < 0 ? y^2 : 0")(x, 0), 16);
   EXPECT_TRUE(std::isinf(Formula("1 / (z - 2)")(x, 0)));
+  EXPECT_DOUBLE_EQ(Formula("(x == -3) + 2 * (y >= 4) + 4 * (z <= 2) + 8 * (x != 0)")(x, 0), 15);
 }
 
 TEST(Formula, CopiesShareNoState)
@@ -44,7 +45,7 @@ TEST(Formula, IsTakenAtAFactorAndATime)
 
 TEST(Formula, SaysWhatIsWrong)
 {
-  for (const char* wrong : {"10 *", "q + 1", "sin(", "x, y", ""})
+  for (const char* wrong : {"10 *", "q + 1", "sin(", "x, y", "", "x=3", "(x = 1) ? 10 : 5", "0*(x==1)+(t+=2)"})
     EXPECT_THROW(Formula(std::string(wrong)), std::invalid_argument) << wrong;
 }
 

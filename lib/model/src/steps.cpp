@@ -126,6 +126,54 @@ void describe(deck::Description<StepOptions>& d)
       .below(most_states + 1);
 }
 
+namespace {
+
+// What a step calls by one name.
+struct Called {
+  bool load = false, support = false, contact = false;
+  bool has_factor = false;  // of what can be scaled
+
+  int kinds() const { return load + support + contact; }
+};
+
+Called called(const Deck& deck, const std::string& name)
+{
+  Called result;
+  for (const auto& load : deck.loads)
+    if (load.name == name) result.load = result.has_factor = true;
+  for (const auto& support : deck.supports)
+    if (support.name == name) {
+      result.support = true;
+      if (!support.stiffness.any()) result.has_factor = true;
+    }
+  for (const auto& contact : deck.contacts)
+    if (contact.name == name) {
+      result.contact = true;
+      if (contact.preload || contact.interference != 0) result.has_factor = true;
+    }
+  return result;
+}
+
+// Names that mean two things, or nothing that a factor has an effect on.
+void check_names_of_step(const Deck& deck, const StepOptions& step, const std::string& path, deck::Document& document)
+{
+  const auto check = [&](const std::string& name, const std::string& at) {
+    if (called(deck, name).kinds() > 1)
+      document.error(at, fmt::format("\"{}\" is the name of a load, a support or a contact at once; give each a `name` of its own", name));
+  };
+  for (const auto& [name, factor] : step.scale) {
+    check(name, path + "scale." + name);
+    if (const auto meant = called(deck, name); meant.kinds() == 1 && !meant.has_factor)
+      document.error(path + "scale." + name,
+                     meant.contact ? "this contact has neither interference nor preload, which a factor could scale"
+                                   : "this support has stiffness and no displacement, which a factor could scale");
+  }
+  for (const auto& [key, names] : {std::pair("off", &step.off), std::pair("on", &step.on)})
+    for (const auto& name : *names) check(name, path + key);
+}
+
+}  // namespace
+
 void check_steps(const Deck& deck, deck::Document& document)
 {
   const double states = std::accumulate(deck.steps.begin(), deck.steps.end(), 0.0,
@@ -151,6 +199,7 @@ void check_steps(const Deck& deck, deck::Document& document)
       for (const auto& name : *names)
         if (!named(switched, name))
           document.error(path + key, fmt::format("there is no load or support \"{}\"{}", name, deck::suggestion(name, switched)));
+    check_names_of_step(deck, step, path, document);
     for (const auto& name : step.on)
       if (named(step.off, name)) document.error(path + "on", fmt::format("\"{}\" is switched on and off in one step", name));
   }

@@ -24,9 +24,9 @@ contacts:
 )" + steps;
 }
 
-Deck deck_of(const std::string& steps)
+Deck deck_of(const std::string& steps, const std::vector<std::string>& settings = {})
 {
-  deck::Document document(text(steps), "deck.yaml", {});
+  deck::Document document(text(steps), "deck.yaml", settings);
   Deck deck = read_deck(document, "");
   document.check();
   return deck;
@@ -76,11 +76,8 @@ TEST(Steps, TheFirstStepComesFromNothing)
 // They would rise twice.
 TEST(Steps, FormulasOfTimeAreNotScaledUpInTheFirstStep)
 {
-  deck::Document document(text("steps: [{increments: 4, scale: {upper.ymin: 3}}, {increments: 2, scale: {upper.ymin: 1}}]"), "deck.yaml",
-                          {"loads[1].pressure=2*t", "supports[1].displacement.z=-0.1*t*x"});
-  Deck deck = read_deck(document, "");
-  document.check();
-  const auto states = states_of(deck);
+  const auto states = states_of(deck_of("steps: [{increments: 4, scale: {upper.ymin: 3}}, {increments: 2, scale: {upper.ymin: 1}}]",
+                                        {"loads[1].pressure=2*t", "supports[1].displacement.z=-0.1*t*x"}));
   ASSERT_EQ(states.size(), 6U);
   EXPECT_EQ(states[0].load, (std::vector<double>{0.25, 3}));
   EXPECT_EQ(states[0].support, (std::vector<double>{0.25, 1}));
@@ -98,10 +95,10 @@ TEST(Steps, WhatIsSwitchedOffKeepsItsFactorForLater)
   EXPECT_EQ(states[2].acting, (std::vector<bool>{true, true}));
 }
 
-std::string complaint(const std::string& steps)
+std::string complaint(const std::string& steps, const std::vector<std::string>& settings = {})
 {
   try {
-    deck_of(steps);
+    deck_of(steps, settings);
   } catch (const Error& error) {
     return error.what();
   }
@@ -116,6 +113,19 @@ TEST(Steps, ABoltKeepsItsLengthButWhereAStepTightensIt)
   EXPECT_TRUE(states[1].locked[0]);
   EXPECT_FALSE(states[2].locked[0]);
   EXPECT_TRUE(states[3].locked[0]);
+}
+
+TEST(Steps, NamesMeanOneThingAndHaveSomethingToScale)
+{
+  EXPECT_EQ(complaint("steps: [{scale: {ram: 2, joint: 0.5}}]"), "");
+  EXPECT_NE(complaint("steps: [{scale: {ram: 2}}]", {"loads[0].name=ram"}).find("\"ram\" is the name of"), std::string::npos);
+  EXPECT_NE(complaint("steps: [{off: [ram]}]", {"loads[0].name=ram"}).find("steps[0].off: \"ram\" is the name of"), std::string::npos);
+  EXPECT_EQ(complaint("steps: [{scale: {push: 2}}]", {"loads[1].name=push"}), "");
+  EXPECT_NE(complaint("steps: [{scale: {joint: 2}}]", {"contacts[0].interference=0"}).find("neither interference nor preload"),
+            std::string::npos);
+  const std::vector<std::string> springs{"supports[1]={name: ram, boundary: upper.zmax, stiffness: {normal: 10}}"};
+  EXPECT_NE(complaint("steps: [{scale: {ram: 2}}]", springs).find("no displacement"), std::string::npos);
+  EXPECT_EQ(complaint("steps: [{off: [ram]}]", springs), "");
 }
 
 TEST(Steps, WrongNamesAreToldWithTheNearest)

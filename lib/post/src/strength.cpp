@@ -121,7 +121,7 @@ std::vector<Warning> point_forces(const std::vector<PointForce>& found, double f
     w.limit = limit;
     result.push_back(std::move(w));
   }
-  return worst(std::move(result), "loads and supports");
+  return worst(std::move(result), "loads, supports and springs");
 }
 
 std::vector<Warning> coarse_mesh(const MeshError& error, const std::vector<std::string>& bodies)
