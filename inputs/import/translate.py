@@ -919,6 +919,7 @@ class Translation:
                 boundary = self.add_boundary(coupling["name"], keys) if keys else None
                 if not keys or lost:
                     self.model.leave_out(card, f"{len(lost) or 'the'} nodes of the rigid body span no whole outer face")
+                self.report_rigid_inside(card, set(nodes), {n for key in keys for n in self.bodies.nodes(key)})
             if boundary is None:
                 continue
             name = unique(clean(coupling["name"]), self.names)
@@ -927,6 +928,16 @@ class Translation:
         turns = {n: c["rotation_of"] for n, c in self.couplings.items() if "rotation_of" in c}
         self.coupled_loads(names, turns)
         self.coupled_supports(names, turns)
+
+    def report_rigid_inside(self, card, rigid, held):
+        """Rigid nodes inside of bodies follow the faces where the whole body is rigid, and not where a part of it is."""
+        for b, body in enumerate(self.bodies.bodies):
+            own = self.bodies.nodes_of_body(b)
+            inside = (rigid & own) - held - set(self.bodies.faces_of_node)
+            if inside and not own <= rigid:
+                self.model.leave_out(
+                    card, f'{len(inside)} rigid nodes lie inside of "{body.name}", of which other parts are elastic: the deck holds outer faces alone'
+                )
 
     def coupled_loads(self, names, turns):
         groups = {}
@@ -949,7 +960,7 @@ class Translation:
 
     def coupled_supports(self, names, turns):
         groups = {}
-        for (node, axis), (values, entry) in self.series("supports").items():
+        for (node, axis), (values, entry) in self.along_model_axes(self.series("supports"), turns).items():
             owner = turns.get(node, node)
             if owner not in names:
                 continue
@@ -957,8 +968,6 @@ class Translation:
             a = axis - 1 if node in turns or axis <= 3 else axis - 4
             if self.plane and ((a == 2) != rotation):
                 continue
-            if node in self.transforms:
-                self.model.leave_out(entry.card, "a coupling's point that is held along axes of *TRANSFORM: it is held along those of the model", entry.line)
             base = self.largest(values)
             course = tuple(self.factors(values, base))
             key = (owner, course, tuple(v is not None for v in values))
@@ -966,6 +975,27 @@ class Translation:
         for (owner, course, acting), parts in groups.items():
             name = self.name_of(f"held_{names[owner]}")
             self.supports.append(({"coupling": names[owner], **parts, "name": name}, name, course, acting))
+
+    def along_model_axes(self, series, turns):
+        """Motions of coupled points with axes of their own, where all three components are given; others are left out."""
+        result, turned = {}, {}
+        for (node, axis), found in series.items():
+            if node not in self.transforms or turns.get(node, node) not in self.couplings:
+                result[node, axis] = found
+            else:
+                turned.setdefault((node, (axis - 1) // 3), {})[(axis - 1) % 3] = found
+        for (node, kind), parts in turned.items():
+            rows = self.transforms[node].at(self.model.points[node])
+            entry = next(iter(parts.values()))[1]
+            needed = range(3) if not self.plane else (2,) if kind else range(2)
+            acting = {tuple(v is not None for v in values) for values, _ in parts.values()}
+            if rows is None or not set(needed) <= set(parts) or len(acting) > 1:
+                self.model.leave_out(entry.card, "the point of a coupling is held along some of the axes of *TRANSFORM alone", entry.line)
+                continue
+            local = np.array([[np.nan if v is None else v for v in parts[a][0]] if a in parts else [0.0] * len(parts[needed[0]][0]) for a in range(3)])
+            for a, values in enumerate(rows.T @ local):
+                result[node, 3 * kind + a + 1] = ([None if np.isnan(v) else float(v) for v in values], entry)
+        return result
 
     # The deck.
     def steps(self):

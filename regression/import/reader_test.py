@@ -305,6 +305,15 @@ class Loads(Import):
         lost = self.left_out(MODEL + springs.replace("*SPRING,", "*SPRING, NONLINEAR,") + step("*DLOAD\nCUBE, P2, 1.\n"))
         self.assertEqual(sorted(entry[1] for entry in lost), ["*ELEMENT", "*SPRING"])
 
+    def test_coupled_points_with_axes_of_their_own(self):
+        """x' = y, y' = -x: motions where all are given, forces in any case; what is held along some of them is left out."""
+        text = MODEL + "*NODE\n9, 0.5, 0.5, 2.\n*NSET, NSET=REF\n9\n*RIGID BODY, NSET=TOP, REF NODE=9\n*TRANSFORM, NSET=REF\n0,1,0, -1,0,0\n"
+        held = self.deck(text + step("*BOUNDARY\n9, 1, 1, 0.1\n9, 2, 2, 0.2\n9, 3, 3, 0.3\n"))["supports"][-1]["displacement"]
+        self.assertEqual({k: round(v, 12) for k, v in held.items()}, {"x": -0.2, "y": 0.1, "z": 0.3})
+        pushed = self.deck(text + step("*CLOAD\n9, 1, 5.\n9, 5, 2.\n"))["loads"][0]
+        self.assertEqual((pushed["force"], pushed["moment"]), ([0, 5, 0], [-2, 0, 0]))
+        self.assertIn("alone", self.left_out(text + step("*BOUNDARY\n9, 1, 1, 0.1\n"))[0][2])
+
     def test_thickness(self):
         """Of plane models: what acts on nodes, and springs between them, is that of a thickness 1 in the deck."""
         text = (
