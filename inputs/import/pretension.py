@@ -1,5 +1,7 @@
 """*PRE-TENSION SECTION: the mesh is cut there, and the two sides become boundaries."""
 
+import numpy as np
+
 import elements
 
 
@@ -57,6 +59,28 @@ def cut(model, cells, sides):
     return behind
 
 
+def side_of(model, card, sides):
+    """1 if the direction on the data line is that out of the elements of `sides`, or if there is none; -1 if it is the other one; 0: oblique."""
+    rows = card.rows()
+    given = np.array([card.value(w, rows[0][0], 0.0) for w in rows[0][1][:3]] if rows else [])
+    if len(given) < 2 or not np.any(given):
+        return 1
+    given = np.append(given, np.zeros(3 - len(given)))
+    normal = np.zeros(3)
+    for i, f in sides:
+        element = model.elements[i]
+        on = np.array([model.points[element.nodes[c]] for c in elements.FACES[elements.family(element.shape)][f]])
+        middle = np.mean([model.points[n] for n in element.nodes], axis=0)
+        if len(on) == 2:
+            along = on[1] - on[0]
+            own = np.array([along[1], -along[0], 0.0])
+        else:
+            own = sum(np.cross(on[k] - on[0], on[k + 1] - on[0]) for k in range(1, len(on) - 1))
+        normal += own if own @ (on.mean(axis=0) - middle) > 0 else -own
+    cosine = normal @ given / (np.linalg.norm(normal) * np.linalg.norm(given))
+    return 0 if abs(cosine) < 0.999 else 1 if cosine > 0 else -1
+
+
 def apply(model, cells):
     """Cuts all sections. Returns, by the section's node, {name, secondary, primary, card}: lists of faces."""
     result = {}
@@ -70,9 +94,13 @@ def apply(model, cells):
         if not sides or any(f is None for _, f in sides):
             model.leave_out(card, "the surface has no faces that are named: the bolt cannot be cut there")
             continue
+        sign = side_of(model, card, sides)
+        if sign == 0:
+            model.leave_out(card, "its direction is not the normal of the surface: a bolt of the deck is tightened across the cut")
+            continue
         behind = cut(model, cells, sides)
         if behind is None:
             model.leave_out(card, "the surface does not cut a bolt in two: give the faces of one side, all across it")
             continue
-        result[node] = {"name": surface.name, "secondary": sides, "primary": behind, "card": card}
+        result[node] = {"name": surface.name, "secondary": sides, "primary": behind, "card": card, "sign": sign}
     return result

@@ -676,6 +676,9 @@ class Translation:
         if any(any(values) for values, _ in changes.values()):
             for material in [self.materials[m] for m in self.used if not orthotropy.expands(self.materials[m])]:
                 self.model.note(material["card"], f'"{material["name"]}" has no *EXPANSION: its temperature changes nothing')
+        for n, copy in getattr(self.model, "copies", {}).items():
+            if n in changes:
+                changes[copy] = changes[n]
         expanding = {
             b
             for b, body in enumerate(self.bodies.bodies)
@@ -828,6 +831,8 @@ class Translation:
             item = {"name": self.name_of(clean(section["name"])), "secondary": sides[0], "primary": sides[1], "friction": {"bonded": True}}
             forces = [s.forces[node, 1].value if (node, 1) in s.forces else None for s in states]
             lengths = [s.supports[node, 1].value if (node, 1) in s.supports else None for s in states]
+            if section["sign"] < 0:
+                forces, lengths = ([None if v is None else -v for v in values] for values in (forces, lengths))
             if own[0] & own[1]:
                 self.model.leave_out(card, "the surface does not cut a bolt in two bodies: a bolt of the deck is two bodies")
                 self.contacts.append(item)

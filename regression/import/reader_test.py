@@ -410,6 +410,13 @@ class Contacts(Import):
         self.assertEqual(
             deck["steps"], [{"name": "1", "scale": {"pressure_UPPER_P2": 0.0}}, {"name": "2", "scale": {"pressure_UPPER_P2": 1.0}}]
         )
+        for direction, sign in (("0, 0, 2.", 1), ("0, 0, -1.", -1)):
+            cut = long + f"*PRE-TENSION SECTION, SURFACE=CUBE_TOP, NODE=99\n{direction}\n" + step("*BOUNDARY\n99, 1, 1, 0.25\n")
+            self.assertEqual(self.deck(cut)["contacts"][0]["preload"], {"shortening": sign * 0.25})
+        oblique = long + "*PRE-TENSION SECTION, SURFACE=CUBE_TOP, NODE=99\n1, 0, 1\n" + step("*BOUNDARY\n99, 1, 1, 0.25\n")
+        self.assertIn("not the normal", self.left_out(oblique)[0][2])
+        warm = self.deck(text.replace("99, 1, 50.\n", "99, 1, 50.\n*TEMPERATURE\nALL, 9.\n9, 9.\n10, 9.\n11, 9.\n12, 9.\n", 1))  # the nodes that the cut doubles as well
+        self.assertEqual([load["temperature_change"] for load in warm["loads"] if "temperature_change" in load], [9, 9])
 
 
 class LeftOut(Import):
