@@ -415,7 +415,7 @@ class Contacts(Import):
             self.assertEqual(self.deck(cut)["contacts"][0]["preload"], {"shortening": sign * 0.25})
         oblique = long + "*PRE-TENSION SECTION, SURFACE=CUBE_TOP, NODE=99\n1, 0, 1\n" + step("*BOUNDARY\n99, 1, 1, 0.25\n")
         self.assertIn("not the normal", self.left_out(oblique)[0][2])
-        warm = self.deck(text.replace("99, 1, 50.\n", "99, 1, 50.\n*TEMPERATURE\nALL, 9.\n9, 9.\n10, 9.\n11, 9.\n12, 9.\n", 1))  # the nodes that the cut doubles as well
+        warm = self.deck(text.replace("99, 1, 50.\n", "99, 1, 50.\n*TEMPERATURE\nALL, 9.\n15, 9.\n16, 9.\n17, 9.\n18, 9.\n", 1))  # the nodes that the cut doubles as well
         self.assertEqual([load["temperature_change"] for load in warm["loads"] if "temperature_change" in load], [9, 9])
 
 
