@@ -146,9 +146,12 @@ void print_copies(const std::vector<partition::CopyOf>& copies, const partition:
                      decomposition.subdomain_count() - originals, originals);
 }
 
-void print_state(const model::LoadState& state, std::size_t index, std::size_t count, Log& log)
+void print_state(const model::LoadState& state, std::size_t index, std::size_t count, double seconds_left, Log& log)
 {
-  if (!state.step.empty()) log.line("Step {}, time {:.4g} ({} of {} states)", state.step, state.time, index + 1, count);
+  constexpr double soon = 10;  // seconds that are not worth a word
+  if (state.step.empty()) return;
+  const auto left = seconds_left > soon ? fmt::format("; about {:.0f} s left", seconds_left) : "";
+  log.line("Step {}, time {:.4g} ({} of {} states{})", state.step, state.time, index + 1, count, left);
 }
 
 void print_step(const io::Summary& summary, Log& log)

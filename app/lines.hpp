@@ -18,8 +18,8 @@ void print_check(const model::Model& model, const constraint::Constraints& const
 /// How many subdomains share factors. Collective.
 void print_copies(const std::vector<partition::CopyOf>& copies, const partition::Decomposition& decomposition,
                   const Context& context);
-/// Which state is being solved, where there are several.
-void print_state(const model::LoadState& state, std::size_t index, std::size_t count, Log& log);
+/// Which state is being solved, where there are several. `seconds_left`: for this one and those after it; 0: not known.
+void print_state(const model::LoadState& state, std::size_t index, std::size_t count, double seconds_left, Log& log);
 /// After a load step that is not the last.
 void print_step(const io::Summary& summary, Log& log);
 /// At the end.

@@ -104,7 +104,10 @@ void Report::begin(const model::LoadState& acts)
 {
   increment_ = ends_a_step(acts_) ? 1 : increment_ + 1;
   acts_ = acts;
-  print_state(acts, index_++, states_, context_.log);
+  if (index_ == 0) first_state_began_ = MPI_Wtime();
+  const double each = index_ > 0 ? (MPI_Wtime() - first_state_began_) / static_cast<double>(index_) : 0;
+  print_state(acts, index_, states_, each * static_cast<double>(states_ - index_), context_.log);
+  ++index_;
 }
 
 friction::Observer Report::observer(const model::LoadState& acts)

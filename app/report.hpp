@@ -69,6 +69,7 @@ class Report {
   const CommandLine& command_line_;
   const Context& context_;
   double start_ = MPI_Wtime();
+  double first_state_began_ = 0;
   Traffic before_all_ = traffic();
   std::optional<io::OutputDirectory> directory_;
   std::map<std::string, double> seconds_before_;  // of each stage, when it was last told
