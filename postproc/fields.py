@@ -71,7 +71,7 @@ def _by_index(grid, field, kind, names):
     if index is None:
         return [(kind, grid)]
     present, inverse = np.unique(vtk_to_numpy(index).astype(int), return_inverse=True)
-    known = list(names) if len(names) == present[-1] + 1 else [f"{kind} {i + 1}" for i in range(present[-1] + 1)]
+    known = list(names) if len(names) > present[-1] else [f"{kind} {i + 1}" for i in range(present[-1] + 1)]
     if len(present) == 1:
         return [(known[present[0]], grid)]
     blocks = []

@@ -419,6 +419,19 @@ class Contacts(Import):
         self.assertEqual([load["temperature_change"] for load in warm["loads"] if "temperature_change" in load], [9, 9])
 
 
+class Writers(Import):
+    def test_prepomax(self):
+        """A file as PrePoMax writes it; two_plates.inp is one of FreeCAD's."""
+        result = self.translate((pathlib.Path(__file__).parent / "prepomax.inp").read_text())
+        self.assertEqual([f for f in result.model.findings if f.changes], [])
+        self.assertEqual(result.deck["contacts"], [{"secondary": "Slave", "primary": "Master", "friction": {"coulomb": 0.2}}])
+        self.assertEqual(
+            [(s["boundary"], s["displacement"]) for s in result.deck["supports"]],
+            [("Internal_Selection-1_Fixed-1", {"x": 0, "y": 0, "z": 0}), ("Top", {"x": 0, "y": 0})],
+        )
+        self.assertEqual(result.deck["loads"], [{"boundary": "Top", "pressure": 100}])
+
+
 class LeftOut(Import):
     def test_nothing_is_dropped_silently(self):
         text = (
