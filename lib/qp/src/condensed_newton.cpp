@@ -10,6 +10,8 @@ namespace mortise::qp {
 namespace {
 
 constexpr int max_guesses = 15;             // at one softness
+constexpr double dependent = 1e-10;         // of what a row gives way with all others: less alone comes of rounding
+constexpr double apart = 1e-8;              // compliance of its own that such a row is given, over that
 constexpr int max_turns = 3;                // of the slip at a point; then it sticks before it turns
 constexpr double settled_residual = 1e-10;  // residual over x
 constexpr double flutter = 1e-12;           // the same below which guesses differ by rounding
@@ -59,8 +61,30 @@ CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const Feasi
   matrices_.h = g(Eigen::all, constrained_) - g_free * coupling_;
   matrices_.c = std::move(c);
   matrices_.c.noalias() += g_free * motion_;
+  measure();
+  if (separate_dependent_rows()) measure();
+}
+
+// What each point gives way alone.
+void CondensedNewton::measure()
+{
   contact_ = factorize(matrices_.w);
   matrices_.own = qp::solve(contact_, MatrixXd::Identity(matrices_.w.rows(), matrices_.w.rows())).diagonal().cwiseInverse();
+}
+
+// Rows that depend on each other, as those of two contacts along the edge that a body has in a corner: how a force is shared out
+// between them is open, and rounding alone would tell their states. A little compliance of their own shares it out evenly.
+// Returns whether there are any.
+bool CondensedNewton::separate_dependent_rows()
+{
+  auto diagonal = matrices_.w.diagonal();
+  bool any = false;
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
+    if (matrices_.own[i] > dependent * diagonal[i]) continue;
+    diagonal[i] *= 1 + apart;
+    any = true;
+  }
+  return any;
 }
 
 VectorXd CondensedNewton::inverse_times(const VectorXd& r) const

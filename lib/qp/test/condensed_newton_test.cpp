@@ -380,6 +380,37 @@ TEST(CondensedNewton, GoesOnFromAnotherElimination)
   }
 }
 
+// Two contacts at the edge of a body in a corner: what is along one is across the other, so rows come twice and how forces are
+// shared out is open. The forces together are not.
+TEST(CondensedNewton, RowsThatDependOnEachOther)
+{
+  constexpr int points = 6;
+  for (int seed = 1; seed <= 10; ++seed) {
+    Random random(seed);
+    // Components 2 k and 2 k + 1 of point k; unknowns 4 k and 4 k + 1: normal and tangent of the first contact, then of the
+    // second.
+    MatrixXd rows = MatrixXd::Zero(4 * points, 2 * points);
+    std::vector<Bound> bounds;
+    std::vector<Disc> discs;
+    for (int k = 0; k < points; ++k) {
+      rows(4 * k, 2 * k) = rows(4 * k + 1, 2 * k + 1) = rows(4 * k + 2, 2 * k + 1) = rows(4 * k + 3, 2 * k) = 1;
+      for (const Local i : {4 * k, 4 * k + 2}) {
+        bounds.push_back({i});
+        discs.push_back({{i + 1, -1}, 0.3});
+        discs.back().normal = i;
+      }
+    }
+    const MatrixXd compliance = random.definite(2 * points, 1);
+    const VectorXd pushed = VectorXd::Ones(2 * points) + 0.5 * random.matrix(2 * points, 1);
+    Programme p{rows * compliance * rows.transpose(), MatrixXd::Zero(0, 4 * points), rows * pushed, VectorXd::Zero(0),
+                FeasibleSet(bounds, discs)};
+    p.set.set_coefficients(std::vector<double>(discs.size(), 0.3));
+    const auto point = p.solve();
+    EXPECT_TRUE(point.converged) << seed;
+    EXPECT_LT(violation(p, point), 1e-6) << seed;
+  }
+}
+
 TEST(CondensedNewton, RefusesWhatIsNotDefinite)
 {
   auto p = random_programme(3, 4, 1, 5, 0);

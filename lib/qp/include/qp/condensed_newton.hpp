@@ -47,6 +47,8 @@ class CondensedNewton {
   Eigen::VectorXd inverse_times(const Eigen::VectorXd& r) const;
 
  private:
+  void measure();
+  bool separate_dependent_rows();
   static bool iterate(const CondensedProgramme& programme, ConstraintStates& states, Point& point);
   static bool harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
 
