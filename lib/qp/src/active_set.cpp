@@ -37,8 +37,8 @@ void factorize(CoarseMatrix& matrix, const std::vector<DowndateBlock>& downdates
 
 }  // namespace
 
-ActiveSet::ActiveSet(Projector& projector, const Vector& argument, double step, double stiffness, double active_set_tolerance,
-                     bool coupled)
+ActiveSet::ActiveSet(Projector& projector, const Vector& argument, double step, std::span<const double> stiffness,
+                     double active_set_tolerance, bool coupled)
     : equality_(projector.equality()), matrix_(projector.matrix()), trial_matrix_(&matrix_)
 {
   const auto& set = projector.set();
@@ -52,7 +52,8 @@ ActiveSet::ActiveSet(Projector& projector, const Vector& argument, double step, 
     }
   const std::set<Local> open(fixed_.begin(), fixed_.end());
   const double tiny = tiny_disc * largest_radius(set, equality_.communicator());
-  for (const auto& disc : set.discs()) {
+  for (std::size_t d = 0; d < set.discs().size(); ++d) {
+    const auto& disc = set.discs()[d];
     const Eigen::Vector2d y = from_centre(disc, w);
     const double r = y.norm();
     if (r <= disc.radius && disc.radius > tiny) continue;
@@ -65,7 +66,8 @@ ActiveSet::ActiveSet(Projector& projector, const Vector& argument, double step, 
       continue;
     }
     const double curvature = (r - disc.radius) / (step * disc.radius);
-    slips_.push_back({disc.index, Eigen::Vector2d(-y[1], y[0]) / r, curvature, std::sqrt(stiffness / (stiffness + curvature))});
+    slips_.push_back(
+        {disc.index, Eigen::Vector2d(-y[1], y[0]) / r, curvature, std::sqrt(stiffness[d] / (stiffness[d] + curvature))});
   }
   for (const Local i : fixed_) {
     auto& block = downdates.emplace_back();

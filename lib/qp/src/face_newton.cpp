@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "face_newton_run.hpp"
 #include "qp/error_estimate.hpp"
@@ -15,12 +16,13 @@ namespace {
 constexpr double longer_step = 20;       // times step_length: where bounds follow the solution, on what is not free
 constexpr double safe_length = 1.5;      // of the step that is sure to descend
 constexpr double constraint_weight = 4;  // over the step's length: what a force off its constraint counts beside gaps
-constexpr double slip_stiffness = 0.1;   // curvatures of slip directions are measured against this part of ||P A P||
+constexpr int probes = 4;                // applications of the preconditioner that tell how stiff the point of a disc is
 constexpr double norm_accuracy = 0.4;    // the step only picks the active set, and a descent is checked
 constexpr int max_active_sets = 200;
 constexpr double first_active_set_tolerance = 1e-3;  // distances from bounds, over the largest, that count as none
 constexpr double first_active_set_tolerance_updated =
     1e-5;                                 // the same where bounds follow the solution: the longer step picks better
+constexpr double company = 10;            // so many times stiffer is a point to forces that its neighbours share: they slip, too
 constexpr double longer = 4.0;            // from one of the steps that a start is looked for with to the next
 constexpr double soft = 0.25;             // curvature along the first step over ||P A P|| below which one is looked for
 constexpr int max_starts = 10;            // attempts
@@ -72,6 +74,39 @@ Vector FaceNewton::long_gradient_step(const ActiveSet& active_set, const State& 
     for (int k = 0; k < disc.size(); ++k) to[disc.index[static_cast<std::size_t>(k)]] -= (1 - part) * way[k];
   }
   return beyond;
+}
+
+// How stiff the point of each disc is alone, against which the curvatures of slip directions are measured: one over the diagonal
+// of the preconditioner, which vectors of random signs tell about. No less compliance than 1 / ||P A P||.
+void FaceNewton::measure_discs()
+{
+  const auto discs = problem_.set.discs();
+  const auto wide = std::count_if(discs.begin(), discs.end(), [](const Disc& disc) { return disc.size() == 2; });
+  disc_stiffness_.assign(discs.size(), norm_);
+  if (!preconditioner_ || problem_.equality.communicator().sum(static_cast<long long>(wide)) == 0) return;
+  const auto map = problem_.linear.getMap();
+  Vector signs(map), image(map);
+  std::vector<double> sums(discs.size(), 0.0);
+  preconditioner_->fix({});
+  for (int probe = 0; probe < probes; ++probe) {
+    auto values = view(signs);
+    for (const auto& disc : discs)
+      for (int k = 0; k < disc.size(); ++k) {
+        const Local i = disc.index[static_cast<std::size_t>(k)];
+        std::minstd_rand random(static_cast<unsigned>(probes * map->getGlobalElement(i) + probe + 1));
+        random.discard(3);
+        values[i] = random() % 2 == 0 ? 1 : -1;
+      }
+    preconditioner_->apply(signs, image);
+    ++preconditionings_;
+    const auto felt = view(std::as_const(image));
+    for (std::size_t d = 0; d < discs.size(); ++d)
+      for (int k = 0; k < discs[d].size(); ++k) {
+        const Local i = discs[d].index[static_cast<std::size_t>(k)];
+        sums[d] += values[i] * felt[i] / (probes * discs[d].size());
+      }
+  }
+  for (std::size_t d = 0; d < discs.size(); ++d) disc_stiffness_[d] = company / std::max(sums[d], 1 / norm_);
 }
 
 // Whether the curvature of A from a to b, where A x - b is ga and gb, is far below ||P A P||.
@@ -292,7 +327,7 @@ void FaceNewton::minimise(Run& run, const Trial& trial)
 {
   const bool follow = run.slip_bound_update != nullptr;
   const ActiveSet active_set(projector_, trial.next.argument, run.beyond ? longer_step * trial.step : trial.step,
-                             slip_stiffness * norm_, run.active_set_tolerance, follow);
+                             disc_stiffness_, run.active_set_tolerance, follow);
   if (preconditioner_) preconditioner_->fix(active_set.fixed());
   const double enough = residual_to_reach(run);
   // Where the last active set was picked badly, what others know leads astray: cells of aspect 1000 tell little of each other.
@@ -315,6 +350,7 @@ void FaceNewton::find_norm(const std::optional<Solution>& start, const Observer&
       start && start->hessian_norm > 0 ? start->hessian_norm : projected_norm(problem_.hessian, problem_.equality, norm_accuracy);
   if (observer) observer({"norm", 0, problem_.hessian.count()});
   if (norm_ == 0) norm_ = 1;
+  measure_discs();
 }
 
 // What the last point of a run is as a solution.

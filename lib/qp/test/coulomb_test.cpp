@@ -73,7 +73,8 @@ TEST(ActiveSet, WhatMovesKeepsToTheLawOfFriction)
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   Projector projector(programme.equality, set);
   Vector argument = local_part(10 * programme.random(RandomProgramme::n, 1), programme.map);
-  const ActiveSet active_set(projector, argument, 1, 1, 0, true);
+  const std::vector<double> stiffness(set.discs().size(), 1.0);
+  const ActiveSet active_set(projector, argument, 1, stiffness, 0, true);
   Vector moved = local_part(programme.random(RandomProgramme::n, 1), programme.map), constrained(programme.map);
   active_set.project_trial(moved, constrained);
   EXPECT_LT(programme.equality.norm(programme.equality.apply(moved)), 1e-11);

@@ -14,14 +14,14 @@ namespace mortise::qp {
 /// it.
 class ActiveSet {
  public:
-  /// The active set at `argument`, that of a projection by `projector`, after a gradient step of length `step`; `stiffness`, a
-  /// tenth of ||P A P||, is what curvatures are measured against. Distances from bounds below `active_set_tolerance` times the
+  /// The active set at `argument`, that of a projection by `projector`, after a gradient step of length `step`; `stiffness`, one
+  /// for each disc, is what curvatures are measured against. Distances from bounds below `active_set_tolerance` times the
   /// largest one count as none: bodies that touch without force, like the idle rollers of a bearing, are projected to next to
   /// nothing, and where that is free they could be given tension. `coupled`: radii follow the discs' normal unknowns; then what
   /// moves is T x, and what is felt of a gradient is what x feels, so that the active set is not symmetric. Factorizes the coarse
   /// matrices, and is of use until somebody else does. Collective.
-  ActiveSet(Projector& projector, const Vector& argument, double step, double stiffness, double active_set_tolerance,
-            bool coupled = false);
+  ActiveSet(Projector& projector, const Vector& argument, double step, std::span<const double> stiffness,
+            double active_set_tolerance, bool coupled = false);
 
   /// x becomes its free part, without constrained unknowns and with the tangents alone of discs that slip.
   void keep_free(Vector& x) const { restrict(x, 0); }

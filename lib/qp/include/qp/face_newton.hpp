@@ -68,6 +68,7 @@ class FaceNewton {
   void report(const Run& run, const char* what, bool outer) const;
 
   void precondition(const ActiveSet& active_set, const Vector& residual, Vector& z) const;
+  void measure_discs();
   bool soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const;
   bool improve_start(State& state, double energy);
   Vector long_gradient_step(const ActiveSet& active_set, const State& state) const;
@@ -83,6 +84,7 @@ class FaceNewton {
   std::size_t kept_ = 0;        // of them, the same on every rank
   bool unconstrained_ = false;  // no bounds, no discs: conjugate gradients to the end
   double norm_ = 0;
+  std::vector<double> disc_stiffness_;
   mutable int preconditionings_ = 0;
 };
 
