@@ -221,7 +221,7 @@ void Solver::fixed_point(Run& run)
 // Everything that a load step needs before its first solve.
 Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy)
 {
-  budget_.start(patience_);
+  budget_.start(patience_, tolerance_.value_or(qp::Goal{}.residual));
   states_ = std::make_unique<StateRecord>();
   if (problem_.balancing_multipliers()) hessian_.apply(*problem_.balancing_multipliers(), driven_);
   Run run;

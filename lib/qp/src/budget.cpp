@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mortise::qp {
 
@@ -24,8 +25,11 @@ Budget::Budget(Hessian& hessian, std::optional<int> given, bool steady) : hessia
   start({});
 }
 
-void Budget::start(std::optional<int> patience)
+void Budget::start(std::optional<int> patience, double goal)
 {
+  goal_ = goal;
+  first_.reset();
+  least_ = std::numeric_limits<double>::infinity();
   begin_ = better_ = hessian_.count();
   patience_ = patience;
   end_ = given_ ? *given_ : begin_ + most;
@@ -42,23 +46,35 @@ void Budget::change_algorithm()
 
 void Budget::note(const Progress& progress, std::optional<long long> changes, double change_of_bounds)
 {
-  bool better = improve(std::max(progress.projected_gradient, progress.equality), best_.residual);
+  if (progress.what != "outer") return;  // there is no residual yet, or the one before
+  const double residual = std::max(progress.projected_gradient, progress.equality);
+  if (!first_ && std::isfinite(residual)) first_ = {hessian_.count() - begin_, residual};
+  least_ = std::min(least_, residual);
+  bool better = improve(residual, best_.residual);
   better = improve(progress.error, best_.error) || better;
   better = improve(change_of_bounds, best_.bounds) || better;
   if (changes && *changes < best_.changes) {
     best_.changes = *changes;
     better = true;
   }
-  if (!better) return;
-  better_ = hessian_.count();
+  if (better) better_ = hessian_.count();
+  if (const int spent = hessian_.count() - begin_; patience_ && spent >= look && foreseen() > *patience_) patience_ = spent;
   set_limit();
+}
+
+// Products that the solve would take, at the pace of its residuals on a logarithmic scale.
+double Budget::foreseen() const
+{
+  if (!first_ || !(least_ < first_->second)) return std::numeric_limits<double>::infinity();
+  const double part = std::log(first_->second / least_) / std::max(std::log(first_->second / goal_), 0.0);
+  return first_->first + (hessian_.count() - begin_ - first_->first) / std::min(part, 1.0);
 }
 
 void Budget::set_limit()
 {
   int limit = end_;
   if (patience_)
-    limit = std::min(limit, begin_ + *patience_);
+    limit = std::min({limit, begin_ + *patience_, std::max(begin_, better_) + calm});
   else if (!given_ && !steady_)
     limit = std::min(limit, better_ + stretch);
   hessian_.set_limit(limit);

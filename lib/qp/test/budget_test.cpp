@@ -122,6 +122,52 @@ TEST(Budget, ASteadyAlgorithmGoesToItsEndAndPatienceEndsSooner)
   EXPECT_TRUE(patient.left());
 }
 
+// Something else is ready that is worth 2,000 products.
+TEST(Budget, GivesUpWhereTheEndIsFurtherThanItsPatienceReaches)
+{
+  for (const double pace : {0.97, 0.8}) {  // of the residual in ten products: from 1 to 1e-6 in 4,500, and in 620
+    Products products;
+    Budget budget(products.hessian, {}, false);
+    budget.start(2000, 1e-6);
+    double residual = 1;
+    for (int spent = 0; spent < Budget::look; spent += 10) {
+      EXPECT_FALSE(products.hessian.exhausted());
+      budget.note(at(residual), {}, 1);
+      products.take(10);
+      residual *= pace;
+    }
+    budget.note(at(residual), {}, 1);
+    EXPECT_EQ(products.hessian.exhausted(), pace > 0.9);
+    EXPECT_TRUE(budget.left());
+  }
+}
+
+TEST(Budget, GivesUpWhereNothingBecomesBetterAndSomethingElseIsReady)
+{
+  Products products;
+  Budget budget(products.hessian, {}, false);
+  budget.start(2000, 1e-6);
+  budget.note(at(1), {}, 1);
+  products.take(80);
+  budget.note(at(1e-3), {}, 1);
+  products.take(Budget::calm - 1);
+  budget.note(at(0.9e-3), {}, 1);
+  EXPECT_FALSE(products.hessian.exhausted());
+  products.take(1);
+  EXPECT_TRUE(products.hessian.exhausted());
+}
+
+TEST(Budget, StepsWithoutAResidualTellNothing)
+{
+  Products products;
+  Budget budget(products.hessian, {}, false);
+  budget.note(Progress{"norm"}, {}, 1);
+  products.take(Budget::stretch - 1);
+  budget.note(at(1e-2), {}, 1);
+  products.take(Budget::stretch - 1);
+  EXPECT_FALSE(products.hessian.exhausted());
+}
+
 // Whoever waits for a solve to give up wants no other algorithm.
 TEST(Budget, AnotherAlgorithmMayTakeOverWhileProductsAreLeftAndNobodyWaits)
 {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "qp/problem.hpp"
 
@@ -13,16 +14,21 @@ namespace mortise::qp {
 /// residual, the bound of the error in the energy norm, by how much slip bounds change; or fewer points change their state in a
 /// step than ever. It sets the limit of the Hessian that it watches. Of random decks that ended well by products alone the worst
 /// went 1,200 products without.
+///
+/// A solve that something else is ready to take over (`patience`) gives up sooner: after `look` products, if at the pace of its
+/// residuals it would take more than its patience, and where nothing has become better for `calm`.
 class Budget {
  public:
   static constexpr int stretch = 2500;  ///< products without anything better that end a solve
   static constexpr int most = 10000;    ///< of one solve, whatever becomes better
+  static constexpr int look = 100;      ///< products after which its end is foreseen
+  static constexpr int calm = 200;      ///< without anything better, where something else is ready
 
   /// `given`: the number. `steady`: for an algorithm whose residual may rise for long, where nothing but `most` ends it.
   Budget(Hessian& hessian, std::optional<int> given, bool steady);
 
-  /// Before a solve, that gives up after `patience` products if there is one.
-  void start(std::optional<int> patience);
+  /// Before a solve to the residual `goal`, that gives up after `patience` products if there is one.
+  void start(std::optional<int> patience, double goal = 1e-4);
   /// Another algorithm takes over: its residuals begin anew.
   void change_algorithm();
   /// After a step; `changes`: points whose state changed, if that was an outer step. The arguments are the same on all ranks.
@@ -37,6 +43,7 @@ class Budget {
 
  private:
   void set_limit();
+  double foreseen() const;
 
   Hessian& hessian_;
   std::optional<int> given_, patience_;
@@ -46,6 +53,8 @@ class Budget {
     double residual = std::numeric_limits<double>::infinity(), error = residual, bounds = residual;
     long long changes = std::numeric_limits<long long>::max();
   } best_;
+  double goal_ = 0, least_ = std::numeric_limits<double>::infinity();  // residuals
+  std::optional<std::pair<int, double>> first_;                        // products and residual of the first step
 };
 
 }  // namespace mortise::qp
