@@ -10,28 +10,10 @@
 #include "mesh/topology.hpp"
 #include "partition/congruence.hpp"
 #include "partition/node_directory.hpp"
+#include "two_blocks.hpp"
 
 namespace mortise::partition {
 namespace {
-
-mesh::Options beams(const std::string& element, std::array<int, 3> cells)
-{
-  mesh::Options options;
-  mesh::BlockOptions block;
-  block.size = {2, 1, 1};
-  block.cells = cells;
-  block.element = element;
-  options.blocks["lower"] = options.blocks["upper"] = block;
-  options.blocks["upper"].origin = {0.5, 0, 1};
-  return options;
-}
-
-Decomposition make(const mesh::Options& mesh, const Options& options, const Communicator& comm, int dimension = 3)
-{
-  Timers timers;
-  Log log(comm, nullptr);
-  return decompose(mesh, options, dimension, {comm, log, timers});
-}
 
 // The cells of all subdomains, in order, on every rank: does not depend on the number of ranks.
 std::vector<Global> fingerprint(const Decomposition& d, const Communicator& comm)
@@ -50,7 +32,7 @@ TEST(Decompose, PaperSFirstRowHasItsUnknowns)
   Options options;
   options.method = "grid";
   options.counts = {{"lower", {6, 3, 3}}, {"upper", {6, 3, 3}}};
-  const auto d = make(beams("hex8", {60, 30, 30}), options, comm);
+  const auto d = cut_of(two_blocks("hex8", {60, 30, 30}, {60, 30, 30}), options, comm);
   EXPECT_EQ(d.subdomain_count(), 108);
   long long nodes = 0;
   for (const auto& s : d.subdomains) nodes += static_cast<long long>(s.mesh.node_count());
@@ -62,9 +44,9 @@ TEST(Decompose, MetisPartsAreConnectedAndCoverEveryCellOnce)
   const Communicator comm;
   Options options;
   options.subdomains = 14;
-  const auto d = make(beams("tet4", {8, 4, 4}), options, comm);
+  const auto d = cut_of(two_blocks("tet4", {8, 4, 4}, {8, 4, 4}), options, comm);
   const Communicator alone(MPI_COMM_SELF);
-  const auto serial = make(beams("tet4", {8, 4, 4}), options, alone);
+  const auto serial = cut_of(two_blocks("tet4", {8, 4, 4}, {8, 4, 4}), options, alone);
   EXPECT_EQ(fingerprint(d, comm), fingerprint(serial, alone));
   std::set<Global> cells;
   for (const auto& s : serial.subdomains) {
@@ -88,7 +70,7 @@ TEST(Cut, IslandsJoinANeighbour)
   const Communicator alone(MPI_COMM_SELF);
   for (int parts = 2; parts < 13; ++parts) {
     cut_options.subdomains = parts;
-    for (const auto& s : make(options, cut_options, alone, 2).subdomains) {
+    for (const auto& s : cut_of(options, cut_options, alone, 2).subdomains) {
       const auto part = mesh::connected_parts(mesh::face_neighbours(s.mesh.cells), std::vector<int>(s.mesh.cells.size(), 0));
       EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0);
     }
@@ -107,7 +89,8 @@ TEST(Clusters, AreConnectedPartsOfBodiesOnOneRank)
   grid.counts = {{"lower", {8, 4, 4}}, {"upper", {5, 3, 2}}};
   grid.subdomains_per_cluster = 8;
   for (const auto& options : {metis, grid}) {
-    const auto serial = make(beams("hex8", {8, 4, 4}), options, alone), d = make(beams("hex8", {8, 4, 4}), options, comm);
+    const auto serial = cut_of(two_blocks("hex8", {8, 4, 4}, {8, 4, 4}), options, alone),
+               d = cut_of(two_blocks("hex8", {8, 4, 4}, {8, 4, 4}), options, comm);
     EXPECT_EQ(fingerprint(d, comm), fingerprint(serial, alone));
     EXPECT_EQ(d.clusters, serial.clusters);
     EXPECT_TRUE(d.clustered());
@@ -146,7 +129,7 @@ TEST(Clusters, OfAGridAreBlocksOfIt)
     options.method = "grid";
     options.counts = {{"lower", lower}, {"upper", {1, 1, 1}}};
     options.subdomains_per_cluster = size;
-    const auto d = make(beams("hex8", {12, 12, 12}), options, alone);
+    const auto d = cut_of(two_blocks("hex8", {12, 12, 12}, {12, 12, 12}), options, alone);
     EXPECT_EQ(d.clusters[static_cast<std::size_t>(d.cluster_count()) - 1], d.subdomain_count() - 1);
     return d.cluster_count() - 1;
   };
@@ -164,7 +147,7 @@ TEST(NodeDirectory, KnowsEveryCopy)
   Options options;
   options.method = "grid";
   options.counts = {{"lower", {3, 2, 2}}, {"upper", {2, 2, 1}}};
-  const auto d = make(beams("hex8", {6, 4, 4}), options, comm);
+  const auto d = cut_of(two_blocks("hex8", {6, 4, 4}, {6, 4, 4}), options, comm);
   std::vector<std::vector<double>> weight;
   for (const auto& s : d.subdomains) weight.emplace_back(s.mesh.node_count(), static_cast<double>(s.id));
   const NodeDirectory directory(d, weight, comm);
@@ -198,7 +181,7 @@ TEST(Congruence, CopiesAreFoundAndOthersAreNot)
   Options options;
   options.method = "grid";
   options.counts = {{"lower", {3, 2, 2}}, {"upper", {4, 2, 2}}};  // cells 2 x 2 x 2, and 1 or 2 x 2 x 2
-  auto d = make(beams("hex8", {6, 4, 4}), options, alone);
+  auto d = cut_of(two_blocks("hex8", {6, 4, 4}, {6, 4, 4}), options, alone);
   std::vector<int> kind(d.subdomains.size(), 0);
   const auto first = congruent(d.subdomains, kind);
   std::set<std::size_t> originals;
@@ -223,7 +206,7 @@ Decomposition two_halves()
   Options options;
   options.method = "grid";
   options.counts = {{"lower", {2, 1, 1}}, {"upper", {1, 1, 1}}};
-  auto d = make(beams("hex8", {6, 4, 4}), options, alone);
+  auto d = cut_of(two_blocks("hex8", {6, 4, 4}, {6, 4, 4}), options, alone);
   d.subdomains.resize(2);
   return d;
 }
@@ -265,7 +248,7 @@ TEST(BoundarySurface, IsWholeOverAllRanks)
   const Communicator comm;
   Options options;
   options.subdomains = 9;
-  const auto d = make(beams("prism6", {6, 4, 4}), options, comm);
+  const auto d = cut_of(two_blocks("prism6", {6, 4, 4}, {6, 4, 4}), options, comm);
   const auto surface = boundary_surface(d, 4, {true, true});  // lower.zmin
   EXPECT_EQ(comm.sum(static_cast<long long>(surface.faces.size())), 2 * 6 * 4);
   std::set<Global> ids;
@@ -301,7 +284,7 @@ TEST(Instances, AreCutAlikeAndFoundCongruent)
   grid.method = "grid";
   grid.counts = {{"pad", {2, 1, 2}}, {"table", {1, 1, 1}}};
   for (const auto& options : {metis, grid}) {
-    const auto d = make(ring_of_pads("tet4"), options, alone);
+    const auto d = cut_of(ring_of_pads("tet4"), options, alone);
     ASSERT_EQ(d.catalogue.bodies.size(), 36U);
     const auto copies = congruent(d.subdomains, std::vector<int>(d.subdomains.size(), 0));
     std::map<int, std::vector<std::size_t>> of_body;
@@ -324,8 +307,8 @@ TEST(Instances, OneBodyEachWithNumbersOfItsOwn)
   const Communicator comm, alone(MPI_COMM_SELF);
   Options options;
   options.unknowns_per_subdomain = 300;
-  const auto d = make(ring_of_pads("hex8"), options, comm);
-  EXPECT_EQ(fingerprint(d, comm), fingerprint(make(ring_of_pads("hex8"), options, alone), alone));
+  const auto d = cut_of(ring_of_pads("hex8"), options, comm);
+  EXPECT_EQ(fingerprint(d, comm), fingerprint(cut_of(ring_of_pads("hex8"), options, alone), alone));
   EXPECT_EQ(d.catalogue.node_count, 36 * 7 * 5 * 5);
   EXPECT_EQ(d.catalogue.cell_count, 36 * 96);
   EXPECT_EQ(d.catalogue.bodies[34].name, "pad.35");
@@ -358,7 +341,7 @@ TEST(Instances, ATotalOfSubdomainsIsMetAsFarAsCopiesAllow)
   const Communicator alone(MPI_COMM_SELF);
   Options options;
   options.subdomains = 80;  // 35 pads and a table: two each, and what is left goes to the table
-  EXPECT_EQ(make(ring_of_pads("hex8"), options, alone).subdomain_count(), 80);
+  EXPECT_EQ(cut_of(ring_of_pads("hex8"), options, alone).subdomain_count(), 80);
 }
 
 }  // namespace

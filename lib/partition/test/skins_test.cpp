@@ -14,29 +14,10 @@
 #include "partition/node_directory.hpp"
 #include "partition/skin.hpp"
 #include "partition/whole_bodies.hpp"
+#include "two_blocks.hpp"
 
 namespace mortise::partition {
 namespace {
-
-mesh::Options neighbour_blocks(const std::string& element, bool plane = false)
-{
-  mesh::Options options;
-  mesh::BlockOptions block;
-  block.size = {2, 1, 1};
-  block.cells = {6, 4, 4};
-  block.element = element;
-  options.blocks["lower"] = options.blocks["upper"] = block;
-  options.blocks["upper"].origin = plane ? std::array<double, 3>{0.5, 1, 0} : std::array<double, 3>{0.5, 0, 1};
-  options.blocks["upper"].cells = {4, 3, 2};
-  return options;
-}
-
-Decomposition cut_of(const mesh::Options& mesh, const Options& options, const Communicator& comm, int dimension = 3)
-{
-  Timers timers;
-  Log log(comm, nullptr);
-  return decompose(mesh, options, dimension, {comm, log, timers});
-}
 
 Options metis(int unknowns)
 {
@@ -148,7 +129,7 @@ const std::vector<Case> cases{{"hex8", 3, 60},   {"tet4", 3, 60},     {"prism6",
 
 Decomposition cut_of(const Case& c, const Communicator& comm)
 {
-  return cut_of(neighbour_blocks(c.element, c.dimension == 2), metis(c.unknowns), comm, c.dimension);
+  return cut_of(two_blocks(c.element, {6, 4, 4}, {4, 3, 2}, c.dimension == 2), metis(c.unknowns), comm, c.dimension);
 }
 
 TEST(Skins, EncloseWhatTheCellsFill)
@@ -382,7 +363,7 @@ TEST(Skins, OfRotatedInstancesAreCopies)
 {
   const Communicator alone(MPI_COMM_SELF);
   for (const char* element : {"hex8", "tet10", "prism6"}) {
-    auto blocks = neighbour_blocks(element);
+    auto blocks = two_blocks(element, {6, 4, 4}, {4, 3, 2});
     mesh::InstanceOptions row;
     row.count = 7;
     row.rotate = mesh::RotationOptions{{1, 2, -0.5}, 360.0 / 7, {-3, 2, 1}};

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "partition/decompose.hpp"
+#include "two_blocks.hpp"
 
 namespace mortise::partition {
 namespace {
@@ -23,9 +23,7 @@ Decomposition block_of(const std::string& element, int subdomains, const Communi
   mesh.blocks["other"].cells = {2, 1, 1};
   Options options;
   options.subdomains = subdomains;
-  Timers timers;
-  Log log(comm, nullptr);
-  return decompose(mesh, options, 3, {comm, log, timers});
+  return cut_of(mesh, options, comm);
 }
 
 // Of each cell its subdomain and how many facets it has, over all ranks.

@@ -6,27 +6,14 @@
 #include <algorithm>
 #include <map>
 
-#include "partition/decompose.hpp"
+#include "two_blocks.hpp"
 
 namespace mortise::partition {
 namespace {
 
-mesh::Options two_blocks(const std::string& element)
-{
-  mesh::Options options;
-  mesh::BlockOptions block;
-  block.size = {2, 1, 1};
-  block.cells = {6, 3, 4};
-  block.element = element;
-  options.blocks["lower"] = options.blocks["upper"] = block;
-  options.blocks["upper"].origin = {0.5, 0, 1};
-  options.blocks["upper"].cells = {4, 2, 3};
-  return options;
-}
-
 mesh::Options with_instances(const std::string& element)
 {
-  auto options = two_blocks(element);
+  auto options = two_blocks(element, {6, 3, 4}, {4, 2, 3});
   mesh::InstanceOptions row;
   row.count = 4;
   row.rotate = mesh::RotationOptions{{0, 0, 1}, 90.0, {-3, 2, 1}};
@@ -105,7 +92,8 @@ TEST(WholeBodies, AreWhatWasCut)
         Options options;
         options.unknowns_per_subdomain = 60;
         options.subdomains_per_cluster = per_cluster;
-        const auto cut = decompose(instances ? with_instances(element) : two_blocks(element), options, 3, {comm, log, timers});
+        const auto cut = decompose(instances ? with_instances(element) : two_blocks(element, {6, 3, 4}, {4, 2, 3}), options, 3,
+                                   {comm, log, timers});
         const auto whole = whole_bodies(cut, comm);
         const auto bodies = static_cast<Global>(cut.catalogue.bodies.size());
         ASSERT_GT(cut.subdomain_count(), 2 * bodies);
@@ -137,7 +125,7 @@ TEST(WholeBodies, OfOneBodyThatIsWholeNothingChanges)
   const Communicator comm;
   Timers timers;
   Log log(comm, nullptr);
-  auto blocks = two_blocks("hex8");
+  auto blocks = two_blocks("hex8", {6, 3, 4}, {4, 2, 3});
   blocks.blocks.erase("upper");
   Options options;
   options.subdomains = 1;
