@@ -41,6 +41,39 @@ class AugmentedLagrangian {
   Vector work_;
 };
 
+// P (A x0 - b) / nrm. Collective.
+void set_constant(const Problem& problem, const Vector& x0, double norm, Vector& constant)
+{
+  problem.hessian.apply(x0, constant);
+  constant.update(-1, problem.linear, 1);
+  problem.equality.project(constant);
+  constant.scale(1 / norm);
+}
+
+// A cold start takes gradient projections on {G x = e} intersected with Omega, which cost one product each and, through the
+// multipliers of the last projection, tell how hard the equality constraint pulls. Moves `feasible` and what depends on it.
+void take_start_steps(const Problem& problem, double norm, Projection& feasible, Vector& constant, Eigen::VectorXd& nu)
+{
+  for (int step = 0; step < start_steps; ++step) {
+    Vector moved(feasible.point, Teuchos::Copy);
+    moved.update(-start_length, constant, 1);
+    Projection next = project(moved, problem.equality, problem.set);
+    if (!next.found) break;
+    nu = next.nu / start_length;
+    feasible = std::move(next);
+    set_constant(problem, feasible.point, norm, constant);
+  }
+}
+
+// L = 1/2 z'(g + c) with g = H z + c, c = P(A x0 - b)/nrm + G' nu. Collective.
+double value_of(const Problem& problem, const Vector& constant, const Eigen::VectorXd& nu, const Point& point)
+{
+  Vector c(constant, Teuchos::Copy);
+  problem.equality.add_transpose(1, nu, c);
+  c.update(1, point.gradient, 1);
+  return 0.5 * point.x.dot(c);
+}
+
 }  // namespace
 
 Solution smalse(const Problem& problem, const std::optional<Solution>& start, double tolerance, const Observer& observer)
@@ -65,25 +98,9 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
   double size = relative_size(problem, tolerance) / norm;
   if (size == 0) size = 1;
 
-  Vector constant(map);  // P (A x0 - b) / nrm
-  const auto update = [&] {
-    hessian.apply(feasible.point, constant);
-    constant.update(-1, linear, 1);
-    equality.project(constant);
-    constant.scale(1 / norm);
-  };
-  update();
-  // A cold start takes gradient projections on {G x = e} intersected with Omega, which cost one product each and, through the
-  // multipliers of the last projection, tell how hard the equality constraint pulls.
-  for (int step = 0; !start && step < start_steps; ++step) {
-    Vector moved(feasible.point, Teuchos::Copy);
-    moved.update(-start_length, constant, 1);
-    Projection next = project(moved, equality, set);
-    if (!next.found) break;
-    nu = next.nu / start_length;
-    feasible = std::move(next);
-    update();
-  }
+  Vector constant(map);
+  set_constant(problem, feasible.point, norm, constant);
+  if (!start) take_start_steps(problem, norm, feasible, constant, nu);
   const Vector origin(feasible.point, Teuchos::Copy);
   const FeasibleSet moved = set.shifted(view(origin));
 
@@ -124,11 +141,7 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
     result.converged = measure <= tolerance * size && residual <= tolerance * size;
     if (result.converged || hessian.exhausted() || result.outer_iterations >= max_outer_iterations) break;
 
-    // L = 1/2 z'(g + c) with g = H z + c, c = P(A x0 - b)/nrm + G' nu.
-    Vector c(constant, Teuchos::Copy);
-    equality.add_transpose(1, nu, c);
-    c.update(1, point.gradient, 1);
-    const double value = 0.5 * point.x.dot(c);
+    const double value = value_of(problem, constant, nu, point);
     if (value < previous + 0.5 * residual * residual) result.precision *= shrink_precision;
     previous = value;
     if (equality.size() == 0) continue;
