@@ -23,20 +23,6 @@ struct Common {
   auto operator<=>(const Common&) const = default;
 };
 
-// Faces of cells that no second cell of the subdomain has.
-std::vector<mesh::CellFace> outer_faces(const mesh::Cells& cells)
-{
-  const auto all = mesh::sorted_faces(cells);
-  std::vector<mesh::CellFace> result;
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t end = i + 1;
-    while (end < all.size() && all[end].corners == all[i].corners) ++end;
-    if (end == i + 1) result.push_back(all[i]);
-    i = end;
-  }
-  return result;
-}
-
 // By other subdomain of the cluster with a higher number, ids up to `last`: the nodes of the faces in common with the s-th.
 std::map<Global, std::vector<Common>> common_nodes(const partition::Decomposition& decomposition,
                                                    const partition::Interface& interface, const std::vector<double>& weight,
@@ -55,7 +41,7 @@ std::map<Global, std::vector<Common>> common_nodes(const partition::Decompositio
     return nullptr;
   };
   std::map<Global, std::vector<Common>> result;
-  for (const auto& face : outer_faces(cells)) {
+  for (const auto& face : mesh::border_faces(cells)) {
     const int at = place[static_cast<std::size_t>(face.corners[0])];
     if (at < 0) continue;
     for (const auto& copy : interface.copies[s][static_cast<std::size_t>(at)]) {

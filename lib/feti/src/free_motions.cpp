@@ -5,9 +5,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 
+#include "body_rows.hpp"
 #include "sliding_modes.hpp"
 
 namespace mortise::feti {
@@ -18,64 +17,6 @@ namespace {
 // of a faceted cylinder are wrong by about half the difference of neighbouring facet angles.
 constexpr double nearly = 0.02;
 constexpr double exactly = 1e-7;
-// Facets excuse the normal rows of contacts alone: what supports, bonds and friction feel of a motion counts this often.
-constexpr double support_weight = 1e3;
-
-Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& points, int dimension)
-{
-  Eigen::VectorXd v(static_cast<Eigen::Index>(points.size()) * dimension);
-  for (std::size_t n = 0; n < points.size(); ++n)
-    v.segment(static_cast<Eigen::Index>(n) * dimension, dimension) = motion.at(points[n]).head(dimension);
-  return v;
-}
-
-// Everything body-wise: A maps the amplitudes of the bodies' motions to kernel coordinates of the clusters.
-struct Bodies {
-  fem::Kinematics kinematics;
-  int modes;  // of each body
-  std::vector<BodyFrame> frames;
-  SparseMatrix aggregate;       // A: kernels x (bodies * modes)
-  Eigen::VectorXd force;        // sum of |nodal forces| of each body
-  Eigen::VectorXd generalised;  // work of the loads on each unit motion
-};
-
-Bodies aggregate(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
-                 const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
-{
-  Bodies bodies;
-  const int dimension = fem::dimension(kinematics);
-  bodies.kinematics = kinematics;
-  bodies.modes = fem::rigid_motion_count(kinematics);
-  bodies.frames = body_frames(decomposition, comm);
-  const auto body_count = static_cast<Eigen::Index>(bodies.frames.size());
-  struct Entry {
-    int row, column;
-    double value;
-  };
-  std::vector<Entry> entries;
-  bodies.force = Eigen::VectorXd::Zero(body_count);
-  bodies.generalised = Eigen::VectorXd::Zero(body_count * bodies.modes);
-  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const auto& subdomain = decomposition.subdomains[s];
-    for (int k = 0; k < bodies.modes; ++k) {
-      const auto v =
-          sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, kinematics), subdomain.mesh.points, dimension);
-      const Eigen::VectorXd coordinates = clusters.coordinates(s, v);
-      for (int i = 0; i < coordinates.size(); ++i)
-        entries.push_back({clusters.first(s) + i, subdomain.body * bodies.modes + k, coordinates[i]});
-      bodies.generalised[subdomain.body * bodies.modes + k] += load[s].dot(v);
-    }
-    for (Eigen::Index n = 0; n < load[s].size() / dimension; ++n)
-      bodies.force[subdomain.body] += load[s].segment(n * dimension, dimension).norm();
-  }
-  comm.sum_in_place({bodies.force.data(), static_cast<std::size_t>(bodies.force.size())});
-  comm.sum_in_place({bodies.generalised.data(), static_cast<std::size_t>(bodies.generalised.size())});
-  std::vector<Eigen::Triplet<double>> triplets;
-  for (const auto& entry : comm.all_gather(entries)) triplets.emplace_back(entry.row, entry.column, entry.value);
-  bodies.aggregate.resize(clusters.kernel_dimension(), body_count * bodies.modes);
-  bodies.aggregate.setFromTriplets(triplets.begin(), triplets.end());
-  return bodies;
-}
 
 // Near-null vectors of the rows of one body, unit in the amplitudes; `rows` is (rows of this rank) x modes.
 std::vector<Eigen::VectorXd> unfelt(const Eigen::MatrixXd& rows, double tolerance, const Communicator& comm)
@@ -106,72 +47,6 @@ Eigen::MatrixXd unfelt_by(const Eigen::VectorXd& counts, const Eigen::MatrixXd& 
     result.rightCols(1) = basis * v;
   }
   return result;
-}
-
-// The bodies that bonded contacts join, with the others alone: each body by itself first, then the sets of several.
-std::vector<std::vector<int>> units(const SparseMatrix& row_values, const constraint::Contacts& contacts, Local first_contact,
-                                    int bodies, int modes, const Communicator& comm)
-{
-  struct BodyPair {
-    int one, other;
-  };
-  std::vector<BodyPair> pairs;
-  const Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows(row_values);
-  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
-    if (!contacts.bonded[i]) continue;
-    int before = -1;
-    for (decltype(rows)::InnerIterator entry(rows, first_contact + static_cast<Local>(contacts.nodes[i].row)); entry; ++entry) {
-      const int body = static_cast<int>(entry.col()) / modes;
-      if (std::abs(entry.value()) < 1e-9 || body == before) continue;
-      if (before >= 0 && (pairs.empty() || pairs.back().one != before || pairs.back().other != body))
-        pairs.push_back({before, body});
-      before = body;
-    }
-  }
-  std::vector<int> root(static_cast<std::size_t>(bodies));
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int b) {
-    while (root[static_cast<std::size_t>(b)] != b) b = root[static_cast<std::size_t>(b)];
-    return b;
-  };
-  for (const auto& pair : comm.all_gather(pairs)) {
-    const int a = find(pair.one), b = find(pair.other);
-    root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-  std::map<int, std::vector<int>> sets;
-  std::vector<std::vector<int>> result;
-  for (int b = 0; b < bodies; ++b) {
-    result.push_back({b});
-    sets[find(b)].push_back(b);
-  }
-  for (auto& [first, set] : sets)
-    if (set.size() > 1) result.push_back(std::move(set));
-  return result;
-}
-
-// Takes out of `row_values` what the unknowns of one group give way to, part * s with the s that are nearest to each motion, and
-// adds what their forces work on it. `first`: the first owned row of `row_values`.
-void release(std::span<const Unknown> group, Local first, Bodies& bodies, SparseMatrix& row_values, const Communicator& comm)
-{
-  const auto count = static_cast<Eigen::Index>(group.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index k = 0; k < count; ++k)
-    for (const auto& [row, part] : group[static_cast<std::size_t>(k)].parts) entries.emplace_back(row - first, k, part);
-  SparseMatrix parts(row_values.rows(), count);
-  parts.setFromTriplets(entries.begin(), entries.end());
-  Eigen::MatrixXd nearest(count, row_values.cols()), gram = Eigen::MatrixXd(SparseMatrix(parts.transpose() * parts));
-  nearest = Eigen::MatrixXd(SparseMatrix(parts.transpose() * row_values));
-  comm.sum_in_place({nearest.data(), static_cast<std::size_t>(nearest.size())});
-  comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
-  nearest = gram.ldlt().solve(nearest).eval();
-  row_values -= SparseMatrix(parts * SparseMatrix(nearest.sparseView(1.0, 1e-12)));
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const double force = group[static_cast<std::size_t>(k)].force;
-    const Eigen::VectorXd motion = nearest.row(k);
-    bodies.generalised += force * motion;
-    for (Eigen::Index b = 0; b < bodies.force.size(); ++b)
-      if (motion.segment(b * bodies.modes, bodies.modes).norm() > 1e-6) bodies.force[b] += std::abs(force);
-  }
 }
 
 // Turns an orthonormal basis so that the loads drive its first vector alone, and in its own sense: of many motions together, that
@@ -263,134 +138,159 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clus
   return combine(body, frame, amplitudes, kinematics);
 }
 
+namespace {
+
+// Collects the free motions, of one unit after the other and then of several bodies together. Its arguments outlive it.
+class FreeMotionSearch {
+ public:
+  FreeMotionSearch(const Bodies& bodies, const BodyRows& rows, const constraint::Contacts& contacts, const Communicator& comm)
+      : bodies_(bodies), rows_(rows), contacts_(contacts), comm_(comm), body_count_(static_cast<int>(bodies.frames.size()))
+  {
+  }
+
+  // Of bodies that move as one. Collective.
+  void find(const std::vector<int>& unit, std::span<const constraint::SlidingSurface> sliding_surfaces);
+  // The null space of all rows once the motions found so far are stopped. Collective.
+  void find_joint();
+
+  std::vector<FreeMotion> found;
+
+ private:
+  RigidMotion motion_of(const std::vector<int>& unit, const Eigen::VectorXd& v) const
+  {
+    return combine(unit.front(), bodies_.frames[static_cast<std::size_t>(unit.front())], v, bodies_.kinematics);
+  }
+  Eigen::MatrixXd spread(const std::vector<int>& unit) const;
+  bool along_surfaces(const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) const;
+
+  const Bodies& bodies_;
+  const BodyRows& rows_;
+  const constraint::Contacts& contacts_;
+  const Communicator& comm_;
+  const int body_count_;
+  std::vector<Eigen::VectorXd> amplitudes_;  // of each found motion, over all bodies
+};
+
+// From amplitudes of the first body of a unit to those of all its bodies.
+Eigen::MatrixXd FreeMotionSearch::spread(const std::vector<int>& unit) const
+{
+  const int modes = bodies_.modes;
+  const auto& frame = bodies_.frames[static_cast<std::size_t>(unit.front())];
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(body_count_ * modes, modes);
+  for (const int b : unit)
+    for (int k = 0; k < modes; ++k)
+      result.block(b * modes, k, modes, 1) = amplitudes_of(unit_motion(unit.front(), frame, k, bodies_.kinematics),
+                                                           bodies_.frames[static_cast<std::size_t>(b)], bodies_.kinematics);
+  return result;
+}
+
+// Whether the normal rows feel no more of a motion than the angles of facets explain: a small part of the velocity there.
+bool FreeMotionSearch::along_surfaces(const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) const
+{
+  double worst = 0;
+  for (std::size_t i = 0; i < contacts_.nodes.size(); ++i) {
+    if (contacts_.bonded[i]) continue;
+    const double here = std::abs(rows.row(rows_.first_contact + static_cast<Local>(contacts_.nodes[i].row)).dot(v));
+    if (here > 1e-6) worst = std::max(worst, here / std::max(motion.at(contacts_.nodes[i].at).norm(), 1e-12));
+  }
+  return comm_.max(worst) <= 3 * nearly;
+}
+
+void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constraint::SlidingSurface> sliding_surfaces)
+{
+  // Bodies of which one moves by itself are left to the joint motions.
+  if (unit.size() > 1 && std::any_of(found.begin(), found.end(), [&](const FreeMotion& motion) {
+        return std::find(unit.begin(), unit.end(), motion.motions.front().body) != unit.end();
+      }))
+    return;
+  const Eigen::MatrixXd spread_unit = spread(unit);
+  double force = 0;
+  for (const int b : unit) force += bodies_.force[b];
+  const Eigen::MatrixXd rows = rows_.weight.asDiagonal() * Eigen::MatrixXd(rows_.values * spread_unit.sparseView(1.0, 1e-14));
+  const Eigen::VectorXd drives = spread_unit.transpose() * bodies_.generalised;
+  const auto add = [&](const Eigen::VectorXd& v, double motion_felt, bool sliding) {
+    FreeMotion motion;
+    motion.resistance = motion_felt;
+    motion.sliding = sliding;
+    for (const int b : unit) {
+      motion.motions.push_back(motion_of(unit, v));
+      motion.motions.back().body = b;
+    }
+    motion.work = force > 0 ? std::abs(drives.dot(v)) / force : 0;
+    amplitudes_.emplace_back(spread_unit * v);
+    found.push_back(std::move(motion));
+  };
+  // Three kinds, each in what the ones before leave: what rows do not feel at all; what lets surfaces slide along themselves;
+  // what rows hardly feel.
+  Eigen::MatrixXd taken(bodies_.modes, 0);
+  for (const auto& v : unfelt(rows, nearly, comm_)) {
+    if (largest(rows * v, comm_) >= 1e-6) continue;
+    taken.conservativeResize(Eigen::NoChange, taken.cols() + 1);
+    taken.rightCols(1) = v;
+  }
+  align_with_loads(taken, drives);
+  for (const auto& v : taken.colwise()) add(v, largest(rows * v, comm_), false);
+
+  const SlidingModes sliding_modes(unit, bodies_.frames[static_cast<std::size_t>(unit.front())], bodies_.kinematics,
+                                   sliding_surfaces);
+  Eigen::MatrixXd sliding = sliding_modes.free(unfelt_by(rows_.fixed, rows, complement(taken), exactly * support_weight, comm_));
+  align_with_loads(sliding, drives);
+  for (const auto& v : sliding.colwise()) add(v, sliding_modes.resistance(v), true);
+
+  Eigen::MatrixXd all(bodies_.modes, taken.cols() + sliding.cols());
+  all << taken, sliding;
+  const Eigen::MatrixXd rest = complement(all);
+  if (rest.cols() == 0) return;
+  const Eigen::MatrixXd rows_of_rest = rows * rest;
+  for (const auto& amplitude : unfelt(rows_of_rest, nearly, comm_)) {
+    const Eigen::VectorXd v = rest * amplitude;
+    const double worst = largest(rows * v, comm_);
+    if (along_surfaces(rows, v, motion_of(unit, v)) && worst <= 3 * nearly) add(v, worst, false);
+  }
+}
+
+void FreeMotionSearch::find_joint()
+{
+  constexpr int dense_limit = 3000;
+  const int modes = bodies_.modes;
+  if (body_count_ < 2 || body_count_ * modes > dense_limit) return;
+  Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(rows_.values.transpose() * rows_.values));
+  comm_.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
+  const double weight = std::max(gram.diagonal().maxCoeff(), 1.0);
+  for (const auto& v : amplitudes_) gram += weight * v * v.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  Eigen::Index together = 0;
+  while (together < gram.cols() && eigen.eigenvalues()[together] < exactly * exactly * weight * 100) ++together;
+  Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(together);
+  align_with_loads(basis, bodies_.generalised);
+  for (const auto& v : basis.colwise()) {
+    FreeMotion motion;
+    motion.resistance = largest(rows_.values * v, comm_);
+    double force = 0;
+    for (int b = 0; b < body_count_; ++b) {
+      if (v.segment(b * modes, modes).norm() < 1e-6) continue;
+      motion.motions.push_back(combine(b, bodies_.frames[b], v.segment(b * modes, modes), bodies_.kinematics));
+      force += bodies_.force[b];
+    }
+    motion.work = force > 0 ? std::abs(bodies_.generalised.dot(v)) / force : 0;
+    found.push_back(std::move(motion));
+  }
+}
+
+}  // namespace
+
 std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomposition, const JumpOperator& jump,
                                           const Clusters& clusters, fem::Kinematics kinematics, const SparseMatrix& g,
                                           const constraint::Constraints& constraints, std::span<const Unknown> unknowns,
                                           std::span<const constraint::SlidingSurface> sliding_surfaces,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
-  const auto& contacts = constraints.contacts;
   Bodies bodies = aggregate(decomposition, clusters, kinematics, load, comm);
-  const int modes = bodies.modes;
-  // Rows x amplitudes, in length units again: the support and contact rows that this rank owns.
-  const Local first = jump.ranges().dirichlet, count = jump.ranges().extra - first;
-  Eigen::VectorXd unscale(count);
-  for (Local row = 0; row < count; ++row) unscale[row] = 1 / jump.scaled(first + row, 1);
-  SparseMatrix row_values =
-      unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
-  const Local first_contact = jump.ranges().contacts - first;
-  for (std::size_t begin = 0, end = 0; begin < unknowns.size(); begin = end) {
-    while (end < unknowns.size() && unknowns[end].group == unknowns[begin].group) ++end;
-    release(unknowns.subspan(begin, end - begin), first, bodies, row_values, comm);
-  }
-  Eigen::VectorXd weight_of_row = Eigen::VectorXd::Constant(count, support_weight);
-  for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
-    if (!contacts.bonded[i]) weight_of_row[first_contact + static_cast<Local>(contacts.nodes[i].row)] /= support_weight;
-  Eigen::VectorXd fixed_row = (weight_of_row.array() > 1).cast<double>();
-  // What acts along normals of a surface feels facets, too, of motions that let it slide along itself.
-  const auto skew = static_cast<Local>(constraints.prescribed.size());
-  for (std::size_t i = 0; i < constraints.skew_supports.size(); ++i)
-    if (constraints.skew_supports[i].along_normals) fixed_row[skew + static_cast<Local>(i)] = 0;
-  const auto& springs = constraints.springs;
-  for (std::size_t i = 0; i < springs.own.size(); ++i)
-    if (springs.rows[springs.own[i]].along_normal) fixed_row[jump.ranges().springs - first + static_cast<Local>(i)] = 0;
-  // Whether the normal rows feel no more of a motion than the angles of facets explain: a small part of the velocity there.
-  const auto along_surfaces = [&](const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) {
-    double worst = 0;
-    for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
-      if (contacts.bonded[i]) continue;
-      const double here = std::abs(rows.row(first_contact + static_cast<Local>(contacts.nodes[i].row)).dot(v));
-      if (here > 1e-6) worst = std::max(worst, here / std::max(motion.at(contacts.nodes[i].at).norm(), 1e-12));
-    }
-    return comm.max(worst) <= 3 * nearly;
-  };
-  const auto body_count = static_cast<int>(bodies.frames.size());
-
-  std::vector<FreeMotion> found;
-  std::vector<Eigen::VectorXd> amplitudes;  // of each found motion, over all bodies
-  for (const auto& unit : units(row_values, contacts, first_contact, body_count, modes, comm)) {
-    // Bodies of which one moves by itself are left to the joint motions below.
-    if (unit.size() > 1 && std::any_of(found.begin(), found.end(), [&](const FreeMotion& motion) {
-          return std::find(unit.begin(), unit.end(), motion.motions.front().body) != unit.end();
-        }))
-      continue;
-    const auto& frame = bodies.frames[static_cast<std::size_t>(unit.front())];
-    // From amplitudes of the first body to those of all bodies that move with it.
-    Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(body_count * modes, modes);
-    double force = 0;
-    for (const int b : unit) {
-      for (int k = 0; k < modes; ++k)
-        spread.block(b * modes, k, modes, 1) = amplitudes_of(unit_motion(unit.front(), frame, k, kinematics),
-                                                             bodies.frames[static_cast<std::size_t>(b)], kinematics);
-      force += bodies.force[b];
-    }
-    const Eigen::MatrixXd rows = weight_of_row.asDiagonal() * Eigen::MatrixXd(row_values * spread.sparseView(1.0, 1e-14));
-    const Eigen::VectorXd drives = spread.transpose() * bodies.generalised;
-    const auto add = [&](const Eigen::VectorXd& v, double motion_felt, bool sliding) {
-      FreeMotion motion;
-      motion.resistance = motion_felt;
-      motion.sliding = sliding;
-      for (const int b : unit) {
-        motion.motions.push_back(combine(unit.front(), frame, v, kinematics));
-        motion.motions.back().body = b;
-      }
-      motion.work = force > 0 ? std::abs(drives.dot(v)) / force : 0;
-      amplitudes.emplace_back(spread * v);
-      found.push_back(std::move(motion));
-    };
-    // Three kinds, each in what the ones before leave: what rows do not feel at all; what lets surfaces slide along themselves;
-    // what rows hardly feel.
-    Eigen::MatrixXd taken(modes, 0);
-    for (const auto& v : unfelt(rows, nearly, comm)) {
-      if (largest(rows * v, comm) >= 1e-6) continue;
-      taken.conservativeResize(Eigen::NoChange, taken.cols() + 1);
-      taken.rightCols(1) = v;
-    }
-    align_with_loads(taken, drives);
-    for (const auto& v : taken.colwise()) add(v, largest(rows * v, comm), false);
-
-    const SlidingModes sliding_modes(unit, frame, kinematics, sliding_surfaces);
-    Eigen::MatrixXd sliding = sliding_modes.free(unfelt_by(fixed_row, rows, complement(taken), exactly * support_weight, comm));
-    align_with_loads(sliding, drives);
-    for (const auto& v : sliding.colwise()) add(v, sliding_modes.resistance(v), true);
-
-    Eigen::MatrixXd all(modes, taken.cols() + sliding.cols());
-    all << taken, sliding;
-    const Eigen::MatrixXd rest = complement(all);
-    if (rest.cols() == 0) continue;
-    const Eigen::MatrixXd rows_of_rest = rows * rest;
-    for (const auto& amplitude : unfelt(rows_of_rest, nearly, comm)) {
-      const Eigen::VectorXd v = rest * amplitude;
-      const double worst = largest(rows * v, comm);
-      if (along_surfaces(rows, v, combine(unit.front(), frame, v, kinematics)) && worst <= 3 * nearly) add(v, worst, false);
-    }
-  }
-
-  // Several bodies together: the null space of all rows once the motions found so far are stopped.
-  constexpr int dense_limit = 3000;
-  if (body_count < 2 || body_count * modes > dense_limit) return found;
-  Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(row_values.transpose() * row_values));
-  comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
-  const double weight = std::max(gram.diagonal().maxCoeff(), 1.0);
-  for (const auto& v : amplitudes) gram += weight * v * v.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  Eigen::Index together = 0;
-  while (together < gram.cols() && eigen.eigenvalues()[together] < exactly * exactly * weight * 100) ++together;
-  Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(together);
-  align_with_loads(basis, bodies.generalised);
-  for (const auto& v : basis.colwise()) {
-    FreeMotion motion;
-    motion.resistance = largest(row_values * v, comm);
-    double force = 0;
-    for (int b = 0; b < body_count; ++b) {
-      if (v.segment(b * modes, modes).norm() < 1e-6) continue;
-      motion.motions.push_back(combine(b, bodies.frames[b], v.segment(b * modes, modes), kinematics));
-      force += bodies.force[b];
-    }
-    motion.work = force > 0 ? std::abs(bodies.generalised.dot(v)) / force : 0;
-    found.push_back(std::move(motion));
-  }
-  return found;
+  const BodyRows rows = body_rows(jump, bodies, g, constraints, unknowns, comm);
+  FreeMotionSearch search(bodies, rows, constraints.contacts, comm);
+  for (const auto& unit : units(rows, constraints.contacts, bodies, comm)) search.find(unit, sliding_surfaces);
+  search.find_joint();
+  return std::move(search.found);
 }
 
 double work(const FreeMotion& motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,

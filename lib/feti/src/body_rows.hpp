@@ -1,0 +1,44 @@
+// What supports and contacts feel of the rigid motions of whole bodies.
+#pragma once
+
+#include "feti/free_motions.hpp"
+
+namespace mortise::feti {
+
+// Facets excuse the normal rows of contacts alone: what supports, bonds and friction feel of a motion counts this often.
+inline constexpr double support_weight = 1e3;
+
+// Everything body-wise: A maps the amplitudes of the bodies' motions to kernel coordinates of the clusters.
+struct Bodies {
+  fem::Kinematics kinematics;
+  int modes;  // of each body
+  std::vector<BodyFrame> frames;
+  SparseMatrix aggregate;       // A: kernels x (bodies * modes)
+  Eigen::VectorXd force;        // sum of |nodal forces| of each body
+  Eigen::VectorXd generalised;  // work of the loads on each unit motion
+};
+
+// Collective.
+Bodies aggregate(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
+                 const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
+
+// The rows of supports and contacts that this rank owns, over the amplitudes of all bodies, in lengths.
+struct BodyRows {
+  SparseMatrix values;
+  Local first_contact;
+  Eigen::VectorXd weight;  // of each row: how often it counts
+  Eigen::VectorXd fixed;   // 1: the angles of facets are no excuse for what it feels
+};
+
+// What `unknowns` give way to is taken out of the rows, and what their forces work added to `bodies`. Collective.
+BodyRows body_rows(const JumpOperator& jump, Bodies& bodies, const SparseMatrix& g, const constraint::Constraints& constraints,
+                   std::span<const Unknown> unknowns, const Communicator& comm);
+
+// The bodies that bonded contacts join, with the others alone: each body by itself first, then the sets of several. Collective.
+std::vector<std::vector<int>> units(const BodyRows& rows, const constraint::Contacts& contacts, const Bodies& bodies,
+                                    const Communicator& comm);
+
+// The velocities of a motion at points, one after the other.
+Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& points, int dimension);
+
+}  // namespace mortise::feti
