@@ -117,9 +117,11 @@ void DualProblem::make_rhs()
 
 bool DualProblem::driven(const FreeMotion& motion, double work)
 {
-  // What facets make of a body, its centre beside its axis, works on its motions, too.
-  constexpr double work_of_facets = 1e-3;
-  return work > std::max({no_work, motion.sliding ? work_of_facets : 0.0, 3 * motion.resistance});
+  // What facets make of a body works on its motions, too: its centre of mass lies beside its axis by a part of their arcs'
+  // height.
+  constexpr double work_of_facets = 1e-3, part_of_sagitta = 0.5;
+  const double facets = motion.sliding ? std::max(work_of_facets, part_of_sagitta * motion.sagitta) : 0.0;
+  return work > std::max({no_work, facets, 3 * motion.resistance});
 }
 
 bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load)

@@ -208,10 +208,13 @@ void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constr
   for (const int b : unit) force += bodies_.force[b];
   const Eigen::MatrixXd rows = rows_.weight.asDiagonal() * Eigen::MatrixXd(rows_.values * spread_unit.sparseView(1.0, 1e-14));
   const Eigen::VectorXd drives = spread_unit.transpose() * bodies_.generalised;
+  const SlidingModes sliding_modes(unit, bodies_.frames[static_cast<std::size_t>(unit.front())], bodies_.kinematics,
+                                   sliding_surfaces);
   const auto add = [&](const Eigen::VectorXd& v, double motion_felt, bool sliding) {
     FreeMotion motion;
     motion.resistance = motion_felt;
     motion.sliding = sliding;
+    if (sliding) motion.sagitta = sliding_modes.sagitta();
     for (const int b : unit) {
       motion.motions.push_back(motion_of(unit, v));
       motion.motions.back().body = b;
@@ -231,8 +234,6 @@ void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constr
   align_with_loads(taken, drives);
   for (const auto& v : taken.colwise()) add(v, largest(rows * v, comm_), false);
 
-  const SlidingModes sliding_modes(unit, bodies_.frames[static_cast<std::size_t>(unit.front())], bodies_.kinematics,
-                                   sliding_surfaces);
   Eigen::MatrixXd sliding = sliding_modes.free(unfelt_by(rows_.fixed, rows, complement(taken), exactly * support_weight, comm_));
   align_with_loads(sliding, drives);
   for (const auto& v : sliding.colwise()) add(v, sliding_modes.resistance(v), true);

@@ -91,6 +91,17 @@ class SlidingModes {
     return std::sqrt(std::max(result, 0.0));
   }
 
+  // The height of a facet's arc over the radius of the surface, theta^2 / 8 with the angle theta between two facets, which is
+  // twice that between a facet and the normals at its nodes.
+  double sagitta() const
+  {
+    double tilt = 0;
+    for (const auto* sides : {&own_, &other_})
+      for (const auto& [contact, parts] : *sides)
+        for (const auto& part : parts) tilt = std::max(tilt, part.tilt);
+    return tilt / 2;
+  }
+
  private:
   static constexpr double exact = 1e-6;  // what flat surfaces leave by rounding
   struct Part {

@@ -13,6 +13,8 @@ namespace {
 constexpr double part_of_stiffness = 1e-12;
 // Of loads at nodes that cancel, as those of warmth do. Sums of dense matrices' rows have larger ones than those of elements.
 constexpr double part_of_loads = 1e-11;
+// Of the energy that loads would have if each node resisted alone; a body's own is at least some hundredths of it.
+constexpr double part_of_energy = 1e-20;
 
 }  // namespace
 
@@ -111,19 +113,21 @@ std::vector<SpringState> spring_states(const feti::DualProblem& problem, const V
   return result;
 }
 
-Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<std::vector<double>>& nodal_stiffness,
-                  int dimension, const Communicator& comm)
+Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<Eigen::VectorXd>& load,
+                  const std::vector<std::vector<double>>& nodal_stiffness, int dimension, const Communicator& comm)
 {
-  std::array<double, 2> sums{0, 0};  // k |u| and k |u|^2 / 2: forces and energy if nothing moved with its neighbours
+  // k |u| and k |u|^2 / 2: forces and energy if nothing moved with its neighbours; |f|^2 / 2k: energy if nodes held themselves.
+  std::array<double, 3> sums{0, 0, 0};
   for (std::size_t s = 0; s < displacement.size(); ++s)
     for (Eigen::Index i = 0; i < displacement[s].size(); i += dimension) {
       const double length = displacement[s].segment(i, dimension).norm();
       const double k = nodal_stiffness[s][static_cast<std::size_t>(i / dimension)];
       sums[0] += k * length;
       sums[1] += 0.5 * k * length * length;
+      sums[2] += 0.5 * load[s].segment(i, dimension).squaredNorm() / k;
     }
   comm.sum_in_place(sums);
-  return {part_of_stiffness * sums[0], part_of_stiffness * sums[1]};
+  return {part_of_stiffness * sums[0], std::max(part_of_stiffness * sums[1], part_of_energy * sums[2])};
 }
 
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,

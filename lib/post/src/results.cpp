@@ -50,7 +50,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   const auto& lambda = solved.solution.x;
   const auto& nu = solved.solution.nu;
   const int dimension = problem.dimension();
-  const auto rounding = post::rounding(displacement, system.nodal_stiffness, dimension, comm);
+  const auto rounding = post::rounding(displacement, problem.load(), system.nodal_stiffness, dimension, comm);
   Results results;
   results.max_displacement = largest_displacement(displacement, dimension, comm);
   results.stress = recover_stress(bodies, displacement, comm);

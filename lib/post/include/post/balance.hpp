@@ -54,13 +54,14 @@ struct Balance {
   double push_of_facets = 0;         ///< of `gauges`, relative to the largest
 };
 
-/// What rounding may leave of forces and energies where nothing is strained, for displacements of each subdomain.
+/// What rounding may leave of forces and energies where nothing is strained.
 struct Rounding {
   double force = 0, energy = 0;
 };
-/// Collective.
-Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<std::vector<double>>& nodal_stiffness,
-                  int dimension, const Communicator& comm);
+/// For displacements of each subdomain and the forces that act on its nodes, those of loads that go straight into supports among
+/// them. Collective.
+Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<Eigen::VectorXd>& load,
+                  const std::vector<std::vector<double>>& nodal_stiffness, int dimension, const Communicator& comm);
 
 /// `reactions`, `contacts` and `couplings`: of each support, contact and coupling. Collective.
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,
