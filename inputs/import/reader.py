@@ -85,7 +85,7 @@ def lines(path, root, above=()):
     if path in above:
         raise InputError(f"{path}: the file includes itself")
     try:
-        text = path.read_text(encoding="utf-8", errors="replace")
+        text = path.read_text(encoding="utf-8-sig", errors="replace")
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}") from None
     if "\0" in text:

@@ -38,7 +38,7 @@ class Translation:
         self.springs, of_springs, of_cards = springs.read(model, self.bodies)
         done |= of_cards
         for i, e in enumerate(model.elements):
-            if not e.shape and i not in of_springs:
+            if not e.shape and i not in of_springs and not e.type.upper().startswith("DASHPOT"):
                 model.leave_out(e.card, f"elements of type {e.type}: the deck has solids alone")
         self.drop_repeated()
         self.plane = self.bodies.dimension != "3"
@@ -156,7 +156,7 @@ class Translation:
         "COUPLING": "the deck has no couplings to a point",
         "KINEMATIC": "the deck has no couplings to a point",
         "DISTRIBUTING": "the deck has no couplings to a point",
-        "DISTRIBUTINGCOUPLING": "the deck has no couplings to a point",
+        "DISTRIBUTINGCOUPLING": "weights of nodes; couplings of the deck weigh by area: *COUPLING with *DISTRIBUTING",
         "RIGIDBODY": "the deck has no rigid bodies but obstacles of contacts",
         "EMBEDDEDELEMENT": "the deck has no embedded elements",
         "MODELCHANGE": "contacts and elements of the deck are there in every step",
@@ -175,6 +175,9 @@ class Translation:
     }
 
     def leave_out(self, card):
+        if card.name == "DASHPOT":
+            self.model.note(card, "without influence on a static equilibrium")
+            return
         if card.name in materials.OTHER_SECTIONS:
             self.model.leave_out(card, "the deck has solids alone")
         elif card.name in ("CFLUX", "DFLUX", "FILM", "RADIATE", "VIEWFACTOR", "COUPLEDHEAT"):

@@ -50,7 +50,7 @@ def kind(node):
         count = f" of {low}" + (f" or {high}" if high != low else "") if low is not None and high is not None else " of"
         items = node.get("items", {})
         word, limits = re.fullmatch(r"(.*?)((?: [<>].*)?)", kind(items)).groups()
-        return f"list{count} {word}{'' if 'enum' in items else 's'}{limits}"
+        return f"list{count} {word}{'' if 'enum' in items or word.endswith('s') else 's'}{limits}"
     if node.get("type") == "object":
         inner = node.get("additionalProperties")
         return f"NAME: {kind(inner)}" if isinstance(inner, dict) else "mapping"
