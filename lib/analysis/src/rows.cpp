@@ -73,6 +73,7 @@ Rows make_rows(const model::Model& model, const model::LoadState& acts, const st
   constraints.mean_motions = model.mean_motions(constraints.couplings, comm);
   constraints.springs = model.springs(acts, comm);
   constraints.prescribed = prescribed_components(model, rows.supports, constraints.couplings, aligned, comm);
+  constraint::require_consistent(constraints.mean_motions, constraints.prescribed, constraints.couplings, comm);
   constraints.skew_supports = constraint::skew_support_rows(rows.supports, directions, constraints.prescribed, comm);
   constraints.contacts =
       contact::discretize(rows.pairs, held_by_supports(constraints.prescribed), deck.kinematics, comm, constraints.skew_supports,
@@ -109,10 +110,12 @@ std::optional<Rows> with_new_bounds(Rows rows, const model::Model& model, const 
     // What is prescribed along normals may stand in many rows.
     if (std::any_of(deck.supports.begin(), deck.supports.end(), [](const auto& s) { return s.normal || !s.axes.empty(); }))
       return {};
-    auto prescribed = feti::distribute_rows(prescribed_components(model, supports, couplings, {}, comm), model.decomposition(),
-                                            directory, comm);
+    auto mean_motions = model.mean_motions(couplings, comm);
+    auto components = prescribed_components(model, supports, couplings, {}, comm);
+    constraint::require_consistent(mean_motions, components, couplings, comm);
+    auto prescribed = feti::distribute_rows(std::move(components), model.decomposition(), directory, comm);
     if (!constraint::update_rhs(rows.constraints, std::move(prescribed), supports, rows.supports, comm)) return {};
-    rows.constraints.mean_motions = model.mean_motions(couplings, comm);
+    rows.constraints.mean_motions = std::move(mean_motions);
     rows.constraints.couplings = std::move(couplings);
   }
   const auto& contacts = model.contacts();

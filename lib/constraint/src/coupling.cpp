@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "base/error.hpp"
@@ -118,6 +120,74 @@ std::vector<UnknownMotion> unknown_motions(const Constraints& constraints, int d
     }
   }
   return result;
+}
+
+namespace {
+
+constexpr double rounding_of_motion = 1e-9;  // of what makes it up
+
+struct Held {
+  Global node;
+  int component;
+  double value;
+  bool operator<(const Held& other) const { return std::tie(node, component) < std::tie(other.node, other.component); }
+};
+
+// What supports make of a mean motion whose nodes they hold all, and the sum of what makes it up.
+std::optional<std::pair<double, double>> mean_of_supports(const MeanMotion& motion, const std::vector<Held>& held)
+{
+  double mean = 0, scale = 0;
+  for (const auto& entry : motion.entries) {
+    if (entry.coefficient == 0) continue;
+    const Held wanted{entry.node, entry.component, 0};
+    const auto found = std::lower_bound(held.begin(), held.end(), wanted);
+    if (found == held.end() || wanted < *found) return {};
+    mean += entry.coefficient * found->value;
+    scale += std::abs(entry.coefficient * found->value);
+  }
+  return std::pair(mean, scale);
+}
+
+bool same_entries(const MeanMotion& a, const MeanMotion& b)
+{
+  return std::equal(a.entries.begin(), a.entries.end(), b.entries.begin(), b.entries.end(), [](const Entry& x, const Entry& y) {
+    return x.node == y.node && x.component == y.component &&
+           std::abs(x.coefficient - y.coefficient) <= rounding_of_motion * std::abs(x.coefficient);
+  });
+}
+
+bool differ(double a, double b, double scale)
+{
+  return std::abs(a - b) > rounding_of_motion * std::max({scale, std::abs(a), std::abs(b)});
+}
+
+}  // namespace
+
+void require_consistent(std::span<const MeanMotion> motions, std::span<const PrescribedDof> prescribed,
+                        std::span<const Coupling> couplings, const Communicator& comm)
+{
+  if (!comm.any(!motions.empty())) return;
+  std::vector<Held> held;
+  for (const auto& p : prescribed)
+    if (p.coupling < 0) held.push_back({p.node, p.component, p.value});
+  held = comm.all_gather(held);
+  std::sort(held.begin(), held.end());
+  const auto name = [&](const MeanMotion& motion) { return couplings[static_cast<std::size_t>(motion.coupling)].name; };
+  collectively(comm, [&] {
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const auto& motion = motions[i];
+      if (const auto found = mean_of_supports(motion, held); found && differ(found->first, motion.value, found->second))
+        throw Error(ExitStatus::bad_input,
+                    fmt::format("coupling \"{}\" and the supports that hold its boundary prescribe different motions of it; drop "
+                                "the component from one of them",
+                                name(motion)));
+      for (const auto& other : motions.first(i))
+        if (motion.component == other.component && same_entries(motion, other) && differ(motion.value, other.value, 0))
+          throw Error(ExitStatus::bad_input,
+                      fmt::format("couplings \"{}\" and \"{}\" of one boundary prescribe different motions of it", name(other),
+                                  name(motion)));
+    }
+  });
 }
 
 bool same_unknowns(std::span<const Coupling> a, std::span<const Coupling> b)

@@ -256,16 +256,19 @@ void require_whole(const std::string& file, int dimension)
     for (std::size_t t = 0; t < types.size(); ++t)
       given[first_order(cell_type(file, types[t]))] += static_cast<double>(tags[t].size());
   }
-  for (const auto& [shape, counter] : {std::pair(CellType::tri3, "Mesh.NbTriangles"), {CellType::quad4, "Mesh.NbQuadrangles"},
-                                       {CellType::tet4, "Mesh.NbTetrahedra"}, {CellType::hex8, "Mesh.NbHexahedra"},
+  for (const auto& [shape, counter] : {std::pair(CellType::tri3, "Mesh.NbTriangles"),
+                                       {CellType::quad4, "Mesh.NbQuadrangles"},
+                                       {CellType::tet4, "Mesh.NbTetrahedra"},
+                                       {CellType::hex8, "Mesh.NbHexahedra"},
                                        {CellType::prism6, "Mesh.NbPrisms"}}) {
     if (mesh::dimension(shape) > dimension) continue;
     double there = 0;
     library().getNumber(counter, there);
     if (there != given[shape])
-      fail(file, fmt::format("{:.0f} of {:.0f} cells of the shape of {} stand in one entity with cells of another order, where gmsh does "
-                             "not give them: write cells of first and of second order into entities of their own",
-                             there - given[shape], there, name(shape)));
+      fail(file, fmt::format(
+                     "{:.0f} of {:.0f} cells of the shape of {} stand in one entity with cells of another order, where gmsh does "
+                     "not give them: write cells of first and of second order into entities of their own",
+                     there - given[shape], there, name(shape)));
   }
 }
 

@@ -146,7 +146,8 @@ std::vector<partition::CopyOf> Model::congruent() const
         kinds.emplace(std::pair(material_names(body), std::move(detail)), static_cast<int>(kinds.size())).first->second);
   }
   // The directions of orthotropic materials have to be moved alike.
-  const auto alike = [&](const partition::Subdomain& original, const partition::Subdomain& copy, const Eigen::Matrix3d& rotation) {
+  const auto alike = [&](const partition::Subdomain& original, const partition::Subdomain& copy,
+                         const Eigen::Matrix3d& rotation) {
     const auto first = materials(original), second = materials(copy);
     const Point& from = original.mesh.points.front();
     const Point& to = copy.mesh.points.front();

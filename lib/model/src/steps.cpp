@@ -112,7 +112,8 @@ std::vector<double> at_first(const std::vector<T>& list, const std::vector<doubl
 void describe(deck::Description<StepOptions>& d)
 {
   d.help(
-      "One load step. What it does not name stays as the step before left it. Loads, displacements and overlaps come from 0 in the "
+      "One load step. What it does not name stays as the step before left it. Loads, displacements and overlaps come from 0 in "
+      "the "
       "first step, and are whole at its end where no factor is named; those whose formulas hold t follow their formula from the "
       "start.");
   d.key("name", &StepOptions::name, "For results; its number if not given.");
@@ -159,14 +160,15 @@ void check_names_of_step(const Deck& deck, const StepOptions& step, const std::s
 {
   const auto check = [&](const std::string& name, const std::string& at) {
     if (called(deck, name).kinds() > 1)
-      document.error(at, fmt::format("\"{}\" is the name of a load, a support or a contact at once; give each a `name` of its own", name));
+      document.error(
+          at, fmt::format("\"{}\" is the name of a load, a support or a contact at once; give each a `name` of its own", name));
   };
   for (const auto& [name, factor] : step.scale) {
     check(name, path + "scale." + name);
     if (const auto meant = called(deck, name); meant.kinds() == 1 && !meant.has_factor)
-      document.error(path + "scale." + name,
-                     meant.contact ? "this contact has neither interference nor preload, which a factor could scale"
-                                   : "this support has stiffness and no displacement, which a factor could scale");
+      document.error(path + "scale." + name, meant.contact
+                                                 ? "this contact has neither interference nor preload, which a factor could scale"
+                                                 : "this support has stiffness and no displacement, which a factor could scale");
   }
   for (const auto& [key, names] : {std::pair("off", &step.off), std::pair("on", &step.on)})
     for (const auto& name : *names) check(name, path + key);

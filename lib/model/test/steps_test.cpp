@@ -76,8 +76,9 @@ TEST(Steps, TheFirstStepComesFromNothing)
 // They would rise twice.
 TEST(Steps, FormulasOfTimeAreNotScaledUpInTheFirstStep)
 {
-  const auto states = states_of(deck_of("steps: [{increments: 4, scale: {upper.ymin: 3}}, {increments: 2, scale: {upper.ymin: 1}}]",
-                                        {"loads[1].pressure=2*t", "supports[1].displacement.z=-0.1*t*x"}));
+  const auto states =
+      states_of(deck_of("steps: [{increments: 4, scale: {upper.ymin: 3}}, {increments: 2, scale: {upper.ymin: 1}}]",
+                        {"loads[1].pressure=2*t", "supports[1].displacement.z=-0.1*t*x"}));
   ASSERT_EQ(states.size(), 6U);
   EXPECT_EQ(states[0].load, (std::vector<double>{0.25, 3}));
   EXPECT_EQ(states[0].support, (std::vector<double>{0.25, 1}));
@@ -119,7 +120,8 @@ TEST(Steps, NamesMeanOneThingAndHaveSomethingToScale)
 {
   EXPECT_EQ(complaint("steps: [{scale: {ram: 2, joint: 0.5}}]"), "");
   EXPECT_NE(complaint("steps: [{scale: {ram: 2}}]", {"loads[0].name=ram"}).find("\"ram\" is the name of"), std::string::npos);
-  EXPECT_NE(complaint("steps: [{off: [ram]}]", {"loads[0].name=ram"}).find("steps[0].off: \"ram\" is the name of"), std::string::npos);
+  EXPECT_NE(complaint("steps: [{off: [ram]}]", {"loads[0].name=ram"}).find("steps[0].off: \"ram\" is the name of"),
+            std::string::npos);
   EXPECT_EQ(complaint("steps: [{scale: {push: 2}}]", {"loads[1].name=push"}), "");
   EXPECT_NE(complaint("steps: [{scale: {joint: 2}}]", {"contacts[0].interference=0"}).find("neither interference nor preload"),
             std::string::npos);

@@ -223,7 +223,9 @@ TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
   ASSERT_TRUE(copies[1].rotation);
   EXPECT_LT((*copies[1].rotation - rotation).norm(), 1e-10);
   EXPECT_EQ(congruent(d.subdomains, kind, Motions::along_y)[1].original, 1U);
-  const auto turned_alike = [&](const Subdomain&, const Subdomain&, const Eigen::Matrix3d& r) { return (r - rotation).norm() < 1e-9; };
+  const auto turned_alike = [&](const Subdomain&, const Subdomain&, const Eigen::Matrix3d& r) {
+    return (r - rotation).norm() < 1e-9;
+  };
   EXPECT_EQ(congruent(d.subdomains, kind, Motions::rigid, turned_alike)[1].original, 0U);
   const auto unlike = [](const Subdomain&, const Subdomain&, const Eigen::Matrix3d&) { return false; };
   EXPECT_EQ(congruent(d.subdomains, kind, Motions::rigid, unlike)[1].original, 1U);

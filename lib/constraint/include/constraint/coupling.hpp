@@ -53,6 +53,11 @@ struct UnknownMotion {
 /// All of them, the same on every rank but for their rows.
 std::vector<UnknownMotion> unknown_motions(const Constraints& constraints, int dimension);
 
+/// Throws Error(bad_input) where a mean motion is prescribed otherwise than supports that hold all of its nodes have it, or than
+/// another coupling of the same boundary does. Collective.
+void require_consistent(std::span<const MeanMotion> motions, std::span<const PrescribedDof> prescribed,
+                        std::span<const Coupling> couplings, const Communicator& comm);
+
 /// Whether the same components of the same couplings are prescribed.
 bool same_unknowns(std::span<const Coupling> a, std::span<const Coupling> b);
 
