@@ -82,6 +82,38 @@ TEST(BoundaryOperators, LinearFieldsAreExactButForTheQuadrature)
   }
 }
 
+// Calderon's identities for the border values of an elastic field, that of a point force outside: V t - (M / 2 + K) u, the mean
+// over each panel, and D u - (M / 2 - K') t, nodal forces over the length of the mesh: of second order and of one and a half.
+TEST(BoundaryOperators, CalderonIdentitiesHaveTheirOrders)
+{
+  for (const double nu : {0.0, 0.3, 0.49}) {
+    const fem::Material material{2.0, nu, 0, 0};
+    const auto field = test::kelvin(material, Point(1.7, 0.4, -0.5), Point(0.3, 1, -0.7));
+    std::vector<double> of_displacement, of_force;
+    for (const int cells : {2, 4, 8}) {
+      const auto panels = test::box({cells, cells, cells}, Point(1, 1, 1));
+      const auto u = field.nodal(panels), t = field.tractions(panels, material);
+      const auto [v, k, d] = boundary_operators(panels, material, 1e-5);
+      const Eigen::VectorXd given = nodal_forces(panels, t), image = v * t, gap = image - k * u,
+                            missing = d * u + k.transpose() * t - given;
+      double square = 0, whole = 0;
+      for (Eigen::Index p = 0; p < panels.size(); ++p) {
+        const double area = panels.area[static_cast<std::size_t>(p)];
+        square += gap.segment<3>(3 * p).squaredNorm() / area;
+        whole += image.segment<3>(3 * p).squaredNorm() / area;
+      }
+      of_displacement.push_back(std::sqrt(square / whole));
+      of_force.push_back(missing.norm() / given.norm());
+    }
+    for (std::size_t i = 1; i < 3; ++i) {
+      EXPECT_LT(of_displacement[i], 0.3 * of_displacement[i - 1]) << nu;
+      EXPECT_LT(of_force[i], 0.4 * of_force[i - 1]) << nu;
+    }
+    EXPECT_LT(of_displacement[2], 0.012) << nu;
+    EXPECT_LT(of_force[2], 0.012) << nu;
+  }
+}
+
 // The surface of unit cubes.
 Panels cubes(const std::set<std::array<int, 3>>& filled)
 {
