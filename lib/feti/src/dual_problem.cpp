@@ -120,7 +120,7 @@ bool DualProblem::driven(const FreeMotion& motion, double work)
   // What facets make of a body works on its motions, too: its centre of mass lies beside its axis by a part of their arcs'
   // height.
   constexpr double work_of_facets = 1e-3, part_of_sagitta = 0.5;
-  const double facets = motion.sliding ? std::max(work_of_facets, part_of_sagitta * motion.sagitta) : 0.0;
+  const double facets = std::max(motion.sliding ? work_of_facets : 0.0, part_of_sagitta * motion.sagitta);
   return work > std::max({no_work, facets, 3 * motion.resistance});
 }
 

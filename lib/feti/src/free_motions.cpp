@@ -214,7 +214,7 @@ void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constr
     FreeMotion motion;
     motion.resistance = motion_felt;
     motion.sliding = sliding;
-    if (sliding) motion.sagitta = sliding_modes.sagitta();
+    if (sliding || sliding_modes.slides(v)) motion.sagitta = sliding_modes.sagitta();
     for (const int b : unit) {
       motion.motions.push_back(motion_of(unit, v));
       motion.motions.back().body = b;

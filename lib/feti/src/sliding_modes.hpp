@@ -91,6 +91,18 @@ class SlidingModes {
     return std::sqrt(std::max(result, 0.0));
   }
 
+  // Whether at each contact one of the two surfaces slides along itself.
+  bool slides(const Eigen::VectorXd& v) const
+  {
+    const auto all = [&](const std::vector<Part>& parts) {
+      return std::all_of(parts.begin(), parts.end(), [&](const Part& part) { return part.slides(v); });
+    };
+    return std::all_of(own_.begin(), own_.end(), [&](const auto& contact) {
+      const auto facing = other_.find(contact.first);
+      return all(contact.second) || (facing != other_.end() && all(facing->second));
+    });
+  }
+
   // The height of a facet's arc over the radius of the surface, theta^2 / 8 with the angle theta between two facets, which is
   // twice that between a facet and the normals at its nodes.
   double sagitta() const
@@ -118,18 +130,6 @@ class SlidingModes {
     static constexpr double tilt_share = 2;  // of n . v squared that may be due to tilts: teeth are more
   };
   using Sides = std::map<int, std::vector<Part>>;  // by contact
-
-  // Whether at each contact one of the two surfaces slides along itself.
-  bool slides(const Eigen::VectorXd& v) const
-  {
-    const auto all = [&](const std::vector<Part>& parts) {
-      return std::all_of(parts.begin(), parts.end(), [&](const Part& part) { return part.slides(v); });
-    };
-    return std::all_of(own_.begin(), own_.end(), [&](const auto& contact) {
-      const auto facing = other_.find(contact.first);
-      return all(contact.second) || (facing != other_.end() && all(facing->second));
-    });
-  }
 
   Sides own_, other_;
 };

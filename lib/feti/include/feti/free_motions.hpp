@@ -44,8 +44,10 @@ struct FreeMotion {
   /// Surfaces in contact slide along themselves: rows feel nothing of it but the facets of the mesh, and `felt` is the root mean
   /// square of what is left without them.
   bool sliding = false;
-  double sagitta = 0;  ///< of such a motion: the height of a facet's arc over the radius, root mean square
-  double work = 0;     ///< of loads and preloads on it, relative to the sum of the nodal forces and preloads on its bodies
+  /// If surfaces slide along themselves, whether rows feel facets or not: the height of a facet's arc over the radius, root mean
+  /// square.
+  double sagitta = 0;
+  double work = 0;  ///< of loads and preloads on it, relative to the sum of the nodal forces and preloads on its bodies
 };
 
 /// Finds them from the support and contact rows of `jump` (G of coarse_rows): body by body, with all other bodies at rest, where
