@@ -74,7 +74,7 @@ void Budget::set_limit()
 {
   int limit = end_;
   if (patience_)
-    limit = std::min({limit, begin_ + *patience_, std::max(begin_, better_) + calm});
+    limit = std::min({limit, begin_ + *patience_, std::max(begin_, better_) + look});
   else if (!given_ && !steady_)
     limit = std::min(limit, better_ + stretch);
   hessian_.set_limit(limit);

@@ -150,7 +150,7 @@ TEST(Budget, GivesUpWhereNothingBecomesBetterAndSomethingElseIsReady)
   budget.note(at(1), {}, 1);
   products.take(80);
   budget.note(at(1e-3), {}, 1);
-  products.take(Budget::calm - 1);
+  products.take(Budget::look - 1);
   budget.note(at(0.9e-3), {}, 1);
   EXPECT_FALSE(products.hessian.exhausted());
   products.take(1);

@@ -16,13 +16,12 @@ namespace mortise::qp {
 /// went 1,200 products without.
 ///
 /// A solve that something else is ready to take over (`patience`) gives up sooner: after `look` products, if at the pace of its
-/// residuals it would take more than its patience, and where nothing has become better for `calm`.
+/// residuals it would take more than its patience, and where nothing has become better for as many.
 class Budget {
  public:
   static constexpr int stretch = 2500;  ///< products without anything better that end a solve
   static constexpr int most = 10000;    ///< of one solve, whatever becomes better
-  static constexpr int look = 100;      ///< products after which its end is foreseen
-  static constexpr int calm = 200;      ///< without anything better, where something else is ready
+  static constexpr int look = 100;      ///< products that tell whether to go on where something else is ready
 
   /// `given`: the number. `steady`: for an algorithm whose residual may rise for long, where nothing but `most` ends it.
   Budget(Hessian& hessian, std::optional<int> given, bool steady);
