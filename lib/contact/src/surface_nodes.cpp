@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "fitted_normals.hpp"
 #include "skin.hpp"
 
 namespace mortise::contact {
@@ -67,8 +68,8 @@ std::vector<Point> directions_of_border(const Side& side, const SurfaceNodes& su
   return result;
 }
 
-// Corrects the normals of surface nodes on a border; see find_surface_nodes().
-void continue_curvature(const Side& side, SurfaceNodes& surface_nodes)
+// Corrects the normals of surface nodes on a border, see find_surface_nodes(), and tells which these are.
+std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nodes)
 {
   const auto edges = edges_of(side, surface_nodes);
   const bool plane = side.facets.size() > 0 && side.facets.type[0] == mesh::CellType::line2;
@@ -115,6 +116,7 @@ void continue_curvature(const Side& side, SurfaceNodes& surface_nodes)
       }
     known = reached;
   }
+  return border;
 }
 
 // The normals of the surface nodes at the corners of a facet.
@@ -204,7 +206,9 @@ SurfaceNodes find_surface_nodes(const Side& side)
       if (normal.squaredNorm() > 0) surface_nodes.all.push_back({static_cast<Local>(n), normal.normalized()});
     }
   }
-  continue_curvature(side, surface_nodes);
+  const SurfaceNodes means = surface_nodes;
+  const auto border = continue_curvature(side, surface_nodes);
+  if (side.kinematics == fem::Kinematics::solid) fit_normals(side, means, border, surface_nodes);
   surface_nodes.of_node.resize(side.faces.nodes.size());
   for (std::size_t f = 0; f < side.facets.size(); ++f)
     for (std::size_t k = 0; k < side.facets[f].size(); ++k)
