@@ -98,6 +98,11 @@ def disc_away(x, y, z):
     return np.minimum(edge, from_circle(10, 0, 2)(x, y, z)) / 2.5
 
 
+def key_away(x, y, z):
+    corners = [(np.cos(a), np.sin(a)) for a in (np.arange(6) + 0.5) * np.pi / 3]
+    return np.min([np.hypot(x - 5.77 * a, y - 5.77 * b) for a, b in corners], axis=0)
+
+
 def block_away(offset, axis):
     def away(*x):
         edges = np.minimum(np.hypot(x[0] - 1, x[axis] - 1), np.hypot(x[0] - offset, x[axis] - 1))
@@ -189,7 +194,7 @@ MODELS = [
         pin_away,
         (0, 2500),
         quick=(("tet10", "coulomb"), ("hex20", "frictionless")),
-        coarse=lambda cell: 2 if cell == "tet4" else 0,
+        coarse=lambda cell: 1 if cell == "tet4" else 0,
     ),
     Model(
         "ball_in_socket",
@@ -234,6 +239,17 @@ MODELS = [
         quick=(("hex8", "frictionless"), ("prism15", "coulomb")),
     ),
     *block_models(),
+    Model(
+        "key_in_hole",
+        "A hexagonal key that is pushed into an edge of its hole: concave edges, in which lines along normals pass the key's edges",
+        "key_in_hole.yaml",
+        [("hole", "flats")],
+        PLANE,
+        h(1, 0.6, 0.35),
+        key_away,
+        (0, 866.0254037844386),
+        quick=(("tri6", "frictionless"),),
+    ),
     Model(
         "cylinder_in_v",
         "A cylinder in a V without friction: half the load sideways at each face",

@@ -23,6 +23,7 @@ struct TwoSides {
   Rays& rays;        ///< from the places
   bool obstacle;     ///< the primary side is rigid and has no faces
   double reach;      ///< what lies farther away does not count
+  bool mesh_gaps;    ///< the contact starts with the gaps of the meshes
 };
 
 class Discretization {

@@ -38,6 +38,9 @@ Tree tree_of_facets(const Side& side)
   return Tree(std::move(boxes));
 }
 
+// Of the distance that the search goes, and of a place's distance from the origin.
+constexpr double rounding_of_gap = 1e-12, rounding_of_coordinates = 1e-15;
+
 // A node that has rows of a contact that is not bonded.
 struct PressedNode {
   Global node;
@@ -52,6 +55,7 @@ class Builder {
           const Communicator& comm)
       : options_(options),
         index_(index),
+        reach_(reach),
         dimension_(fem::dimension(kinematics)),
         share_(share),
         secondary_(share.secondary),
@@ -62,8 +66,9 @@ class Builder {
         faces_(secondary_, nodes_, share.own),
         tree_(tree_of_facets(primary_)),
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, options.obstacle, reach),
-        discretization_(make_discretization(options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_,
-                                                                     rays_, options.obstacle.has_value(), reach})),
+        discretization_(make_discretization(
+            options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
+                                     options.obstacle.has_value(), reach, options.law != Law::bonded && !options.clearance})),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
         supports_(supports, secondary_.node_id, comm),
@@ -136,6 +141,15 @@ class Builder {
       crossing[p] = std::binary_search(pressed_nodes_.begin(), pressed_nodes_.end(),
                                        PressedNode{secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)]},
                                        [](const PressedNode& a, const PressedNode& b) { return a.node < b.node; });
+    // Where supports hold a tangent at all nodes of a face, see tangents().
+    held_through_.assign(count, 0);
+    for (const std::size_t f : faces_.round()) {
+      const auto surface_nodes = faces_.surface_nodes_of(f);
+      if (std::all_of(surface_nodes.begin(), surface_nodes.end(), [&](Local p) {
+            return directions_[static_cast<std::size_t>(p)].tangents.size() + 1 < static_cast<std::size_t>(dimension_);
+          }))
+        for (const Local p : surface_nodes) held_through_[static_cast<std::size_t>(p)] = 1;
+    }
     const auto left_out = [&](std::size_t p) { return !directions_[p].free_normal || crossing[p]; };
     // Surface nodes prescribed along their normal keep their rows in a contact: the primary side alone feels them (add_point()
     // drops them if it does not, as an obstacle). If their neighbours took over their share, these would see what moves along a
@@ -272,8 +286,8 @@ class Builder {
     point.weight = weight;
     point.at = at;
     point.cover = cover_[p];
-    const double mean = (normal.dot(separation) - rise / d) / weight, mesh_gap = gap_at(p, normal, mean);
-    const double gap = starts_in_mesh() ? mesh_gap : starting_gap_at(p, normal, mean);
+    const double mean = (normal.dot(separation) - rise / d) / weight, mesh_gap = without_rounding(gap_at(p, normal, mean), at);
+    const double gap = starts_in_mesh() ? mesh_gap : without_rounding(starting_gap_at(p, normal, mean), at);
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     if (prescribed) {
@@ -286,8 +300,45 @@ class Builder {
     contacts.bonded.push_back(bonded());
   }
 
-  // The tangents that supports leave of a row's direction.
-  Few<Point, 2> tangents(std::size_t p, const Point& normal) const
+  // The tangents of a row's direction: those that supports leave, and where the primary side moves past what they hold, these as
+  // well, which it alone feels. In a bond they would hold its mean where the neighbours' rows hold it already, but for faces that
+  // have no others. Where both sides are held, as in a plane of symmetry, nothing moves.
+  Few<Point, 2> tangents(std::size_t p, const Point& normal)
+  {
+    Few<Point, 2> result = free_tangents(p, normal);
+    if (options_.cyclic || options_.obstacle || (bonded() && !held_through_[p])) return result;
+    Few<Point, 2> held;
+    if (dimension_ == 2 && result.empty()) held.push_back(Point(-normal[1], normal[0], 0));
+    if (dimension_ == 3 && result.size() == 1) held.push_back(normal.cross(result[0]).normalized());
+    if (dimension_ == 3 && result.empty())
+      for (const auto& tangent : directions(normal, {false, false, false}, {}, 3).tangents) held.push_back(tangent);
+    for (const auto& tangent : held)
+      if (!primary_held(p, tangent)) result.push_back(tangent);
+    return result;
+  }
+
+  // Whether supports hold the primary side along a direction where a surface node meets it.
+  bool primary_held(std::size_t p, const Point& direction)
+  {
+    constexpr double none = 1e-6;
+    const auto held = [&](Global node) {
+      for (int c = 0; c < dimension_; ++c)
+        if (std::abs(direction[c]) > none && primary_supports_.find(node, c)) return true;
+      const auto skew_supports = primary_supports_.skew_supports(node);
+      return std::any_of(skew_supports.begin(), skew_supports.end(),
+                         [&](const auto& i) { return std::abs(direction.dot(along(i))) > none; });
+    };
+    const Opposite& opposite = rays_.meet(p);
+    if (!std::isfinite(opposite.gap)) return true;
+    const auto nodes = primary_.facets[opposite.facet];
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]) > none &&
+          !held(primary_.node_id[static_cast<std::size_t>(nodes[k])]))
+        return false;
+    return true;
+  }
+
+  Few<Point, 2> free_tangents(std::size_t p, const Point& normal) const
   {
     const auto& known = directions_[p].tangents;
     Few<Point, 2> result;
@@ -332,6 +383,12 @@ class Builder {
     return *first + sum / d;
   }
 
+  // Of places that coordinates say are the same the gap is 0: bodies that touch without a load press with nothing then.
+  double without_rounding(double gap, const Point& at) const
+  {
+    return std::abs(gap) < rounding_of_gap * reach_ + rounding_of_coordinates * at.norm() ? 0 : gap;
+  }
+
   bool starts_in_mesh() const { return !options_.clearance && !options_.adjust && !one_surface_.anywhere(); }
 
   std::size_t face_of(std::size_t facet) const { return static_cast<std::size_t>(primary_.face_of[facet]); }
@@ -348,6 +405,7 @@ class Builder {
 
   const Options& options_;
   int index_;
+  double reach_;
   int dimension_;
   const Share& share_;
   const Side &secondary_, &primary_;
@@ -365,6 +423,7 @@ class Builder {
   double covered_area_ = 0;
   std::vector<Directions> directions_;  // of each surface node
   std::vector<char> stranded_;          // of each surface node: its faces have no surface node that supports and seams leave free
+  std::vector<char> held_through_;      // of each surface node: supports hold a tangent at all nodes of one of its faces
   std::vector<char> freed_;             // of each surface node: its row keeps what supports hold of the secondary side
   std::vector<char> kept_;              // of each surface node
   std::vector<double> cover_;           // of each surface node

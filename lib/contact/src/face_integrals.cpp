@@ -205,14 +205,19 @@ void Integrator::integrate_facet(std::size_t facet)
   each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
 }
 
-std::span<const PieceIntegrals> Integrator::integrate(std::size_t face)
+std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_facets)
 {
   begin(face);
   const auto first = static_cast<std::size_t>(secondary_.first_facet[face]),
              end = static_cast<std::size_t>(secondary_.first_facet[face + 1]);
   for (std::size_t facet = first; facet < end; ++facet) integrate_facet(facet);
   const double covered = piece_->covered.sum(), whole = piece_->whole.sum();
-  if (covered > 0 && covered < (secondary_.second_order(face) ? nearly_covered : 1 - 1e-6) * whole) cut(face);
+  if (covered > 0 && covered < (secondary_.second_order(face) ? nearly_covered : 1 - 1e-6) * whole) {
+    cut(face);
+  } else if (covered > 0 && in_facets) {
+    plane_nodes_.clear();
+    cut_into_facets(face);
+  }
   return pieces_;
 }
 
@@ -349,19 +354,22 @@ void Integrator::cut_into_facets(std::size_t face)
   piece_ = &pieces_.back();
 }
 
-std::span<const PieceIntegrals> Integrator::integrate_whole(std::size_t face)
+std::span<const PieceIntegrals> Integrator::integrate_whole(std::size_t face, bool in_facets)
 {
   begin(face);
   const auto& basis = multiplier_basis(secondary_.faces.type[face]);
-  for (auto facet = static_cast<std::size_t>(secondary_.first_facet[face]);
-       facet < static_cast<std::size_t>(secondary_.first_facet[face + 1]); ++facet)
-    over_facet(facet, [&](double weight, const OverlapPoint&, const FaceShape& phi) {
-      const FaceShape theta = basis * phi;
+  for (auto facet = secondary_.first_facet[face]; facet < secondary_.first_facet[face + 1]; ++facet) {
+    if (in_facets) start(face, facet);
+    over_facet(static_cast<std::size_t>(facet), [&](double weight, const OverlapPoint& point, const FaceShape& phi) {
+      const FaceShape theta = in_facets ? FaceShape(point.secondary.head(piece_->covered.size())) : FaceShape(basis * phi);
       piece_->mass += weight * theta * phi.transpose();
       piece_->gram += weight * theta * theta.transpose();
       piece_->covered += weight * theta;
     });
-  piece_->whole = piece_->covered;
+    piece_->whole = piece_->covered;
+  }
+  if (in_facets) pieces_.erase(pieces_.begin());
+  piece_ = &pieces_.back();
   return pieces_;
 }
 

@@ -18,11 +18,11 @@ class Integrator {
   /// All of which must outlive it. `tree` has the facets of the primary side.
   Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
              const Tree& tree, double reach);
-  /// Everything on the primary side that a face looks at within reach: one piece, or those of its facets. Valid until the next
-  /// call.
-  std::span<const PieceIntegrals> integrate(std::size_t face);
+  /// Everything on the primary side that a face looks at within reach: one piece, or those of its facets; `in_facets`: of these
+  /// in any case. Valid until the next call.
+  std::span<const PieceIntegrals> integrate(std::size_t face, bool in_facets);
   /// The same where a rigid obstacle lies opposite all of the face, which has no nodes.
-  std::span<const PieceIntegrals> integrate_whole(std::size_t face);
+  std::span<const PieceIntegrals> integrate_whole(std::size_t face, bool in_facets);
 
  private:
   void begin(std::size_t face);

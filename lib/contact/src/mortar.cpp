@@ -18,11 +18,12 @@ class Mortar : public Discretization {
   void add_face(std::size_t face) override
   {
     auto& faces = sides_.faces;
-    if (!sides_.obstacle) return faces.add(face, integrator_.integrate(face));
-    faces.add(face, integrator_.integrate_whole(face));
+    const bool in_facets = sides_.mesh_gaps && sides_.rays.nearest_within(face);
+    if (!sides_.obstacle) return faces.add(face, integrator_.integrate(face, in_facets));
+    faces.add(face, integrator_.integrate_whole(face, in_facets));
     const auto places = faces.surface_nodes_of(face);
     if (!std::all_of(places.begin(), places.end(), [&](Local p) { return sides_.rays.meets(static_cast<std::size_t>(p)); }))
-      faces.piece(faces.pieces(face).front()).covered.setZero();
+      for (const std::size_t i : faces.pieces(face)) faces.piece(i).covered.setZero();
   }
 
   void make_functions(std::span<const char> kept) override

@@ -17,14 +17,16 @@ class NodeToSegment : public Discretization {
   void add_face(std::size_t face) override
   {
     auto& faces = sides_.faces;
-    faces.add(face, integrator_.integrate_whole(face));
-    auto covered = faces.piece(faces.pieces(face).front()).covered;
+    faces.add(face, integrator_.integrate_whole(face, sides_.mesh_gaps && sides_.rays.nearest_within(face)));
     const auto places = faces.surface_nodes_of(face);
-    const auto& control = control_values(sides_.secondary.faces.type[face]);
-    for (Eigen::Index k = 0; k < control.rows(); ++k)
-      for (Eigen::Index l = 0; l < control.cols(); ++l)
-        if (control(k, l) != 0 && !sides_.rays.meets(static_cast<std::size_t>(places[static_cast<std::size_t>(l)])))
-          covered[k] = 0;
+    for (const std::size_t i : faces.pieces(face)) {
+      const auto piece = faces.piece(i);
+      auto covered = piece.covered;
+      for (Eigen::Index k = 0; k < covered.size(); ++k)
+        each_seen(face, piece, k, [&](std::size_t node, double) {
+          if (!sides_.rays.meets(static_cast<std::size_t>(places[node]))) covered[k] = 0;
+        });
+    }
   }
 
   void make_functions(std::span<const char> /*kept*/) override {}  // they are those of the nodes
@@ -32,27 +34,40 @@ class NodeToSegment : public Discretization {
   // u_s - sum_j N_j u_j at what each node meets, weighted with the node's share of the face.
   void add_terms(const CutFaces::Function& function, std::vector<Term>& terms) override
   {
-    const auto& [secondary, own_places, primary, primary_nodes, tree, faces, rays, obstacle, reach] = sides_;
-    const auto places = faces.surface_nodes_of(function.face);
+    const Side &secondary = sides_.secondary, &primary = sides_.primary;
+    const auto places = sides_.faces.surface_nodes_of(function.face);
     const auto nodes = secondary.faces[function.face];
-    const auto piece = faces.piece(function.piece);
-    const auto& control = control_values(secondary.faces.type[function.face]);
-    for (Eigen::Index l = 0; l < control.cols(); ++l) {
-      const double weight = control(function.k, l) * piece.covered[function.k];
-      if (weight == 0) continue;
-      terms.push_back({nodes[static_cast<std::size_t>(l)], false, weight});
-      if (obstacle) continue;
-      const Opposite& opposite = rays.meet(static_cast<std::size_t>(places[static_cast<std::size_t>(l)]));
+    const auto piece = sides_.faces.piece(function.piece);
+    each_seen(function.face, piece, function.k, [&](std::size_t node, double part) {
+      const double weight = part * piece.covered[function.k];
+      if (weight == 0) return;
+      terms.push_back({nodes[node], false, weight});
+      if (sides_.obstacle) return;
+      const Opposite& opposite = sides_.rays.meet(static_cast<std::size_t>(places[node]));
       const auto other = primary.faces[static_cast<std::size_t>(primary.face_of[opposite.facet])];
       const FaceShape shape = primary.shape_in_face(opposite.facet, opposite.hit.shape, opposite.hit.frame, Plane::Zero());
       for (std::size_t j = 0; j < other.size(); ++j)
         terms.push_back({other[j], true, -weight * shape[static_cast<Eigen::Index>(j)]});
-    }
+    });
   }
 
   bool seams_end_at_contacts() const override { return false; }
 
  private:
+  // Calls see(node of the face, part) for the values that a function's row sees: of a facet's function the node's own, else those
+  // of its control value.
+  template <class See>
+  void each_seen(std::size_t face, const PieceStore::View& piece, Eigen::Index k, const See& see) const
+  {
+    if (piece.facet >= 0)
+      return see(
+          static_cast<std::size_t>(sides_.secondary.corners[static_cast<std::size_t>(piece.facet)][static_cast<std::size_t>(k)]),
+          1.0);
+    const auto& control = control_values(sides_.secondary.faces.type[face]);
+    for (Eigen::Index l = 0; l < control.cols(); ++l)
+      if (control(k, l) != 0) see(static_cast<std::size_t>(l), control(k, l));
+  }
+
   Integrator integrator_;
 };
 

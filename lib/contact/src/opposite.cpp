@@ -1,5 +1,6 @@
 #include "opposite.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "face_integrals.hpp"
@@ -19,6 +20,10 @@ constexpr double beyond_border = 1;
 constexpr double part_past = 0.4;
 // Of that what a node may miss that lies on the border but for the tilt of its normal.
 constexpr double on_border = 0.1;
+// Of an edge's length: what control values may say of an overlap where there is none.
+constexpr double least_excess = 1e-4;
+// Sine of the angle from which an edge of the secondary side is concave, and cosines nearer than this are equal.
+constexpr double concave = 0.05, no_better = 0.01;
 
 // The largest change of the normals along the edges of a facet, per length.
 double curvature_of(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
@@ -52,6 +57,28 @@ std::vector<double> mean_round(const Side& side, const SurfaceNodes& surface_nod
   return sum;
 }
 
+// The normals of surface nodes at the same node, of faces that stand in front of the surface node's own.
+std::vector<Few<Point, 3>> beside_concave_edges(const Side& side, const SurfaceNodes& surface_nodes)
+{
+  std::vector<Few<Point, 3>> result(surface_nodes.all.size());
+  std::vector<Point> centre(result.size(), Point::Zero());  // of the facets round each, from the node
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto face = side.geometry(f);
+    for (std::size_t k = 0; k < face.nodes.size(); ++k)
+      centre[static_cast<std::size_t>(surface_nodes.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k])] +=
+          (face.centre() - face.nodes[k]).normalized();
+  }
+  // Surface nodes of a node follow each other.
+  for (std::size_t begin = 0, end = 0; begin < result.size(); begin = end) {
+    while (end < result.size() && surface_nodes.all[end].node == surface_nodes.all[begin].node) ++end;
+    for (std::size_t a = begin; a < end; ++a)
+      for (std::size_t b = begin; b < end; ++b)
+        if (a != b && surface_nodes.all[a].normal.dot(centre[b].normalized()) > concave && result[a].size() < 3)
+          result[a].push_back(surface_nodes.all[b].normal);
+  }
+  return result;
+}
+
 }  // namespace
 
 Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
@@ -73,6 +100,7 @@ Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& prima
   if (!obstacle) {
     curvature_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return curvature_of(secondary, surface_nodes, f); });
     past_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
+    beside_ = beside_concave_edges(secondary, surface_nodes);
     return;
   }
   // The directions of contact are the obstacle's normals; where a surface node does not face it, it is out of reach.
@@ -84,23 +112,23 @@ Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& prima
   }
 }
 
-Opposite Rays::shoot(const Point& from, const Point& direction, double length) const
+Opposite Rays::shoot(const Point& from, const Point& direction, double length, const Counts& counts) const
 {
   Opposite best;
   const Point room = Point::Constant(0.02 * length);  // a hit may lie a little beside its face
   for (const int m : tree_.swept(Box(from - room, from + room), length * direction)) {
     const auto facet = static_cast<std::size_t>(m);
     const auto hit = contact::shoot(from, direction, primary_.geometry(facet));
-    if (!hit.found) continue;
+    if (!hit.found || (counts && !counts(facet))) continue;
     const double gap = hit.distance - Bulge(primary_, primary_nodes_, facet)(hit.shape);
     if (std::abs(gap) <= length && std::abs(gap) < std::abs(best.gap)) best = {gap, facet, hit};
   }
   return best;
 }
 
-Opposite Rays::shoot_past(const Point& from, const Point& direction, double length, double past) const
+Opposite Rays::shoot_past(const Point& from, const Point& direction, double length, double past, const Counts& counts) const
 {
-  Opposite best = shoot(from, direction, length);
+  Opposite best = shoot(from, direction, length, counts);
   if (std::isfinite(best.gap)) return best;
   const Point room = Point::Constant(past);
   double least = past;
@@ -108,7 +136,7 @@ Opposite Rays::shoot_past(const Point& from, const Point& direction, double leng
     const auto facet = static_cast<std::size_t>(m);
     const auto geometry = primary_.geometry(facet);
     const auto hit = contact::shoot(from, direction, geometry, beyond_border);
-    if (!hit.found) continue;
+    if (!hit.found || (counts && !counts(facet))) continue;
     const double by = -hit.shape.head(static_cast<Eigen::Index>(geometry.nodes.size())).minCoeff() * geometry.size();
     const double gap = hit.distance - Bulge(primary_, primary_nodes_, facet)(hit.shape);
     if (std::abs(gap) > length || by > least) continue;
@@ -116,6 +144,21 @@ Opposite Rays::shoot_past(const Point& from, const Point& direction, double leng
     best = {gap, facet, hit};
   }
   return best;
+}
+
+Opposite Rays::shoot_past(std::size_t p, const Point& from, const Point& direction, double length, double past) const
+{
+  if (p < beside_.size() && !beside_[p].empty()) {
+    const auto& beside = beside_[p];
+    const Point& own = nodes_.all[p].normal;
+    const auto found = shoot_past(from, direction, length, past, [&](std::size_t facet) {
+      const Point normal = primary_.geometry(facet).normal();
+      return std::none_of(beside.begin(), beside.end(),
+                          [&](const Point& other) { return normal.dot(other) < normal.dot(own) - no_better; });
+    });
+    if (std::isfinite(found.gap)) return found;
+  }
+  return shoot_past(from, direction, length, past);
 }
 
 const Opposite& Rays::meet(std::size_t p)
@@ -127,17 +170,40 @@ const Opposite& Rays::meet(std::size_t p)
     if (obstacle_)
       opposite.gap = distance_[p];
     else
-      opposite = shoot_past(secondary_.points[static_cast<std::size_t>(surface_node.node)], surface_node.normal, reach_,
+      opposite = shoot_past(p, secondary_.points[static_cast<std::size_t>(surface_node.node)], surface_node.normal, reach_,
                             on_border * past_[p]);
     met_.push_back(opposite);
   }
   return met_[static_cast<std::size_t>(met_index_[p])];
 }
 
+bool Rays::nearest_within(std::size_t f)
+{
+  const auto type = secondary_.faces.type[f];
+  const auto corners = static_cast<std::size_t>(mesh::corner_count(type));
+  const auto gap_at = [&](std::size_t k) {
+    return meet(static_cast<std::size_t>(nodes_.of_node[static_cast<std::size_t>(secondary_.faces.offset[f]) + k])).gap;
+  };
+  const auto at = [&](int k) -> const Point& {
+    return secondary_.points[static_cast<std::size_t>(secondary_.faces[f][static_cast<std::size_t>(k)])];
+  };
+  for (std::size_t m = corners; m < secondary_.faces[f].size(); ++m) {
+    const auto& ends = mesh::middles(type)[m - corners];
+    if (ends.size() != 2) continue;
+    const double first = gap_at(static_cast<std::size_t>(ends[0])), last = gap_at(static_cast<std::size_t>(ends[1]));
+    const double control = 2 * gap_at(m) - (first + last) / 2;
+    if (!std::isfinite(first + last + control) || control >= std::min(first, last)) continue;
+    // The least gap of the edge exceeds the control value by:
+    const double excess = (first - control) * (last - control) / (first - 2 * control + last);
+    if (excess > least_excess * (at(ends[1]) - at(ends[0])).norm()) return true;
+  }
+  return false;
+}
+
 Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
 {
   if (obstacle_) return normal;
-  const auto opposite = shoot_past(at, normal, 2 * reach_, past_[p]);
+  const auto opposite = shoot_past(p, at, normal, 2 * reach_, past_[p]);
   if (!std::isfinite(opposite.gap)) return normal;
   Point other = Point::Zero();
   double length = 0;
@@ -158,8 +224,8 @@ double Rays::gap(std::size_t p, const Point& direction, const GapOf& gap_of) con
     if (obstacle_)
       opposite.gap = distance_[surface_node];
     else
-      opposite = shoot_past(secondary_.points[static_cast<std::size_t>(nodes_.all[surface_node].node)], direction, 2 * reach_,
-                            past_[surface_node]);
+      opposite = shoot_past(surface_node, secondary_.points[static_cast<std::size_t>(nodes_.all[surface_node].node)], direction,
+                            2 * reach_, past_[surface_node]);
     return gap_of && std::isfinite(opposite.gap) ? gap_of(surface_node, opposite) : opposite.gap;
   };
   const auto [face, node] = face_of_middle_[p];
@@ -176,10 +242,14 @@ double Rays::gap(std::size_t p, const Point& direction, const GapOf& gap_of) con
 
 double Rays::gap(std::size_t p, const FacetPoint& point, const Point& direction, const GapOf& gap_of) const
 {
+  if (obstacle_) {  // functions of facets belong to the nodes there
+    const Opposite opposite{distance_[p], 0, {}};
+    return gap_of && std::isfinite(opposite.gap) ? gap_of(p, opposite) : opposite.gap;
+  }
   const auto geometry = secondary_.geometry(point.facet);
   Point at = Point::Zero();
   for (std::size_t k = 0; k < geometry.nodes.size(); ++k) at += point.shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
-  auto opposite = shoot_past(at, direction, 2 * reach_, part_past * geometry.size());
+  auto opposite = shoot_past(p, at, direction, 2 * reach_, part_past * geometry.size());
   opposite.gap -= Bulge(secondary_, nodes_, point.facet)(point.shape);
   return gap_of && std::isfinite(opposite.gap) ? gap_of(p, opposite) : opposite.gap;
 }

@@ -29,6 +29,11 @@ class Rays {
   const Opposite& meet(std::size_t surface_node);
   bool meets(std::size_t surface_node) { return std::abs(meet(surface_node).gap) <= reach_; }
 
+  /// Whether one of the edges of a face of second order comes nearest to the other side between its ends. The control value of
+  /// its middle then lies below all gaps of the edge: of a parabola that touches a plane it is an overlap of an eighth of
+  /// curvature times length squared.
+  bool nearest_within(std::size_t face);
+
   /// The direction of contact at a point of the secondary side near a surface node, whose normal there is given: between the two
   /// sides' normals, the nearer to that of the flatter side the more it is flatter, weights being the other side's curvature. So
   /// both sides mean the same direction, and a curved body on a flat one is not sheared. The given normal where nothing lies
@@ -49,9 +54,14 @@ class Rays {
   double gap(std::size_t surface_node, const FacetPoint& point, const Point& direction, const GapOf& gap_of = {}) const;
 
  private:
-  Opposite shoot(const Point& from, const Point& direction, double length) const;
+  // Of facets for which `counts` holds, or all.
+  using Counts = std::function<bool(std::size_t facet)>;
+  Opposite shoot(const Point& from, const Point& direction, double length, const Counts& counts) const;
   // The same; a line that meets nothing meets the nearest face continued, if it misses it by less than `past`.
-  Opposite shoot_past(const Point& from, const Point& direction, double length, double past) const;
+  Opposite shoot_past(const Point& from, const Point& direction, double length, double past, const Counts& counts = {}) const;
+  // The same from or for a surface node. In a concave edge of the secondary side what faces the other side of the edge better is
+  // for the surface node there: what is smaller than its hole lies in the corner with an edge, whose other side the line meets.
+  Opposite shoot_past(std::size_t surface_node, const Point& from, const Point& direction, double length, double past) const;
   const Side& secondary_;
   const SurfaceNodes& nodes_;
   const Side& primary_;
@@ -61,6 +71,7 @@ class Rays {
   bool obstacle_;
   std::vector<double> curvature_, past_;                 // of each surface node
   std::vector<double> distance_;                         // of each surface node from the obstacle, if there is one
+  std::vector<Few<Point, 3>> beside_;                    // of each surface node: normals on the other sides of concave edges
   std::vector<std::pair<Local, Local>> face_of_middle_;  // of each surface node: a face and the node in it, if that is no corner
   std::vector<Opposite> met_;
   std::vector<Local> met_index_;  // of each surface node its entry in met_, or -1
