@@ -1,6 +1,7 @@
 #include "contact/state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -17,6 +18,7 @@ ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std
   state.node = point.node;
   state.area = point.area;
   state.cover = point.cover;
+  state.normal = point.normal;
   state.force = multipliers[0];
   state.force_on_secondary = -point.weight * multipliers[0] * point.normal;
   state.gap = bound - jumps[0];
@@ -35,19 +37,20 @@ ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std
 
 std::vector<Resultant> resultants(std::span<const ContactNodeState> points, std::size_t contacts, const Communicator& comm)
 {
-  constexpr std::size_t width = 7;
+  constexpr std::size_t width = 8;
   std::vector<double> sums(contacts * width, 0.0);
   for (const auto& p : points) {
     double* s = &sums[static_cast<std::size_t>(p.contact) * width];
     for (int c = 0; c < 3; ++c) s[c] += p.force_on_secondary[c];
     if (p.status != Status::open) s[3] += p.area;
     s[4 + static_cast<int>(p.status)] += 1;
+    s[7] += p.force_on_secondary.norm();
   }
   comm.sum_in_place(sums);
   std::vector<Resultant> result(contacts);
   for (std::size_t c = 0; c < contacts; ++c) {
     const double* s = &sums[c * width];
-    result[c] = {Point(s[0], s[1], s[2]), s[3], std::llround(s[4]), std::llround(s[5]), std::llround(s[6])};
+    result[c] = {Point(s[0], s[1], s[2]), s[3], std::llround(s[4]), std::llround(s[5]), std::llround(s[6]), s[7]};
   }
   return result;
 }
@@ -57,13 +60,25 @@ namespace {
 // Less cover makes a strip too narrow for a pressure of its own.
 constexpr double narrow = 0.35;
 
-// All points at a node of a contact; plain bytes. Lives on the node's own rank, see by_node().
+// Of the largest pressure: less counts as open, whatever the solver's tolerance leaves.
+constexpr double open_part = 1e-4;
+// A face belongs to the points at its nodes whose normals enclose less than some 40 degrees with its own: beyond a kink are
+// others.
+constexpr double one_side = 0.75;
+
+// A point at a node of a contact; at a kink there are several, in the order of their normals. Plain bytes. Lives on the node's
+// own rank, see by_node().
 struct NodeState {
   Global node;
-  int contact, status;
-  double area, cover, force, gap;  // gap and slip times area until all points are there
-  double traction[3], slip[3];     // traction: a force
+  int contact, side, status;  // side: which of the node's points
+  double area, cover, force, gap;
+  std::array<double, 3> normal, traction, slip;  // traction: a force until divide_by_areas()
 };
+
+auto key(const NodeState& state)
+{
+  return std::tie(state.node, state.contact, state.side);
+}
 
 template <class T>
 bool before(const T& a, const NodeState& b)
@@ -71,57 +86,55 @@ bool before(const T& a, const NodeState& b)
   return std::tie(a.node, a.contact) < std::tie(b.node, b.contact);
 }
 
-// Those of this rank's own nodes, ascending by node and contact. Collective.
+// Those of this rank's own nodes, ascending by node, contact and side. Collective.
 std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Communicator& comm)
 {
   std::vector<NodeState> mine;
   for (const auto& p : points) {
-    const auto &f = p.force_on_secondary, &s = p.slip;
+    const auto &n = p.normal, &f = p.force_on_secondary, &s = p.slip;
     mine.push_back({p.node,
                     p.contact,
+                    0,
                     static_cast<int>(p.status),
                     p.area,
                     p.cover,
                     p.force,
-                    p.gap * p.area,
+                    p.gap,
+                    {n[0], n[1], n[2]},
                     {f[0], f[1], f[2]},
-                    {s[0] * p.area, s[1] * p.area, s[2] * p.area}});
+                    {s[0], s[1], s[2]}});
   }
-  auto all = by_node<NodeState>(mine, comm);
-  std::stable_sort(all.begin(), all.end(), before<NodeState>);
-  std::vector<NodeState> nodes;
-  for (const auto& p : all) {
-    if (nodes.empty() || before(nodes.back(), p)) {
-      nodes.push_back(p);
-      continue;
-    }
-    auto& node = nodes.back();  // at a kink
-    node.status = std::max(node.status, p.status);
-    node.cover = std::max(node.cover, p.cover);
-    node.area += p.area;
-    node.force += p.force;
-    node.gap += p.gap;
-    for (int c = 0; c < 3; ++c) {
-      node.traction[c] += p.traction[c];
-      node.slip[c] += p.slip[c];
-    }
-  }
-  for (auto& node : nodes) {
-    node.gap /= node.area;
-    for (double& slip : node.slip) slip /= node.area;
-  }
+  auto nodes = by_node<NodeState>(mine, comm);
+  std::stable_sort(nodes.begin(), nodes.end(), [](const NodeState& a, const NodeState& b) {
+    return std::tie(a.node, a.contact, a.normal) < std::tie(b.node, b.contact, b.normal);
+  });
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    if (!before(nodes[i - 1], nodes[i])) nodes[i].side = nodes[i - 1].side + 1;
   return nodes;
 }
 
-// Of ascending ones.
+// All points at a node, of ascending ones.
 template <class Nodes>
-auto* find(Nodes& nodes, int contact, Global node)
+auto points_at(Nodes& nodes, int contact, Global node)
 {
   NodeState wanted{};
   wanted.contact = contact;
   wanted.node = node;
-  const auto found = std::lower_bound(nodes.begin(), nodes.end(), wanted, before<NodeState>);
-  return found != nodes.end() && !before(wanted, *found) ? &*found : nullptr;
+  const auto [first, last] = std::equal_range(nodes.begin(), nodes.end(), wanted, before<NodeState>);
+  return std::span(first, last);
+}
+
+// That at a node of a face with this normal, or null; of a single point without a normal that one.
+const NodeState* point_of(const std::vector<NodeState>& nodes, int contact, Global node, const Point& face_normal)
+{
+  const NodeState* best = nullptr;
+  double most = one_side;
+  for (const auto& state : points_at(nodes, contact, node)) {
+    const Point normal(state.normal[0], state.normal[1], state.normal[2]);
+    const double cosine = normal.isZero(0) ? 1 : normal.dot(face_normal);
+    if (cosine > most) most = cosine, best = &state;
+  }
+  return best;
 }
 
 // What the nodes of this rank's secondary sides are, ascending. Collective.
@@ -132,22 +145,30 @@ std::vector<NodeState> on_sides(const std::vector<NodeState>& nodes, std::span<c
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   auto result = answer(nodes, ask(wanted, comm), comm);
-  std::sort(result.begin(), result.end(), before<NodeState>);
+  std::sort(result.begin(), result.end(), [](const NodeState& a, const NodeState& b) { return key(a) < key(b); });
   return result;
 }
 
 // What passes between a node with little cover and one of its neighbours with more; lives on the rank of `node`, one of the two.
 struct Given {
   Global node;
-  int contact;
+  int contact, side;
   Global other;
-  double part;                      // of what the narrow one has; at first the area of the wide one
-  double area, force, traction[3];  // that pass
+  int other_side;
+  double part;         // of what the narrow one has; at first the area of the wide one
+  double area, force;  // that pass
+  std::array<double, 3> traction;
 };
 
 bool ascending(const Given& a, const Given& b)
 {
-  return std::tie(a.node, a.contact, a.other) < std::tie(b.node, b.contact, b.other);
+  return std::tie(a.node, a.contact, a.side, a.other, a.other_side) < std::tie(b.node, b.contact, b.side, b.other, b.other_side);
+}
+
+// The narrow or the wide one's state, whichever lives here.
+NodeState& state_of(std::vector<NodeState>& nodes, const Given& given)
+{
+  return points_at(nodes, given.contact, given.node)[static_cast<std::size_t>(given.side)];
 }
 
 // Each pair of neighbours once, on the rank of the narrow node. Collective.
@@ -157,15 +178,17 @@ std::vector<Given> neighbours(const std::vector<NodeState>& nodes, std::span<con
   std::vector<Given> found;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& surface = pairs[c].secondary;
-    std::vector<const NodeState*> here;
-    for (const Global node : surface.node_id) here.push_back(find(known, static_cast<int>(c), node));
-    for (std::size_t f = 0; f < surface.faces.size(); ++f)
-      for (const Local a : surface.faces[f])
-        for (const Local b : surface.faces[f]) {
-          const auto *from = here[static_cast<std::size_t>(a)], *to = here[static_cast<std::size_t>(b)];
+    std::vector<const NodeState*> here;  // of the nodes of a face
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+      const Point normal = corners_of(surface, f).normal();
+      here.clear();
+      for (const Local n : surface.faces[f])
+        here.push_back(point_of(known, static_cast<int>(c), surface.node_id[static_cast<std::size_t>(n)], normal));
+      for (const auto* from : here)
+        for (const auto* to : here)
           if (from && to && from->cover < narrow && to->cover >= narrow)
-            found.push_back({from->node, from->contact, to->node, to->area, 0, 0, {0, 0, 0}});
-        }
+            found.push_back({from->node, from->contact, from->side, to->node, to->side, to->area, 0, 0, {0, 0, 0}});
+    }
   }
   found = by_node<Given>(found, comm);
   std::sort(found.begin(), found.end(), ascending);
@@ -177,7 +200,10 @@ std::vector<Given> neighbours(const std::vector<NodeState>& nodes, std::span<con
 // The same on the ranks of the other nodes. Collective.
 std::vector<Given> turned_round(std::vector<Given> given, const Communicator& comm)
 {
-  for (auto& g : given) std::swap(g.node, g.other);
+  for (auto& g : given) {
+    std::swap(g.node, g.other);
+    std::swap(g.side, g.other_side);
+  }
   given = by_node<Given>(given, comm);
   std::sort(given.begin(), given.end(), ascending);
   return given;
@@ -189,10 +215,10 @@ void divide_by_areas(std::vector<NodeState>& nodes, std::span<const Pair> pairs,
 {
   auto given = neighbours(nodes, pairs, comm);
   for (auto first = given.begin(); first != given.end();) {
-    const NodeState& from = *find(nodes, first->contact, first->node);
+    const NodeState& from = state_of(nodes, *first);
     auto end = first;
     double area = 0;  // of all neighbours
-    for (; end != given.end() && end->node == first->node && end->contact == first->contact; ++end) area += end->part;
+    for (; end != given.end() && &state_of(nodes, *end) == &from; ++end) area += end->part;
     for (; first != end; ++first) {
       first->part /= area;
       first->area = first->part * from.area;
@@ -202,7 +228,7 @@ void divide_by_areas(std::vector<NodeState>& nodes, std::span<const Pair> pairs,
   }
   auto taken = turned_round(given, comm);
   for (const auto& g : taken) {
-    auto& to = *find(nodes, g.contact, g.node);
+    auto& to = state_of(nodes, g);
     to.area += g.area;
     to.force += g.force;
     for (int c = 0; c < 3; ++c) to.traction[c] += g.traction[c];
@@ -212,63 +238,75 @@ void divide_by_areas(std::vector<NodeState>& nodes, std::span<const Pair> pairs,
     for (double& traction : node.traction) traction /= node.area;
   }
   for (auto& g : taken) {
-    const auto& wide = *find(nodes, g.contact, g.node);
+    const auto& wide = state_of(nodes, g);
     g.force = g.part * wide.force;
     for (int c = 0; c < 3; ++c) g.traction[c] = g.part * wide.traction[c];
   }
   for (const auto& g : given) {
-    auto& node = *find(nodes, g.contact, g.node);
+    auto& node = state_of(nodes, g);
     node.force = 0;
     for (double& traction : node.traction) traction = 0;
   }
   for (const auto& g : turned_round(taken, comm)) {
-    auto& node = *find(nodes, g.contact, g.node);
+    auto& node = state_of(nodes, g);
     node.force += g.force;
     for (int c = 0; c < 3; ++c) node.traction[c] += g.traction[c];
   }
 }
 
 // The mean over the faces at each pressed node of the means of their pressed nodes: a contact one cell wide keeps its pressure,
-// and the border of a contact stays where it is. Collective.
-std::vector<double> averaged_over_faces(const mesh::Surface& surface, const std::vector<double>& pressure,
-                                        const Communicator& comm)
+// and the border of a contact stays where it is. At a kink the larger one of its sides. `states`: of the nodes of the surface.
+// Collective.
+std::vector<double> averaged_over_faces(const mesh::Surface& surface, int contact, const std::vector<NodeState>& states,
+                                        const std::vector<double>& pressure, const Communicator& comm)
 {
   struct Sums {
     Global node;
+    int side;
     double force, area;
   };
+  const auto before = [](const Sums& a, const Sums& b) { return std::tie(a.node, a.side) < std::tie(b.node, b.side); };
+  double least = 0;
+  for (const double p : pressure) least = std::max(least, p);
+  least = comm.max(least) * open_part;
   std::vector<Sums> mine;
-  for (const Global node : surface.node_id) mine.push_back({node, 0, 0});
+  std::vector<const NodeState*> pressed;
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    const auto corners = corners_of(surface, f);
+    const Point normal = corners.normal();
     double sum = 0;
-    int count = 0;
-    for (const Local n : surface.faces[f]) {
-      if (!(pressure[static_cast<std::size_t>(n)] > 0)) continue;
-      sum += pressure[static_cast<std::size_t>(n)];
-      ++count;
-    }
-    if (count == 0) continue;
-    const double size = corners_of(surface, f).area() * count / static_cast<double>(surface.faces[f].size());
-    for (const Local n : surface.faces[f]) {
-      mine[static_cast<std::size_t>(n)].force += size * sum / count;
-      mine[static_cast<std::size_t>(n)].area += size;
-    }
+    pressed.clear();
+    for (const Local n : surface.faces[f])
+      if (const auto* state = point_of(states, contact, surface.node_id[static_cast<std::size_t>(n)], normal);
+          state && state->force > least) {
+        sum += state->force;
+        pressed.push_back(state);
+      }
+    if (pressed.empty()) continue;
+    const auto count = static_cast<double>(pressed.size());
+    const double size = corners.area() * count / static_cast<double>(surface.faces[f].size());
+    for (const auto* state : pressed) mine.push_back({state->node, state->side, size * sum / count, size});
   }
+  auto met = by_node<Sums>(mine, comm);
+  std::stable_sort(met.begin(), met.end(), before);
   std::vector<Sums> totals;
-  for (const auto& part : by_node<Sums>(mine, comm)) {
-    if (totals.empty() || totals.back().node != part.node) {
+  for (const auto& part : met) {
+    if (totals.empty() || before(totals.back(), part)) {
       totals.push_back(part);
     } else {
       totals.back().force += part.force;
       totals.back().area += part.area;
     }
   }
-  const auto found = answer(totals, ask(surface.node_id, comm), comm);
+  auto found = answer(totals, ask(surface.node_id, comm), comm);
+  std::sort(found.begin(), found.end(), before);
   std::vector<double> result;
   for (std::size_t i = 0; i < surface.node_id.size(); ++i) {
-    const auto total = std::lower_bound(found.begin(), found.end(), surface.node_id[i],
-                                        [](const Sums& sums, Global wanted) { return sums.node < wanted; });
-    result.push_back(pressure[i] > 0 && total->area > 0 ? total->force / total->area : 0.0);
+    double largest = 0;
+    for (auto at = std::lower_bound(found.begin(), found.end(), Sums{surface.node_id[i], 0, 0, 0}, before);
+         at != found.end() && at->node == surface.node_id[i]; ++at)
+      largest = std::max(largest, at->force / at->area);
+    result.push_back(pressure[i] > 0 && largest == 0 ? pressure[i] : largest);  // no face looks the way of the contact
   }
   return result;
 }
@@ -292,8 +330,11 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
                        std::vector<int>(nodes.size(), 0),
                        std::vector<char>(nodes.size(), 0)};
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto* node = find(all, static_cast<int>(c), nodes[i]);
-      if (!node) continue;
+      const auto here = points_at(all, static_cast<int>(c), nodes[i]);
+      if (here.empty()) continue;
+      const auto node = std::max_element(here.begin(), here.end(), [](const NodeState& a, const NodeState& b) {
+        return std::pair(a.force, -a.gap) < std::pair(b.force, -b.gap);
+      });
       state.near[i] = 1;
       state.pressure[i] = node->force;
       state.traction[i] = Point(node->traction[0], node->traction[1], node->traction[2]);
@@ -301,7 +342,7 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
       state.slip[i] = Point(node->slip[0], node->slip[1], node->slip[2]);
       state.status[i] = node->status;
     }
-    state.recovered_pressure = averaged_over_faces(pairs[c].secondary, state.pressure, comm);
+    state.recovered_pressure = averaged_over_faces(pairs[c].secondary, static_cast<int>(c), all, state.pressure, comm);
     result.push_back(std::move(state));
   }
   return result;

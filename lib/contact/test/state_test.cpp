@@ -116,5 +116,37 @@ TEST(State, RecoveredPressureIsSmooth)
   }
 }
 
+// A ridge of 90 degrees, one side of which presses with 10 up to the ridge while the other is open.
+TEST(State, AnEdgeHasThePressureOfTheSideThatPresses)
+{
+  const Communicator comm;
+  const auto roof = [](double x, double y) { return Point(x, y, -std::abs(x)); };
+  const auto pair = make_pair(surface({4, 2, -2, 2, 0, 1, true}, roof, comm),
+                              surface({1, 1, 0, 1, 0, 1, false, false, primary_ids}, roof, comm), Law::frictionless);
+  std::vector<ContactNodeState> points;
+  if (comm.root())
+    for (Global node = 0; node < 15; ++node)
+      for (const double side : {-1.0, 1.0}) {
+        const double x = static_cast<double>(node % 5) - 2;
+        if (x * side < 0) continue;
+        ContactNodeState point;
+        point.node = node;
+        point.area = 0.5;
+        point.normal = Point(side, 0, 1).normalized();
+        point.force = side < 0 ? 5 : 0;
+        point.force_on_secondary = -point.force * point.normal;
+        point.gap = side < 0 ? 0 : 0.1;
+        points.push_back(point);
+      }
+  const auto state = surface_states(points, std::vector<Pair>{pair}, comm).front();
+  for (std::size_t n = 0; n < pair.secondary.node_id.size(); ++n) {
+    const double pressure = pair.secondary.points[n][0] < 0.5 ? 10 : 0;
+    EXPECT_NEAR(state.pressure[n], pressure, 1e-12);
+    EXPECT_NEAR(state.recovered_pressure[n], pressure, 1e-12);
+    EXPECT_NEAR(state.traction[n].norm(), pressure, 1e-12);
+    EXPECT_NEAR(state.gap[n], pressure > 0 ? 0 : 0.1, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace mortise::contact

@@ -16,6 +16,7 @@ struct ContactNodeState {
   Global node = 0;
   double area = 0;
   double cover = 1;                          ///< ContactNode::cover
+  Point normal = Point::Zero();              ///< ContactNode::normal
   double force = 0;                          ///< normal multiplier, >= 0 when pressing (bonded: any sign)
   Point force_on_secondary = Point::Zero();  ///< all multipliers of the point, as the secondary side feels them
   double gap = 0;                            ///< >= 0 up to the solver's tolerance
@@ -34,18 +35,19 @@ struct Resultant {
   Point force = Point::Zero();  ///< on the secondary side
   double area = 0;              ///< of the points that are closed
   long long open = 0, stick = 0, slip = 0;
+  double sizes = 0;  ///< the sum of the sizes of the forces at the points
 };
 /// Collective.
 std::vector<Resultant> resultants(std::span<const ContactNodeState> points, std::size_t contacts, const Communicator& comm);
 
-/// Nodal fields on this rank's secondary surface of one contact; where two points share a node at a kink, pressures are averaged
-/// by area. A node whose surroundings the primary side hardly covers bears what presses on a strip much narrower than a face: its
-/// force and area count with those of its neighbours, whose mean it shows.
+/// Nodal fields on this rank's secondary surface of one contact; where points share a node at a kink, those of the one with the
+/// largest pressure. A node whose surroundings the primary side hardly covers bears what presses on a strip much narrower than a
+/// face: its force and area count with those of its neighbours, whose mean it shows.
 struct SurfaceState {
   std::vector<double> pressure, gap;
-  /// The pressure averaged over the faces at each node, by their areas, where it presses. That of single nodes scatters by some
-  /// per cent on unstructured meshes, being the least smooth of all results; the average loses as much only where it bends within
-  /// a face.
+  /// The pressure averaged over the faces at each node, by their areas, where it presses; at a kink over those on one side of it.
+  /// That of single nodes scatters by some per cent on unstructured meshes, being the least smooth of all results; the average
+  /// loses as much only where it bends within a face.
   std::vector<double> recovered_pressure;
   std::vector<Point> traction, slip;
   std::vector<int> status;
