@@ -15,6 +15,9 @@ constexpr double part_of_stiffness = 1e-12;
 constexpr double part_of_loads = 1e-11;
 // Of the energy that loads would have if each node resisted alone; a body's own is at least some hundredths of it.
 constexpr double part_of_energy = 1e-20;
+// Of forces at contact nodes that cancel, as those of a fit do: what rounding leaves of them, times a thousand, and what warnings
+// measure other forces by.
+constexpr double part_of_contacts = 1e-6, acting_part_of_contacts = 1e-3;
 
 }  // namespace
 
@@ -157,12 +160,14 @@ Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::spa
     if (options.obstacle) b.obstacles += counted(contacts[c].force);
   }
   b.largest = std::max({b.applied.norm(), b.supports.norm(), rounding.force, part_of_loads * applied[3], 1e-300});
-  for (const auto& r : contacts) b.largest = std::max(b.largest, r.force.norm());
+  for (const auto& r : contacts) b.largest = std::max({b.largest, r.force.norm(), part_of_contacts * r.sizes});
   for (const auto& c : couplings) b.largest = std::max(b.largest, std::hypot(c.action[0], c.action[1], c.action[2]));
   for (const auto& [force, moment] : reactions) b.largest = std::max(b.largest, std::hypot(force[0], force[1], force[2]));
   b.gauges = problem.gauge_force(lambda);
   b.difference = (b.applied + b.supports + b.obstacles + b.neighbours + b.gauges).norm() / b.largest;
-  b.push_of_facets = b.gauges.norm() / b.largest;
+  b.acting = b.largest;
+  for (const auto& r : contacts) b.acting = std::max(b.acting, acting_part_of_contacts * r.sizes);
+  b.push_of_facets = b.gauges.norm() / b.acting;
   return b;
 }
 

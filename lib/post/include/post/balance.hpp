@@ -50,8 +50,9 @@ struct Balance {
   Point neighbours = Point::Zero();  ///< the sectors beside a cyclic one
   Point gauges = Point::Zero();      ///< what holds free motions against the push of facets, which is no force of the model
   double largest = 0;                ///< of loads, supports, contacts
+  double acting = 0;                 ///< the same, at least a part of what presses in contacts before it cancels, as in a fit
   double difference = 0;             ///< of the sum of all, relative to the largest
-  double push_of_facets = 0;         ///< of `gauges`, relative to the largest
+  double push_of_facets = 0;         ///< of `gauges`, relative to `acting`
 };
 
 /// What rounding may leave of forces and energies where nothing is strained.
