@@ -4,9 +4,14 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "qp/projection.hpp"
 
 namespace mortise::friction {
+
+bool fall_short(const qp::Projection& nearest)
+{
+  constexpr double rounding_of_balance = 1e-4;
+  return nearest.empty || nearest.residual > rounding_of_balance;
+}
 
 void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven)
 {
@@ -19,6 +24,14 @@ void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu,
   throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.unbounded_rigid_mode(nu) +
                                               "; contacts can only push and friction is limited, so nothing holds it against "
                                               "the loads. Support it, or look at the direction of the loads and at the friction");
+}
+
+void nothing_found(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Eigen::VectorXd& escape, bool proven)
+{
+  if (proven) no_equilibrium(problem, escape, true);
+  const Vector nothing(problem.linear().getMap());
+  const qp::Projection nearest = qp::project(nothing, problem.equality(), set);
+  no_equilibrium(problem, nearest.empty ? nearest.nu : escape, fall_short(nearest));
 }
 
 void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::Hessian& hessian, qp::Solution& solution)

@@ -2,13 +2,23 @@
 #pragma once
 
 #include "friction/law.hpp"
+#include "qp/projection.hpp"
 #include "qp/solution.hpp"
 
 namespace mortise::friction {
 
+/// Whether the forces nearest to the loads fall short of them by more than a search that does not converge leaves: then there is
+/// no equilibrium, proven or not.
+bool fall_short(const qp::Projection& nearest);
+
 /// Throws that no forces balance the loads, and which body moves how along `nu`. `proven`: `nu` proves it, Error(no_equilibrium);
 /// else the search for such forces just did not converge, Error(bad_input). Collective.
 [[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven);
+
+/// The same where a search in `set` that ended with `escape` found none: how much those nearest to the loads lack decides, unless
+/// `proven`. Collective.
+[[noreturn]] void nothing_found(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Eigen::VectorXd& escape,
+                                bool proven);
 
 /// Forces that bounds just allowed may be more than the law allows, by what bounds and normal forces still differ by. That counts
 /// as error; and where no forces within the law balance the loads there is no equilibrium, however little they lack. One product.

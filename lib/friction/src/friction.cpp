@@ -167,7 +167,7 @@ void Solver::admit(Run& run)
   const qp::FeasibleSet cones = problem_.set().with_cones();
   const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), cones);
   if (!nearest.found && nearest.residual > balanced)
-    no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, nearest.empty);
+    no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, fall_short(nearest));
   run.bounds = slip_bounds(problem_, laws_, &nearest.point);
   for (auto& bound : run.bounds) bound *= room;
 }
@@ -191,7 +191,7 @@ void Solver::fixed_point(Run& run)
                                  : std::max(tightest, std::min(qp::tolerances::loosest, 0.1 * run.least_change));
     const bool first = !run.solved;
     if (!solve_tresca({tolerance}, run)) {
-      if (!run.solved) no_equilibrium(problem_, run.escape, run.proven);
+      if (!run.solved) nothing_found(problem_, problem_.set().with_cones(), run.escape, run.proven);
       if (++failures > most_failures || run.step >= options_.max_steps) {
         refuse_if_far(problem_, laws_, run.solution->x);
         return;
@@ -256,7 +256,7 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
     if (run.solved && (run.converged || !hessian_.exhausted())) judge_by_law(problem_, laws_, hessian_, *run.solution);
   } else {
     run.step = 1;
-    if (!solve_tresca(run.goal, run)) no_equilibrium(problem_, run.escape, run.proven);
+    if (!solve_tresca(run.goal, run)) nothing_found(problem_, problem_.set(), run.escape, run.proven);
     run.converged = true;
     run.change = 0;
   }
