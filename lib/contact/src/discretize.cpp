@@ -82,6 +82,8 @@ class Builder {
 
   // How far supports alone push the two sides into each other.
   double crossing() const { return crossing_; }
+  // How far supports alone move the two sides of a bond apart.
+  double tear() const { return tear_; }
 
   // Of this rank's points; `touching`: see InitialGap.
   const InitialGap& initial_gap() const { return initial_gap_; }
@@ -242,6 +244,16 @@ class Builder {
     if (into > along * std::sqrt(square)) crossing_ = std::max(crossing_, into - std::max(gap, 0.0));
   }
 
+  // A place of a bond along directions in which supports prescribe both sides.
+  void note_tear(double d, const Point& normal)
+  {
+    const auto note = [&](const Point& direction) {
+      if (!writer_.moves(terms_, d, direction)) tear_ = std::max(tear_, std::abs(writer_.prescribed_part(terms_, d, direction)));
+    };
+    note(normal);
+    for (const auto& tangent : directions(normal, {false, false, false}, {}, dimension_).tangents) note(tangent);
+  }
+
   // The point of a surface node's multiplier and the secondary side's normal there: at the node, unless it was moved into what is
   // covered.
   std::pair<Point, Point> point_of(std::size_t p)
@@ -271,6 +283,7 @@ class Builder {
     const Point normal = bonded() ? surface_node.normal : rays_.direction(p, at, own_normal);
     constraint::ContactNode point{
         index_, secondary_.node_id[static_cast<std::size_t>(surface_node.node)], d, normal, {}, contacts.rows.size()};
+    if (bonded() && !options_.preload) note_tear(d, normal);
     const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
     if (!prescribed && options_.law != Law::frictionless)
       for (const auto& tangent : tangents(p, normal))
@@ -419,7 +432,7 @@ class Builder {
   InitialGap initial_gap_;
   SupportedNodes supports_, primary_supports_;
   RowWriter writer_;
-  double crossing_ = 0;
+  double crossing_ = 0, tear_ = 0;
   double covered_area_ = 0;
   std::vector<Directions> directions_;  // of each surface node
   std::vector<char> stranded_;          // of each surface node: its faces have no surface node that supports and seams leave free
@@ -429,6 +442,14 @@ class Builder {
   std::vector<double> cover_;           // of each surface node
   std::vector<Term> terms_;             // of the surface node at work
 };
+
+[[noreturn]] void refuse_tear(const Options& options, double tear)
+{
+  throw Error(ExitStatus::bad_input,
+              fmt::format("contact {}: supports hold both sides, \"{}\" and \"{}\", and move them {:.3g} apart, which the bond does "
+                          "not let them; change one of the supports",
+                          options.name, options.secondary, options.primary, tear));
+}
 
 [[noreturn]] void refuse_crossing(const Options& options, double crossing)
 {
@@ -469,6 +490,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
       require_one_surface(pairs[c], sizes[c], builder.widest_gap(), builder.covered_area(), comm);
     if (const double crossing = comm.max(builder.crossing()); crossing > 1e-9 * sizes[c].reach)
       refuse_crossing(options, crossing);
+    if (const double tear = comm.max(builder.tear()); tear > 1e-9 * sizes[c].reach) refuse_tear(options, tear);
   };
   const auto is_bonded = [](const Pair& pair) { return pair.options.law == Law::bonded; };
   for (std::size_t c = 0; c < pairs.size(); ++c)
