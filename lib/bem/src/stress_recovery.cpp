@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "bem/representation.hpp"
 #include "bem/surface_stress.hpp"
 
 namespace mortise::bem {
@@ -141,11 +142,15 @@ template <int D>
 Eigen::MatrixXd nodal_sums(const PanelsIn<D>& panels, const fem::Material& material, const Eigen::VectorXd& u,
                            const Eigen::VectorXd& t)
 {
-  const StressRecovery<D> recovery(panels, material);
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(panels.node_count(), 7);
   for (std::size_t p = 0; p < panels.corners.size(); ++p)
     for (const Local c : panels.corners[p]) sums(c, 6) += panels.area[p] / D;
-  for (Local n = 0; n < panels.node_count(); ++n) sums.row(n).template head<6>() = sums(n, 6) * recovery.at(n, u, t).constant;
+  if constexpr (D == 2) {
+    sums.leftCols<6>() = sums.col(6).asDiagonal() * Representation(panels, material).evaluate(panels.points, u, t).stress;
+  } else {
+    const StressRecovery<D> recovery(panels, material);
+    for (Local n = 0; n < panels.node_count(); ++n) sums.row(n).template head<6>() = sums(n, 6) * recovery.at(n, u, t).constant;
+  }
   return sums;
 }
 template Eigen::MatrixXd nodal_sums(const PanelsIn<2>&, const fem::Material&, const Eigen::VectorXd&, const Eigen::VectorXd&);

@@ -1,5 +1,6 @@
 #include "boundary_stress.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -26,6 +27,23 @@ void rotate(const Eigen::Matrix3d& rotation, Eigen::Ref<Eigen::VectorXd> v)
   for (Eigen::Index i = 0; i < v.size(); i += D) v.segment<D>(i) = turn * Eigen::Matrix<double, D, 1>(v.segment<D>(i));
 }
 
+// |s* n - t|^2 on each panel, s* the mean of the fits at its nodes.
+Eigen::VectorXd traction_errors(const bem::PlanePanels& panels, const fem::Material& material, const Eigen::VectorXd& u,
+                                const Eigen::VectorXd& t)
+{
+  const bem::StressRecovery recovery(panels, material);
+  std::vector<fem::Stress> fit;
+  for (Local n = 0; n < panels.node_count(); ++n) fit.push_back(recovery.at(n, u, t).constant);
+  Eigen::VectorXd result(panels.size());
+  for (std::size_t p = 0; p < panels.corners.size(); ++p) {
+    const auto [a, b] = panels.corners[p];
+    const auto row = static_cast<Eigen::Index>(p);
+    const fem::Stress mean = (fit[static_cast<std::size_t>(a)] + fit[static_cast<std::size_t>(b)]) / 2;
+    result[row] = (bem::traction(mean, panels.normal[p]).head<2>() - t.segment<2>(2 * row)).squaredNorm();
+  }
+  return result;
+}
+
 // Of one subdomain, from what boundary elements find, u and t of its rest.
 template <int D>
 BoundaryStress stress_of_skin(const ElasticBodies& bodies, std::size_t s, const Eigen::VectorXd& u, const Eigen::VectorXd& t)
@@ -44,7 +62,10 @@ BoundaryStress stress_of_skin(const ElasticBodies& bodies, std::size_t s, const 
     const auto row = static_cast<Eigen::Index>(p);
     own.stress.row(row) = complete(own.stress.row(row).transpose(), panels.middle(p)).transpose();
   }
-  if constexpr (D == 2) own.interpolation_errors = bem::interpolation_errors(panels, material, u, t);
+  if constexpr (D == 2) {
+    own.interpolation_errors = bem::interpolation_errors(panels, material, u, t);
+    own.traction_errors = traction_errors(panels, material, u, t);
+  }
   const Eigen::VectorXd traction = t + particular.traction(panels);
   own.traction = Eigen::MatrixXd::Zero(panels.size(), 3);
   own.traction.leftCols<D>() = traction.reshaped<Eigen::RowMajor>(panels.size(), D);
@@ -136,7 +157,8 @@ Eigen::VectorXd errors_of_skin(const ElasticBodies& bodies, std::size_t subdomai
     const auto row = static_cast<Eigen::Index>(p);
     fem::Stress mean = fem::Stress::Zero();
     for (const Local node : panels.corners[p]) mean += recovered.row(node).head<6>().transpose() / D;
-    const double square = (bem::traction(mean, panels.normal[p]) - found.traction.row(row).transpose()).squaredNorm();
+    double square = (bem::traction(mean, panels.normal[p]) - found.traction.row(row).transpose()).squaredNorm();
+    if (D == 2) square = std::max(square, found.traction_errors[row]);
     const double of_traction = square / (2 * mu), volume = std::pow(panels.area[p], D == 2 ? 2 : 1.5);
     if (D == 2)
       result[row] = volume * of_traction;

@@ -12,6 +12,7 @@ struct BoundaryStress {
   Eigen::MatrixXd stress;                ///< panels x 6
   Eigen::MatrixXd traction;              ///< panels x 3
   Eigen::VectorXd interpolation_errors;  ///< of panels of plane models, see bem/surface_stress.hpp; else empty
+  Eigen::VectorXd traction_errors;       ///< of the same, squared: how far tractions are from those of the fit at the nodes
   SurfaceField surface;
 };
 
@@ -26,8 +27,8 @@ double boundary_energy(const ElasticBodies& bodies, std::size_t subdomain, const
 
 /// For each panel an estimate of its part of the squared error in the energy norm: h area (a (s* - s) C^-1 (s* - s) / 2 +
 /// b |s* n - t|^2 / (2 mu)), where s* is the recovered stress, nodes x 6, s and t are those of the panel, and h is its size:
-/// tractions alone do not see bending that linear displacements cannot follow. In plane models h area |s* n - t|^2 / (2 mu) and
-/// the interpolation error.
+/// tractions alone do not see bending that linear displacements cannot follow. In plane models h area |s* n - t|^2 / (2 mu), s*
+/// the recovered stress or the fit at the nodes (bem/stress_recovery.hpp), whichever is farther off, and the interpolation error.
 Eigen::VectorXd boundary_errors(const ElasticBodies& bodies, std::size_t subdomain, const BoundaryStress& found,
                                 const Eigen::MatrixXd& recovered);
 
