@@ -215,8 +215,7 @@ TEST(PlaneStressRecovery, LinearStressesAreExact)
       exact[0] = 2.0 / (1 - nu * nu) * panels.points[static_cast<std::size_t>(n)][1];
       exact[2] = nu * exact[0];
       const bool round = panels.size() == 24 || panels.size() == 32 || panels.size() == 52;
-      EXPECT_LT((sums.row(n).head<6>().transpose() / sums(n, 6) - exact).norm(), round ? 0.3 : 1e-7)
-          << panels.size() << ' ' << n;
+      EXPECT_LT((sums.row(n).head<6>().transpose() / sums(n, 6) - exact).norm(), round ? 0.3 : 1e-7) << panels.size() << ' ' << n;
       const auto [constant, slope] = recovery.at(static_cast<Local>(n), u, t);
       EXPECT_LT((constant - exact).norm(), 1e-10) << panels.size() << ' ' << n;
       EXPECT_NEAR(slope(0, 1), 2.0 / (1 - nu * nu), 1e-9);

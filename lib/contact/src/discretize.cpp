@@ -445,10 +445,11 @@ class Builder {
 
 [[noreturn]] void refuse_tear(const Options& options, double tear)
 {
-  throw Error(ExitStatus::bad_input,
-              fmt::format("contact {}: supports hold both sides, \"{}\" and \"{}\", and move them {:.3g} apart, which the bond does "
-                          "not let them; change one of the supports",
-                          options.name, options.secondary, options.primary, tear));
+  throw Error(
+      ExitStatus::bad_input,
+      fmt::format("contact {}: supports hold both sides, \"{}\" and \"{}\", and move them {:.3g} apart, which the bond does "
+                  "not let them; change one of the supports",
+                  options.name, options.secondary, options.primary, tear));
 }
 
 [[noreturn]] void refuse_crossing(const Options& options, double crossing)

@@ -326,8 +326,8 @@ double FaceNewton::residual_to_reach(const Run& run) const
 void FaceNewton::minimise(Run& run, const Trial& trial)
 {
   const bool follow = run.slip_bound_update != nullptr;
-  const ActiveSet active_set(projector_, trial.next.argument, run.beyond ? longer_step * trial.step : trial.step,
-                             disc_stiffness_, run.active_set_tolerance, follow);
+  const ActiveSet active_set(projector_, trial.next.argument, run.beyond ? longer_step * trial.step : trial.step, disc_stiffness_,
+                             run.active_set_tolerance, follow);
   if (preconditioner_) preconditioner_->fix(active_set.fixed());
   const double enough = residual_to_reach(run);
   // Where the last active set was picked badly, what others know leads astray: cells of aspect 1000 tell little of each other.

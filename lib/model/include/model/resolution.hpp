@@ -15,8 +15,8 @@ struct Resolution {
   Temperatures temperatures;
 };
 
-/// Wild cards and `contacts: auto` on the mesh of `decomposition`, and files with temperatures. Throws Error(bad_input) with all errors of the document, those
-/// of names that the mesh lacks among them. Collective.
+/// Wild cards and `contacts: auto` on the mesh of `decomposition`, and files with temperatures. Throws Error(bad_input) with all
+/// errors of the document, those of names that the mesh lacks among them. Collective.
 Resolution resolve(const Deck& deck, deck::Document& document, partition::Decomposition decomposition, const Context& context);
 
 }  // namespace mortise::model
