@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 
 #include "base/error.hpp"
@@ -147,8 +146,21 @@ void append(std::vector<double>& to, const Point& p)
   to.insert(to.end(), {p[0], p[1], p[2]});
 }
 
-// The secondary sides of all contacts: faces with a node that lies near enough to the other side to have a state. Nodes of theirs
-// that do not have no gap.
+// The gaps of a secondary side; at nodes too far from the other side to have one the largest of the faces round them.
+std::vector<double> gaps_shown(const mesh::Surface& surface, const contact::SurfaceState& state)
+{
+  std::vector<double> result = state.gap;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    double largest = 0;
+    for (const Local n : surface.faces[f])
+      if (const auto i = static_cast<std::size_t>(n); state.near[i]) largest = std::max(largest, state.gap[i]);
+    for (const Local n : surface.faces[f])
+      if (const auto i = static_cast<std::size_t>(n); !state.near[i]) result[i] = std::max(result[i], largest);
+  }
+  return result;
+}
+
+// The secondary sides of all contacts: faces with a node that lies near enough to the other side to have a state.
 io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vector<contact::SurfaceState>& states)
 {
   io::Piece piece;
@@ -171,11 +183,12 @@ io::Piece contact_piece(const std::vector<contact::Pair>& pairs, const std::vect
       piece.cells.add(surface.faces.type[f], nodes);
       index.values.push_back(static_cast<double>(c));
     }
+    const auto gaps = gaps_shown(surface, states[c]);
+    gap.values.insert(gap.values.end(), gaps.begin(), gaps.end());
     for (std::size_t n = 0; n < surface.points.size(); ++n) {
       pressure.values.push_back(states[c].pressure[n]);
       recovered.values.push_back(states[c].recovered_pressure[n]);
       append(traction.values, states[c].traction[n]);
-      gap.values.push_back(near[n] ? states[c].gap[n] : std::numeric_limits<double>::quiet_NaN());
       append(slip.values, states[c].slip[n]);
       status.values.push_back(states[c].status[n]);
     }
