@@ -15,6 +15,7 @@
 #include "child.hpp"
 #include "file_kind.hpp"
 #include "gmsh_library.hpp"
+#include "msh2_tags.hpp"
 
 namespace mortise::mesh {
 
@@ -287,6 +288,7 @@ void work(const Options& options, int dimension, Sender& sender)
     fail(options.file, std::string("this system cannot keep a geometry from starting programs") + remedy);
   if (kind != FileKind::geo) limit_processor_time(reading_seconds(size_of(options.file)));
   if (kind == FileKind::geo) require_constants(options);
+  if (kind == FileKind::msh) require_own_entities(options.file);
   session.open(options.file);
   limit_processor_time(0);
   if (is_geometry(kind)) GmshSession::set_sizes(options);  // again: what the deck says outweighs what a script has set

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <vector>
 
 #include "base/error.hpp"
 #include "mesh/blocks.hpp"
@@ -206,6 +207,52 @@ TEST(Extent, BlocksMustHaveRoom)
   EXPECT_NO_THROW(require_room(block_catalogue(given, 3), 1000000));
   given.blocks["a"].cells = {2000000000, 2000000000, 2000000000};
   EXPECT_THROW(require_room(given, 3, false), Error);  // numbers would overflow
+}
+
+// A square in the format 2.2 with the elements of its borders, "physical tag, elementary tag, nodes".
+std::string square(const std::string& left, const std::string& right)
+{
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 2 \"left\"\n1 3 \"right\"\n2 1 \"a\"\n$EndPhysicalNames\n"
+         "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n3\n1 1 2 " +
+         left + "\n2 1 2 " + right + "\n3 3 2 1 1 1 2 3 4\n$EndElements\n";
+}
+
+TEST(FaultyFiles, GroupsThatShareAnElementaryTag)
+{
+  const auto two = options(write("two_tags.msh", square("2 1 4 1", "3 2 2 3")));
+  EXPECT_EQ(said(two, 2), "");
+  const auto shared = options(write("one_tag.msh", square("2 1 4 1", "3 1 2 3")));
+  EXPECT_NE(said(shared, 2).find("physical groups 2 and 3 have the same elementary tag 1"), std::string::npos) << said(shared, 2);
+  const auto both = options(write("both_groups.msh", square("2 1 4 1", "3 1 4 1")));
+  EXPECT_EQ(said(both, 2), "");
+}
+
+TEST(FaultyFiles, GroupsThatShareAnElementaryTagInBinary)
+{
+  for (const int right : {1, 2}) {
+    std::ofstream file(path("tags_binary.msh"), std::ios::binary);
+    const auto put = [&](const std::vector<int>& values) {
+      file.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(int)));
+    };
+    file << "$MeshFormat\n2.2 1 8\n";
+    put({1});
+    file << "\n$EndMeshFormat\n$Nodes\n4\n";
+    const double points[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (int n = 0; n < 4; ++n) {
+      put({n + 1});
+      file.write(reinterpret_cast<const char*>(points[n]), sizeof(points[n]));
+    }
+    file << "\n$EndNodes\n$Elements\n3\n";
+    put({1, 2, 2, 1, 2, 1, 4, 1, 2, 3, right, 2, 3});
+    put({3, 1, 2, 3, 1, 1, 1, 2, 3, 4});
+    file << "\n$EndElements\n";
+    file.close();
+    const auto words = said(options(path("tags_binary.msh")), 2);
+    if (right == 1)
+      EXPECT_NE(words.find("have the same elementary tag 1"), std::string::npos) << words;
+    else
+      EXPECT_EQ(words.find("have the same elementary tag"), std::string::npos) << words;
+  }
 }
 
 }  // namespace
