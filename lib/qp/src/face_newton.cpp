@@ -22,7 +22,7 @@ constexpr int max_active_sets = 200;
 constexpr double first_active_set_tolerance = 1e-3;  // distances from bounds, over the largest, that count as none
 constexpr double first_active_set_tolerance_updated =
     1e-5;                                 // the same where bounds follow the solution: the longer step picks better
-constexpr double company = 10;            // so many times stiffer is a point to forces that its neighbours share: they slip, too
+constexpr double company = 3;             // so many times stiffer is a point to forces that its neighbours share: they slip, too
 constexpr double longer = 4.0;            // from one of the steps that a start is looked for with to the next
 constexpr double soft = 0.25;             // curvature along the first step over ||P A P|| below which one is looked for
 constexpr int max_starts = 10;            // attempts
