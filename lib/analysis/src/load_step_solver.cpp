@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "constraint/right_hand_sides.hpp"
 #include "contact/sliding_surfaces.hpp"
+#include "post/compatibility.hpp"
 #include "same_nodes.hpp"
 
 namespace mortise::analysis {
@@ -154,7 +155,11 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
                                       return std::clamp(algebraic_part * error, smallest_part * solution,
                                                         largest_part * solution);
                                     },
-                                    [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms(lambda, nu).solution; }};
+                                    [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms(lambda, nu).solution; },
+                                    [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+                                      return post::incompatibility(*problem_, assembly_.decomposition(), assembly_.interface(),
+                                                                   problem_->displacement(lambda, nu), nu);
+                                    }};
   const auto count_on = [&](int step, double change, qp::Progress progress) {
     progress.applications += before_;
     observer(step, change, progress);

@@ -232,6 +232,7 @@ Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy)
     run.goal.contact_converged = [this](const Vector& x, const Vector& argument, const Vector& off) {
       return contact_converged(problem_, x, argument, off);
     };
+    run.goal.incompatibility = accuracy.incompatibility;
   }
   run.goal.energy_norm = accuracy.energy_norm;
   if (start) run.solution = *start;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_bounds.hpp"
 #include "post/strength.hpp"
 
 namespace mortise::post {
@@ -12,16 +13,6 @@ namespace {
 // A point is open while its pressure is at most this part of the largest of its contact.
 constexpr double nothing = 1e-4;
 
-// g of this rank's contact rows, with what pretension sections are drawn together.
-std::vector<double> bounds(const feti::DualProblem& problem, const Eigen::VectorXd& nu)
-{
-  auto result = problem.constraints().contacts.rows.bound;
-  const auto shortenings = problem.shortenings(nu);
-  for (std::size_t c = 0; c < shortenings.size(); ++c)
-    for (const auto& [row, part] : problem.constraints().pretension_sections[c].rows) result[row] += part * shortenings[c];
-  return result;
-}
-
 }  // namespace
 
 ContactResults contact_results(const feti::DualProblem& problem, const Vector& lambda, const Eigen::VectorXd& nu,
@@ -30,7 +21,7 @@ ContactResults contact_results(const feti::DualProblem& problem, const Vector& l
   const auto& comm = problem.communicator();
   const Eigen::VectorXd forces = problem.forces(lambda), jumps = problem.jumps(displacement);
   const auto& contacts = problem.constraints().contacts;
-  const auto bound = bounds(problem, nu);
+  const auto bound = contact_bounds(problem, nu);
   std::vector<double> largest(pairs.size(), 0.0);  // pressure of each contact
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     auto& pressure = largest[static_cast<std::size_t>(contacts.nodes[i].contact)];

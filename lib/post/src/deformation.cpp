@@ -55,7 +55,7 @@ double least_volume_ratio(const Eigen::MatrixXd& x, const Eigen::MatrixXd& defor
 {
   using Values = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_places, 1>;  // on the stack: this is asked for each cell
   const auto count = static_cast<Eigen::Index>(tables.size());
-  Values before = Values::Zero(count), after = before;
+  Values before = Values::Zero(count), after = Values::Zero(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     before[i] = jacobian<d>(x, tables[static_cast<std::size_t>(i)]);
     after[i] = jacobian<d>(deformed, tables[static_cast<std::size_t>(i)]);

@@ -7,8 +7,6 @@
 
 namespace mortise::post {
 
-namespace {
-
 double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, int dimension, const Communicator& comm)
 {
   double largest = 0;
@@ -16,6 +14,8 @@ double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, in
     for (Eigen::Index i = 0; i < u.size(); i += dimension) largest = std::max(largest, u.segment(i, dimension).norm());
   return comm.max(largest);
 }
+
+namespace {
 
 // How far supports, gaps and overlaps may move a body.
 double prescribed(const constraint::Constraints& constraints, const Communicator& comm)

@@ -267,6 +267,15 @@ void FaceNewton::find_error(Run& run, const Projection& natural)
   preconditionings_ += preconditioner_ ? 1 : 0;
 }
 
+// Whether the primal solution at z fulfils its constraints, as far as the goal asks for that and rounding lets it.
+bool FaceNewton::is_compatible(const Run& run) const
+{
+  const auto& goal = run.goal;
+  if (!goal.incompatibility || run.worst() <= tolerances::rounding * run.size) return true;
+  if (run.result.error <= rounding_of_error(problem_, norm_)) return true;
+  return goal.incompatibility(run.state.z, run.result.nu) <= (run.since_best > 0 ? Goal::nearly_compatible : Goal::compatible);
+}
+
 // Whether the residual or the error at z is what the goal asks for.
 bool FaceNewton::is_solved(Run& run, const Projection& natural)
 {
@@ -297,6 +306,10 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   }
   if (!solved && goal.exact > 0 && std::isfinite(result.error))
     solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
+  if (solved && !is_compatible(run)) {
+    run.doubtful = true;
+    return false;
+  }
   return solved;
 }
 

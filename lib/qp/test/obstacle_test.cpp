@@ -98,5 +98,23 @@ TEST(FaceNewton, StopsAtTheAllowedError)
   }
 }
 
+// An error that is small enough is none while what the multipliers belong to is torn: here until it is 100 times smaller.
+TEST(FaceNewton, GoesOnWhileThePrimalSolutionIsIncompatible)
+{
+  RandomProgramme programme;
+  const Eigen::VectorXd exact = gathered(FaceNewton(programme.problem, nullptr).solve({}, {1e-12, {}}, nullptr, {}).x, world());
+  const auto norm = [&](const Eigen::VectorXd& x) { return std::sqrt(x.dot(programme.dense * x)); };
+  const double allowed = 1e-1 * norm(exact);
+  Goal goal{0, [&](const Vector&, const Eigen::VectorXd&) { return allowed; }};
+  const Solution loose = FaceNewton(programme.problem, nullptr).solve({}, goal, nullptr, {});
+  ASSERT_GT(norm(gathered(loose.x, world()) - exact), 1e-2 * allowed);
+  goal.incompatibility = [&](const Vector& x, const Eigen::VectorXd&) {
+    return norm(gathered(x, world()) - exact) < 1e-2 * allowed ? 0.0 : 1.0;
+  };
+  const Solution tight = FaceNewton(programme.problem, nullptr).solve({}, goal, nullptr, {});
+  EXPECT_TRUE(tight.converged);
+  EXPECT_LT(norm(gathered(tight.x, world()) - exact), 1e-2 * allowed);
+}
+
 }  // namespace
 }  // namespace mortise::qp

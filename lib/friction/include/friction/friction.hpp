@@ -42,8 +42,9 @@ using Observer = std::function<void(int step, double change, const qp::Progress&
 /// What errors are measured by, both at the multipliers lambda and nu and in the energy norm, see qp::Goal. Collective.
 struct Accuracy {
   using Measure = std::function<double(const Vector& lambda, const Eigen::VectorXd& nu)>;
-  Measure allowed_error;  ///< the algebraic error that is good enough
-  Measure energy_norm;    ///< that of the displacements
+  Measure allowed_error;         ///< the algebraic error that is good enough
+  Measure energy_norm;           ///< that of the displacements
+  Measure incompatibility = {};  ///< what displacements leave open, over the largest of them
 };
 
 class StateRecord;

@@ -29,6 +29,9 @@ struct Results {
   Verdict verdict;
 };
 
+/// Of all nodes of all subdomains, `dimension` components each. Collective.
+double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, int dimension, const Communicator& comm);
+
 /// A solved equilibrium. `displacement`: of each subdomain; `tolerance`: the deck's, 0 where it is auto.
 struct Equilibrium {
   const feti::DualProblem& problem;

@@ -56,6 +56,7 @@ class FaceNewton {
   void safeguard(Run& run, Trial& trial);
   Projection accept(Run& run, const Trial& trial);
   void find_error(Run& run, const Projection& natural);
+  bool is_compatible(const Run& run) const;
   bool is_solved(Run& run, const Projection& natural);
   bool gives_up(Run& run) const;
   void minimise(Run& run, const Trial& trial);

@@ -26,6 +26,9 @@ struct Goal {
   /// would. `argument` is that of the natural projection: how far it lies from the border of a constraint's half-line or disc
   /// tells how firmly its state is decided. Collective.
   std::function<bool(const Vector& x, const Vector& argument, const Vector& change)> contact_converged = {};
+  /// With an allowed error, how far the primal solution at x, nu is from fulfilling its constraints, over its own size: energy
+  /// feels little of what is soft. Asked for last. Collective.
+  std::function<double(const Vector& x, const Eigen::VectorXd& nu)> incompatibility = {};
   /// The size of what is solved for, in the norm of the error (that of A, as Solution::error). Asked for where a residual is
   /// small, since a small residual alone says little where A is badly conditioned; if absent, it is believed. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> energy_norm = {};
@@ -33,6 +36,8 @@ struct Goal {
   /// Part of the energy norm. An error below it ends face Newton whatever the residual: for a start that is exact.
   double exact = 0;
 
+  /// What may be left of `incompatibility`; and where going on did not make the residual smaller.
+  static constexpr double compatible = 1e-3, nearly_compatible = 1e-2;
   /// The residual up to which an estimated error that is good enough ends a solve. Beyond it the error has to be small itself.
   static constexpr double largest_residual = 0.4;
   /// Part of the energy norm that the error may be for a small residual to count as a solution; more than 1e-3 where the residual

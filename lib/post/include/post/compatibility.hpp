@@ -1,0 +1,15 @@
+// Whether displacements of subdomains fit together: what an iterate of the dual problem leaves open.
+#pragma once
+
+#include "feti/dual_problem.hpp"
+#include "partition/node_directory.hpp"
+
+namespace mortise::post {
+
+/// How far displacements `u` of subdomains, with the multipliers nu, are from those of one assembly: the largest distance of a
+/// copy of a node from the mean of its copies, and the largest overlap at a contact node, over the largest displacement. A plate
+/// bends by much at little energy, so that a small error in the energy norm alone says little of it. Collective.
+double incompatibility(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
+                       const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu);
+
+}  // namespace mortise::post
