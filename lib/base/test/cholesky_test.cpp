@@ -34,7 +34,8 @@ TEST(Cholesky, SolvesSeveralRightHandSides)
   EXPECT_GT(factor.factor_bytes(), 400 * sizeof(double));
 }
 
-// All widths of blocks, supernodes wider than one piece, and a new factorization afterwards.
+// Every number of right-hand sides up to more than the widest kernel takes, supernodes wider than one piece, and a new
+// factorization afterwards.
 TEST(Cholesky, PreparedFactorSolvesTheSame)
 {
   const Eigen::MatrixXd root = Eigen::MatrixXd::Random(70, 70);
@@ -44,14 +45,36 @@ TEST(Cholesky, PreparedFactorSolvesTheSame)
     Cholesky factor(a, n % 2 == 0 ? 2 : 1);
     for (const double scale : {1.0, 3.0}) {
       ASSERT_TRUE(factor.factorize(SparseMatrix(scale * a)));
-      const Eigen::MatrixXd expected = Eigen::MatrixXd::Random(n, 31);  // one of each kernel: 16 + 8 + 4 + 2 + 1
-      const Eigen::MatrixXd b = a.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd(scale * expected);
       factor.prepare_for_many_solves();
-      Eigen::MatrixXd x = Eigen::MatrixXd::Constant(n + 2, 31, 7);
-      x.topRows(n) = b;
-      factor.solve(x.data(), x.data(), 31, n + 2);
-      EXPECT_LT((x.topRows(n) - expected).norm(), 1e-11 * expected.norm());
-      EXPECT_EQ(x(n, 30), 7);
+      for (int count = 1; count < 20; ++count) {
+        const Eigen::MatrixXd expected = Eigen::MatrixXd::Random(n, count);
+        Eigen::MatrixXd x = Eigen::MatrixXd::Constant(n + 2, count, 7);
+        x.topRows(n) = a.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd(scale * expected);
+        factor.solve(x.data(), x.data(), count, n + 2);
+        EXPECT_LT((x.topRows(n) - expected).norm(), 1e-11 * expected.norm()) << count << " right-hand sides";
+        EXPECT_EQ(x(n, count - 1), 7);
+      }
+    }
+  }
+}
+
+// Supernodes of all shapes; rows below them that follow each other but for one, at the end of the matrix too.
+TEST(Cholesky, PreparedFactorSolvesIrregularPatterns)
+{
+  for (int n = 20; n < 60; ++n) {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Random(n, n);
+    a = (a.array().abs() < 2.5 / n).select(a, 0);
+    a = (a * a.transpose()).eval();
+    a.diagonal().array() += 1;
+    const SparseMatrix lower = Eigen::MatrixXd(a.triangularView<Eigen::Lower>()).sparseView();
+    Cholesky factor(lower);
+    ASSERT_TRUE(factor.factorize(lower));
+    factor.prepare_for_many_solves();
+    for (int count : {1, 2, 3, 7}) {
+      const Eigen::MatrixXd expected = Eigen::MatrixXd::Random(n, count);
+      Eigen::MatrixXd x = a * expected;
+      factor.solve(x.data(), x.data(), count, n);
+      EXPECT_LT((x - expected).norm(), 1e-11 * expected.norm()) << n << " unknowns, " << count << " right-hand sides";
     }
   }
 }

@@ -1,0 +1,206 @@
+// Triangular solves on the tiles of a SupernodalFactor for one or two right-hand sides. There are too few to fill a register, so
+// that registers go along the rows here: column j of a tile is one register, and each number of the factor is read once for both.
+// For functions compiled for AVX-512.
+#pragma once
+
+#include "tiles.hpp"
+
+namespace mortise::supernodal {
+
+// Row i of Count right-hand sides starts at y + i * Count.
+template <int Count>
+struct AlongRows {
+  using Memory = Loose<tile>;
+  using Rows = Memory::Lane;
+  static constexpr int together = 4;  // tiles that share the sums of a column on their way to memory
+
+  // z: Count registers with the rows of a tile, first as they lie in memory, interleaved; then one a right-hand side.
+  [[gnu::always_inline]] static void separate(Rows (&z)[Count])
+  {
+    if constexpr (Count == 2) {
+      const Rows first = __builtin_shufflevector(z[0], z[1], 0, 2, 4, 6, 8, 10, 12, 14);
+      z[1] = __builtin_shufflevector(z[0], z[1], 1, 3, 5, 7, 9, 11, 13, 15);
+      z[0] = first;
+    }
+  }
+  [[gnu::always_inline]] static void interleave(Rows (&z)[Count])
+  {
+    if constexpr (Count == 2) {
+      const Rows first = __builtin_shufflevector(z[0], z[1], 0, 8, 1, 9, 2, 10, 3, 11);
+      z[1] = __builtin_shufflevector(z[0], z[1], 4, 12, 5, 13, 6, 14, 7, 15);
+      z[0] = first;
+    }
+  }
+
+  // Most tiles do. Rows rise strictly until the factor's number of rows fills them up, so that the last two tell.
+  [[gnu::always_inline]] static bool follow_each_other(const int* rows)
+  {
+    return rows[tile - 1] - rows[0] == tile - 1 && rows[tile - 2] - rows[0] == tile - 2;
+  }
+
+  [[gnu::always_inline]] static void gather(Rows (&z)[Count], const double* y, const int* rows)
+  {
+    if (follow_each_other(rows)) {
+      for (int n = 0; n < Count; ++n) Memory::load(z[n], y + static_cast<std::ptrdiff_t>(rows[0]) * Count + n * tile);
+    } else {
+      alignas(64) double buffer[tile * Count];
+      for (int r = 0; r < tile; ++r)
+        for (int n = 0; n < Count; ++n) buffer[r * Count + n] = y[static_cast<std::ptrdiff_t>(rows[r]) * Count + n];
+      for (int n = 0; n < Count; ++n) Memory::load(z[n], buffer + n * tile);
+    }
+    separate(z);
+  }
+  [[gnu::always_inline]] static void scatter(Rows (&z)[Count], double* y, const int* rows)
+  {
+    interleave(z);
+    if (follow_each_other(rows)) {
+      for (int n = 0; n < Count; ++n) Memory::subtract_at(y + static_cast<std::ptrdiff_t>(rows[0]) * Count + n * tile, z[n]);
+    } else {
+      alignas(64) double buffer[tile * Count];
+      for (int n = 0; n < Count; ++n) Memory::store(z[n], buffer + n * tile);
+      for (int r = 0; r < tile; ++r)
+        for (int n = 0; n < Count; ++n) y[static_cast<std::ptrdiff_t>(rows[r]) * Count + n] -= buffer[r * Count + n];
+    }
+  }
+
+  // sum = sum_j values[j] x[j]; several sums in turn, for one waits for its last addition.
+  [[gnu::always_inline]] static void multiply(const double* values, int columns, const double* x, Rows (&sum)[Count])
+  {
+    constexpr int turns = 4 / Count;
+    Rows part[turns][Count] = {}, value;
+    int j = 0;
+    for (; j + turns <= columns; j += turns)
+#pragma GCC unroll 4
+      for (int k = 0; k < turns; ++k) {
+        Memory::load(value, values + (j + k) * tile);
+#pragma GCC unroll 2
+        for (int n = 0; n < Count; ++n) part[k][n] += value * x[(j + k) * Count + n];
+      }
+    for (; j < columns; ++j) {
+      Memory::load(value, values + j * tile);
+#pragma GCC unroll 2
+      for (int n = 0; n < Count; ++n) part[0][n] += value * x[j * Count + n];
+    }
+    for (int n = 0; n < Count; ++n) {
+      sum[n] = part[0][n];
+      for (int k = 1; k < turns; ++k) sum[n] += part[k][n];
+    }
+  }
+
+  [[gnu::always_inline]] static void forwards(const SupernodalFactor& factor, double* y)
+  {
+    Rows sum[Count];
+    for (const auto& piece : factor.pieces()) {
+      const double* values = factor.values() + piece.value;
+      double* x = y + static_cast<std::ptrdiff_t>(piece.first) * Count;
+      for (int b = 0; b < piece.width; b += tile) {
+        if (b > 0) {
+          multiply(values, b, x, sum);
+          interleave(sum);
+          for (int n = 0; n < Count; ++n) Memory::subtract_at(x + b * Count + n * tile, sum[n]);
+        }
+        values += b * tile;
+        Tiles<1, Count, 8>::forwards(values, x + b * Count);
+        values += diagonal_values;
+      }
+      const int* below = factor.rows() + piece.row;
+      for (int t = 0; t < piece.tiles; ++t, values += piece.width * tile, below += tile) {
+        multiply(values, piece.width, x, sum);
+        scatter(sum, y, below);
+      }
+    }
+  }
+
+  // The totals of 8 registers, in one: neighbours are added, then neighbours of these.
+  [[gnu::always_inline]] static void add_up(const Rows* v, Rows& totals)
+  {
+    Rows pair[4], four[2];
+#pragma GCC unroll 4
+    for (int k = 0; k < 4; ++k)
+      pair[k] = __builtin_shufflevector(v[2 * k], v[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14) +
+                __builtin_shufflevector(v[2 * k], v[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+#pragma GCC unroll 2
+    for (int k = 0; k < 2; ++k)
+      four[k] = __builtin_shufflevector(pair[2 * k], pair[2 * k + 1], 0, 1, 8, 9, 4, 5, 12, 13) +
+                __builtin_shufflevector(pair[2 * k], pair[2 * k + 1], 2, 3, 10, 11, 6, 7, 14, 15);
+    totals = __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+             __builtin_shufflevector(four[0], four[1], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+
+  // sum[j] += values[j] z for `Several` tiles, each `stride` numbers from the next.
+  template <int Several>
+  [[gnu::always_inline]] static void add_products(const double* values, int columns, std::ptrdiff_t stride,
+                                                  const Rows (&z)[Several][Count], Rows (*sum)[Count])
+  {
+    for (int j = 0; j < columns; ++j) {
+      Rows part[Count], value;
+#pragma GCC unroll 2
+      for (int n = 0; n < Count; ++n) part[n] = sum[j][n];
+#pragma GCC unroll 4
+      for (int t = 0; t < Several; ++t) {
+        Memory::load(value, values + t * stride + j * tile);
+#pragma GCC unroll 2
+        for (int n = 0; n < Count; ++n) part[n] += value * z[t][n];
+      }
+#pragma GCC unroll 2
+      for (int n = 0; n < Count; ++n) sum[j][n] = part[n];
+    }
+  }
+
+  template <int Several>
+  [[gnu::always_inline]] static void add_tiles(const double*& values, const int*& below, int columns, const double* y,
+                                               Rows (*sum)[Count])
+  {
+    values -= Several * columns * tile;
+    below -= Several * tile;
+    Rows z[Several][Count];
+#pragma GCC unroll 4
+    for (int t = 0; t < Several; ++t) gather(z[t], y, below + t * tile);
+    add_products<Several>(values, columns, columns * tile, z, sum);
+  }
+
+  [[gnu::always_inline]] static void subtract_totals(Rows (*sum)[Count], int columns, double* x)
+  {
+    for (int k = 0; k < columns * Count; k += tile) {
+      Rows total;
+      add_up(sum[0] + k, total);
+      if (k + tile <= columns * Count) {
+        Memory::subtract_at(x + k, total);
+      } else {
+        for (int n = k; n < columns * Count; ++n) x[n] -= total[n - k];
+      }
+    }
+  }
+
+  [[gnu::always_inline]] static void backwards(const SupernodalFactor& factor, double* y)
+  {
+    for (auto p = factor.pieces().rbegin(); p != factor.pieces().rend(); ++p) {
+      const Piece& piece = *p;
+      double* x = y + static_cast<std::ptrdiff_t>(piece.first) * Count;
+      const double* values = factor.values() + piece.value + triangle_values(piece.width) + panel_values(piece);
+      const int* below = factor.rows() + piece.row + static_cast<std::ptrdiff_t>(piece.tiles) * tile;
+      Rows sum[widest + tile][Count];
+      for (int j = 0; j < blocks(piece.width) * tile; ++j)
+        for (int n = 0; n < Count; ++n) sum[j][n] = Rows{};
+      int t = piece.tiles;
+      for (; t >= together; t -= together) add_tiles<together>(values, below, piece.width, y, sum);
+      for (; t > 0; --t) add_tiles<1>(values, below, piece.width, y, sum);
+      subtract_totals(sum, piece.width, x);
+      for (int b = (blocks(piece.width) - 1) * tile; b >= 0; b -= tile) {
+        values -= diagonal_values;
+        Tiles<1, Count, 8>::backwards(values, x + b * Count);
+        values -= b * tile;
+        if (b == 0) break;
+        Rows z[1][Count];
+        for (int n = 0; n < Count; ++n) Memory::load(z[0][n], x + b * Count + n * tile);
+        separate(z[0]);
+        for (int j = 0; j < b; ++j)
+          for (int n = 0; n < Count; ++n) sum[j][n] = Rows{};
+        add_products<1>(values, b, 0, z, sum);
+        subtract_totals(sum, b, x);
+      }
+    }
+  }
+};
+
+}  // namespace mortise::supernodal
