@@ -13,7 +13,8 @@
 #include "lines.hpp"
 #include "listing.hpp"
 #include "model/auto_contacts.hpp"
-#include "summary.hpp"
+#include "output/summary.hpp"
+#include "post/model_checks.hpp"
 
 namespace mortise {
 
@@ -34,7 +35,7 @@ Report::Report(const model::Deck& deck, const deck::Document& document, const Co
 {
   if (command_line.resume && context.comm.root()) {
     history_.take_up(io::text_of(deck.output.directory + "/history.csv"));
-    sizes_as_cut_ = sizes_told(io::text_of(deck.output.directory + "/summary.json"));
+    sizes_as_cut_ = output::sizes_told(io::text_of(deck.output.directory + "/summary.json"));
   }
   if (command_line.check) return;
   std::vector files{document.file(), deck.mesh.file, deck.output.interior.point_file};
@@ -81,7 +82,8 @@ void Report::rows(const model::Model& model, const analysis::Rows& first, const 
     end_stage("supports and contact", "contact");
     for (auto& warning : analysis::check_model(model, first, comm)) warnings_.report(std::move(warning), log);
     for (auto& warning : analysis::idle_planes(deck_, probes, comm)) warnings_.report(std::move(warning), log);
-    for (auto& warning : report_initial_gaps(first.initial_gaps, model.contacts(), command_line_.check, log))
+    print_initial_gaps(first.initial_gaps, model.contacts(), command_line_.check, log);
+    for (auto& warning : post::unasked_overlaps(first.initial_gaps, model.contacts().options))
       warnings_.report(std::move(warning), log);
     analysis::check_unconstrained_bodies(model, first, context_, warnings_);
   }
@@ -127,7 +129,7 @@ bool Report::gave_up(const analysis::LoadStepSolver& solver, const analysis::Ste
   end_stage("solve", "solve");
   if (!state.solved.gave_up) return false;
   if (approach.kind != Kind::direct_instead)
-    sizes_as_cut_ = sizes_of(assembly_->decomposition(), solver.problem(), context_.comm);
+    sizes_as_cut_ = output::sizes_of(assembly_->decomposition(), solver.problem(), context_.comm);
   return true;
 }
 
@@ -136,18 +138,19 @@ void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepS
 {
   const auto& comm = context_.comm;
   const auto& model = assembly_->model();
+  const output::EvaluatedState found{model.decomposition(), assembly_->interface(), solver.problem(), state, probes, results};
   const bool first = summary_.version.empty();
-  auto summary = summarise(model, solver.problem(), state, probes, results, comm);
+  auto summary = output::summarise(model, found, comm);
+  summary.version = MORTISE_VERSION;
   summary.algorithm = approach.algorithm == "auto" ? "face_newton" : approach.algorithm;
-  if (approach.kind == Kind::direct_instead && sizes_as_cut_.subdomains > 0) copy_sizes(sizes_as_cut_, summary);
+  if (approach.kind == Kind::direct_instead && sizes_as_cut_.subdomains > 0) output::copy_sizes(sizes_as_cut_, summary);
   if (first) summary.hessian_multiplications += solver.spent_before();
-  accumulate_steps(acts_, summary_, summary);
+  output::accumulate_steps(acts_, summary_, summary);
   warnings_.add(analysis::check_results(model, state, results, comm));
   {
     const auto scope = context_.timers.scope("output");
-    files_->write(assembly_->decomposition(), assembly_->interface(), solver.problem(), state, probes, results,
-                  is_due(summary.converged), index_ == states_ || !summary.converged, comm);
-    probe_files_->write(assembly_->decomposition().catalogue, acts_, probes, results, summary.probes, comm);
+    files_->write(found, is_due(summary.converged), index_ == states_ || !summary.converged, comm);
+    probe_files_->write(model.decomposition().catalogue, acts_, probes, results, summary.probes, comm);
     collectively(comm, [&] {
       if (!comm.root()) return;
       io::write_text(deck_.output.directory + "/history.csv", history_.text());
@@ -211,7 +214,7 @@ void Report::write_summary(bool finished)
 ExitStatus Report::end()
 {
   auto& [comm, log, timers] = context_;
-  note_communication(timers, traffic() - before_all_, comm, summary_);
+  output::note_communication(timers, traffic() - before_all_, comm, summary_);
   const auto spreads = timers.spread(comm);
   for (const auto& spread : spreads) summary_.time[spread.stage] = spread.max;
   write_summary(true);

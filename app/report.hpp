@@ -10,12 +10,12 @@
 #include "analysis/warnings.hpp"
 #include "base/traffic.hpp"
 #include "command_line.hpp"
-#include "fields.hpp"
 #include "history.hpp"
 #include "io/output_directory.hpp"
 #include "io/summary.hpp"
 #include "model/resolution.hpp"
-#include "probes.hpp"
+#include "output/field_files.hpp"
+#include "output/probe_files.hpp"
 
 namespace mortise {
 
@@ -74,8 +74,8 @@ class Report {
   std::optional<io::OutputDirectory> directory_;
   std::map<std::string, double> seconds_before_;  // of each stage, when it was last told
   History history_;
-  std::optional<FieldFiles> files_;
-  std::optional<ProbeFiles> probe_files_;
+  std::optional<output::FieldFiles> files_;
+  std::optional<output::ProbeFiles> probe_files_;
   analysis::Warnings warnings_;
   io::Summary sizes_as_cut_;  // of the deck's own cut, where it is solved by another one
 

@@ -119,6 +119,11 @@ std::vector<std::array<double, 3>> ProbeOptions::points() const
   return result;
 }
 
+bool Options::has_field(const std::string& name) const
+{
+  return std::find(fields.begin(), fields.end(), name) != fields.end();
+}
+
 bool Options::asks_inside() const
 {
   return interior.any() ||

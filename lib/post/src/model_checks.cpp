@@ -14,7 +14,9 @@ namespace {
 
 constexpr double nearly_incompressible = 0.45;
 constexpr double most_stress = 0.1, least_stress = 1e-9;  // over Young's modulus
-constexpr double longest = 1, shortest = 1e-10;           // seconds, or whatever unit: a wave through a body
+// Of an interference: an overlap of the meshes below this part of it is their error.
+constexpr double part_of_interference = 0.1;
+constexpr double longest = 1, shortest = 1e-10;  // seconds, or whatever unit: a wave through a body
 
 Warning stress_in_other_units(const AppliedStress& load)
 {
@@ -27,6 +29,33 @@ Warning stress_in_other_units(const AppliedStress& load)
   w.value = part;
   w.limit = part > most_stress ? most_stress : least_stress;
   return w;
+}
+
+// By how much the sides overlap without being told to.
+double unasked_overlap(const contact::InitialGap& gap, const contact::Options& contact)
+{
+  if (contact.law == contact::Law::bonded || !gap.overlaps()) return 0;
+  const double overlap = gap.largest_overlap();
+  const double asked = contact.interference > 0 ? part_of_interference * contact.interference : -contact.interference;
+  return overlap > asked ? overlap : 0;
+}
+
+Warning overlap_warning(const contact::InitialGap& gap, const contact::Options& contact)
+{
+  const double overlap = gap.largest_overlap();
+  Warning warning{
+      "overlap",
+      fmt::format("contact {}: the two sides overlap by {:.3g} at ({:.5g}, {:.5g}, {:.5g}) before any load, which presses them "
+                  "together and which `interference` does not ask for",
+                  contact.name, overlap, gap.at[0], gap.at[1], gap.at[2]),
+      fmt::format(
+          "if it is the meshes' error: `adjust: {:.2g}`, or `clearance: 0` where the two fit; if it is meant: `clearance: "
+          "0, interference: {:.3g}`",
+          1.1 * overlap, overlap + std::max(contact.interference, 0.0))};
+  warning.at = Point(gap.at[0], gap.at[1], gap.at[2]);
+  warning.contact = contact.name;
+  warning.value = overlap;
+  return warning;
 }
 
 }  // namespace
@@ -140,6 +169,18 @@ std::vector<Warning> doubled_contacts(std::span<const contact::Pair> pairs, cons
     result.push_back(std::move(w));
   }
   return worst(std::move(result), "pairs of contacts");
+}
+
+std::vector<Warning> unasked_overlaps(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts)
+{
+  std::vector<std::size_t> overlapping;
+  for (std::size_t c = 0; c < gaps.size(); ++c)
+    if (gaps[c].area > 0 && unasked_overlap(gaps[c], contacts[c]) != 0) overlapping.push_back(c);
+  std::stable_sort(overlapping.begin(), overlapping.end(),
+                   [&](std::size_t a, std::size_t b) { return gaps[a].smallest < gaps[b].smallest; });
+  std::vector<Warning> warnings;
+  for (const std::size_t c : overlapping) warnings.push_back(overlap_warning(gaps[c], contacts[c]));
+  return warnings;
 }
 
 }  // namespace mortise::post

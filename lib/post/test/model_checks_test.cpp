@@ -126,5 +126,45 @@ TEST(Tensions, are_of_what_pulls)
   EXPECT_EQ(largest_tensions(points, 3, Communicator()), (std::vector<double>{3, 0, 0}));
 }
 
+// A tenth of an interference may be the meshes' error; the bonded may overlap, and so may what does not meet.
+TEST(UnaskedOverlaps, are_those_that_no_interference_asks_for)
+{
+  contact::InitialGap gap;
+  gap.smallest = -0.05;
+  gap.touching = 0.001;
+  gap.area = 1;
+  contact::Options plain;
+  plain.name = "plain";
+  const auto count = [](contact::InitialGap g, const contact::Options& options) {
+    return unasked_overlaps(std::vector{g}, std::vector{options}).size();
+  };
+  EXPECT_EQ(count(gap, plain), 1U);
+  auto fit = plain;
+  fit.interference = 0.49;
+  EXPECT_EQ(count(gap, fit), 1U);
+  fit.interference = 0.51;
+  EXPECT_EQ(count(gap, fit), 0U);
+  fit.interference = -0.06;  // a gap opened by more than the overlap
+  EXPECT_EQ(count(gap, fit), 0U);
+  fit.interference = -0.04;
+  EXPECT_EQ(count(gap, fit), 1U);
+  auto bonded = plain;
+  bonded.law = contact::Law::bonded;
+  EXPECT_EQ(count(gap, bonded), 0U);
+  auto none = gap;
+  none.area = 0;
+  EXPECT_EQ(count(none, plain), 0U);
+  auto rounding = gap;
+  rounding.smallest = -0.9 * contact::overlapping * gap.touching;
+  EXPECT_EQ(count(rounding, plain), 0U);
+  auto worse = gap;
+  worse.smallest = -0.2;
+  const auto found = unasked_overlaps(std::vector{gap, worse}, std::vector{plain, fit});
+  ASSERT_EQ(found.size(), 2U);  // the largest first
+  EXPECT_EQ(found[0].value, 0.2);
+  EXPECT_EQ(found[1].value, 0.05);
+  EXPECT_EQ(found[1].contact, "plain");
+}
+
 }  // namespace
 }  // namespace mortise::post

@@ -59,6 +59,8 @@ struct Options {
   std::map<std::string, ProbeOptions> probes;
   InteriorOptions interior;
 
+  /// Whether `fields` has this one.
+  bool has_field(const std::string& name) const;
   /// Whether something inside bodies of boundary elements may be asked for.
   bool asks_inside() const;
 };

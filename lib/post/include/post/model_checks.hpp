@@ -1,6 +1,7 @@
 // What can be seen of a model before it is solved: materials, units and contacts that do not go together.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,5 +38,9 @@ std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const 
 /// "doubled_contact": two contacts have faces in common on both of their sides, so that each presses as if the other were not
 /// there. Collective.
 std::vector<Warning> doubled_contacts(std::span<const contact::Pair> pairs, const Communicator& comm);
+
+/// "overlap": the sides of a contact overlap before any load, and no `interference` asks for it, but for a tenth of that; bonded
+/// ones may. One for each contact, the largest overlap first. `gaps`: of each of `contacts`, the same on every rank.
+std::vector<Warning> unasked_overlaps(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts);
 
 }  // namespace mortise::post

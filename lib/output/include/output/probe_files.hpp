@@ -9,7 +9,7 @@
 #include "model/model.hpp"
 #include "post/results.hpp"
 
-namespace mortise {
+namespace mortise::output {
 
 /// Of one state: each probe, in the order of names. Collective.
 std::vector<io::StateSummary::Probe> probe_summaries(const model::Deck& deck, const mesh::Catalogue& catalogue,
@@ -20,15 +20,19 @@ std::vector<io::StateSummary::Probe> probe_summaries(const model::Deck& deck, co
 /// two bodies meet a path has a row for either; where none is, one without values.
 class ProbeFiles {
  public:
+  /// Refers to the deck.
   explicit ProbeFiles(const model::Deck& deck) : deck_(deck) {}
-  /// Adds a state, with what probe_summaries() says of it, and writes the files. Collective.
+  /// Adds a state, with what probe_summaries() says of it, and writes the files. Throws Error(machine) if one cannot be written.
+  /// Collective.
   void write(const mesh::Catalogue& catalogue, const model::LoadState& acts, const post::Probes& probes,
              const post::Results& results, const std::vector<io::StateSummary::Probe>& summaries, const Communicator& comm);
 
  private:
+  void add_row(const model::LoadState& acts, const std::vector<io::StateSummary::Probe>& summaries);
+
   const model::Deck& deck_;
   std::string table_;                         // probes.csv so far
   std::map<std::string, std::string> paths_;  // the other files so far
 };
 
-}  // namespace mortise
+}  // namespace mortise::output

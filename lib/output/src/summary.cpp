@@ -1,12 +1,12 @@
-#include "summary.hpp"
+#include "output/summary.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/traffic_counted.hpp"
-#include "probes.hpp"
+#include "output/probe_files.hpp"
 
-namespace mortise {
+namespace mortise::output {
 
 namespace {
 
@@ -23,6 +23,28 @@ void add_unresolved_contact(const friction::Result& solved, const model::Contact
                              {s.place[0], s.place[1], s.place[2]},
                              s.turns,
                              s.of});
+}
+
+void add_work(const friction::Result& solved, io::StateSummary& summary)
+{
+  summary.friction_steps = solved.steps;
+  summary.outer_iterations = solved.outer_iterations;
+  summary.hessian_multiplications = solved.applications;
+}
+
+// Residuals, errors, and the figures of the whole model.
+void add_figures(const post::Results& results, const mesh::Catalogue& catalogue, io::StateSummary& summary)
+{
+  const auto& r = results.residuals;
+  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration, r.complementarity};
+  summary.error_estimate.discretization = results.mesh_error.relative;
+  summary.error_estimate.algebraic = results.algebraic_error;
+  summary.strain_energy = results.stress.strain_energy;
+  summary.max_displacement = results.max_displacement;
+  const auto& largest = results.stress.largest_von_mises;
+  summary.max_von_mises = largest.value;
+  summary.max_von_mises_place.coordinates = {largest.at[0], largest.at[1], largest.at[2]};
+  if (largest.body >= 0) summary.max_von_mises_place.body = catalogue.bodies[static_cast<std::size_t>(largest.body)].name;
 }
 
 // About the point that the deck names.
@@ -149,38 +171,25 @@ void copy_sizes(const io::Summary& from, io::Summary& to)
   to.kernel_dimension = from.kernel_dimension;
 }
 
-io::Summary summarise(const model::Model& model, const feti::DualProblem& problem, const analysis::StepState& state,
-                      const post::Probes& probes, const post::Results& results, const Communicator& comm)
+io::Summary summarise(const model::Model& model, const EvaluatedState& found, const Communicator& comm)
 {
-  const auto& solved = state.solved;
-  io::Summary summary = sizes_of(model.decomposition(), problem, comm);
-  summary.version = MORTISE_VERSION;
+  const auto& results = found.results;
+  const auto& catalogue = found.decomposition.catalogue;
+  io::Summary summary = sizes_of(found.decomposition, found.problem, comm);
   summary.title = model.deck().title;
-  summary.bodies = static_cast<Global>(model.decomposition().catalogue.bodies.size());
-  for (const auto& body : model.decomposition().catalogue.bodies) summary.body_names.push_back(body.name);
+  summary.bodies = static_cast<Global>(catalogue.bodies.size());
+  for (const auto& body : catalogue.bodies) summary.body_names.push_back(body.name);
   summary.ranks = comm.size();
   summary.converged = results.verdict.status == ExitStatus::solved;
   summary.exit_status = static_cast<int>(results.verdict.status);
-  summary.friction_steps = solved.steps;
-  summary.outer_iterations = solved.outer_iterations;
-  summary.hessian_multiplications = solved.applications;
-  const auto& r = results.residuals;
-  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration, r.complementarity};
-  summary.error_estimate.discretization = results.mesh_error.relative;
-  summary.error_estimate.algebraic = results.algebraic_error;
-  summary.strain_energy = results.stress.strain_energy;
-  summary.max_von_mises = results.stress.largest_von_mises.value;
-  summary.max_displacement = results.max_displacement;
-  const auto& largest = results.stress.largest_von_mises;
-  summary.max_von_mises_place.coordinates = {largest.at[0], largest.at[1], largest.at[2]};
-  if (largest.body >= 0)
-    summary.max_von_mises_place.body = model.decomposition().catalogue.bodies[static_cast<std::size_t>(largest.body)].name;
+  add_work(found.state.solved, summary);
+  add_figures(results, catalogue, summary);
   add_reactions(model.deck(), results, summary);
-  summary.probes = probe_summaries(model.deck(), model.decomposition().catalogue, probes, results, comm);
+  summary.probes = probe_summaries(model.deck(), catalogue, found.probes, results, comm);
   add_couplings(model.deck(), results, summary);
   add_springs(model.deck(), results, summary);
-  add_contacts(model.contacts(), state, results, comm, summary);
-  add_unresolved_contact(solved, model.contacts(), summary);
+  add_contacts(model.contacts(), found.state, results, comm, summary);
+  add_unresolved_contact(found.state.solved, model.contacts(), summary);
   return summary;
 }
 
@@ -208,4 +217,4 @@ void note_communication(const Timers& timers, const Traffic& total, const Commun
   summary.communication["multiplication"] = over_ranks(timers.traffic("multiplication"), comm);
 }
 
-}  // namespace mortise
+}  // namespace mortise::output

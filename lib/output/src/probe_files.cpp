@@ -1,4 +1,4 @@
-#include "probes.hpp"
+#include "output/probe_files.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "csv.hpp"
 #include "fem/quantity.hpp"
-#include "interior.hpp"
 #include "io/files.hpp"
 
-namespace mortise {
+namespace mortise::output {
 
 namespace {
 
@@ -61,16 +61,6 @@ std::vector<Sample> gather_samples(const model::Deck& deck, const post::Probes& 
   return all;
 }
 
-std::string state_columns(const model::LoadState& acts)
-{
-  return acts.step.empty() ? "" : fmt::format("{},{},", quoted(acts.step), acts.time);
-}
-
-std::string header_of_states(const model::Deck& deck)
-{
-  return deck.steps.empty() ? "" : "step,time,";
-}
-
 double length(const io::ProbeOptions& path)
 {
   const auto &a = *path.from, &b = *path.to;
@@ -114,6 +104,25 @@ void follow_bodies(std::vector<Sample>& samples)
     last = (end - 1)->body;
     first = end;
   }
+}
+
+// The rows of a path in one state. `samples`: its own, their points counted from its first one.
+std::string path_rows(const io::ProbeOptions& path, const mesh::Catalogue& catalogue, const model::LoadState& acts,
+                      std::vector<Sample> samples)
+{
+  follow_bodies(samples);
+  std::string text;
+  const auto points = path.points();
+  auto sample = samples.begin();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double s = length(path) * static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    const auto place = fmt::format("{}{},{},", entries_of_state(acts), s, fmt::join(points[i], ","));
+    if (sample == samples.end() || sample->point != i) text += place + std::string(width, ',') + "\n";
+    for (; sample != samples.end() && sample->point == i; ++sample)
+      text += fmt::format("{}{},{}\n", place, quoted(catalogue.bodies[static_cast<std::size_t>(sample->body)].name),
+                          fmt::join(sample->values, ","));
+  }
+  return text;
 }
 
 }  // namespace
@@ -162,39 +171,21 @@ void ProbeFiles::write(const mesh::Catalogue& catalogue, const model::LoadState&
                        const post::Results& results, const std::vector<Probe>& summaries, const Communicator& comm)
 {
   if (deck_.output.probes.empty()) return;
-  auto samples = gather_samples(deck_, probes, results, comm);
-  const auto scalars = entries(summaries);
-  if (!scalars.empty()) {
-    const auto line = [&](std::string text, auto member) {
-      for (const auto& entry : scalars) text += entry.*member + ",";
-      text.back() = '\n';
-      return text;
-    };
-    using Entry = std::pair<std::string, std::string>;
-    if (table_.empty()) table_ = line(header_of_states(deck_), &Entry::first);
-    table_ += line(state_columns(acts), &Entry::second);
-  }
+  const auto samples = gather_samples(deck_, probes, results, comm);
+  add_row(acts, summaries);
   std::size_t first = 0;  // point of the probe
   for (const auto& [name, probe] : deck_.output.probes) {
-    const auto points = probe.points();
-    const auto begin = first;
-    first += points.size();
-    if (!probe.is_path()) continue;
-    std::vector<Sample> own;
-    std::copy_if(samples.begin(), samples.end(), std::back_inserter(own),
-                 [&](const Sample& s) { return s.point >= begin && s.point < first; });
-    follow_bodies(own);
-    auto& text = paths_[name];
-    if (text.empty()) text = fmt::format("{}s,x,y,z,body,{}\n", header_of_states(deck_), fmt::join(columns_at_point, ","));
-    auto sample = own.begin();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double s = length(probe) * static_cast<double>(i) / static_cast<double>(points.size() - 1);
-      const auto place = fmt::format("{}{},{},", state_columns(acts), s, fmt::join(points[i], ","));
-      if (sample == own.end() || sample->point != begin + i) text += place + std::string(width, ',') + "\n";
-      for (; sample != own.end() && sample->point == begin + i; ++sample)
-        text += fmt::format("{}{},{}\n", place, quoted(catalogue.bodies[static_cast<std::size_t>(sample->body)].name),
-                            fmt::join(sample->values, ","));
+    const auto end = first + probe.points().size();
+    if (probe.is_path()) {
+      std::vector<Sample> own;
+      std::copy_if(samples.begin(), samples.end(), std::back_inserter(own),
+                   [&](const Sample& s) { return s.point >= first && s.point < end; });
+      for (auto& sample : own) sample.point -= first;
+      auto& text = paths_[name];
+      if (text.empty()) text = fmt::format("{}s,x,y,z,body,{}\n", header_of_states(deck_), fmt::join(columns_at_point, ","));
+      text += path_rows(probe, catalogue, acts, std::move(own));
     }
+    first = end;
   }
   collectively(comm, [&] {
     if (!comm.root()) return;
@@ -203,4 +194,19 @@ void ProbeFiles::write(const mesh::Catalogue& catalogue, const model::LoadState&
   });
 }
 
-}  // namespace mortise
+// Of probes.csv, and its header before the first one.
+void ProbeFiles::add_row(const model::LoadState& acts, const std::vector<Probe>& summaries)
+{
+  const auto scalars = entries(summaries);
+  if (scalars.empty()) return;
+  const auto line = [&](std::string text, auto member) {
+    for (const auto& entry : scalars) text += entry.*member + ",";
+    text.back() = '\n';
+    return text;
+  };
+  using Entry = std::pair<std::string, std::string>;
+  if (table_.empty()) table_ = line(header_of_states(deck_), &Entry::first);
+  table_ += line(entries_of_state(acts), &Entry::second);
+}
+
+}  // namespace mortise::output

@@ -1,11 +1,12 @@
 // summary.json from what was found and spent.
 #pragma once
 
-#include "analysis/load_step_solver.hpp"
+#include "base/timer.hpp"
 #include "base/traffic.hpp"
 #include "io/summary.hpp"
+#include "output/evaluated_state.hpp"
 
-namespace mortise {
+namespace mortise::output {
 
 /// Of the problem that is solved. Collective.
 io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const Communicator& comm);
@@ -13,9 +14,8 @@ io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::
 io::Summary sizes_told(const std::string& json);
 void copy_sizes(const io::Summary& from, io::Summary& to);
 
-/// One equilibrium; nothing of time, memory and communication. Collective.
-io::Summary summarise(const model::Model& model, const feti::DualProblem& problem, const analysis::StepState& state,
-                      const post::Probes& probes, const post::Results& results, const Communicator& comm);
+/// One equilibrium; nothing of the program's version, of time, memory and communication. Collective.
+io::Summary summarise(const model::Model& model, const EvaluatedState& found, const Communicator& comm);
 
 /// Adds the steps and the work of the states `before` to `summary`, which is that of the state `acts` alone.
 void accumulate_steps(const model::LoadState& acts, const io::Summary& before, io::Summary& summary);
@@ -24,4 +24,4 @@ void accumulate_steps(const model::LoadState& acts, const io::Summary& before, i
 /// count. Collective.
 void note_communication(const Timers& timers, const Traffic& total, const Communicator& comm, io::Summary& summary);
 
-}  // namespace mortise
+}  // namespace mortise::output

@@ -8,7 +8,7 @@
 #include "contact/state.hpp"
 #include "partition/node_directory.hpp"
 
-namespace mortise {
+namespace mortise::output {
 
 /// Of each subdomain, nodes x 1. On the secondary side the recovered pressure; at a node of the primary side that of the place
 /// next to it on the secondary one, 0 where the node lies beside that side; of several contacts the largest. Collective.
@@ -16,4 +16,4 @@ std::vector<Eigen::MatrixXd> contact_pressure(const partition::Decomposition& de
                                               const partition::Interface& interface, std::span<const contact::Pair> pairs,
                                               std::span<const contact::SurfaceState> surfaces, const Communicator& comm);
 
-}  // namespace mortise
+}  // namespace mortise::output

@@ -1,4 +1,4 @@
-#include "contact_pressure.hpp"
+#include "output/contact_pressure.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 #include "io/cell_field.hpp"
 
-namespace mortise {
+namespace mortise::output {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::vector<Eigen::MatrixXd> contact_pressure(const partition::Decomposition& de
   return values;
 }
 
-}  // namespace mortise
+}  // namespace mortise::output

@@ -1,0 +1,40 @@
+// The bodies with their fields, as this rank's part of solution.pvd.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/vtk.hpp"
+#include "model/deck.hpp"
+#include "post/results.hpp"
+
+namespace mortise::output {
+
+/// The subdomains of this rank as one mesh, in which the copies of a node are one. Where stresses jump between materials, a node
+/// has a point for each material that meets there.
+struct Volume {
+  io::Piece piece;
+  std::size_t materials = 1;
+  std::vector<Global> ids;  ///< of the points, ascending: number of the node times `materials`, plus that of the material
+
+  /// The place of a node's point, or where it would stand.
+  Local point(Global node, std::size_t material) const;
+};
+
+/// Values at the nodes of each subdomain, nodes x components; zero inside boundary elements.
+struct NodeValues {
+  std::string name;
+  int components = 1;
+  std::vector<Eigen::MatrixXd> of_subdomain;
+};
+
+/// Of a cell among those that are shown, among the materials of Volume; bodies of boundary elements have one.
+std::size_t material_of(const partition::Subdomain& subdomain, const post::Results& results, std::size_t s, std::size_t cell);
+
+/// With the fields that the deck asks for and those of `more`; of boundary elements the cells inside, if they were asked for.
+/// `displacement`: of each subdomain.
+Volume make_volume(const model::Deck& deck, const partition::Decomposition& decomposition,
+                   const std::vector<Eigen::VectorXd>& displacement, const post::Results& results,
+                   const std::vector<NodeValues>& more);
+
+}  // namespace mortise::output
