@@ -2,7 +2,8 @@
 
 import numpy as np
 
-NAMES = {False: ("x", "y", "z"), True: ("radial", "tangential", "axial")}
+AXES = ("x", "y", "z")
+NAMES = {False: AXES, True: ("radial", "tangential", "axial")}
 
 
 class Axes:
