@@ -166,6 +166,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   };
   auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
   if (found.gave_up) return {rows_, std::move(found), {}, {}};
+  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu);
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   auto shortenings = problem_->shortenings(found.solution.nu);
   return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};

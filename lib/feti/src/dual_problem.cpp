@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
+#include "neutral_motions.hpp"
 
 namespace mortise::feti {
 
@@ -232,6 +234,39 @@ std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, con
   clusters.apply_inverse(u);
   for (std::size_t s = 0; s < u.size(); ++s) u[s] -= clusters.motion(s, nu.segment(clusters.first(s), clusters.modes()));
   return u;
+}
+
+Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu) const
+{
+  constexpr double no_force = 1e-9;   // of the largest contact force
+  constexpr Eigen::Index most = 600;  // amplitudes: more would take seconds
+  const auto& contacts = constraints_.contacts;
+  const bool unbonded = std::find(contacts.bonded.begin(), contacts.bonded.end(), false) != contacts.bonded.end();
+  const Bodies bodies = aggregate(decomposition_, system_.clusters, system_.kinematics, load_, comm_);
+  if (!comm_.any(unbonded) || bodies.aggregate.cols() > most) return nu;
+
+  const Local first = jump_->ranges().dirichlet, count = jump_->ranges().end - first;
+  const auto kernels = system_.clusters.kernel_dimension();
+  Eigen::VectorXd unscale(count);
+  for (Local row = 0; row < count; ++row) unscale[row] = 1 / jump_->scaled(first + row, 1);
+  const SparseMatrix g = equality_->local().middleCols(first, count);
+  FeltMotions felt{unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.transpose()).leftCols(kernels) * bodies.aggregate),
+                   Eigen::VectorXd::Ones(count), Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};
+  const auto u = displacement(lambda, nu);
+  const Eigen::VectorXd force = forces(lambda), jump = jumps(u);
+  double largest = 0;
+  for (const auto& rows : node_rows_) largest = std::max(largest, std::abs(force[rows.normal]));
+  largest = comm_.max(largest);
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
+    const auto& rows = node_rows_[i];
+    if (contacts.bonded[i] || force[rows.normal] > no_force * largest) continue;
+    felt.closed.segment(rows.normal - first, 1 + rows.tangents).setZero();
+    felt.gap[rows.normal - first] = contacts.rows.bound[contacts.nodes[i].row] - jump[rows.normal];
+  }
+  const Eigen::VectorXd change = towards_rest(felt, mean_amplitudes(decomposition_, bodies, u, comm_), comm_);
+  Eigen::VectorXd result = nu;
+  result.head(kernels) -= bodies.aggregate * change;
+  return result;
 }
 
 std::string DualProblem::unbounded_rigid_mode(const Eigen::VectorXd& nu) const

@@ -89,6 +89,10 @@ class DualProblem {
 
   /// u of every subdomain. Collective.
   std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;
+  /// nu of the least displacements among those that lambda leaves: bodies are moved back along rigid motions that no row with a
+  /// force feels, as far as gaps let them. A roller that rests on one node of a flat side may roll until the next one touches.
+  /// Collective.
+  Eigen::VectorXd least_motion(const Vector& lambda, const Eigen::VectorXd& nu) const;
   /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers are unbounded.
   /// Collective.
   std::string unbounded_rigid_mode(const Eigen::VectorXd& nu) const;

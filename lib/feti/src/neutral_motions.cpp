@@ -1,0 +1,50 @@
+#include "neutral_motions.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "unit_motions.hpp"
+
+namespace mortise::feti {
+
+Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now, const Communicator& comm)
+{
+  constexpr double nothing = 1e-6;
+  const SparseMatrix closed = felt.closed.asDiagonal() * felt.rows;
+  Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(closed.transpose() * closed));
+  comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const double least = nothing * nothing * std::max(gram.diagonal().maxCoeff(), 1.0);
+  const Eigen::Index neutral = (eigen.eigenvalues().array() < least).count();
+  const auto basis = eigen.eigenvectors().leftCols(neutral);
+  const Eigen::VectorXd change = -(basis * (basis.transpose() * now));
+  const Eigen::VectorXd closing = felt.rows * change;
+  double part = 1;
+  for (Eigen::Index i = 0; i < closing.size(); ++i)
+    if (closing[i] > 0 && felt.gap[i] < part * closing[i]) part = std::max(felt.gap[i], 0.0) / closing[i];
+  return -comm.max(-part) * change;
+}
+
+Eigen::VectorXd mean_amplitudes(const partition::Decomposition& decomposition, const Bodies& bodies,
+                                const std::vector<Eigen::VectorXd>& u, const Communicator& comm)
+{
+  const int dimension = fem::dimension(bodies.kinematics), modes = bodies.modes;
+  const auto count = static_cast<Eigen::Index>(bodies.frames.size());
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(count * (modes + 1));  // of each body its modes, then its nodes
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const auto& subdomain = decomposition.subdomains[s];
+    const auto body = static_cast<Eigen::Index>(subdomain.body);
+    for (int k = 0; k < modes; ++k)
+      sums[body * (modes + 1) + k] +=
+          u[s].dot(sample(unit_motion(subdomain.body, bodies.frames[static_cast<std::size_t>(body)], k, bodies.kinematics),
+                          subdomain.mesh.points, dimension));
+    sums[body * (modes + 1) + modes] += static_cast<double>(subdomain.mesh.points.size());
+  }
+  comm.sum_in_place({sums.data(), static_cast<std::size_t>(sums.size())});
+  Eigen::VectorXd result(count * modes);
+  for (Eigen::Index b = 0; b < count; ++b)
+    result.segment(b * modes, modes) = sums.segment(b * (modes + 1), modes) / std::max(sums[b * (modes + 1) + modes], 1.0);
+  return result;
+}
+
+}  // namespace mortise::feti
