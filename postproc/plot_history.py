@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Plots how a run converged: residuals and active constraints over products with F, from history.csv.
 
     plot_history.py OUTPUT_DIRECTORY PICTURE.png

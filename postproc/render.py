@@ -1,5 +1,5 @@
-#!/usr/bin/env python3
-"""Renders the fields of a run to a PNG file, off screen.
+#!/usr/bin/python3
+"""Renders the fields of a run to a PNG file, without a display. Needs the packages of packages.txt beside it.
 
     render.py OUTPUT_DIRECTORY PICTURE.png [--field von_mises] [--warp 100] [--view=iso|x|y|z|-x|-y|-z] [--contact] [--edges] [--max VALUE]
         [--focus X Y Z] [--zoom 1.2] [--time 1.5] [--sectors 9] [--only 'roller*' ...] [--hide NAME ...] [--cut X Y Z NX NY NZ]
@@ -13,92 +13,125 @@ import argparse
 import fnmatch
 import json
 import pathlib
+import sys
 
-import pyvista
+import numpy as np
 
-import fields
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "report"))
+import fields  # noqa: E402
+import pictures  # noqa: E402
+import raster  # noqa: E402
 
-
-def contact_names(directory):
-    """Those of summary.json, in the order of the files."""
-    try:
-        return [c["name"] for c in json.loads((directory / "summary.json").read_text()).get("contacts", [])]
-    except (OSError, ValueError):
-        return []
-
-
-def named(name, patterns):
-    return any(fnmatch.fnmatchcase(name, p) for p in patterns)
+# From which side the eye looks, of plane models with z towards it.
+TOWARDS_THE_EYE = {"x": (1, 0, 0), "y": (0, -1, 0), "z": (0, 0, 1), "-x": (-1, 0, 0), "-y": (0, 1, 0), "-z": (0, 0, -1)}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def arguments_of(parser):
     parser.add_argument("directory", type=pathlib.Path)
     parser.add_argument("picture", type=pathlib.Path, nargs="?")
     parser.add_argument("--field", default=None)
     parser.add_argument("--warp", type=float, default=0.0)
-    parser.add_argument("--view", default="iso", choices=["iso", "x", "y", "z", "-x", "-y", "-z"])
+    parser.add_argument("--view", default="iso", choices=["iso", *TOWARDS_THE_EYE])
     parser.add_argument("--contact", action="store_true")
     parser.add_argument("--edges", action="store_true")
     parser.add_argument("--max", type=float, default=None)
     parser.add_argument("--focus", type=float, nargs=3, default=None)
-    parser.add_argument("--zoom", type=float, default=1.2)
+    parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--time", type=float, default=None)
     parser.add_argument("--sectors", type=int, default=1)
     parser.add_argument("--only", nargs="+", default=["*"], metavar="NAME")
     parser.add_argument("--hide", nargs="+", default=[], metavar="NAME")
     parser.add_argument("--cut", type=float, nargs=6, default=None, metavar=("X", "Y", "Z", "NX", "NY", "NZ"))
     parser.add_argument("--list", action="store_true")
-    arguments = parser.parse_args()
+    return parser.parse_args()
 
+
+def names_of(directory, contacts):
+    """Of the bodies or contacts, in the order of their numbers in the fields."""
+    try:
+        summary = json.loads((directory / "summary.json").read_text())
+    except (OSError, ValueError):
+        return []
+    return [c["name"] for c in summary.get("contacts", [])] if contacts else summary.get("body_names", [])
+
+
+def named(name, patterns):
+    return any(fnmatch.fnmatchcase(name, p) for p in patterns)
+
+
+def chosen(parser, arguments):
+    """The blocks that are to be seen, and the state's time."""
     kind = "contact" if arguments.contact else "solution"
-    _, blocks = fields.load(arguments.directory, kind, arguments.time, contact_names(arguments.directory) if arguments.contact else ())
+    time, blocks = fields.load(arguments.directory, kind, arguments.time, names_of(arguments.directory, arguments.contact))
     if not blocks:
         parser.error(f"{arguments.directory / kind}.pvd has no fields")
     names = [name for name, _ in blocks]
     if arguments.list:
         print("\n".join(names))
-        return
+        sys.exit()
     if arguments.picture is None:
         parser.error("which PNG file?")
     for pattern in arguments.only + arguments.hide:
         if not any(named(name, [pattern]) for name in names):
             parser.error(f"nothing is called {pattern}; there are {', '.join(names)}")
-    shown = [grid for name, grid in blocks if named(name, arguments.only) and not named(name, arguments.hide)]
+    shown = [(name, grid) for name, grid in blocks if named(name, arguments.only) and not named(name, arguments.hide)]
     if not shown:
         parser.error("nothing is left to show")
-    mesh = pyvista.wrap(fields.merged(shown))
-    field = arguments.field or ("contact_pressure_recovered" if arguments.contact else "von_mises")
-    if field not in mesh.point_data:
-        parser.error(f"there is no point field {field}; there are {', '.join(mesh.point_data.keys())}")
-    if arguments.warp and "displacement" in mesh.point_data:
-        mesh = mesh.warp_by_vector("displacement", factor=arguments.warp)
+    return time, shown
 
-    if arguments.sectors > 1:  # the outer faces, which turn cheaply; vectors stay as they are
-        face = mesh.extract_surface()
-        mesh = pyvista.merge([face.rotate_z(360 * k / arguments.sectors) for k in range(arguments.sectors)], merge_points=False)
 
-    if arguments.cut:
-        mesh = mesh.clip(normal=arguments.cut[3:], origin=arguments.cut[:3])
-        if mesh.n_cells == 0:
-            parser.error("nothing is left on this side of the plane")
+def copied(surface, sectors):
+    """The sectors about z; vectors stay as they are."""
+    for k in range(sectors):
+        angle = 2 * np.pi * k / sectors
+        turn = np.array([[np.cos(angle), np.sin(angle), 0], [-np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+        yield pictures.Surface(surface.name, surface.points @ turn, surface.triangles, surface.arrays, surface.cells)
 
-    plotter = pyvista.Plotter(off_screen=True, window_size=(1000, 750))
-    limits = None if arguments.max is None else (0, arguments.max)
-    plotter.add_mesh(mesh, scalars=field, cmap="viridis", show_edges=arguments.edges, clim=limits, line_width=0.5 if arguments.edges else None,
-                     scalar_bar_args={"title": field.replace("_", " "), "title_font_size": 18, "label_font_size": 14, "fmt": "%.3g", "n_labels": 4,
-                                      "position_x": 0.25, "position_y": 0.02, "height": 0.08})
-    plotter.set_background("white")
-    if arguments.view == "iso":
-        plotter.view_isometric()
+
+def surfaces_of(parser, arguments, blocks):
+    if arguments.cut:  # what is behind the plane, and the section
+        point, normal = arguments.cut[:3], arguments.cut[3:]
+        behind = pictures.plane_of(point, normal)
+        found = [part for name, grid in blocks for part in (pictures.outside(name, grid, behind), pictures.cut(name, grid, point, normal))]
     else:
-        getattr(plotter, {"x": "view_yz", "y": "view_xz", "z": "view_xy"}[arguments.view[-1]])(negative=arguments.view.startswith("-"))
+        found = [pictures.outside(name, grid) for name, grid in blocks]
+    found = [s for s in found if s is not None]
+    if not found:
+        lines = arguments.contact and not arguments.cut
+        parser.error("contacts of plane models are lines, which ./mortise report plots" if lines else "nothing is left on this side of the plane")
+    for surface in found:
+        if arguments.warp and "displacement" in surface.arrays:
+            surface.points = surface.points + arguments.warp * surface.arrays["displacement"]
+    return [copy for surface in found for copy in copied(surface, arguments.sectors)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments = arguments_of(parser)
+    try:
+        import matplotlib  # noqa: F401
+        import vtk  # noqa: F401
+    except ImportError as missing:
+        parser.error(f"{missing}; apt-get install {pictures.PACKAGES}")
+    time, blocks = chosen(parser, arguments)
+    surfaces = surfaces_of(parser, arguments, blocks)
+    field = arguments.field or ("contact_pressure_recovered" if arguments.contact else "von_mises")
+    if field not in surfaces[0].arrays:
+        parser.error(f"there is no point field {field}; there are {', '.join(surfaces[0].arrays)}")
+
+    painter = pictures.Painter(surfaces)
+    direction = painter.direction if arguments.view == "iso" else TOWARDS_THE_EYE[arguments.view]
+    view = raster.View(direction, painter.all_points, *pictures.WIDE)
+    view.scale *= arguments.zoom
     if arguments.focus:
-        shift = [new - old for new, old in zip(arguments.focus, plotter.camera.focal_point)]
-        plotter.camera.position = [p + d for p, d in zip(plotter.camera.position, shift)]
-        plotter.camera.focal_point = arguments.focus
-    plotter.camera.zoom(arguments.zoom)
-    plotter.screenshot(str(arguments.picture))
+        view.middle = np.array(arguments.focus) @ np.stack([view.right, view.up], axis=1)
+    label = title = "von Mises stress" if field == "von_mises" else field.replace("_", " ")
+    if len(fields.states(arguments.directory, "contact" if arguments.contact else "solution")) > 1:
+        title += f" at time {pictures.figures(time)}"
+    if arguments.warp:
+        title += f", displacements {pictures.figures(arguments.warp)} times"
+    ends = None if arguments.max is None else (0, arguments.max)
+    arguments.picture.write_bytes(painter.draw(surfaces, field, label, title, view=view, ends=ends, edges=arguments.edges))
 
 
 if __name__ == "__main__":

@@ -20,10 +20,10 @@ DIAGONAL = (1.0, -1.6, 1.1)  # towards the eye
 
 
 class Surface:
-    """Points, triangles and point fields of the outside of a block."""
+    """Points, triangles and point fields of the outside of a block; which cells the triangles are of, if that is known."""
 
-    def __init__(self, name, points, triangles, arrays):
-        self.name, self.points, self.triangles, self.arrays = name, points, triangles, arrays
+    def __init__(self, name, points, triangles, arrays, cells=None):
+        self.name, self.points, self.triangles, self.arrays, self.cells = name, points, triangles, arrays, cells
 
     def values(self, field):
         found = self.arrays[field]
@@ -46,26 +46,41 @@ def triangulated(name, source):
     of_points = data.GetPointData()
     arrays = {of_points.GetArrayName(i): vtk_to_numpy(of_points.GetArray(i)) for i in range(of_points.GetNumberOfArrays())}
     faces = vtk_to_numpy(data.GetPolys().GetData()).reshape(-1, 4)[:, 1:]
-    return Surface(name, vtk_to_numpy(data.GetPoints().GetData()).astype(float), faces, arrays)
+    cells = data.GetCellData().GetArray("vtkOriginalCellIds")
+    return Surface(name, vtk_to_numpy(data.GetPoints().GetData()).astype(float), faces, arrays, None if cells is None else vtk_to_numpy(cells))
 
 
-def outside(name, grid):
-    import vtk
-
-    skin = vtk.vtkDataSetSurfaceFilter()
-    skin.SetNonlinearSubdivisionLevel(1)
-    skin.SetInputData(grid)
-    return triangulated(name, skin)
-
-
-def cut(name, grid, point, normal):
+def plane_of(point, normal):
     import vtk
 
     plane = vtk.vtkPlane()
     plane.SetOrigin(*point)
     plane.SetNormal(*normal)
+    return plane
+
+
+def outside(name, grid, behind=None):
+    """The outer faces; of those the part behind a vtkPlane, if one is given."""
+    import vtk
+
+    skin = vtk.vtkDataSetSurfaceFilter()
+    skin.SetNonlinearSubdivisionLevel(1)
+    skin.PassThroughCellIdsOn()
+    skin.SetInputData(grid)
+    if behind is None:
+        return triangulated(name, skin)
+    clip = vtk.vtkClipPolyData()
+    clip.SetInputConnection(skin.GetOutputPort())
+    clip.SetClipFunction(behind)
+    clip.InsideOutOn()
+    return triangulated(name, clip)
+
+
+def cut(name, grid, point, normal):
+    import vtk
+
     cutter = vtk.vtkCutter()
-    cutter.SetCutFunction(plane)
+    cutter.SetCutFunction(plane_of(point, normal))
     cutter.SetInputData(grid)
     return triangulated(name, cutter)
 
@@ -85,7 +100,8 @@ class Painter:
         self.direction = np.array((0.0, 0.0, 1.0) if self.flat else DIAGONAL)
         self.whole = None  # the locator, drawn once
 
-    def draw(self, surfaces, field, label, title, size=WIDE, direction=None, locate=None, mark=None, shift=0):
+    def draw(self, surfaces, field, label, title, size=WIDE, direction=None, locate=None, mark=None, shift=0, view=None, ends=None, edges=False):
+        """A PNG file. `view` stands for size and direction, `ends` for those of the scale; `edges` draws those of cells."""
         import matplotlib
 
         matplotlib.use("Agg")
@@ -93,11 +109,14 @@ class Painter:
         from matplotlib import pyplot
 
         direction = self.direction if direction is None else direction
-        view = raster.View(direction, np.concatenate([s.points[np.unique(s.triangles)] for s in surfaces]), *size)
+        view = view or raster.View(direction, np.concatenate([s.points[np.unique(s.triangles)] for s in surfaces]), *size)
         buffer = raster.Buffer(view)
         lit = not self.flat and shift == 0
-        for number, s in enumerate(surfaces):
-            buffer.draw(s.points, s.triangles, s.values(field), number, lit)
+        first = 0
+        for s in surfaces:
+            numbers = s.cells if edges and s.cells is not None else np.zeros(len(s.triangles), dtype=int)
+            buffer.draw(s.points, s.triangles, s.values(field), first + numbers, lit)
+            first += int(numbers.max()) + 1
         values = np.concatenate([s.values(field)[np.unique(s.triangles)] for s in surfaces])
         least, most = float(values.min()), float(values.max())
         top = float(np.percentile(values, 99.8))  # one node at an edge must not hide the rest
@@ -105,6 +124,8 @@ class Painter:
             top = most
         if most - least <= 1e-9 * max(abs(least), abs(most)):
             least, top = min(least, 0.0), max(most, 0.0)
+        if ends is not None:
+            least, top = ends
         scale = pyplot.Normalize(least, top if top > least else least + 1)
         palette = pyplot.get_cmap("viridis")
         picture = buffer.image(lambda v: palette(scale(v)))
@@ -124,8 +145,8 @@ class Painter:
             axes.set_xlim(0, size[0])
             axes.set_ylim(0, size[1])
         legend = box(SMALL[0] + 22, 78, 17, height - ABOVE - 78 - (8 if locate is None else 122))
-        ends = "max" if top < most else "neither"
-        colours = sheet.colorbar(pyplot.cm.ScalarMappable(scale, palette), cax=legend, extend=ends, format="%.4g")
+        beyond = "max" if top < most else "neither"
+        colours = sheet.colorbar(pyplot.cm.ScalarMappable(scale, palette), cax=legend, extend=beyond, format="%.4g")
         colours.set_label(label)
         colours.ax.tick_params(labelsize=9)
         if locate is not None:

@@ -3,6 +3,7 @@ import numpy as np
 
 OVERSAMPLING = 2  # pixels of the buffer for one of the picture, each way
 MOST_SAMPLES = 3_000_000  # at a time
+LARGEST = 2048  # pixels of the buffer along a triangle; larger ones, most of them outside the window, are taken in quarters
 
 
 class View:
@@ -27,6 +28,15 @@ class View:
         return (flat - self.middle) * self.scale + np.array([self.width, self.height]) / 2
 
 
+def _quarters(corners, values):
+    """Points, triangles and values of triangles that are cut in four."""
+    middle = lambda x: (x + np.roll(x, -1, axis=1)) / 2  # of the edges 01, 12, 20
+    six = np.arange(len(corners))[:, None] * 6
+    triangles = np.concatenate([six + np.array(t) for t in ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5))], axis=1).reshape(-1, 3)
+    points = np.concatenate([corners, middle(corners)], axis=1).reshape(-1, 3)
+    return points, triangles, np.concatenate([values, middle(values)], axis=1).ravel()
+
+
 class Buffer:
     """What is seen of triangles: at each pixel the number of its mesh (-1: none), its value and how bright it is."""
 
@@ -40,12 +50,18 @@ class Buffer:
         self.mesh = np.full(count, -1, dtype=np.int32)
 
     def draw(self, points, triangles, values, number=0, lit=True):
+        """`number` may be an array, one for each triangle: lines are drawn where numbers change."""
+        number = np.broadcast_to(number, len(triangles))
         place = self.view.pixels(points) * OVERSAMPLING
         depth = points @ self.view.direction
         corners = place[triangles]
         low, high = corners.min(axis=1), corners.max(axis=1)
         inside = (high[:, 0] >= 0) & (high[:, 1] >= 0) & (low[:, 0] < self.shape[1]) & (low[:, 1] < self.shape[0])
-        triangles, corners, extent = triangles[inside], corners[inside], (high - low)[inside].max(axis=1)
+        triangles, corners, number, extent = triangles[inside], corners[inside], number[inside], (high - low)[inside].max(axis=1)
+        large = extent > LARGEST
+        if large.any():
+            self.draw(*_quarters(points[triangles[large]], values[triangles[large]]), np.repeat(number[large], 4), lit)
+            triangles, corners, number, extent = triangles[~large], corners[~large], number[~large], extent[~large]
         if len(triangles) == 0:
             return
         light = np.ones(len(triangles))
@@ -78,7 +94,7 @@ class Buffer:
                 self.depth[at] = near[order]
                 self.value[at] = (values[mine] @ weights.T).ravel()[seen]
                 self.light[at] = np.repeat(light[some], len(weights))[seen]
-                self.mesh[at] = number
+                self.mesh[at] = np.repeat(number[some], len(weights))[seen]
 
     def image(self, colours):
         """RGB in rows from the top: `colours` makes RGB of values; lines where one mesh ends."""

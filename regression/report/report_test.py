@@ -137,6 +137,34 @@ contacts:
         self.assertIn("12 of 15 contacts have a picture here, those with the largest values.", words)
         self.assertEqual(source.count("data:image/png;base64,"), 2 + 12 + 12)
 
+    @unittest.skipUnless(DRAWS, "needs python3-vtk9 and python3-matplotlib")
+    def test_render_chooses_and_cuts_bodies_by_name(self):
+        from matplotlib import image
+
+        directory, status = self.run_deck(CASES / "stack.yaml")
+        self.assertEqual(status, 0)
+        bodies = json.loads((directory / "summary.json").read_text())["body_names"]
+
+        def render(*options, status=0):
+            command = ["/usr/bin/python3", str(ROOT / "postproc" / "render.py"), str(directory), *options]
+            done = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(done.returncode, status, done.stderr)
+            return done.stdout + done.stderr
+
+        self.assertEqual(render("--list").split(), bodies)
+        self.assertIn(f"there are {', '.join(bodies)}", render("no.png", "--only", "lost", status=2))
+        points = np.array([0.5, 0.5, 0.5])
+        drawn = []
+        for name, options in (("whole", []), ("one", ["--only", bodies[0], "--edges"]), ("half", ["--cut", *map(str, points), "1", "0", "0"]),
+                              ("near", ["--zoom", "30", "--focus", *map(str, points), "--max", "1"]), ("contact", ["--contact", "--warp", "3"])):
+            file = directory / f"{name}.png"
+            render(str(file), *options)
+            drawn.append(image.imread(file))
+        self.assertEqual(len({picture.tobytes() for picture in drawn}), len(drawn))
+        self.assertTrue(all(picture.shape == drawn[0].shape for picture in drawn))
+        middle = drawn[3][120:500, 100:500, :3]
+        self.assertLess(middle.min(axis=2).max(), 1)  # so near, a body fills the picture
+
     def test_no_run_there(self):
         done = report(self.scratch.name)
         self.assertEqual(done.returncode, 1)
@@ -162,6 +190,11 @@ class Pixels(unittest.TestCase):
         self.assertLess(abs((mesh == 0).sum() - 10_000), 500)
         expected = (np.arange(52, 148) + 0.5 - 50) / 100
         self.assertLess(np.abs(value[52:148, 52:148] - expected).max(), 0.011)  # a pixel
+
+    def test_triangles_far_larger_than_the_window_fill_it(self):
+        self.buffer.draw(self.square * 400 - [150, 150, 0], self.halves, (self.square[:, 0] + self.square[:, 1]) * 400 - 300, np.array([3, 3]))
+        self.assertTrue((self.grid("mesh") == 3).all())
+        self.assertLess(abs(self.grid("value")[100, 100] - 1.0), 0.03)
 
     def test_what_is_nearer_hides_what_is_behind(self):
         for order in ((0, 1), (1, 0)):
