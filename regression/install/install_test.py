@@ -6,9 +6,11 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
@@ -23,6 +25,14 @@ Box(1) = {0, 0, 0, 1, 1, 3};
 Physical Volume("bar") = {1};
 Physical Surface("foot") = {5};
 Physical Surface("head") = {6};
+"""
+STEPS = """mesh: {blocks: {lower: {size: [1, 1, 1], cells: [9, 9, 9]}, upper: {origin: [0, 0, 1], size: [1, 1, 1], cells: [8, 8, 8]}}}
+materials: {soft: {young_modulus: 1, poisson_ratio: 0.3}}
+bodies: {"*": {material: soft}}
+supports: [{boundary: lower.zmin, displacement: {x: 0, y: 0, z: 0}}]
+loads: [{name: press, boundary: upper.zmax, pressure: 0.01}, {name: shear, boundary: upper.zmax, traction: [0.0015, 0, 0]}]
+contacts: [{secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.3}}]
+steps: [{name: shear, scale: {shear: 1}, increments: 40}]
 """
 INPUT = """*NODE
 1, 0,0,0
@@ -78,6 +88,23 @@ class Installed(unittest.TestCase):
             summary = json.loads((place / "bar.out" / "summary.json").read_text())
             self.assertAlmostEqual(summary["max_von_mises"], 2, 5)
             self.assertEqual(summary["ranks"], len(words))
+
+    def test_a_run_on_ranks_that_is_told_to_end_says_so(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            place = pathlib.Path(self.scratch.name) / number.name
+            place.mkdir()
+            (place / "steps.yaml").write_text(STEPS)
+            # As a terminal does, the signal goes to all processes of the group.
+            run = subprocess.Popen([self.prefix / "bin" / "mortise", "run", "steps.yaml"], cwd=place, text=True, stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, env=dict(os.environ, MORTISE_RANKS="2"), start_new_session=True,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+            while run.poll() is None and not (place / "steps.out" / "results.2.h5").exists():
+                time.sleep(0.01)
+            os.killpg(run.pid, number)
+            said = run.communicate(timeout=120)[0]
+            self.assertEqual(run.returncode, 130, said)
+            self.assertIn("told to end", said)
+            self.assertEqual(json.loads((place / "steps.out" / "summary.json").read_text())["exit_status"], 130)
 
     def test_decks_are_made_and_explained(self):
         self.assertIn("pressure", self.run_in("explain", "explain", "loads")[1])
