@@ -67,6 +67,35 @@ nlohmann::ordered_json friction_schema(const deck::Limits&)
           {"maxProperties", 1}};
 }
 
+// What goes together.
+void check_options(const Options& contact, const std::string& path, deck::Document& document)
+{
+  if (contact.cyclic && contact.obstacle)
+    document.error(path + ".cyclic", "a rigid obstacle is no sector's boundary; expected the name of one as primary");
+  if (contact.cyclic && contact.preload)
+    document.error(path + ".preload", "the cuts of a sector are no cut through a bolt; expected either cyclic or preload");
+  if (contact.law == Law::bonded && contact.interference != 0)
+    document.error(path + ".interference",
+                   "bonded surfaces are tied where they are; expected another friction law, or no interference");
+  for (const auto& [key, value] : {std::pair("adjust", contact.adjust), std::pair("clearance", contact.clearance)})
+    if (value && contact.law == Law::bonded)
+      document.error(path + "." + key,
+                     "bonded surfaces are tied where they are, which is a gap of 0; leave it out, or take another friction law");
+  if (contact.clearance && *contact.clearance < 0)
+    document.error(path + ".clearance", fmt::format("a gap of {0:g} is an overlap; expected `clearance: 0, interference: {1:g}`",
+                                                    *contact.clearance, -*contact.clearance));
+  if (contact.adjust && contact.clearance)
+    document.error(path + ".adjust",
+                   "`clearance` replaces every gap of the meshes, and leaves none to adjust; expected one of the two");
+  if (contact.preload && contact.law != Law::bonded)
+    document.error(path + ".preload",
+                   "only a cut through a bolt, which is bonded, can be preloaded; expected `friction: {bonded: true}` with it");
+  if (!contact.automatic && !contact.obstacle && contact.secondary == contact.primary)
+    document.error(
+        path, fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available",
+                          contact.primary));
+}
+
 }  // namespace
 
 void describe(deck::Description<PreloadOptions>& d)
@@ -133,35 +162,7 @@ void describe(deck::Description<Options>& d)
       "the "
       "two are the cuts through the material, whose meshes need not match; with other laws sectors touch their neighbours "
       "there.");
-  d.check([](const Options& contact, const std::string& path, deck::Document& document) {
-    if (contact.cyclic && contact.obstacle)
-      document.error(path + ".cyclic", "a rigid obstacle is no sector's boundary; expected the name of one as primary");
-    if (contact.cyclic && contact.preload)
-      document.error(path + ".preload", "the cuts of a sector are no cut through a bolt; expected either cyclic or preload");
-    if (contact.law == Law::bonded && contact.interference != 0)
-      document.error(path + ".interference",
-                     "bonded surfaces are tied where they are; expected another friction law, or no interference");
-    for (const auto& [key, value] : {std::pair("adjust", contact.adjust), std::pair("clearance", contact.clearance)})
-      if (value && contact.law == Law::bonded)
-        document.error(
-            path + "." + key,
-            "bonded surfaces are tied where they are, which is a gap of 0; leave it out, or take another friction law");
-    if (contact.clearance && *contact.clearance < 0)
-      document.error(path + ".clearance",
-                     fmt::format("a gap of {0:g} is an overlap; expected `clearance: 0, interference: {1:g}`", *contact.clearance,
-                                 -*contact.clearance));
-    if (contact.adjust && contact.clearance)
-      document.error(path + ".adjust",
-                     "`clearance` replaces every gap of the meshes, and leaves none to adjust; expected one of the two");
-    if (contact.preload && contact.law != Law::bonded)
-      document.error(path + ".preload",
-                     "only a cut through a bolt, which is bonded, can be preloaded; expected `friction: {bonded: true}` with it");
-    if (!contact.automatic && !contact.obstacle && contact.secondary == contact.primary)
-      document.error(
-          path,
-          fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available",
-                      contact.primary));
-  });
+  d.check(check_options);
 }
 
 void describe(deck::Description<AutoOptions>& d)

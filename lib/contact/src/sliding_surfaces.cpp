@@ -249,32 +249,91 @@ std::vector<Key> all_keys(const std::vector<TouchedFace>& faces, const Communica
   return keys;
 }
 
+// What its faces come to in all.
+struct SlidingExtent {
+  double area, x, y, z, square, tilt, faces;
+};
+
+// The faces of this rank, and of each the place of its surface among all.
+struct SlidingFaces {
+  std::vector<TouchedFace> faces;
+  std::vector<std::size_t> surface;
+  fem::Kinematics kinematics;
+
+  // Calls visit(surface, point of quadrature) for all points of all faces.
+  template <class Visit>
+  void for_each_point(const Visit& visit) const
+  {
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for (const auto& at : quadrature(faces[f], kinematics)) visit(f, surface[f], at);
+  }
+};
+
+std::vector<SlidingExtent> extents_of(const SlidingFaces& all, const std::vector<double>& tilt, std::size_t surfaces,
+                                      const Communicator& comm)
+{
+  std::vector<SlidingExtent> extents(surfaces, SlidingExtent{});
+  for (const std::size_t k : all.surface) extents[k].faces += 1;
+  all.for_each_point([&](std::size_t face, std::size_t k, const auto& at) {
+    auto& e = extents[k];
+    const double w = at.normal.norm();
+    e.area += w;
+    e.x += w * at.x[0], e.y += w * at.x[1], e.z += w * at.x[2];
+    e.tilt += w * tilt[face];
+  });
+  comm.sum_in_place({reinterpret_cast<double*>(extents.data()), extents.size() * 7});
+  return extents;
+}
+
+// Their lengths, from the mean square of the distances from their centres.
+void set_lengths(const SlidingFaces& all, const std::vector<SlidingExtent>& extents, const Communicator& comm,
+                 std::vector<SlidingSurface>& surfaces)
+{
+  std::vector<double> squares(surfaces.size(), 0.0);
+  all.for_each_point([&](std::size_t, std::size_t k, const auto& at) {
+    squares[k] += at.normal.norm() * (at.x - surfaces[k].centre).squaredNorm();
+  });
+  comm.sum_in_place(squares);
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    surfaces[k].length = std::sqrt(std::max(squares[k] / extents[k].area, 1e-300));
+}
+
+void set_speeds(const SlidingFaces& all, const std::vector<SlidingExtent>& extents, const Communicator& comm,
+                std::vector<SlidingSurface>& surfaces)
+{
+  std::vector<Sums> sums(surfaces.size());
+  all.for_each_point([&](std::size_t, std::size_t k, const auto& at) {
+    const double w = at.normal.norm();
+    const auto speed_here = normal_speed(surfaces[k], at.x, at.normal / w);
+    const Terms p = polynomials(surfaces[k], at.x);
+    sums[k].gram += w * p * p.transpose();
+    sums[k].mixed += w * p * speed_here.transpose();
+    sums[k].whole += w * speed_here * speed_here.transpose();
+    sums[k].speed += w * speed(surfaces[k], at.x);
+  });
+  comm.sum_in_place({reinterpret_cast<double*>(sums.data()), sums.size() * sizeof(Sums) / sizeof(double)});
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    auto& slide = surfaces[k];
+    const auto inverse = sums[k].gram.completeOrthogonalDecomposition();
+    slide.whole = sums[k].whole / extents[k].area;
+    slide.smooth = slide.whole;
+    if (extents[k].faces >= enough_faces)
+      slide.smooth = sums[k].mixed.transpose() * inverse.solve(sums[k].mixed) / extents[k].area;
+    slide.speed = sums[k].speed / extents[k].area;
+  }
+}
+
 }  // namespace
 
 std::vector<SlidingSurface> sliding_surfaces(std::span<const Pair> pairs, const constraint::Contacts& contacts,
                                              fem::Kinematics kinematics, const Communicator& comm)
 {
-  const auto faces = touched(pairs, contacts, kinematics, comm);
-  const auto tilt = tilts(faces, kinematics == fem::Kinematics::solid, comm);
-  const auto keys = all_keys(faces, comm);
-  const auto place = [&](const Key& key) {
-    return static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), key) - keys.begin());
-  };
-  struct Extent {
-    double area, x, y, z, square, tilt, faces;
-  };
-  std::vector<Extent> extents(keys.size(), Extent{});
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    auto& e = extents[place(faces[f].key)];
-    e.faces += 1;
-    for (const auto& at : quadrature(faces[f], kinematics)) {
-      const double w = at.normal.norm();
-      e.area += w;
-      e.x += w * at.x[0], e.y += w * at.x[1], e.z += w * at.x[2];
-      e.tilt += w * tilt[f];
-    }
-  }
-  comm.sum_in_place({reinterpret_cast<double*>(extents.data()), extents.size() * 7});
+  SlidingFaces all{touched(pairs, contacts, kinematics, comm), {}, kinematics};
+  const auto tilt = tilts(all.faces, kinematics == fem::Kinematics::solid, comm);
+  const auto keys = all_keys(all.faces, comm);
+  for (const auto& face : all.faces)
+    all.surface.push_back(static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), face.key) - keys.begin()));
+  const auto extents = extents_of(all, tilt, keys.size(), comm);
   std::vector<SlidingSurface> result;
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const auto& e = extents[k];
@@ -286,37 +345,8 @@ std::vector<SlidingSurface> sliding_surfaces(std::span<const Pair> pairs, const 
     slide.tilt = e.tilt / e.area;
     result.push_back(slide);
   }
-  std::vector<double> squares(keys.size(), 0.0);
-  for (const auto& face : faces)
-    for (const auto& at : quadrature(face, kinematics)) {
-      const auto k = place(face.key);
-      squares[k] += at.normal.norm() * (at.x - result[k].centre).squaredNorm();
-    }
-  comm.sum_in_place(squares);
-  for (std::size_t k = 0; k < keys.size(); ++k) result[k].length = std::sqrt(std::max(squares[k] / extents[k].area, 1e-300));
-
-  std::vector<Sums> sums(keys.size());
-  for (const auto& face : faces) {
-    const auto k = place(face.key);
-    for (const auto& at : quadrature(face, kinematics)) {
-      const double w = at.normal.norm();
-      const auto speed_here = normal_speed(result[k], at.x, at.normal / w);
-      const Terms p = polynomials(result[k], at.x);
-      sums[k].gram += w * p * p.transpose();
-      sums[k].mixed += w * p * speed_here.transpose();
-      sums[k].whole += w * speed_here * speed_here.transpose();
-      sums[k].speed += w * speed(result[k], at.x);
-    }
-  }
-  comm.sum_in_place({reinterpret_cast<double*>(sums.data()), sums.size() * sizeof(Sums) / sizeof(double)});
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    const auto inverse = sums[k].gram.completeOrthogonalDecomposition();
-    result[k].whole = sums[k].whole / extents[k].area;
-    result[k].smooth = result[k].whole;
-    if (extents[k].faces >= enough_faces)
-      result[k].smooth = sums[k].mixed.transpose() * inverse.solve(sums[k].mixed) / extents[k].area;
-    result[k].speed = sums[k].speed / extents[k].area;
-  }
+  set_lengths(all, extents, comm, result);
+  set_speeds(all, extents, comm, result);
   return result;
 }
 

@@ -134,6 +134,39 @@ auto& isotropic_key(deck::Description<Material>& d, const char* name, double Mat
       [](const deck::Limits& limits) { return deck::Codec<double>::schema(limits); });
 }
 
+// What goes together, and on what it acts.
+void check_load(const LoadOptions& load, const std::string& path, deck::Document& document)
+{
+  if (!load.coupling.empty()) {
+    if (!load.boundary.empty() || !load.body.empty()) document.error(path, "expected one of `coupling`, `boundary` and `body`");
+    if (!load.force && !load.moment) document.error(path, "a coupling takes a `force`, a `moment`, or both");
+    if (load.pressure || load.traction || load.acceleration || load.centrifugal || load.temperature_change)
+      document.error(path, "a coupling takes a `force` and a `moment` alone");
+    return;
+  }
+  if (load.moment) document.error(path + ".moment", "a moment acts on a `coupling`; couple the boundary to a point first");
+  const bool on_body = load.acceleration || load.centrifugal || load.temperature_change;
+  const int given = load.pressure.has_value() + load.traction.has_value() + load.force.has_value() +
+                    load.acceleration.has_value() + load.centrifugal.has_value() + load.temperature_change.has_value();
+  if (given != 1)
+    document.error(
+        path, fmt::format(
+                  "expected exactly one of pressure, traction, force, acceleration, centrifugal and temperature_change, found {}",
+                  given));
+  if (!load.axes.empty() && !load.traction && !load.force)
+    document.error(path + ".axes", "local axes are for a traction or a force");
+  if (!load.points.empty()) {
+    if (!load.force) document.error(path, "points take a `force`");
+    if (!load.boundary.empty()) document.error(path, "expected either `boundary` or `points`, found both");
+    return;
+  }
+  if (load.boundary.empty() != on_body || load.body.empty() == on_body)
+    document.error(path, !on_body            ? "this load acts on a `boundary`"
+                         : load.acceleration ? "an acceleration acts on a `body`"
+                         : load.centrifugal  ? "a centrifugal load acts on a `body`"
+                                             : "a change of temperature acts on a `body`");
+}
+
 }  // namespace
 
 void describe(deck::Description<Orthotropy>& d)
@@ -298,37 +331,7 @@ void describe(deck::Description<LoadOptions>& d)
         return deck::schema_by_case({{"type", "object"}}, deck::Codec<TemperatureFile>::schema(limits),
                                     deck::Codec<deck::Formula>::schema(limits));
       });
-  d.check([](const LoadOptions& load, const std::string& path, deck::Document& document) {
-    if (!load.coupling.empty()) {
-      if (!load.boundary.empty() || !load.body.empty()) document.error(path, "expected one of `coupling`, `boundary` and `body`");
-      if (!load.force && !load.moment) document.error(path, "a coupling takes a `force`, a `moment`, or both");
-      if (load.pressure || load.traction || load.acceleration || load.centrifugal || load.temperature_change)
-        document.error(path, "a coupling takes a `force` and a `moment` alone");
-      return;
-    }
-    if (load.moment) document.error(path + ".moment", "a moment acts on a `coupling`; couple the boundary to a point first");
-    const bool on_body = load.acceleration || load.centrifugal || load.temperature_change;
-    const int given = load.pressure.has_value() + load.traction.has_value() + load.force.has_value() +
-                      load.acceleration.has_value() + load.centrifugal.has_value() + load.temperature_change.has_value();
-    if (given != 1)
-      document.error(
-          path,
-          fmt::format(
-              "expected exactly one of pressure, traction, force, acceleration, centrifugal and temperature_change, found {}",
-              given));
-    if (!load.axes.empty() && !load.traction && !load.force)
-      document.error(path + ".axes", "local axes are for a traction or a force");
-    if (!load.points.empty()) {
-      if (!load.force) document.error(path, "points take a `force`");
-      if (!load.boundary.empty()) document.error(path, "expected either `boundary` or `points`, found both");
-      return;
-    }
-    if (load.boundary.empty() != on_body || load.body.empty() == on_body)
-      document.error(path, !on_body            ? "this load acts on a `boundary`"
-                           : load.acceleration ? "an acceleration acts on a `body`"
-                           : load.centrifugal  ? "a centrifugal load acts on a `body`"
-                                               : "a change of temperature acts on a `body`");
-  });
+  d.check(check_load);
 }
 
 }  // namespace mortise::fem

@@ -103,13 +103,12 @@ DirichletElimination::DirichletElimination(const DualProblem& problem, Global fe
   });
 }
 
-void DirichletElimination::choose(Global few)
+// The kinds of rows, of those that this rank's subdomains touch: a skew one holds several unknowns, copies of one included,
+// a single one just one. Collective.
+Vector DirichletElimination::kinds_of_rows() const
 {
   const auto& jump = problem_.jump();
-  const auto& import = jump.import();
   const auto& ranges = jump.ranges();
-  // Kinds of rows; an inclined one holds several unknowns, copies of one included, a single one just one.
-  constexpr double other = 0, skew = 1, single = 2;
   Vector entries(jump.rows()), touched(jump.touched_rows());
   {
     auto count = view(touched);
@@ -117,7 +116,7 @@ void DirichletElimination::choose(Global few)
       for (std::size_t r = 0; r < block.row.size(); ++r)
         count[block.row[r]] += static_cast<double>(block.offset[r + 1] - block.offset[r]);
   }
-  entries.doExport(touched, import, Tpetra::ADD);
+  entries.doExport(touched, jump.import(), Tpetra::ADD);
   {
     auto kind = view(entries);
     for (Local i = 0; i < ranges.end; ++i)
@@ -126,45 +125,59 @@ void DirichletElimination::choose(Global few)
     for (std::size_t i = 0; i < components.size(); ++i)  // what a coupling leaves unknown has columns of G of its own
       if (components[i].unknown) kind[ranges.dirichlet + static_cast<Local>(i)] = other;
   }
-  touched.doImport(entries, import, Tpetra::INSERT);
+  touched.doImport(entries, jump.import(), Tpetra::INSERT);
+  return touched;
+}
 
-  Vector eliminated(jump.touched_rows());
+// The rows of a subdomain that hold one unknown each, an unknown once, and none at a node that a skew row holds.
+std::vector<DirichletElimination::PrescribedRow> DirichletElimination::rows_to_eliminate(const JumpOperator::Block& block,
+                                                                                         const Vector& kinds) const
+{
+  const auto kind = view(kinds);
   const auto dimension = static_cast<Local>(problem_.dimension());
-  for (const auto& block : jump.blocks()) {
-    const auto kind = view(std::as_const(touched));
-    std::vector<char> taken(static_cast<std::size_t>(block.size), 0);
-    for (std::size_t r = 0; r < block.row.size(); ++r)
-      if (kind[block.row[r]] == skew)
-        for (auto i = block.offset[r]; i < block.offset[r + 1]; ++i)
-          std::fill_n(taken.begin() + block.unknown[i] / dimension * dimension, dimension, 1);
-    auto& rows = rows_.emplace_back();
-    for (std::size_t r = 0; r < block.row.size(); ++r) {
-      if (kind[block.row[r]] != single) continue;
-      const auto unknown = block.unknown[block.offset[r]];
-      if (auto& once = taken[static_cast<std::size_t>(unknown)]; once++ == 0) {
-        rows.push_back({block.row[r], unknown, block.coefficient[block.offset[r]]});
-        view(eliminated)[block.row[r]] = 1;
-      }
-    }
+  std::vector<char> taken(static_cast<std::size_t>(block.size), 0);
+  for (std::size_t r = 0; r < block.row.size(); ++r)
+    if (kind[block.row[r]] == skew)
+      for (auto i = block.offset[r]; i < block.offset[r + 1]; ++i)
+        std::fill_n(taken.begin() + block.unknown[i] / dimension * dimension, dimension, 1);
+  std::vector<PrescribedRow> rows;
+  for (std::size_t r = 0; r < block.row.size(); ++r) {
+    if (kind[block.row[r]] != single) continue;
+    const auto unknown = block.unknown[block.offset[r]];
+    if (auto& once = taken[static_cast<std::size_t>(unknown)]; once++ == 0)
+      rows.push_back({block.row[r], unknown, block.coefficient[block.offset[r]]});
   }
+  return rows;
+}
 
+void DirichletElimination::choose(Global few)
+{
+  const auto& jump = problem_.jump();
+  const auto& comm = problem_.communicator();
+  const Vector kinds = kinds_of_rows();
+  Vector eliminated(jump.touched_rows());
   long long chosen = 0;
-  for (const auto& rows : rows_) chosen += static_cast<long long>(rows.size());
-  if (problem_.communicator().sum(chosen) <= few) {
+  for (const auto& block : jump.blocks()) {
+    const auto& rows = rows_.emplace_back(rows_to_eliminate(block, kinds));
+    for (const auto& row : rows) view(eliminated)[row.row] = 1;
+    chosen += static_cast<long long>(rows.size());
+  }
+  if (comm.sum(chosen) <= few) {
     for (auto& rows : rows_) rows.clear();
     eliminated.putScalar(0);
   }
-  entries.putScalar(0);
-  entries.doExport(eliminated, import, Tpetra::ADD);
+  Vector entries(jump.rows());
+  entries.doExport(eliminated, jump.import(), Tpetra::ADD);
   auto number = view(entries);
   const auto left = static_cast<long long>(std::count(number.begin(), number.end(), 0.0));
-  count_ = problem_.communicator().sum(left);
-  Global next = problem_.communicator().offset(left);
+  count_ = comm.sum(left);
+  Global next = comm.offset(left);
   for (double& n : number) {
     number_.push_back(n == 0 ? next++ : -1);
     n = static_cast<double>(number_.back());
   }
-  touched.doImport(entries, import, Tpetra::INSERT);
+  Vector touched(jump.touched_rows());
+  touched.doImport(entries, jump.import(), Tpetra::INSERT);
   for (const double n : view(std::as_const(touched))) touched_number_.push_back(static_cast<Global>(n));
 }
 

@@ -67,15 +67,18 @@ class DirichletElimination {
   void complete(const Vector& d, const Eigen::VectorXd& nu, Vector& x) const;
 
  private:
-  void choose(Global few);
-  Eigen::VectorXd at_prescribed(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const;
-
-  const DualProblem& problem_;
   struct PrescribedRow {
     Local row;  // of the overlapping map
     Local unknown;
     double coefficient;
   };
+  static constexpr double other = 0, skew = 1, single = 2;  // kinds of rows
+  Vector kinds_of_rows() const;
+  std::vector<PrescribedRow> rows_to_eliminate(const JumpOperator::Block& block, const Vector& kinds) const;
+  void choose(Global few);
+  Eigen::VectorXd at_prescribed(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const;
+
+  const DualProblem& problem_;
   std::vector<std::vector<PrescribedRow>> rows_;  // of each subdomain
   std::vector<ConstrainedSubdomain> subdomains_;
   Global count_ = 0;

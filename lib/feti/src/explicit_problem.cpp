@@ -24,18 +24,13 @@ std::vector<double> on_root(std::vector<double> values, const Communicator& comm
   return all;
 }
 
-}  // namespace
-
-ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
-    : problem_(problem), elimination_(std::make_unique<DirichletElimination>(problem, few))
+// Of each subdomain: how many rows and motions, where these start; which rows; W, H and C. Collective.
+std::vector<double> parts_on_root(const DirichletElimination& elimination, std::size_t subdomains, const Communicator& comm)
 {
-  const auto& comm = problem.communicator();
-  const auto size = static_cast<Eigen::Index>(elimination_->count());
-  // Of each subdomain: how many rows and motions, where these start; which rows; W, H and C.
   std::vector<double> parts;
   collectively(comm, [&] {
-    for (std::size_t s = 0; s < problem.jump().blocks().size(); ++s) {
-      const auto part = elimination_->part(s);
+    for (std::size_t s = 0; s < subdomains; ++s) {
+      const auto part = elimination.part(s);
       parts.insert(parts.end(),
                    {static_cast<double>(part.w.cols()), static_cast<double>(part.c.cols()), static_cast<double>(part.first)});
       for (const Global number : part.number) parts.push_back(static_cast<double>(number));
@@ -43,31 +38,49 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
         parts.insert(parts.end(), matrix->data(), matrix->data() + matrix->size());
     }
   });
-  parts = on_root(std::move(parts), comm);
-  const auto& g = problem.equality().local();
-  std::vector<double> columns;  // of each row: its number and its column of G
+  return on_root(std::move(parts), comm);
+}
+
+// Of each row that is left: its number and its column of G. Collective.
+std::vector<double> columns_on_root(const DirichletElimination& elimination, const SparseMatrix& g, const Communicator& comm)
+{
+  std::vector<double> columns;
   for (int c = 0; c < g.cols(); ++c) {
-    const Global number = elimination_->number()[static_cast<std::size_t>(c)];
+    const Global number = elimination.number()[static_cast<std::size_t>(c)];
     if (number < 0) continue;
     columns.push_back(static_cast<double>(number));
     const Eigen::VectorXd column = g.col(c);
     columns.insert(columns.end(), column.begin(), column.end());
   }
-  columns = on_root(std::move(columns), comm);
-  const qp::FeasibleSet set = whole_set();
-  Eigen::VectorXd spring_rows;  // their numbers
-  if (const auto* springs = problem.springs()) {
-    const auto& number = elimination_->number();
-    spring_rows = springs->gather(
-        Eigen::Map<const Eigen::Matrix<Global, Eigen::Dynamic, 1>>(number.data(), static_cast<Eigen::Index>(number.size()))
-            .cast<double>());
+  return on_root(std::move(columns), comm);
+}
+
+// The numbers of the rows of springs, on every rank. Collective.
+std::vector<int> rows_of_springs(const DirichletElimination& elimination, const ElasticRows& springs)
+{
+  const auto& number = elimination.number();
+  const Eigen::Map<const Eigen::Matrix<Global, Eigen::Dynamic, 1>> own(number.data(), static_cast<Eigen::Index>(number.size()));
+  const Eigen::VectorXd all = springs.gather(own.cast<double>());
+  return {all.begin(), all.end()};
+}
+
+// W, H and C of the whole problem.
+struct WholeMatrices {
+  Eigen::MatrixXd w, h, c;
+
+  WholeMatrices(Eigen::Index rows, Eigen::Index motions)
+      : w(Eigen::MatrixXd::Zero(rows, rows)), h(motions, rows), c(Eigen::MatrixXd::Zero(motions, motions))
+  {
   }
-  collectively(comm, [&] {
-    if (!comm.root()) return;
-    const auto height = g.rows();
-    Eigen::MatrixXd w = Eigen::MatrixXd::Zero(size, size), h(height, size), c = Eigen::MatrixXd::Zero(height, height);
-    for (std::size_t at = 0; at < columns.size(); at += 1 + static_cast<std::size_t>(height))
-      h.col(static_cast<Eigen::Index>(columns[at])) = Eigen::Map<const Eigen::VectorXd>(&columns[at] + 1, height);
+  // G, as columns_on_root() has it.
+  void set_columns(const std::vector<double>& columns)
+  {
+    for (std::size_t at = 0; at < columns.size(); at += 1 + static_cast<std::size_t>(h.rows()))
+      h.col(static_cast<Eigen::Index>(columns[at])) = Eigen::Map<const Eigen::VectorXd>(&columns[at] + 1, h.rows());
+  }
+  // Of all subdomains, as parts_on_root() has them.
+  void add_parts(const std::vector<double>& parts)
+  {
     for (const double *at = parts.data(), *end = at + parts.size(); at < end;) {
       const auto count = static_cast<Eigen::Index>(at[0]), modes = static_cast<Eigen::Index>(at[1]),
                  first = static_cast<Eigen::Index>(at[2]);
@@ -83,11 +96,28 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
       c.block(first, first, modes, modes) += stiffness;
       at = stiffness.data() + stiffness.size();
     }
-    if (const auto* springs = problem.springs()) {
-      const std::vector<int> rows(spring_rows.begin(), spring_rows.end());
-      w(rows, rows) += springs->compliance();
-    }
-    newton_ = std::make_unique<qp::CondensedNewton>(std::move(w), std::move(h), std::move(c), set);
+  }
+};
+
+}  // namespace
+
+ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
+    : problem_(problem), elimination_(std::make_unique<DirichletElimination>(problem, few))
+{
+  const auto& comm = problem.communicator();
+  const auto& g = problem.equality().local();
+  const auto parts = parts_on_root(*elimination_, problem.jump().blocks().size(), comm);
+  const auto columns = columns_on_root(*elimination_, g, comm);
+  const qp::FeasibleSet set = whole_set();
+  const auto* springs = problem.springs();
+  const auto spring_rows = springs ? rows_of_springs(*elimination_, *springs) : std::vector<int>();
+  collectively(comm, [&] {
+    if (!comm.root()) return;
+    WholeMatrices whole(static_cast<Eigen::Index>(elimination_->count()), g.rows());
+    whole.set_columns(columns);
+    whole.add_parts(parts);
+    if (springs) whole.w(spring_rows, spring_rows) += springs->compliance();
+    newton_ = std::make_unique<qp::CondensedNewton>(std::move(whole.w), std::move(whole.h), std::move(whole.c), set);
   });
 }
 

@@ -89,6 +89,66 @@ void add_work(const StateSummary& s, Json& json)
   json["hessian_multiplications"] = s.hessian_multiplications;
 }
 
+Json reaction(const StateSummary::Reaction& r)
+{
+  Json json{{"boundary", r.boundary}, {"force", vector(r.force)}};
+  if (r.moment) json["moment"] = vector(*r.moment);
+  json["name"] = r.name;
+  return json;
+}
+
+Json coupling(const StateSummary::Coupling& c)
+{
+  return {{"name", c.name},
+          {"boundary", c.boundary},
+          {"displacement", vector(c.displacement)},
+          {"rotation", vector(c.rotation)},
+          {"force", vector(c.force)},
+          {"moment", vector(c.moment)},
+          {"reaction_force", vector(c.reaction_force)},
+          {"reaction_moment", vector(c.reaction_moment)}};
+}
+
+Json spring(const StateSummary::Spring& s)
+{
+  return {{"name", s.name}, {"force", number(s.force)}, {"elongation", number(s.elongation)}};
+}
+
+Json contact(const StateSummary::Contact& c)
+{
+  Json json{{"name", c.name},
+            {"force", vector(c.force)},
+            {"max_pressure", number(c.max_pressure)},
+            {"area", number(c.area)},
+            {"open", c.open},
+            {"stick", c.stick},
+            {"slip", c.slip},
+            {"max_recovered_pressure", number(c.max_recovered_pressure)},
+            {"max_tension", number(c.max_tension)}};
+  if (c.initial_gap)
+    json["initial_gap"] = {{"smallest", number(c.initial_gap->smallest)},
+                           {"largest_overlap", number(c.initial_gap->largest_overlap)},
+                           {"touching_area", number(c.initial_gap->touching_area)}};
+  if (c.preload) json["preload"] = {{"force", number(c.preload->force)}, {"shortening", number(c.preload->shortening)}};
+  if (c.undecided)
+    json["undecided"] = {{"open_closed", band(c.undecided->open_closed)}, {"stick_slip", band(c.undecided->stick_slip)}};
+  return json;
+}
+
+Json stuck(const StateSummary::Stuck& s)
+{
+  return {{"contact", s.contact},     {"points", s.points}, {"states", s.states},
+          {"place", vector(s.place)}, {"turns", s.turns},   {"steps", s.steps}};
+}
+
+template <class Value>
+void add_list(const char* key, const std::vector<Value>& values, Json (*as_json)(const Value&), Json& json)
+{
+  json[key] = Json::array();
+  for (const auto& value : values) json[key].push_back(as_json(value));
+}
+
+// In the order that is promised; lists of what a deck need not have are there if it has any.
 void add_state(const StateSummary& s, Json& json)
 {
   json["residuals"] = {{"projected_gradient", number(s.residuals.projected_gradient)},
@@ -102,59 +162,13 @@ void add_state(const StateSummary& s, Json& json)
   json["max_von_mises"] = number(s.max_von_mises);
   json["max_displacement"] = number(s.max_displacement);
   json["max_von_mises_place"] = place(s.max_von_mises_place);
-  if (!s.probes.empty()) json["probes"] = Json::array();
-  for (const auto& p : s.probes) json["probes"].push_back(probe(p));
+  if (!s.probes.empty()) add_list("probes", s.probes, probe, json);
   json["moments_about"] = vector(s.moments_about);
-  json["reactions"] = Json::array();
-  for (const auto& r : s.reactions) {
-    Json reaction{{"boundary", r.boundary}, {"force", vector(r.force)}};
-    if (r.moment) reaction["moment"] = vector(*r.moment);
-    reaction["name"] = r.name;
-    json["reactions"].push_back(std::move(reaction));
-  }
-  if (!s.couplings.empty()) json["couplings"] = Json::array();
-  for (const auto& c : s.couplings)
-    json["couplings"].push_back({{"name", c.name},
-                                 {"boundary", c.boundary},
-                                 {"displacement", vector(c.displacement)},
-                                 {"rotation", vector(c.rotation)},
-                                 {"force", vector(c.force)},
-                                 {"moment", vector(c.moment)},
-                                 {"reaction_force", vector(c.reaction_force)},
-                                 {"reaction_moment", vector(c.reaction_moment)}});
-  if (!s.springs.empty()) json["springs"] = Json::array();
-  for (const auto& spring : s.springs)
-    json["springs"].push_back(
-        {{"name", spring.name}, {"force", number(spring.force)}, {"elongation", number(spring.elongation)}});
-  json["contacts"] = Json::array();
-  for (const auto& c : s.contacts) {
-    json["contacts"].push_back({{"name", c.name},
-                                {"force", vector(c.force)},
-                                {"max_pressure", number(c.max_pressure)},
-                                {"area", number(c.area)},
-                                {"open", c.open},
-                                {"stick", c.stick},
-                                {"slip", c.slip},
-                                {"max_recovered_pressure", number(c.max_recovered_pressure)},
-                                {"max_tension", number(c.max_tension)}});
-    if (c.initial_gap)
-      json["contacts"].back()["initial_gap"] = {{"smallest", number(c.initial_gap->smallest)},
-                                                {"largest_overlap", number(c.initial_gap->largest_overlap)},
-                                                {"touching_area", number(c.initial_gap->touching_area)}};
-    if (c.preload)
-      json["contacts"].back()["preload"] = {{"force", number(c.preload->force)}, {"shortening", number(c.preload->shortening)}};
-    if (c.undecided)
-      json["contacts"].back()["undecided"] = {{"open_closed", band(c.undecided->open_closed)},
-                                              {"stick_slip", band(c.undecided->stick_slip)}};
-  }
-  json["stuck"] = Json::array();
-  for (const auto& stuck : s.stuck)
-    json["stuck"].push_back({{"contact", stuck.contact},
-                             {"points", stuck.points},
-                             {"states", stuck.states},
-                             {"place", vector(stuck.place)},
-                             {"turns", stuck.turns},
-                             {"steps", stuck.steps}});
+  add_list("reactions", s.reactions, reaction, json);
+  if (!s.couplings.empty()) add_list("couplings", s.couplings, coupling, json);
+  if (!s.springs.empty()) add_list("springs", s.springs, spring, json);
+  add_list("contacts", s.contacts, contact, json);
+  add_list("stuck", s.stuck, stuck, json);
 }
 
 }  // namespace

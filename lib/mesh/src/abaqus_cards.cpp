@@ -85,6 +85,28 @@ void AbaqusReader::begin(const std::string& line)
     card_.parameters[upper(trimmed(words[i].substr(0, equals)))] =
         equals == std::string::npos ? "" : trimmed(words[i].substr(equals + 1));
   }
+  if (!is_ours()) return;
+  if (card_.name == "NODE") {
+    begin_node();
+  } else if (card_.name == "NSET") {
+    need("NSET");
+    node_sets_[known_name(card_.parameters["NSET"])];
+  } else if (card_.name == "ELSET") {
+    need("ELSET");
+    element_sets_[known_name(card_.parameters["ELSET"])];
+  } else if (card_.name == "SOLID SECTION") {
+    need("ELSET");
+    sections_.push_back(known_name(card_.parameters["ELSET"]));
+  } else if (card_.name == "SURFACE") {
+    begin_surface();
+  } else {
+    begin_elements();
+  }
+}
+
+// Whether the card says something of the mesh.
+bool AbaqusReader::is_ours()
+{
   static const std::set<std::string> ours{"NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "SOLID SECTION"};
   static const std::set<std::string> harmless{"HEADING", "PREPRINT", "END PART"};
   static const std::set<std::string> refused{"PART",  "INSTANCE", "ASSEMBLY", "INCLUDE", "NGEN",    "NFILL",
@@ -96,36 +118,34 @@ void AbaqusReader::begin(const std::string& line)
                     "with numbers of their own",
                     card_.name));
   if (card_.name == "STEP") over_ = true;
-  if (!ours.contains(card_.name)) {
-    if (!harmless.contains(card_.name)) left_out_.insert("*" + card_.name);
-    return;
-  }
-  const auto need = [&](const char* key) {
-    if (!card_.has(key) || card_.parameters[key].empty()) report_error(line_, fmt::format("*{} needs {}=", card_.name, key));
-  };
-  if (card_.name == "NODE" && card_.has("SYSTEM") && upper(card_.parameters["SYSTEM"]) != "R")
+  if (ours.contains(card_.name)) return true;
+  if (!harmless.contains(card_.name)) left_out_.insert("*" + card_.name);
+  return false;
+}
+
+void AbaqusReader::need(const char* key)
+{
+  if (!card_.has(key) || card_.parameters[key].empty()) report_error(line_, fmt::format("*{} needs {}=", card_.name, key));
+}
+
+void AbaqusReader::begin_node() const
+{
+  if (card_.has("SYSTEM") && upper(card_.parameters.at("SYSTEM")) != "R")
     report_error(line_, "only nodes in rectangular coordinates are understood (no SYSTEM=)");
-  if (card_.name == "NSET") {
-    need("NSET");
-    node_sets_[known_name(card_.parameters["NSET"])];
-  }
-  if (card_.name == "ELSET") {
-    need("ELSET");
-    element_sets_[known_name(card_.parameters["ELSET"])];
-  }
-  if (card_.name == "SOLID SECTION") {
-    need("ELSET");
-    sections_.push_back(known_name(card_.parameters["ELSET"]));
-  }
-  if (card_.name == "SURFACE") {
-    need("NAME");
-    open_surface_ = known_name(card_.parameters["NAME"]);
-    const auto type = card_.has("TYPE") ? upper(card_.parameters["TYPE"]) : "ELEMENT";
-    if (type != "ELEMENT" && type != "NODE")
-      report_error(line_, fmt::format("*SURFACE, TYPE={} is not understood; expected ELEMENT or NODE", type));
-    surfaces_[open_surface_];
-  }
-  if (card_.name != "ELEMENT") return;
+}
+
+void AbaqusReader::begin_surface()
+{
+  need("NAME");
+  open_surface_ = known_name(card_.parameters["NAME"]);
+  const auto type = card_.has("TYPE") ? upper(card_.parameters["TYPE"]) : "ELEMENT";
+  if (type != "ELEMENT" && type != "NODE")
+    report_error(line_, fmt::format("*SURFACE, TYPE={} is not understood; expected ELEMENT or NODE", type));
+  surfaces_[open_surface_];
+}
+
+void AbaqusReader::begin_elements()
+{
   need("TYPE");
   const auto type = element_type(upper(card_.parameters["TYPE"]), dimension_);
   if (!type.known)

@@ -47,6 +47,11 @@ class AbaqusReader {
   long long number(const std::string& word, int line) const;
   double value(const std::string& word, int line) const;
   void begin(const std::string& line);
+  bool is_ours();
+  void need(const char* key);
+  void begin_node() const;
+  void begin_surface();
+  void begin_elements();
   void data(const std::string& line);
   void finish_element();
   void take_members(long long count);

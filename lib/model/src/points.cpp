@@ -67,68 +67,101 @@ double size_of(const partition::Decomposition& decomposition, const Communicator
 
 }  // namespace
 
-// By coordinates: of each body's nodes the nearest. By name: all nodes of the set. [place][node].
+// The nodes that may be meant by each of some places. By coordinates: of each body's nodes the nearest. By name: all nodes of the
+// set.
+class Model::CandidatesAtPoints {
+ public:
+  CandidatesAtPoints(const std::vector<deck::Place>& places, const mesh::Catalogue& catalogue)
+      : places_(places), catalogue_(catalogue), nearest_(places.size()), named_(places.size())
+  {
+    for (std::size_t w = 0; w < places.size(); ++w)
+      if (places[w].name.empty()) {
+        nearest_[w].resize(catalogue.bodies.size());
+      } else if (const auto* set = find_set(catalogue, places[w].name)) {
+        for (const Global node : set->nodes) named_[w][node];
+      }
+  }
+
+  // Of equal ones the lowest copy is kept.
+  void offer(std::size_t w, NodeAtPoint node)
+  {
+    if (places_[w].name.empty()) {
+      node.distance = (node.at - place(places_[w].at)).norm();
+      if (auto& best = nearest_[w][static_cast<std::size_t>(node.body)]; before(node, best)) best = node;
+    } else if (const auto of_set = named_[w].find(node.node); of_set != named_[w].end()) {
+      node.distance = 0;
+      if (before(node, of_set->second)) of_set->second = node;
+    }
+  }
+
+  // Offers each rank's candidates to all others. Collective.
+  void exchange(const Communicator& comm)
+  {
+    std::vector<double> own;
+    for (std::size_t w = 0; w < places_.size(); ++w) {
+      for (const auto& c : nearest_[w]) tell(w, c, own);
+      for (const auto& [id, c] : named_[w]) tell(w, c, own);
+    }
+    const auto all = comm.all_gather(own);
+    for (std::size_t i = 0; i + record <= all.size(); i += record) {
+      NodeAtPoint node;
+      node.node = static_cast<Global>(all[i + 1]), node.subdomain = static_cast<Global>(all[i + 2]);
+      node.body = static_cast<int>(all[i + 3]), node.local = static_cast<Local>(all[i + 4]);
+      node.at = Point(all[i + 5], all[i + 6], all[i + 7]);
+      offer(static_cast<std::size_t>(all[i]), node);
+    }
+  }
+
+  // [place][node]; those of sets with their shares.
+  std::vector<std::vector<NodeAtPoint>> found() const
+  {
+    auto result = nearest_;
+    for (std::size_t w = 0; w < places_.size(); ++w) {
+      if (named_[w].empty()) continue;
+      const auto* set = find_set(catalogue_, places_[w].name);
+      for (std::size_t i = 0; i < set->nodes.size(); ++i) {
+        result[w].push_back(named_[w].at(set->nodes[i]));
+        result[w].back().share = set->weights[i];
+      }
+    }
+    return result;
+  }
+
+ private:
+  static bool before(const NodeAtPoint& a, const NodeAtPoint& b)
+  {
+    return std::tie(a.distance, a.node, a.subdomain) < std::tie(b.distance, b.node, b.subdomain);
+  }
+  static void tell(std::size_t w, const NodeAtPoint& c, std::vector<double>& own)
+  {
+    if (c.node >= 0)
+      own.insert(own.end(), {static_cast<double>(w), static_cast<double>(c.node), static_cast<double>(c.subdomain),
+                             static_cast<double>(c.body), static_cast<double>(c.local), c.at[0], c.at[1], c.at[2]});
+  }
+
+  const std::vector<deck::Place>& places_;
+  const mesh::Catalogue& catalogue_;
+  std::vector<std::vector<NodeAtPoint>> nearest_;
+  std::vector<std::map<Global, NodeAtPoint>> named_;
+};
+
 std::vector<std::vector<Model::NodeAtPoint>> Model::candidates_at_points(const Communicator& comm) const
 {
   const auto wanted = wanted_points(deck_);
   if (wanted.empty()) return {};
-  const auto bodies = decomposition_.catalogue.bodies.size();
-  const auto before = [](const NodeAtPoint& a, const NodeAtPoint& b) {
-    return std::tie(a.distance, a.node, a.subdomain) < std::tie(b.distance, b.node, b.subdomain);
-  };
-  std::vector<std::vector<NodeAtPoint>> nearest(wanted.size());
-  std::vector<std::map<Global, NodeAtPoint>> named(wanted.size());
-  for (std::size_t w = 0; w < wanted.size(); ++w)
-    if (wanted[w].place.name.empty()) {
-      nearest[w].resize(bodies);
-    } else if (const auto* set = find_set(decomposition_.catalogue, wanted[w].place.name)) {
-      for (const Global node : set->nodes) named[w][node];
-    }
-  const auto offer = [&](std::size_t w, NodeAtPoint node) {
-    if (wanted[w].place.name.empty()) {
-      node.distance = (node.at - place(wanted[w].place.at)).norm();
-      if (auto& best = nearest[w][static_cast<std::size_t>(node.body)]; before(node, best)) best = node;
-    } else if (const auto of_set = named[w].find(node.node); of_set != named[w].end()) {
-      node.distance = 0;
-      if (before(node, of_set->second)) of_set->second = node;
-    }
-  };
+  std::vector<deck::Place> places;
+  for (const auto& w : wanted) places.push_back(w.place);
+  CandidatesAtPoints candidates(places, decomposition_.catalogue);
   for (const auto& subdomain : decomposition_.subdomains)
     for (const Local n : partition::surface_nodes(subdomain)) {
       const auto i = static_cast<std::size_t>(n);
       NodeAtPoint node;
       node.node = subdomain.mesh.node_id[i], node.subdomain = subdomain.id, node.body = subdomain.body, node.local = n;
       node.at = subdomain.mesh.points[i];
-      for (std::size_t w = 0; w < wanted.size(); ++w) offer(w, node);
+      for (std::size_t w = 0; w < places.size(); ++w) candidates.offer(w, node);
     }
-  std::vector<double> own;
-  const auto tell = [&](std::size_t w, const NodeAtPoint& c) {
-    if (c.node >= 0)
-      own.insert(own.end(), {static_cast<double>(w), static_cast<double>(c.node), static_cast<double>(c.subdomain),
-                             static_cast<double>(c.body), static_cast<double>(c.local), c.at[0], c.at[1], c.at[2]});
-  };
-  for (std::size_t w = 0; w < wanted.size(); ++w) {
-    for (const auto& c : nearest[w]) tell(w, c);
-    for (const auto& [id, c] : named[w]) tell(w, c);
-  }
-  const auto all = comm.all_gather(own);
-  for (std::size_t i = 0; i + record <= all.size(); i += record) {
-    NodeAtPoint node;
-    node.node = static_cast<Global>(all[i + 1]), node.subdomain = static_cast<Global>(all[i + 2]);
-    node.body = static_cast<int>(all[i + 3]), node.local = static_cast<Local>(all[i + 4]);
-    node.at = Point(all[i + 5], all[i + 6], all[i + 7]);
-    offer(static_cast<std::size_t>(all[i]), node);
-  }
-  for (std::size_t w = 0; w < wanted.size(); ++w) {
-    if (named[w].empty()) continue;
-    const auto* set = find_set(decomposition_.catalogue, wanted[w].place.name);
-    for (std::size_t i = 0; i < set->nodes.size(); ++i) {
-      auto node = named[w].at(set->nodes[i]);
-      node.share = set->weights[i];
-      nearest[w].push_back(node);
-    }
-  }
-  return nearest;
+  candidates.exchange(comm);
+  return candidates.found();
 }
 
 Model::NodesAtPoints Model::nodes_at_points(const Communicator& comm) const

@@ -52,9 +52,9 @@ std::vector<Sample> gather_samples(const model::Deck& deck, const post::Probes& 
     auto& sample = mine.emplace_back(Sample{probes.sampled[i].row, probes.sampled[i].point, probes.sampled[i].body, {}});
     Eigen::Map<Eigen::Matrix<double, width, 1>> all(sample.values.data());
     const auto& own = axes[probes.sampled[i].point];
-    const Eigen::Matrix3d turn = own ? own->everywhere(probes.sampled[i].place.at) : Eigen::Matrix3d::Identity();
-    all << turn * values.displacement.row(row).transpose(), own ? fem::along(turn, stress) : stress, fem::von_mises(stress),
-        fem::principal_stresses(stress);
+    const Eigen::Matrix3d rotation = own ? own->everywhere(probes.sampled[i].place.at) : Eigen::Matrix3d::Identity();
+    all << rotation * values.displacement.row(row).transpose(), own ? fem::along(rotation, stress) : stress,
+        fem::von_mises(stress), fem::principal_stresses(stress);
   }
   auto all = comm.all_gather(mine);
   std::sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.row < b.row; });

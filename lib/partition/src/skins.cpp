@@ -72,34 +72,87 @@ bool is_surface(const mesh::Mesh& mesh, int dimension)
   return mesh.cells.size() > 0 && mesh::dimension(mesh.cells.type[0]) < dimension;
 }
 
+// The faces of a solid that bound it, or the cells of what is a surface already, by cell and face.
+class Border {
+ public:
+  Border(const mesh::Mesh& solid, int dimension) : solid_(solid), surface_(is_surface(solid, dimension))
+  {
+    if (surface_)
+      for (std::size_t c = 0; c < solid.cells.size(); ++c) faces_.push_back({{}, static_cast<Local>(c), 0});
+    else
+      faces_ = mesh::border_faces(solid.cells);
+    std::sort(faces_.begin(), faces_.end(),
+              [](const auto& a, const auto& b) { return std::pair(a.cell, a.face) < std::pair(b.cell, b.face); });
+  }
+
+  const std::vector<mesh::CellFace>& faces() const { return faces_; }
+  mesh::CellType type(const mesh::CellFace& face) const
+  {
+    const auto type = cell_type(face);
+    return surface_ ? type : mesh::faces(type)[static_cast<std::size_t>(face.face)].type;
+  }
+  std::vector<Local> nodes(const mesh::CellFace& face) const
+  {
+    const auto all = solid_.cells[static_cast<std::size_t>(face.cell)];
+    if (surface_) return std::vector<Local>(all.begin(), all.end());
+    std::vector<Local> nodes;
+    for (const int k : mesh::faces(cell_type(face))[static_cast<std::size_t>(face.face)].nodes)
+      nodes.push_back(all[static_cast<std::size_t>(k)]);
+    return nodes;
+  }
+  // Of each node of the solid.
+  std::vector<bool> has_node() const
+  {
+    std::vector<bool> on(solid_.node_count(), false);
+    for (const auto& face : faces_)
+      for (const Local n : nodes(face)) on[static_cast<std::size_t>(n)] = true;
+    return on;
+  }
+  // The place of a facet's face; boundaries are on the surface of their body, and so of the subdomain.
+  std::size_t find(std::size_t facet) const
+  {
+    const Local cell = solid_.facets.parent[facet];
+    const auto face =
+        static_cast<int>(face_number(solid_, facet) - faces_a_cell * solid_.cell_id[static_cast<std::size_t>(cell)]);
+    const auto at = std::lower_bound(faces_.begin(), faces_.end(), std::pair(cell, face),
+                                     [](const auto& a, const auto& b) { return std::pair(a.cell, a.face) < b; });
+    return static_cast<std::size_t>(at - faces_.begin());
+  }
+
+ private:
+  mesh::CellType cell_type(const mesh::CellFace& face) const { return solid_.cells.type[static_cast<std::size_t>(face.cell)]; }
+
+  const mesh::Mesh& solid_;
+  bool surface_;
+  std::vector<mesh::CellFace> faces_;
+};
+
+// The panels of all faces. Returns the first panel of each face, and their number.
+std::vector<Local> add_panels(const mesh::Mesh& solid, const Border& border, const std::vector<Local>& place, mesh::Mesh& skin)
+{
+  std::vector<Local> first;
+  for (const auto& face : border.faces()) {
+    const auto cell = static_cast<std::size_t>(face.cell);
+    const auto type = border.type(face);
+    first.push_back(static_cast<Local>(skin.cells.size()));
+    Global key = keys_a_cell * solid.cell_id[cell] + panels_a_face * face.face;
+    for (const auto& panel : panels_of(type, border.nodes(face))) {
+      add(mesh::dimension(type) == 1 ? mesh::CellType::line2 : mesh::CellType::tri3, panel, place, skin.cells);
+      skin.cell_id.push_back(key++);
+      skin.cell_body.push_back(solid.cell_body[cell]);
+      if (!solid.cell_volume.empty()) skin.cell_volume.push_back(solid.cell_volume[cell]);
+    }
+  }
+  first.push_back(static_cast<Local>(skin.cells.size()));
+  return first;
+}
+
 // The skin of a solid, or of what is a surface already; cell_id holds the keys of the panels. `place`: of each node of the solid
 // in the skin, of those inside after the others.
 mesh::Mesh skin_of(const mesh::Mesh& solid, int dimension, std::vector<Local>& place)
 {
-  const bool surface = is_surface(solid, dimension);
-  std::vector<mesh::CellFace> border;
-  if (surface)
-    for (std::size_t c = 0; c < solid.cells.size(); ++c) border.push_back({{}, static_cast<Local>(c), 0});
-  else
-    border = mesh::border_faces(solid.cells);
-  std::sort(border.begin(), border.end(),
-            [](const auto& a, const auto& b) { return std::pair(a.cell, a.face) < std::pair(b.cell, b.face); });
-  const auto type_of = [&](const mesh::CellFace& face) {
-    const auto type = solid.cells.type[static_cast<std::size_t>(face.cell)];
-    return surface ? type : mesh::faces(type)[static_cast<std::size_t>(face.face)].type;
-  };
-  const auto nodes_of = [&](const mesh::CellFace& face) {
-    const auto all = solid.cells[static_cast<std::size_t>(face.cell)];
-    if (surface) return std::vector<Local>(all.begin(), all.end());
-    std::vector<Local> nodes;
-    const auto type = solid.cells.type[static_cast<std::size_t>(face.cell)];
-    for (const int k : mesh::faces(type)[static_cast<std::size_t>(face.face)].nodes)
-      nodes.push_back(all[static_cast<std::size_t>(k)]);
-    return nodes;
-  };
-  std::vector<bool> on(solid.node_count(), false);
-  for (const auto& face : border)
-    for (const Local n : nodes_of(face)) on[static_cast<std::size_t>(n)] = true;
+  const Border border(solid, dimension);
+  const auto on = border.has_node();
   mesh::Mesh skin;
   place.assign(solid.node_count(), 0);
   Local next = 0;
@@ -111,27 +164,9 @@ mesh::Mesh skin_of(const mesh::Mesh& solid, int dimension, std::vector<Local>& p
     skin.node_id.push_back(solid.node_id[n]);
     skin.points.push_back(solid.points[n]);
   }
-  std::vector<Local> first;  // panel of each face
-  for (const auto& face : border) {
-    const auto cell = static_cast<std::size_t>(face.cell);
-    const auto type = type_of(face);
-    first.push_back(static_cast<Local>(skin.cells.size()));
-    Global key = keys_a_cell * solid.cell_id[cell] + panels_a_face * face.face;
-    for (const auto& panel : panels_of(type, nodes_of(face))) {
-      add(mesh::dimension(type) == 1 ? mesh::CellType::line2 : mesh::CellType::tri3, panel, place, skin.cells);
-      skin.cell_id.push_back(key++);
-      skin.cell_body.push_back(solid.cell_body[cell]);
-      if (!solid.cell_volume.empty()) skin.cell_volume.push_back(solid.cell_volume[cell]);
-    }
-  }
-  first.push_back(static_cast<Local>(skin.cells.size()));
+  const auto first = add_panels(solid, border, place, skin);
   for (std::size_t f = 0; f < solid.facets.cells.size(); ++f) {
-    const Local cell = solid.facets.parent[f];
-    const auto face = static_cast<int>(face_number(solid, f) - faces_a_cell * solid.cell_id[static_cast<std::size_t>(cell)]);
-    const auto at = std::lower_bound(border.begin(), border.end(), std::pair(cell, face), [](const auto& a, const auto& b) {
-      return std::pair(a.cell, a.face) < b;
-    });  // boundaries are on the surface of their body, and so of the subdomain
-    const auto index = static_cast<std::size_t>(at - border.begin());
+    const auto index = border.find(f);
     for (Local p = first[index]; p < first[index + 1]; ++p) {
       const auto panel = static_cast<std::size_t>(p);
       skin.facets.cells.add(skin.cells.type[panel], skin.cells[panel]);

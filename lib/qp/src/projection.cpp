@@ -73,6 +73,12 @@ struct Projector::Evaluation {
   double multiplier_size = 0;  // ||G' nu||
 };
 
+// What is projected.
+struct Projector::Given {
+  Eigen::VectorXd constrained, gy;  // y over the constrained unknowns, and G y
+  double scale;                     // ||e|| + ||y||, which residuals are relative to
+};
+
 Projector::Projector(const EqualityConstraint& equality, const FeasibleSet& set)
     : equality_(equality),
       set_(set),
@@ -197,35 +203,25 @@ double Projector::least_norm(const Eigen::VectorXd& nu, const Vector& like) cons
   return gained > 0 ? gained / std::max(w.norm2(), std::numeric_limits<double>::min()) : 0;
 }
 
-Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
+// Minimises theta from `nu` on; the multiplier with the smallest gradient, or one that has grown beyond all bounds.
+Projector::Evaluation Projector::minimise(const Given& y, Eigen::VectorXd nu)
 {
-  Projection result{Vector(y, Teuchos::Copy), Vector(y, Teuchos::Copy), Eigen::VectorXd::Zero(equality_.size())};
-  if (equality_.size() == 0) {
-    set_.project(view(result.point));
-    result.found = true;
-    return result;
-  }
   const FeasibleSet compact = set_.compact();
-  const Eigen::VectorXd constrained_y = view(y)(constrained_);
-  const Eigen::VectorXd gy = equality_.apply(y);
-  const double scale = equality_.norm(equality_.right_side()) + y.norm2() + 1e-300;
-  const auto size_of = [&](const Evaluation& at) { return equality_.norm(at.gradient) / scale; };
-  Evaluation now = evaluate(constrained_y, gy, start.size() == equality_.size() ? start : result.nu, compact);
-  result.residual = size_of(now);
-  Evaluation best = now;
-  double regularisation = 1e-1, residual = result.residual;
+  const auto size_of = [&](const Evaluation& at) { return equality_.norm(at.gradient) / y.scale; };
+  Evaluation now = evaluate(y.constrained, y.gy, std::move(nu), compact), best = now;
+  double least = size_of(now), residual = least, regularisation = 1e-1;
   int stalled = 0;
-  for (int step = 0; step < max_steps && result.residual > target && now.multiplier_size < unbounded * scale; ++step) {
+  for (int step = 0; step < max_steps && least > target && now.multiplier_size < unbounded * y.scale; ++step) {
     if (!matrix_.factorize(downdates(now.w), std::clamp(regularisation * std::min(residual, 1.0), 1e-14, 1.0))) {
       regularisation *= 10;
       continue;
     }
     const Eigen::VectorXd direction = -matrix_.solve(now.gradient);
-    Evaluation next = evaluate(constrained_y, gy, now.nu + direction, compact);
+    Evaluation next = evaluate(y.constrained, y.gy, now.nu + direction, compact);
     double t = 1;
     if (size_of(next) > 0.5 * residual) {
       t = search(now, next, direction, compact);
-      if (t != 1) next = evaluate(constrained_y, gy, now.nu + t * direction, compact);
+      if (t != 1) next = evaluate(y.constrained, y.gy, now.nu + t * direction, compact);
     }
     const double before = std::exchange(residual, size_of(next));
     // A residual that does not fall while full steps are taken wants larger steps.
@@ -235,36 +231,53 @@ Projection Projector::operator()(const Vector& y, const Eigen::VectorXd& start)
     now = std::move(next);
     // Bodies that touch without force drift about at rounding level, and what they meet undoes what was gained; a ring between
     // rollers turns far before a trace of a moment finds its balance.
-    stalled = residual < 0.5 * result.residual ? 0 : stalled + 1;
-    if (residual < result.residual) {
-      result.residual = residual;
+    stalled = residual < 0.5 * least ? 0 : stalled + 1;
+    if (residual < least) {
+      least = residual;
       best = now;
     }
-    if (stalled > (result.residual <= near_enough ? max_stalled : max_tries) && result.residual <= acceptable) break;
+    if (stalled > (least <= near_enough ? max_stalled : max_tries) && least <= acceptable) break;
   }
-  if (now.multiplier_size < unbounded * scale) now = std::move(best);
-  // G G' nu - G (P(w) - w) loses, where stiffnesses differ by 1e6, what the kernels of soft bodies need; G P(w) does not.
+  return now.multiplier_size < unbounded * y.scale ? best : now;
+}
+
+// The point of `now`, improved by what its own residual says: G G' nu - G (P(w) - w), which the minimisation goes by, loses,
+// where stiffnesses differ by 1e6, what the kernels of soft bodies need; G P(w) does not. Sets nu, the residual and the point.
+void Projector::repair(const Vector& from, const Given& y, Evaluation now, Projection& result)
+{
   result.nu = now.nu;
   for (int repair = 0; repair <= max_repairs; ++repair) {
-    result.argument.assign(y);
+    result.argument.assign(from);
     equality_.add_transpose(-1, now.nu, result.argument);
     Vector point(result.argument, Teuchos::Copy);
     set_.project(view(point));
     const Eigen::VectorXd missing = equality_.right_side() - equality_.apply(point);
-    const double residual = equality_.norm(missing) / scale;
+    const double residual = equality_.norm(missing) / y.scale;
     if (repair > 0 && !(residual < result.residual)) break;
     result.nu = now.nu;
     result.residual = residual;
     result.point.assign(point);
-    if (residual <= 1e2 * target || now.multiplier_size >= unbounded * scale) break;
+    if (residual <= 1e2 * target || now.multiplier_size >= unbounded * y.scale) break;
     Eigen::VectorXd w = view(result.argument)(constrained_);
     if (!matrix_.factorize(downdates(w), 1e-14)) break;
     now.nu -= matrix_.solve(missing);
   }
-  result.argument.assign(y);
+}
+
+Projection Projector::operator()(const Vector& from, const Eigen::VectorXd& start)
+{
+  Projection result{Vector(from, Teuchos::Copy), Vector(from, Teuchos::Copy), Eigen::VectorXd::Zero(equality_.size())};
+  if (equality_.size() == 0) {
+    set_.project(view(result.point));
+    result.found = true;
+    return result;
+  }
+  const Given y{view(from)(constrained_), equality_.apply(from), equality_.norm(equality_.right_side()) + from.norm2() + 1e-300};
+  repair(from, y, minimise(y, start.size() == equality_.size() ? start : result.nu), result);
+  result.argument.assign(from);
   equality_.add_transpose(-1, result.nu, result.argument);
   result.found = result.residual <= acceptable;
-  result.empty = !result.found && least_norm(result.nu, y) > far_away * scale;
+  result.empty = !result.found && least_norm(result.nu, from) > far_away * y.scale;
   return result;
 }
 

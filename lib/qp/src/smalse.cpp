@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "qp/mpgp.hpp"
 #include "qp/norm.hpp"
@@ -74,93 +76,150 @@ double value_of(const Problem& problem, const Vector& constant, const Eigen::Vec
   return 0.5 * point.x.dot(c);
 }
 
+// Where the iteration begins, and what it measures by.
+struct SmalseStart {
+  double norm = 1, size = 1;  // nrm; ||P b||/nrm or the like, which residuals are relative to
+  Projection feasible;        // its point is x0
+  Vector constant;            // P (A x0 - b) / nrm
+  Eigen::VectorXd nu;
+};
+
+// `hessian_norm`: ||P A P||. Collective.
+SmalseStart make_start(const Problem& problem, const std::optional<Solution>& start, double hessian_norm, double tolerance,
+                       Projection feasible)
+{
+  const auto coarse = problem.equality.size();
+  SmalseStart result{1, 1, std::move(feasible), Vector(problem.hessian.map()),
+                     start && start->augmented.size() == coarse ? start->augmented : Eigen::VectorXd::Zero(coarse)};
+  if (hessian_norm != 0) result.norm = hessian_norm;
+  if (const double size = relative_size(problem, tolerance) / result.norm; size != 0) result.size = size;
+  set_constant(problem, result.feasible.point, result.norm, result.constant);
+  if (!start) take_start_steps(problem, result.norm, result.feasible, result.constant, result.nu);
+  return result;
+}
+
+// The iteration on z = x - x0. Refers to its arguments; `result` takes what it comes to.
+class SmalseRun {
+ public:
+  SmalseRun(const Problem& problem, const SmalseStart& start, double tolerance, const Observer& observer, Solution& result)
+      : problem_(problem),
+        observer_(observer),
+        norm_(start.norm),
+        size_(start.size),
+        limit_(tolerance * size_),
+        result_(result),
+        constant_(start.constant),
+        origin_(start.feasible.point, Teuchos::Copy),
+        set_(problem.set.shifted(view(origin_))),
+        point_{Vector(problem.hessian.map()), Vector(start.constant, Teuchos::Copy)},
+        nu_(start.nu)
+  {
+    problem.equality.add_transpose(1, nu_, point_.gradient);
+  }
+
+  void iterate();
+  // Back to x = x0 + z, with what is left of G z removed exactly, and to nu of the unscaled problem.
+  void finish();
+
+ private:
+  void report(const char* what, const Vector* at = nullptr) const;
+  bool is_solved() const { return measure_ <= limit_ && residual_ <= limit_; }
+  bool is_minimised(double reduced, const Point& at);
+
+  const Problem& problem_;
+  const Observer& observer_;
+  double norm_, size_, limit_;
+  Solution& result_;
+  const Vector& constant_;
+  Vector origin_;
+  FeasibleSet set_;  // of z
+  Point point_;
+  Eigen::VectorXd nu_, defect_;  // defect: Q z as a step of nu
+  double largest_ = 1;           // ||P A P / nrm + Q||, raised by mpgp when it shows to be more
+  double residual_ = 0, measure_ = 0;
+};
+
+void SmalseRun::report(const char* what, const Vector* at) const
+{
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (observer_)
+    observer_({what, result_.outer_iterations, problem_.hessian.count(), measure_ / size_, residual_ / size_, result_.precision,
+               set_.active(view(std::as_const(point_.x))), 0, unknown, unknown, at});
+}
+
+// Whether the inner iteration may end here. Takes note of both residuals.
+bool SmalseRun::is_minimised(double reduced, const Point& at)
+{
+  measure_ = reduced;
+  if (problem_.equality.size() > 0) {
+    const Eigen::VectorXd gz = problem_.equality.apply(at.x);
+    defect_ = problem_.equality.solve(gz);
+    residual_ = std::sqrt(std::max(gz.dot(defect_), 0.0));
+  }
+  report("inner");
+  if (is_solved()) return true;
+  return measure_ <= std::min(result_.precision * residual_, start_accuracy * size_) || problem_.hessian.exhausted();
+}
+
+void SmalseRun::iterate()
+{
+  AugmentedLagrangian lagrangian(problem_, norm_);
+  const Product product = [&](const Vector& z, Vector& y) { lagrangian.apply(z, y); };
+  double previous = -std::numeric_limits<double>::infinity();
+  while (true) {
+    mpgp(product, set_, point_, largest_, {}, [&](double reduced, const Point& at) { return is_minimised(reduced, at); });
+    ++result_.outer_iterations;
+    {
+      Vector at(origin_, Teuchos::Copy);
+      at.update(1, point_.x, 1);
+      report("outer", &at);
+    }
+    result_.converged = is_solved();
+    if (result_.converged || problem_.hessian.exhausted() || result_.outer_iterations >= max_outer_iterations) break;
+    const double value = value_of(problem_, constant_, nu_, point_);
+    if (value < previous + 0.5 * residual_ * residual_) result_.precision *= shrink_precision;
+    previous = value;
+    if (problem_.equality.size() == 0) continue;
+    nu_ += defect_;
+    problem_.equality.add_transpose(1, defect_, point_.gradient);
+  }
+  if (defect_.size() > 0) nu_ += defect_;
+}
+
+void SmalseRun::finish()
+{
+  const auto& equality = problem_.equality;
+  result_.hessian_norm = norm_ * largest_;
+  result_.augmented = nu_ / largest_;  // in the scaling of the next solve
+  result_.projected_gradient = measure_ / size_;
+  result_.equality = residual_ / size_;
+  result_.x.update(1, origin_, 1, point_.x, 0);
+  result_.x.assign(project(result_.x, equality, problem_.set).point);
+  problem_.hessian.apply(result_.x, result_.gradient);
+  result_.gradient.update(-1, problem_.linear, 1);
+  Vector coarse(result_.gradient, Teuchos::Copy);
+  result_.nu = equality.size() > 0 ? Eigen::VectorXd(norm_ * nu_ - equality.project(coarse)) : Eigen::VectorXd();
+}
+
 }  // namespace
 
 Solution smalse(const Problem& problem, const std::optional<Solution>& start, double tolerance, const Observer& observer)
 {
-  auto& [hessian, linear, equality, set, driven] = problem;
-  const auto map = hessian.map();
-
-  Projection feasible = project(start ? start->x : Vector(map), equality, set);
+  const auto map = problem.hessian.map();
+  Projection feasible = project(start ? start->x : Vector(map), problem.equality, problem.set);
   Solution result(feasible.point, Vector(map), feasible.nu);
   if (!feasible.found) {
     result.feasible = false;
     result.empty = feasible.empty;
     return result;
   }
-  result.hessian_norm = start ? start->hessian_norm : projected_norm(hessian, equality);
-  if (observer && !start) observer({"norm", 0, hessian.count()});
+  result.hessian_norm = start ? start->hessian_norm : projected_norm(problem.hessian, problem.equality);
+  if (observer && !start) observer({"norm", 0, problem.hessian.count()});
   result.precision = start ? start->precision : start_precision;
-  Eigen::VectorXd nu =
-      start && start->augmented.size() == equality.size() ? start->augmented : Eigen::VectorXd::Zero(equality.size());
-  double norm = result.hessian_norm;
-  if (norm == 0) norm = 1;
-  double size = relative_size(problem, tolerance) / norm;
-  if (size == 0) size = 1;
-
-  Vector constant(map);
-  set_constant(problem, feasible.point, norm, constant);
-  if (!start) take_start_steps(problem, norm, feasible, constant, nu);
-  const Vector origin(feasible.point, Teuchos::Copy);
-  const FeasibleSet moved = set.shifted(view(origin));
-
-  AugmentedLagrangian lagrangian(problem, norm);
-  const Product product = [&](const Vector& z, Vector& y) { lagrangian.apply(z, y); };
-  Point point{Vector(map), Vector(constant, Teuchos::Copy)};
-  equality.add_transpose(1, nu, point.gradient);
-
-  double largest = 1;  // ||P A P / nrm + Q||, raised by mpgp when it shows to be more
-  double previous = -std::numeric_limits<double>::infinity();
-  double residual = 0, measure = 0;
-  Eigen::VectorXd defect;
-  const auto report = [&](const char* what, const Vector* at = nullptr) {
-    if (observer)
-      observer({what, result.outer_iterations, hessian.count(), measure / size, residual / size, result.precision,
-                moved.active(view(std::as_const(point.x))), 0, std::numeric_limits<double>::quiet_NaN(),
-                std::numeric_limits<double>::quiet_NaN(), at});
-  };
-  while (true) {
-    const auto done = [&](double reduced, const Point& at) {
-      measure = reduced;
-      if (equality.size() > 0) {
-        const Eigen::VectorXd gz = equality.apply(at.x);
-        defect = equality.solve(gz);
-        residual = std::sqrt(std::max(gz.dot(defect), 0.0));
-      }
-      report("inner");
-      if (measure <= tolerance * size && residual <= tolerance * size) return true;
-      return measure <= std::min(result.precision * residual, start_accuracy * size) || hessian.exhausted();
-    };
-    mpgp(product, moved, point, largest, {}, done);
-    ++result.outer_iterations;
-    {
-      Vector at(origin, Teuchos::Copy);
-      at.update(1, point.x, 1);
-      report("outer", &at);
-    }
-    result.converged = measure <= tolerance * size && residual <= tolerance * size;
-    if (result.converged || hessian.exhausted() || result.outer_iterations >= max_outer_iterations) break;
-
-    const double value = value_of(problem, constant, nu, point);
-    if (value < previous + 0.5 * residual * residual) result.precision *= shrink_precision;
-    previous = value;
-    if (equality.size() == 0) continue;
-    nu += defect;
-    equality.add_transpose(1, defect, point.gradient);
-  }
-  if (defect.size() > 0) nu += defect;
-  result.hessian_norm = norm * largest;
-  result.augmented = nu / largest;  // in the scaling of the next solve
-  result.projected_gradient = measure / size;
-  result.equality = residual / size;
-
-  // Back to x = x0 + z, with what is left of G z removed exactly, and to nu of the unscaled problem.
-  result.x.update(1, origin, 1, point.x, 0);
-  result.x.assign(project(result.x, equality, set).point);
-  hessian.apply(result.x, result.gradient);
-  result.gradient.update(-1, linear, 1);
-  Vector coarse(result.gradient, Teuchos::Copy);
-  result.nu = equality.size() > 0 ? Eigen::VectorXd(norm * nu - equality.project(coarse)) : Eigen::VectorXd();
+  const auto begin = make_start(problem, start, result.hessian_norm, tolerance, std::move(feasible));
+  SmalseRun run(problem, begin, tolerance, observer, result);
+  run.iterate();
+  run.finish();
   return result;
 }
 

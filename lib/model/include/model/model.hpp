@@ -110,6 +110,7 @@ class Model {
                          const Communicator& comm) const;
   Point force_of(const fem::LoadOptions& load) const;
   struct NodeAtPoint;
+  class CandidatesAtPoints;
   struct NodesAtPoints;
   std::vector<std::vector<NodeAtPoint>> candidates_at_points(const Communicator& comm) const;
   NodesAtPoints nodes_at_points(const Communicator& comm) const;

@@ -27,8 +27,8 @@ class Projector {
   /// Both outlive it. Radii of `set` may change from call to call, its unknowns may not. Collective.
   Projector(const EqualityConstraint& equality, const FeasibleSet& set);
 
-  /// The point of C nearest to y, from the multiplier `start` (0 if empty). Collective.
-  Projection operator()(const Vector& y, const Eigen::VectorXd& start = {});
+  /// The point of C nearest to y = `from`, from the multiplier `start` (0 if empty). Collective.
+  Projection operator()(const Vector& from, const Eigen::VectorXd& start = {});
 
   /// Its matrix, which a caller may factorize for its own purposes between two projections.
   CoarseMatrix& matrix() { return matrix_; }
@@ -39,8 +39,11 @@ class Projector {
 
  private:
   struct Evaluation;
+  struct Given;
   Evaluation evaluate(const Eigen::VectorXd& y, const Eigen::VectorXd& gy, Eigen::VectorXd nu, const FeasibleSet& set) const;
   double search(const Evaluation& now, const Evaluation& full, const Eigen::VectorXd& direction, const FeasibleSet& set) const;
+  Evaluation minimise(const Given& y, Eigen::VectorXd nu);
+  void repair(const Vector& from, const Given& y, Evaluation now, Projection& result);
   std::vector<DowndateBlock> downdates(const Eigen::VectorXd& w) const;
   double least_norm(const Eigen::VectorXd& nu, const Vector& like) const;
 
