@@ -26,6 +26,11 @@ struct Cube : Blocks {
     pretension_multipliers("cube.zmax", Point(0.1, 0, 1));
     if (prescribed) dirichlet_rows({{"cube.zmin", {0, 0, 0.25}}});
   }
+
+  DualProblem problem(const Options& options = {}) const
+  {
+    return {decomposition, *directory, interface, constraints, system, load, options, context};
+  }
 };
 
 TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
@@ -51,8 +56,7 @@ TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
 TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
 {
   const Cube cube(100, true);
-  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
-                            cube.context);
+  const auto problem = cube.problem();
   const auto map = problem.hessian().getDomainMap();
   Vector x(map), y(map), fx(map), fy(map);
   for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) {
@@ -76,8 +80,7 @@ TEST(DualProblem, OperatorIsSymmetricAndAdjoint)
 TEST(DualProblem, ARenewedOneIsThatOfTheNewLoadsAndBounds)
 {
   Cube cube(10, true);
-  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
-                      cube.context);
+  auto problem = cube.problem();
   const auto* linear = &problem.linear();
   const auto before = problem.equality().right_side();
   for (auto& f : cube.load) f *= -2.5;
@@ -98,8 +101,7 @@ TEST(DualProblem, LoadsThatDriveAFreeMotionLaterAreNoEquilibrium)
   Cube cube(1, false);
   auto pulled = cube.load;
   for (auto& f : cube.load) f.setZero();
-  DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
-                      cube.context);
+  auto problem = cube.problem();
   EXPECT_TRUE(problem.update_rhs(cube.constraints, cube.load));
   cube.load = pulled;
   try {
@@ -119,8 +121,7 @@ TEST(DualProblem, PreconditionersAreSymmetricAndApproximateTheInverse)
   for (const auto* kind : {"none", "lumped", "dirichlet"}) {
     Options options;
     options.preconditioner = kind;
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load,
-                              options, cube.context);
+    const auto problem = cube.problem(options);
     qp::Hessian hessian(problem.hessian(), 1000);
     const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
     const auto solution = qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-9, {}}, nullptr, {});
@@ -191,8 +192,7 @@ TEST(DualProblem, SpringsAreStiffnessOfTheWhole)
       cube.constraints.prescribed.clear();
       Options options;
       options.preconditioner = kind;
-      const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load,
-                                options, cube.context);
+      const auto problem = cube.problem(options);
       qp::Hessian hessian(problem.hessian(), 1000);
       const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
       const auto solution = qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-8, {}}, nullptr, {});
@@ -227,8 +227,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
   const auto [algorithm, subdomains_per_cluster] = GetParam();
   for (const double jump : {1.0, 1e6}) {
     Cube cube(jump, true, MPI_COMM_WORLD, subdomains_per_cluster);
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
-                              cube.context);
+    const auto problem = cube.problem();
     EXPECT_EQ(problem.kernel_dimension(), 6 * 8 / subdomains_per_cluster);
     qp::Hessian hessian(problem.hessian(), 1000);
     const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set()};
@@ -270,8 +269,7 @@ TEST(DualProblem, TheEnergyOfAResidualBoundsTheErrorBehindIt)
       const Cube cube(jump, true);
       Options options;
       options.preconditioner = kind;
-      const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load,
-                                options, cube.context);
+      const auto problem = cube.problem(options);
       const auto map = problem.hessian().getDomainMap();
       for (int wave = 1; wave < 30; wave += 4) {
         Vector x(map), r(map), z(map);
@@ -294,8 +292,7 @@ TEST(DualProblem, AFloatingBodyThatIsPulledIsNamed)
 {
   const Cube cube(1, false);
   try {
-    const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
-                              cube.context);
+    const auto problem = cube.problem();
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);
@@ -307,8 +304,7 @@ TEST(DualProblem, AFloatingBodyThatNothingPullsIsGauged)
 {
   Cube cube(1, false);
   for (auto& f : cube.load) f.setZero();
-  const DualProblem problem(cube.decomposition, *cube.directory, cube.interface, cube.constraints, cube.system, cube.load, {},
-                            cube.context);
+  const auto problem = cube.problem();
   EXPECT_EQ(cube.comm.sum(static_cast<long long>(problem.jump().ranges().end - problem.jump().ranges().extra)), 6);
 }
 
