@@ -14,6 +14,7 @@
 #include "cut_faces.hpp"
 #include "discretization.hpp"
 #include "face_integrals.hpp"
+#include "nearest_points.hpp"
 #include "one_surface.hpp"
 #include "opposite.hpp"
 #include "rows.hpp"
@@ -66,9 +67,11 @@ class Builder {
         faces_(secondary_, nodes_, share.own),
         tree_(tree_of_facets(primary_)),
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, options.obstacle, reach),
-        discretization_(make_discretization(
-            options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
-                                     options.obstacle.has_value(), reach, options.law != Law::bonded && !options.clearance})),
+        mesh_gaps_(options.law != Law::bonded && !options.clearance),
+        shifts_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<Point>()),
+        discretization_(
+            make_discretization(options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
+                                                         options.obstacle.has_value(), reach, mesh_gaps_, shifts_})),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
         supports_(supports, secondary_.node_id, comm),
@@ -175,6 +178,9 @@ class Builder {
       kept_[p] = (!left_out(p) || stranded_[p] || freed_[p]) && cover_[p] > least_cover;
     }
     keep_small_pieces([&](std::size_t p) { return !left_out(p) || stranded_[p] || freed_[p]; });
+    if (bonded() && !options_.preload)
+      for (std::size_t p = 0; p < count; ++p)
+        if (own(p) && !kept_[p] && cover_[p] > least_cover) note_held_tear(p);
   }
 
   // Where functions with half of a piece's cover would be dropped, as opposite a foot smaller than the faces it stands on, they
@@ -254,12 +260,46 @@ class Builder {
     for (const auto& tangent : directions(normal, {false, false, false}, {}, dimension_).tangents) note(tangent);
   }
 
+  // A place of a bond that has no multiplier since supports hold it: all that they say there of both sides, if they hold these
+  // along a direction. What they say of normals of meshes may differ a little.
+  void note_held_tear(std::size_t p)
+  {
+    constexpr double of_normals = 1e-3;
+    const Opposite& opposite = rays_.meet(p);
+    if (options_.obstacle || !std::isfinite(opposite.gap)) return;
+    const auto nodes = primary_.faces[face_of(opposite.facet)];
+    const FaceShape shape = primary_.shape_in_face(opposite.facet, opposite.hit.shape, opposite.hit.frame, Plane::Zero());
+    std::vector<Term> terms{{nodes_.all[p].node, false, 1}};
+    for (std::size_t j = 0; j < nodes.size(); ++j)
+      if (const double part = shape[static_cast<Eigen::Index>(j)]; std::abs(part) > 1e-9)
+        terms.push_back({nodes[j], true, -part});
+    const Point& normal = nodes_.all[p].normal;
+    const auto note = [&](const Point& direction) {
+      if (writer_.moves(terms, 1, direction)) return;
+      const double own = writer_.prescribed_part(std::span(terms).first(1), 1, direction),
+                   other = writer_.prescribed_part(std::span(terms).subspan(1), 1, direction);
+      if (std::abs(own + other) > of_normals * std::max(std::abs(own), std::abs(other)))
+        tear_ = std::max(tear_, std::abs(own + other));
+    };
+    note(normal);
+    for (const auto& tangent : directions(normal, {false, false, false}, {}, dimension_).tangents) note(tangent);
+  }
+
   // The point of a surface node's multiplier and the secondary side's normal there: at the node, unless it was moved into what is
   // covered.
   std::pair<Point, Point> point_of(std::size_t p)
   {
     const SurfaceNode& surface_node = nodes_.all[p];
     const Point& node = secondary_.points[static_cast<std::size_t>(surface_node.node)];
+    if (const auto place = nearest_place(p)) {
+      const auto corners = secondary_.facets[place->facet];
+      Point at = Point::Zero(), normal = Point::Zero();
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        at += place->shape[static_cast<Eigen::Index>(c)] * secondary_.points[static_cast<std::size_t>(corners[c])];
+        normal += place->shape[static_cast<Eigen::Index>(c)] * nodes_.normal(secondary_, place->facet, c);
+      }
+      return {at, normal.normalized()};
+    }
     Point shift = Point::Zero(), tilt = Point::Zero();
     double d = 0;
     for (const auto& [face, i, k] : faces_.at(p)) {
@@ -299,8 +339,8 @@ class Builder {
     point.weight = weight;
     point.at = at;
     point.cover = cover_[p];
-    const double mean = (normal.dot(separation) - rise / d) / weight, mesh_gap = without_rounding(gap_at(p, normal, mean), at);
-    const double gap = starts_in_mesh() ? mesh_gap : without_rounding(starting_gap_at(p, normal, mean), at);
+    const double mean = (normal.dot(separation) - rise / d) / weight, mesh_gap = without_rounding(p, gap_at(p, normal, mean), at);
+    const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, starting_gap_at(p, normal, mean), at);
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     if (prescribed) {
@@ -375,6 +415,8 @@ class Builder {
   // `gap_of`: what the contact starts with where a line meets something.
   double gap_at(std::size_t p, const Point& direction, double mean, const Rays::GapOf& gap_of = {})
   {
+    if (const auto place = nearest_place(p))
+      if (const double gap = rays_.gap(p, *place, direction, gap_of); std::isfinite(gap)) return gap;
     std::optional<double> first;  // the mean is taken of what others differ from it: of equals it is exact
     double sum = 0, d = 0, at_node = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [face, i, k] : faces_.at(p)) {
@@ -396,9 +438,31 @@ class Builder {
     return *first + sum / d;
   }
 
-  // Of places that coordinates say are the same the gap is 0: bodies that touch without a load press with nothing then.
-  double without_rounding(double gap, const Point& at) const
+  // Where nearest_points() put a surface node, in the facet that it lies in: in the others round the node their smooth surface is
+  // continued beyond their border.
+  std::optional<Rays::FacetPoint> nearest_place(std::size_t p)
   {
+    constexpr double rounding = 1e-9;
+    if (shifts_.empty() || shifts_[p].isZero(0)) return {};
+    for (const auto& [face, i, k] : faces_.at(p)) {
+      const auto piece = faces_.piece(i);
+      if (piece.facet < 0 || piece.point_facet.empty() || piece.point_facet[static_cast<std::size_t>(k)] < 0) continue;
+      const auto facet = static_cast<std::size_t>(piece.facet);
+      const Eigen::Vector4d shape = shape_beside(secondary_, facet, static_cast<std::size_t>(k), shifts_[p]);
+      const auto corners = static_cast<Eigen::Index>(secondary_.facets[facet].size());
+      if (shape.head(corners).minCoeff() >= -rounding && (piece.points.row(k).transpose() - shape).norm() < rounding)
+        return Rays::FacetPoint{facet, shape};
+    }
+    return {};
+  }
+
+  // Of places that coordinates say are the same the gap is 0: bodies that touch without a load press with nothing then.
+  // Nor is an overlap between nodes that is next to nothing of what the sides come nearer there: surfaces are known no better.
+  double without_rounding(std::size_t p, double gap, const Point& at)
+  {
+    constexpr double of_surfaces = 0.02;
+    if (gap < 0 && !shifts_.empty() && !shifts_[p].isZero(0))
+      if (const double at_node = rays_.meet(p).gap; std::isfinite(at_node) && -gap < of_surfaces * (at_node - gap)) return 0;
     return std::abs(gap) < rounding_of_gap * reach_ + rounding_of_coordinates * at.norm() ? 0 : gap;
   }
 
@@ -427,6 +491,8 @@ class Builder {
   CutFaces faces_;  // once dual, those near have their share of the rows
   Tree tree_;       // of the primary facets
   Rays rays_;
+  bool mesh_gaps_;
+  std::vector<Point> shifts_;  // of each surface node, or none
   std::unique_ptr<Discretization> discretization_;
   OneSurface one_surface_;
   InitialGap initial_gap_;

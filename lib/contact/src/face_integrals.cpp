@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nearest_points.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -31,13 +33,14 @@ Eigen::Vector4d whole_of(const FaceGeometry& face)
 }  // namespace
 
 Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary,
-                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach)
+                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach, const std::vector<Point>& shifts)
     : secondary_(secondary),
       secondary_nodes_(secondary_nodes),
       primary_(primary),
       primary_nodes_(primary_nodes),
       tree_(tree),
       reach_(reach),
+      shifts_(shifts),
       slot_(primary.points.size(), -1)
 {
 }
@@ -208,6 +211,7 @@ void Integrator::integrate_facet(std::size_t facet)
 std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_facets)
 {
   begin(face);
+  in_facets = in_facets || moved(face);
   const auto first = static_cast<std::size_t>(secondary_.first_facet[face]),
              end = static_cast<std::size_t>(secondary_.first_facet[face + 1]);
   for (std::size_t facet = first; facet < end; ++facet) integrate_facet(facet);
@@ -348,15 +352,41 @@ void Integrator::cut_into_facets(std::size_t face)
     const FaceGeometry own = secondary_.geometry(at);
     Few<Plane, 4> nodes;
     for (const auto& p : own.nodes) nodes.push_back(overlap_.frame.project(p));
-    move_into(common_, own.type, nodes, *piece_);
+    move_into(common_, own.type, nodes, points_of(at), *piece_);
   }
   pieces_.erase(pieces_.begin());
   piece_ = &pieces_.back();
 }
 
+bool Integrator::moved(std::size_t face) const
+{
+  if (shifts_.empty()) return false;
+  const auto begin = static_cast<std::size_t>(secondary_.faces.offset[face]), end = begin + secondary_.faces[face].size();
+  for (std::size_t k = begin; k < end; ++k)
+    if (!shifts_[static_cast<std::size_t>(secondary_nodes_.of_node[k])].isZero(0)) return true;
+  return false;
+}
+
+// The shape functions of a facet at the points of its nodes' multipliers, in rows.
+SmallMatrix Integrator::points_of(std::size_t facet) const
+{
+  const std::size_t count = secondary_.facets[facet].size();
+  const auto r = static_cast<Eigen::Index>(count);
+  SmallMatrix points = SmallMatrix::Identity(r, r);
+  if (shifts_.empty()) return points;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto p = secondary_nodes_.of_corner[static_cast<std::size_t>(secondary_.facets.offset[facet]) + k];
+    const Point& shift = shifts_[static_cast<std::size_t>(p)];
+    if (!shift.isZero(0))
+      points.row(static_cast<Eigen::Index>(k)) = shape_beside(secondary_, facet, k, shift).head(r).transpose();
+  }
+  return points;
+}
+
 std::span<const PieceIntegrals> Integrator::integrate_whole(std::size_t face, bool in_facets)
 {
   begin(face);
+  in_facets = in_facets || moved(face);
   const auto& basis = multiplier_basis(secondary_.faces.type[face]);
   for (auto facet = secondary_.first_facet[face]; facet < secondary_.first_facet[face + 1]; ++facet) {
     if (in_facets) start(face, facet);
@@ -367,6 +397,7 @@ std::span<const PieceIntegrals> Integrator::integrate_whole(std::size_t face, bo
       piece_->covered += weight * theta;
     });
     piece_->whole = piece_->covered;
+    if (in_facets) move_to(points_of(static_cast<std::size_t>(facet)), of_rounding, *piece_);
   }
   if (in_facets) pieces_.erase(pieces_.begin());
   piece_ = &pieces_.back();

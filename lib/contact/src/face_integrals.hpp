@@ -15,9 +15,9 @@ namespace mortise::contact {
 /// Integrates over secondary faces and what lies opposite them. Holds room to work in.
 class Integrator {
  public:
-  /// All of which must outlive it. `tree` has the facets of the primary side.
+  /// All of which must outlive it. `tree` has the facets of the primary side; `shifts` are those of nearest_points().
   Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
-             const Tree& tree, double reach);
+             const Tree& tree, double reach, const std::vector<Point>& shifts);
   /// Everything on the primary side that a face looks at within reach: one piece, or those of its facets; `in_facets`: of these
   /// in any case. Valid until the next call.
   std::span<const PieceIntegrals> integrate(std::size_t face, bool in_facets);
@@ -39,6 +39,8 @@ class Integrator {
   double reached() const;
   void move_points(std::size_t face);
   void cut_into_facets(std::size_t face);
+  bool moved(std::size_t face) const;
+  SmallMatrix points_of(std::size_t facet) const;
   void add_whole(std::size_t facet);
   template <class Add>
   void over_facet(std::size_t facet, const Add& add);
@@ -53,6 +55,7 @@ class Integrator {
   const SurfaceNodes& primary_nodes_;
   const Tree& tree_;
   double reach_;
+  const std::vector<Point>& shifts_;  // of each surface node of the secondary side; see nearest_points()
   std::vector<PieceIntegrals> pieces_;
   PieceIntegrals* piece_ = nullptr;  // at work: the last of pieces_, if there is one
   std::vector<Local> slot_;          // of each primary node its place in piece_->nodes, or -1

@@ -9,7 +9,7 @@ class NodeToSegment : public Discretization {
  public:
   explicit NodeToSegment(const TwoSides& sides)
       : Discretization(sides),
-        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_nodes, sides.tree, sides.reach)
+        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_nodes, sides.tree, sides.reach, none_)
   {
   }
 
@@ -68,6 +68,7 @@ class NodeToSegment : public Discretization {
       if (control(k, l) != 0) see(static_cast<std::size_t>(l), control(k, l));
   }
 
+  const std::vector<Point> none_;  // its rows stay at the nodes
   Integrator integrator_;
 };
 

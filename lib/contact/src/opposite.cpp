@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "face_integrals.hpp"
+#include "nearest_points.hpp"
 
 namespace mortise::contact {
 
@@ -37,6 +38,12 @@ double curvature_of(const Side& side, const SurfaceNodes& surface_nodes, std::si
     result = std::max(result, (surface_nodes.normal(side, facet, l) - surface_nodes.normal(side, facet, k)).norm() / length);
   }
   return result;
+}
+
+// Of a plane 0.
+double curvature_of(const Obstacle& obstacle)
+{
+  return obstacle.shape == Obstacle::Shape::plane ? 0 : 1 / obstacle.radius;
 }
 
 // The mean over the facets round each surface node.
@@ -89,16 +96,17 @@ Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& prima
       primary_nodes_(primary_nodes),
       tree_(tree),
       reach_(reach),
-      obstacle_(obstacle.has_value()),
+      obstacle_(obstacle),
       face_of_middle_(surface_nodes.all.size(), {-1, -1}),
       met_index_(surface_nodes.all.size(), -1)
 {
+  for (const auto& surface_node : surface_nodes.all) own_normal_.push_back(surface_node.normal);
   for (std::size_t f = 0; f < secondary.faces.size(); ++f)
     for (auto k = static_cast<std::size_t>(mesh::corner_count(secondary.faces.type[f])); k < secondary.faces[f].size(); ++k)
       face_of_middle_[static_cast<std::size_t>(surface_nodes.of_node[static_cast<std::size_t>(secondary.faces.offset[f]) + k])] =
           {static_cast<Local>(f), static_cast<Local>(k)};
+  curvature_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return curvature_of(secondary, surface_nodes, f); });
   if (!obstacle) {
-    curvature_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return curvature_of(secondary, surface_nodes, f); });
     past_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
     beside_ = beside_concave_edges(secondary, surface_nodes);
     return;
@@ -202,19 +210,97 @@ bool Rays::nearest_within(std::size_t f)
 
 Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
 {
-  if (obstacle_) return normal;
+  if (obstacle_) {
+    if (at == secondary_.points[static_cast<std::size_t>(nodes_.all[p].node)]) return normal;
+    const auto closest = closest_point(*obstacle_, at);
+    return std::isfinite(closest.distance) ? Point(-closest.normal) : normal;
+  }
   const auto opposite = shoot_past(p, at, normal, 2 * reach_, past_[p]);
   if (!std::isfinite(opposite.gap)) return normal;
-  Point other = Point::Zero();
-  double length = 0;
-  const auto geometry = primary_.geometry(opposite.facet);
-  for (std::size_t k = 0; k < geometry.nodes.size(); ++k)
-    other += opposite.hit.shape[static_cast<Eigen::Index>(k)] * primary_nodes_.normal(primary_, opposite.facet, k);
-  length = geometry.size();
-  other.normalize();
+  const Point other = primary_normal(opposite);
+  const double length = primary_.geometry(opposite.facet).size();
   const double own = curvature_[p] + least_curvature / length;
   const double others = curvature_of(primary_, primary_nodes_, opposite.facet) + least_curvature / length;
   return (others * normal - own * other).normalized();
+}
+
+Point Rays::primary_normal(const Opposite& opposite) const
+{
+  Point normal = Point::Zero();
+  for (std::size_t k = 0; k < primary_.facets[opposite.facet].size(); ++k)
+    normal += opposite.hit.shape[static_cast<Eigen::Index>(k)] * primary_nodes_.normal(primary_, opposite.facet, k);
+  return normal.normalized();
+}
+
+Rays::Tilt Rays::tilt_to(std::size_t p, const Point& own, const Opposite& opposite) const
+{
+  return {own + primary_normal(opposite), curvature_[p] + curvature_of(primary_, primary_nodes_, opposite.facet)};
+}
+
+std::optional<Rays::NearNode> Rays::nearest_node(std::size_t facet,
+                                                 const std::function<bool(const Eigen::Vector4d&)>& counts) const
+{
+  std::optional<NearNode> best;
+  if (obstacle_) return best;
+  const auto own = secondary_.geometry(facet);
+  const Frame frame = frame_of(own);
+  Box box;
+  for (const auto& x : own.nodes) box.extend(x);
+  for (const int met : tree_.swept(box, reach_ * frame.normal)) {
+    const auto other = static_cast<std::size_t>(met);
+    const auto geometry = primary_.geometry(other);
+    for (std::size_t k = 0; k < geometry.nodes.size(); ++k) {
+      if (primary_nodes_.normal(primary_, other, k).dot(frame.normal) > opposed) continue;
+      const Eigen::Vector4d shape = shape_beside(secondary_, facet, 0, geometry.nodes[k] - own.nodes[0]);
+      if (!counts(shape)) continue;
+      Point at = Point::Zero();
+      for (std::size_t c = 0; c < own.nodes.size(); ++c) at += shape[static_cast<Eigen::Index>(c)] * own.nodes[c];
+      const double gap = (geometry.nodes[k] - at).dot(frame.normal) - own_bulge(facet)(shape);
+      if (std::abs(gap) <= reach_ && (!best || gap < best->gap)) best = NearNode{shape, gap, geometry.size()};
+    }
+  }
+  return best;
+}
+
+Bulge Rays::own_bulge(std::size_t facet) const
+{
+  Few<Point, 4> normals;
+  for (std::size_t k = 0; k < secondary_.facets[facet].size(); ++k)
+    normals.push_back(
+        own_normal_[static_cast<std::size_t>(nodes_.of_corner[static_cast<std::size_t>(secondary_.facets.offset[facet]) + k])]);
+  return {secondary_.geometry(facet), {normals.begin(), normals.size()}};
+}
+
+std::optional<Rays::Tilt> Rays::tilt(std::size_t p)
+{
+  if (obstacle_) {
+    if (!std::isfinite(distance_[p])) return std::nullopt;
+    return Tilt{own_normal_[p] - nodes_.all[p].normal, curvature_[p] + curvature_of(*obstacle_)};
+  }
+  const Opposite& opposite = meet(p);
+  if (!std::isfinite(opposite.gap)) return std::nullopt;
+  return tilt_to(p, own_normal_[p], opposite);
+}
+
+std::optional<Rays::Tilt> Rays::tilt(std::size_t p, std::size_t facet, const Eigen::Vector4d& shape) const
+{
+  const auto geometry = secondary_.geometry(facet);
+  Point at = Point::Zero(), normal = Point::Zero();
+  for (std::size_t k = 0; k < geometry.nodes.size(); ++k) {
+    at += shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
+    normal +=
+        shape[static_cast<Eigen::Index>(k)] *
+        own_normal_[static_cast<std::size_t>(nodes_.of_corner[static_cast<std::size_t>(secondary_.facets.offset[facet]) + k])];
+  }
+  normal.normalize();
+  if (obstacle_) {
+    const auto closest = closest_point(*obstacle_, at);
+    if (!std::isfinite(closest.distance)) return std::nullopt;
+    return Tilt{normal + closest.normal, curvature_[p] + curvature_of(*obstacle_)};
+  }
+  const auto opposite = shoot(at, normal, reach_, {});
+  if (!std::isfinite(opposite.gap)) return std::nullopt;
+  return tilt_to(p, normal, opposite);
 }
 
 double Rays::gap(std::size_t p, const Point& direction, const GapOf& gap_of) const
@@ -242,15 +328,12 @@ double Rays::gap(std::size_t p, const Point& direction, const GapOf& gap_of) con
 
 double Rays::gap(std::size_t p, const FacetPoint& point, const Point& direction, const GapOf& gap_of) const
 {
-  if (obstacle_) {  // functions of facets belong to the nodes there
-    const Opposite opposite{distance_[p], 0, {}};
-    return gap_of && std::isfinite(opposite.gap) ? gap_of(p, opposite) : opposite.gap;
-  }
   const auto geometry = secondary_.geometry(point.facet);
   Point at = Point::Zero();
   for (std::size_t k = 0; k < geometry.nodes.size(); ++k) at += point.shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
-  auto opposite = shoot_past(p, at, direction, 2 * reach_, part_past * geometry.size());
-  opposite.gap -= Bulge(secondary_, nodes_, point.facet)(point.shape);
+  auto opposite = obstacle_ ? Opposite{closest_point(*obstacle_, at).distance, 0, {}}
+                            : shoot_past(p, at, direction, 2 * reach_, part_past * geometry.size());
+  opposite.gap -= own_bulge(point.facet)(point.shape);
   return gap_of && std::isfinite(opposite.gap) ? gap_of(p, opposite) : opposite.gap;
 }
 

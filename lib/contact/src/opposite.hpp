@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "contact/obstacle.hpp"
@@ -34,6 +35,27 @@ class Rays {
   /// curvature times length squared.
   bool nearest_within(std::size_t face);
 
+  /// How the smooth sides lie to each other on the line along the secondary side's normal: the sum of their normals, zero where
+  /// they are parallel, and that of their curvatures' sizes. None if the line meets nothing within reach.
+  struct Tilt {
+    Point difference;
+    double curvature;
+  };
+  std::optional<Tilt> tilt(std::size_t surface_node);
+  /// The same where the shape functions of a facet are `shape`, near a surface node.
+  std::optional<Tilt> tilt(std::size_t surface_node, std::size_t facet, const Eigen::Vector4d& shape) const;
+  /// The node of the primary side that is nearest to a facet of the secondary one, within reach and where `counts` holds of the
+  /// facet's shape functions there: these, and the size of the facets round it. None opposite an obstacle.
+  struct NearNode {
+    Eigen::Vector4d shape;
+    double gap, size;
+  };
+  std::optional<NearNode> nearest_node(std::size_t facet, const std::function<bool(const Eigen::Vector4d&)>& counts) const;
+  bool obstacle() const { return obstacle_.has_value(); }
+  double size_of(const Opposite& opposite) const { return primary_.geometry(opposite.facet).size(); }
+  /// The normal of the secondary side itself at a surface node, also opposite an obstacle.
+  const Point& own_normal(std::size_t surface_node) const { return own_normal_[surface_node]; }
+
   /// The direction of contact at a point of the secondary side near a surface node, whose normal there is given: between the two
   /// sides' normals, the nearer to that of the flatter side the more it is flatter, weights being the other side's curvature. So
   /// both sides mean the same direction, and a curved body on a flat one is not sheared. The given normal where nothing lies
@@ -62,13 +84,17 @@ class Rays {
   // The same from or for a surface node. In a concave edge of the secondary side what faces the other side of the edge better is
   // for the surface node there: what is smaller than its hole lies in the corner with an edge, whose other side the line meets.
   Opposite shoot_past(std::size_t surface_node, const Point& from, const Point& direction, double length, double past) const;
+  Point primary_normal(const Opposite& opposite) const;
+  Bulge own_bulge(std::size_t facet) const;
+  Tilt tilt_to(std::size_t surface_node, const Point& own, const Opposite& opposite) const;
   const Side& secondary_;
   const SurfaceNodes& nodes_;
   const Side& primary_;
   const SurfaceNodes& primary_nodes_;
   const Tree& tree_;
   double reach_;
-  bool obstacle_;
+  const std::optional<Obstacle>& obstacle_;
+  std::vector<Point> own_normal_;                        // of each surface node
   std::vector<double> curvature_, past_;                 // of each surface node
   std::vector<double> distance_;                         // of each surface node from the obstacle, if there is one
   std::vector<Few<Point, 3>> beside_;                    // of each surface node: normals on the other sides of concave edges

@@ -87,7 +87,48 @@ const Eigen::MatrixXd& control_values(mesh::CellType type)
   return inverses[static_cast<std::size_t>(type)];
 }
 
-void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<Plane, 4>& nodes, PieceIntegrals& piece)
+namespace {
+
+void transform(const SmallMatrix& change, PieceIntegrals& piece)
+{
+  piece.covered = FaceShape(change * piece.covered);
+  piece.mass = SmallMatrix(change * piece.mass);
+  piece.gram = SmallMatrix(change * piece.gram * change.transpose());
+  piece.rise = FaceShape(change * piece.rise);
+  for (auto& column : piece.opposite) column = FaceShape(change * column);
+}
+
+// One function, 1, for what is covered round its point.
+void give_all_to(Eigen::Index k, const SmallMatrix& points, PieceIntegrals& piece)
+{
+  const auto r = piece.covered.size();
+  SmallMatrix change = SmallMatrix::Zero(r, r);
+  change.row(k).setOnes();
+  transform(change, piece);
+  piece.points.row(k).head(r) = points.row(k);
+  for (Eigen::Index other = 0; other < r; ++other)
+    if (other != k) piece.point_facet[static_cast<std::size_t>(other)] = -1;
+}
+
+}  // namespace
+
+bool move_to(const SmallMatrix& points, double least, PieceIntegrals& piece)
+{
+  const auto r = piece.covered.size();
+  const Eigen::FullPivLU<SmallMatrix> factor(points);
+  if (factor.rcond() < least_rcond) return false;
+  const SmallMatrix change = factor.inverse().transpose();
+  const FaceShape covered = change * piece.covered;
+  if (covered.minCoeff() < least * covered.sum()) return false;
+  piece.points.leftCols(r) = points;
+  transform(change, piece);
+  piece.covered = piece.covered.cwiseMax(0);
+  if (least <= 0) piece.whole = FaceShape(change * piece.whole).cwiseMax(0);
+  return true;
+}
+
+void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<Plane, 4>& nodes, const SmallMatrix& given,
+               PieceIntegrals& piece)
 {
   const auto r = piece.covered.size();
   double largest = 0, length = 0;
@@ -95,22 +136,22 @@ void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<P
   for (const auto& node : nodes) length = std::max(length, (node - nodes[0]).norm());
   const Locator locator(type, nodes);
   SmallMatrix points = SmallMatrix::Identity(r, r);
+  bool beside = false;  // a node looks past the border
   for (Eigen::Index k = 0; k < r; ++k) {
     const Plane& node = nodes[static_cast<std::size_t>(k)];
+    Plane place = Plane::Zero();
+    for (Eigen::Index c = 0; c < r; ++c) place += given(k, c) * nodes[static_cast<std::size_t>(c)];
     const Plane at = covered_point(common, node, slit * largest, 1e-9 * length);
-    if (at != node) points.row(k) = locator(at).head(r).transpose();
+    if (at == node || covered_point(common, place, slit * largest, 1e-9 * length) == place)
+      points.row(k) = given.row(k);
+    else
+      points.row(k) = locator(at).head(r).transpose();
+    beside = beside || at != node;
   }
-  const Eigen::FullPivLU<SmallMatrix> factor(points);
-  if (factor.rcond() < least_rcond) return keep_shape_functions(piece);
-  const SmallMatrix change = factor.inverse().transpose();
-  const FaceShape covered = change * piece.covered;
-  if (covered.minCoeff() < least_seen_part * covered.sum()) return keep_shape_functions(piece);
-  piece.points.leftCols(r) = points;
-  piece.covered = covered;
-  piece.mass = SmallMatrix(change * piece.mass);
-  piece.gram = SmallMatrix(change * piece.gram * change.transpose());
-  piece.rise = FaceShape(change * piece.rise);
-  for (auto& column : piece.opposite) column = FaceShape(change * column);
+  if (move_to(points, beside ? least_seen_part : of_rounding, piece)) return;
+  for (Eigen::Index k = 0; k < r; ++k)
+    if (beside && given(k, k) != 1 && points.row(k) == given.row(k)) return give_all_to(k, points, piece);
+  if (beside) keep_shape_functions(piece);
 }
 
 void PieceStore::add(const PieceIntegrals& piece)

@@ -51,7 +51,16 @@ struct PieceIntegrals {
 /// nodes lie at `nodes`. On entry the integrals are those of its shape functions, on return those of
 /// theta = points^-T shape functions, for which theta_i(point j) = delta_ij. Where the points do not span a basis, or one of
 /// them would see next to nothing, the shape functions stay, with the centre of their covered part for a point and no dual basis.
-void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<Plane, 4>& nodes, PieceIntegrals& piece);
+/// Points that are given elsewhere than at the nodes, as their shape functions in the rows of `points`, stay where the nodes are
+/// covered.
+void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<Plane, 4>& nodes, const SmallMatrix& points,
+               PieceIntegrals& piece);
+
+/// The same of a facet that is covered as a whole: theta = points^-T shape functions. False, and the functions stay those of the
+/// nodes, where the points span no basis, or a function would see less than a part of what is covered.
+bool move_to(const SmallMatrix& points, double least, PieceIntegrals& piece);
+/// The part that is nothing but for rounding.
+inline constexpr double of_rounding = -1e-12;
 
 /// The integrals of many pieces in one piece of memory, and later, in their place, their shares of the rows.
 class PieceStore {

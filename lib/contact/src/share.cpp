@@ -12,8 +12,9 @@ namespace {
 
 // Parts into which a rank's share is cut at least: shares differ by so much in size.
 constexpr long long parts_of_share = 32;
-// Rows of a node need the integrals of the faces round the nodes of the faces round it.
-constexpr double rings_of_integrals = 2;
+// Rows of a node need the integrals of the faces round the nodes of the faces round it, and where the points of their nodes lie,
+// for which normals of their neighbours are compared.
+constexpr double rings_of_integrals = 3;
 
 // Some faces of a rank, which lie together.
 struct FacesOfRank {

@@ -1,0 +1,302 @@
+#include "nearest_points.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace mortise::contact {
+
+namespace {
+
+// Of the size of the facets round a node: shorter steps are none, and those that start longer lead elsewhere.
+constexpr double least_step = 0.02, longest_step = 1.0;
+// Of the sum of both sides' curvatures: what less of it is left between them is that of meshes.
+constexpr double parallel = 0.05;
+// Of the same size: how exactly the place is known. What is squeezed between two such places leaves sideways if they are not
+// opposite each other.
+constexpr double exact = 1e-10;
+constexpr int most_steps = 40;
+
+// Corners of facets by surface node.
+struct Corner {
+  std::size_t facet, corner;
+};
+
+class Search {
+ public:
+  Search(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<std::size_t>& faces, Rays& rays)
+      : side_(side), nodes_(surface_nodes), rays_(rays), first_(surface_nodes.all.size() + 1, 0)
+  {
+    const auto each = [&](const auto& use) {
+      for (const std::size_t f : faces)
+        for (auto facet = static_cast<std::size_t>(side.first_facet[f]);
+             facet < static_cast<std::size_t>(side.first_facet[f + 1]); ++facet)
+          for (std::size_t k = 0; k < side.facets[facet].size(); ++k) use(facet, k, surface_node(facet, k));
+    };
+    each([&](std::size_t, std::size_t, std::size_t p) { ++first_[p + 1]; });
+    for (std::size_t p = 0; p + 1 < first_.size(); ++p) first_[p + 1] += first_[p];
+    corners_.resize(first_.back());
+    auto next = first_;
+    each([&](std::size_t facet, std::size_t k, std::size_t p) { corners_[next[p]++] = {facet, k}; });
+  }
+
+  Point step(std::size_t p)
+  {
+    if (round(p).empty()) return Point::Zero();
+    size_ = 0;
+    for (const auto& at : round(p)) size_ = std::max(size_, side_.geometry(at.facet).size());
+    const Point from_node = step_from_node(p);
+    return from_node.isZero(0) && looks_for_nodes(p) ? step_to_node(p) : from_node;
+  }
+
+ private:
+  struct Place {
+    std::size_t facet, corner;
+    Eigen::Vector4d shape;
+  };
+
+  // Newton's method from the node.
+  Point step_from_node(std::size_t p)
+  {
+    const auto at_node = rays_.tilt(p);
+    if (!at_node) return Point::Zero();
+    const auto inverse = inverse_change(p, *at_node, rays_.own_normal(p));
+    if (!inverse) return Point::Zero();
+    Point shift = -(*inverse * at_node->difference);
+    if (!(shift.norm() < longest_step * size_)) return Point::Zero();
+    for (int i = 0; i < most_steps; ++i) {
+      const auto place = holds(p, shift);
+      const auto here = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
+      if (!here) return Point::Zero();
+      const Point change = -(*inverse * here->difference);
+      shift += change;
+      if (change.norm() < exact * size_) return accepted(p, shift);
+    }
+    return Point::Zero();
+  }
+
+  // Whether there are nodes of the primary side between those of the secondary one, or it ends there.
+  bool looks_for_nodes(std::size_t p)
+  {
+    if (rays_.obstacle()) return false;
+    for (const auto& [facet, corner] : round(p))
+      for (std::size_t k = 0; k < side_.facets[facet].size(); ++k) {
+        const auto& opposite = rays_.meet(surface_node(facet, k));
+        if (!std::isfinite(opposite.gap) || rays_.size_of(opposite) < 0.5 * size_) return true;
+      }
+    return false;
+  }
+
+  // To the node of the primary side that is nearest, if the gap is less there, and from there by differences.
+  Point step_to_node(std::size_t p)
+  {
+    std::optional<Rays::NearNode> best;
+    Corner where{};
+    for (const auto& at : round(p)) {
+      const auto found = rays_.nearest_node(at.facet, [&](const Eigen::Vector4d& shape) {
+        return shape.head(static_cast<Eigen::Index>(side_.facets[at.facet].size())).minCoeff() >= -1e-6 &&
+               nearest({at.facet, at.corner, shape});
+      });
+      if (found && (!best || found->gap < best->gap)) best = found, where = at;
+    }
+    if (!best) return Point::Zero();
+    Point shift = Point::Zero();
+    const auto nodes = side_.facets[where.facet];
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      shift += best->shape[static_cast<Eigen::Index>(k)] *
+               (side_.points[static_cast<std::size_t>(nodes[k])] - side_.points[static_cast<std::size_t>(nodes[where.corner])]);
+    const auto here = rays_.tilt(p, where.facet, best->shape);
+    if (!here) return Point::Zero();
+    const auto inverse = inverse_beside(p, shift, *here, std::min(0.1 * best->size, 0.01 * size_));
+    if (!inverse) return Point::Zero();
+    const Point to_node = shift;
+    for (int i = 0; i < most_steps; ++i) {
+      const auto place = holds(p, shift);
+      const auto at_place = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
+      const Point change = at_place ? Point(-(*inverse * at_place->difference)) : Point::Zero();
+      if (!at_place || (shift + change - to_node).norm() > best->size) return accepted(p, to_node);
+      shift += change;
+      if (change.norm() < exact * size_) break;
+    }
+    return accepted(p, shift);
+  }
+
+  // A step that leads into a facet round the node, whose nearest node it is.
+  Point accepted(std::size_t p, const Point& shift) const
+  {
+    const auto place = holds(p, shift);
+    if (!place || !nearest(*place) || shift.norm() < least_step * size_) return Point::Zero();
+    return part_within(*place) * shift;
+  }
+
+  std::size_t surface_node(std::size_t facet, std::size_t corner) const
+  {
+    return static_cast<std::size_t>(nodes_.of_corner[static_cast<std::size_t>(side_.facets.offset[facet]) + corner]);
+  }
+  std::span<const Corner> round(std::size_t p) const { return std::span(corners_).subspan(first_[p], first_[p + 1] - first_[p]); }
+
+  // The inverse of H in (n + m)(x) = (n + m)(x_p) + H (x - x_p) in the tangent plane, of least squares over the neighbours; zero
+  // in directions in which the sides count as parallel or come nearer and nearer. None if there is no other.
+  std::optional<Eigen::Matrix3d> inverse_change(std::size_t p, const Rays::Tilt& at_node, const Point& normal)
+  {
+    const bool line = side_.facets.type[round(p)[0].facet] == mesh::CellType::line2;
+    const Point first = line ? Point(-normal[1], normal[0], 0) : normal.unitOrthogonal();
+    const Point second = line ? Point(Point::Zero()) : Point(normal.cross(first));
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();  // unknowns H_11, H_12, H_22
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    const Point& origin = side_.points[static_cast<std::size_t>(nodes_.all[p].node)];
+    for (const auto& [facet, corner] : round(p)) {
+      const auto count = side_.facets[facet].size();
+      for (std::size_t k = 0; k < count; ++k) {
+        if (k == corner) continue;
+        const auto there = rays_.tilt(surface_node(facet, k));
+        if (!there) continue;
+        const Point step = side_.points[static_cast<std::size_t>(side_.facets[facet][k])] - origin;
+        const Point change = there->difference - at_node.difference;
+        const double x = step.dot(first), y = step.dot(second), weight = 1 / step.squaredNorm();
+        const Eigen::Vector3d a(x, y, 0), b(0, x, y);
+        squares += weight * (a * a.transpose() + b * b.transpose());
+        right += weight * (change.dot(first) * a + change.dot(second) * b);
+      }
+    }
+    Eigen::Matrix2d change = Eigen::Matrix2d::Zero();
+    if (line) {
+      if (!(squares(0, 0) > 0)) return std::nullopt;
+      change(0, 0) = right[0] / squares(0, 0);
+    } else {
+      const Eigen::FullPivLU<Eigen::Matrix3d> factor(squares);
+      if (!(factor.rcond() > 1e-6)) return std::nullopt;
+      const Eigen::Vector3d h = factor.solve(right);
+      change << h[0], h[1], h[1], h[2];
+    }
+    return inverse_of(change, first, second, at_node.curvature);
+  }
+
+  // The same by differences at a step from the node.
+  std::optional<Eigen::Matrix3d> inverse_beside(std::size_t p, const Point& shift, const Rays::Tilt& here, double length) const
+  {
+    const Point& normal = rays_.own_normal(p);
+    const bool line = side_.facets.type[round(p)[0].facet] == mesh::CellType::line2;
+    const Point first = line ? Point(-normal[1], normal[0], 0) : normal.unitOrthogonal();
+    const Point second = line ? Point(Point::Zero()) : Point(normal.cross(first));
+    Eigen::Matrix2d change = Eigen::Matrix2d::Zero();
+    for (int i = 0; i < (line ? 1 : 2); ++i) {
+      const Point& along = i == 0 ? first : second;
+      auto place = holds(p, shift + length * along);
+      double step = length;
+      if (!place) place = holds(p, shift - length * along), step = -length;
+      const auto there = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
+      if (!there) return std::nullopt;
+      const Point slope = (there->difference - here.difference) / step;
+      change.col(i) = Eigen::Vector2d(slope.dot(first), slope.dot(second));
+    }
+    return inverse_of(0.5 * (change + change.transpose()), first, second, here.curvature);
+  }
+
+  static std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix2d& change, const Point& first, const Point& second,
+                                                   double curvature)
+  {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(change);
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+    bool any = false;
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      const double value = eigen.eigenvalues()[i];
+      if (!(value > parallel * curvature) || !(value > 0)) continue;
+      const Point direction = eigen.eigenvectors()(0, i) * first + eigen.eigenvectors()(1, i) * second;
+      inverse += direction * direction.transpose() / value;
+      any = true;
+    }
+    if (!any) return std::nullopt;
+    return inverse;
+  }
+
+  // The facet round a node that a step from it leads into.
+  std::optional<Place> holds(std::size_t p, const Point& shift) const
+  {
+    std::optional<Place> best;
+    double least = -1e-6;
+    for (const auto& [facet, corner] : round(p)) {
+      const auto shape = shape_beside(side_, facet, corner, shift);
+      const double smallest = shape.head(static_cast<Eigen::Index>(side_.facets[facet].size())).minCoeff();
+      if (smallest >= least && (!best || smallest > least)) best = {facet, corner, shape}, least = smallest;
+    }
+    return best;
+  }
+
+  // Whether no other node of the facet is nearer; of two at the same distance the one with the smaller number.
+  bool nearest(const Place& place) const
+  {
+    constexpr double same = 1e-3;
+    const auto number = [&](std::size_t k) { return side_.node_id[static_cast<std::size_t>(side_.facets[place.facet][k])]; };
+    const double own = place.shape[static_cast<Eigen::Index>(place.corner)];
+    for (std::size_t k = 0; k < side_.facets[place.facet].size(); ++k) {
+      if (k == place.corner) continue;
+      const double other = place.shape[static_cast<Eigen::Index>(k)];
+      if (other > own + same || (other > own - same && number(k) < number(place.corner))) return false;
+    }
+    return true;
+  }
+
+  // Of two nodes at the same distance none may be nearer by rounding: its function would push with a sign of its own.
+  double part_within(const Place& place) const
+  {
+    const double own = place.shape[static_cast<Eigen::Index>(place.corner)];
+    double part = 1;
+    for (std::size_t k = 0; k < side_.facets[place.facet].size(); ++k) {
+      const double other = place.shape[static_cast<Eigen::Index>(k)];
+      if (k != place.corner && other > own) part = std::min(part, 1 / (1 + other - own));
+    }
+    return part;
+  }
+
+  const Side& side_;
+  const SurfaceNodes& nodes_;
+  Rays& rays_;
+  double size_ = 0;                 // of the facets round the node at work
+  std::vector<std::size_t> first_;  // of each surface node in corners_
+  std::vector<Corner> corners_;
+};
+
+}  // namespace
+
+std::vector<Point> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes, const std::vector<std::size_t>& faces,
+                                  Rays& rays)
+{
+  Search search(secondary, surface_nodes, faces, rays);
+  std::vector<Point> shifts(surface_nodes.all.size(), Point::Zero());
+  for (std::size_t p = 0; p < shifts.size(); ++p) shifts[p] = search.step(p);
+  return shifts;
+}
+
+Eigen::Vector4d shape_beside(const Side& side, std::size_t facet, std::size_t corner, const Point& shift)
+{
+  const auto face = side.geometry(facet);
+  const std::size_t count = face.nodes.size(), after = (corner + 1) % count, before = (corner + count - 1) % count;
+  const auto at = [](std::size_t k) { return static_cast<Eigen::Index>(k); };
+  Eigen::Vector4d shape = Eigen::Vector4d::Zero();
+  const Point first = face.nodes[after] - face.nodes[corner];
+  if (count == 2) {
+    const double s = shift.dot(first) / first.squaredNorm();
+    shape[at(corner)] = 1 - s;
+    shape[at(after)] = s;
+    return shape;
+  }
+  Eigen::Matrix<double, 3, 2> edges;
+  edges << first, face.nodes[before] - face.nodes[corner];
+  const Eigen::Vector2d s = (edges.transpose() * edges).inverse() * (edges.transpose() * shift);
+  if (count == 3) {
+    shape[at(corner)] = 1 - s[0] - s[1];
+    shape[at(after)] = s[0];
+    shape[at(before)] = s[1];
+  } else {
+    shape[at(corner)] = (1 - s[0]) * (1 - s[1]);
+    shape[at(after)] = s[0] * (1 - s[1]);
+    shape[at(before)] = (1 - s[0]) * s[1];
+    shape[at((corner + 2) % count)] = s[0] * s[1];
+  }
+  return shape;
+}
+
+}  // namespace mortise::contact

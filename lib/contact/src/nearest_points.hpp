@@ -1,0 +1,25 @@
+// Where the other side comes nearest between the nodes of the secondary side.
+//
+// A contact narrower than a face of the secondary side, as of a roller on a plate, touches between nodes at which the gap is
+// wide: rows at the nodes would see nothing of it. The multiplier of the node that is next to such a place moves there, and its
+// gap and its direction are those of the place.
+#pragma once
+
+#include <vector>
+
+#include "opposite.hpp"
+
+namespace mortise::contact {
+
+/// Of each surface node, the tangential step from it to the place near it where the gap is least: along its normal the smooth
+/// surfaces are parallel there, n + m = 0 with the normals n and m of both sides. Zero where the node itself is that place, to a
+/// fiftieth of a face, or another node is nearer to it. Newton's method, its matrix the least squares' fit to n + m at the nodes
+/// round; directions in which the sides are curved alike, to a twentieth of their curvature, count as parallel. Of the nodes of
+/// `faces` alone.
+std::vector<Point> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes, const std::vector<std::size_t>& faces,
+                                  Rays& rays);
+
+/// The shape functions of a facet at the tangential step `shift` from one of its corners, also beyond its border.
+Eigen::Vector4d shape_beside(const Side& side, std::size_t facet, std::size_t corner, const Point& shift);
+
+}  // namespace mortise::contact
