@@ -13,8 +13,9 @@ namespace {
 constexpr double part_of_stiffness = 1e-12;
 // Of loads at nodes that cancel, as those of warmth do. Sums of dense matrices' rows have larger ones than those of elements.
 constexpr double part_of_loads = 1e-11;
-// Of the energy that loads would have if each node resisted alone; a body's own is at least some hundredths of it.
-constexpr double part_of_energy = 1e-20;
+// Of the displacements that loads would have if each node resisted alone, a body's own being at least some tenths of them: what
+// is below is nothing.
+constexpr double part_of_displacement = 1e-6, part_of_overlap = 1e-5;
 // Of forces at contact nodes that cancel, as those of a fit do: what rounding leaves of them, times a thousand, and what warnings
 // measure other forces by.
 constexpr double part_of_contacts = 1e-6, acting_part_of_contacts = 1e-3;
@@ -121,6 +122,7 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
 {
   // k |u| and k |u|^2 / 2: forces and energy if nothing moved with its neighbours; |f|^2 / 2k: energy if nodes held themselves.
   std::array<double, 3> sums{0, 0, 0};
+  double longest = 0;  // |f| / k
   for (std::size_t s = 0; s < displacement.size(); ++s)
     for (Eigen::Index i = 0; i < displacement[s].size(); i += dimension) {
       const double length = displacement[s].segment(i, dimension).norm();
@@ -128,9 +130,12 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
       sums[0] += k * length;
       sums[1] += 0.5 * k * length * length;
       sums[2] += 0.5 * load[s].segment(i, dimension).squaredNorm() / k;
+      longest = std::max(longest, load[s].segment(i, dimension).norm() / k);
     }
   comm.sum_in_place(sums);
-  return {part_of_stiffness * sums[0], std::max(part_of_stiffness * sums[1], part_of_energy * sums[2])};
+  return {part_of_stiffness * sums[0],
+          std::max(part_of_stiffness * sums[1], part_of_displacement * part_of_displacement * sums[2]),
+          part_of_overlap * comm.max(longest), part_of_overlap * sums[2]};
 }
 
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,

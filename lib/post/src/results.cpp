@@ -67,9 +67,9 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   residuals.projected_gradient = solved.solution.projected_gradient;
   residuals.equality = solved.solution.equality;
   residuals.equilibrium = problem.imbalance(displacement, lambda);
-  const double length = results.max_displacement;
+  const double length = std::max(results.max_displacement, rounding.length);
   residuals.penetration = length > 0 ? results.contact.penetration / length : results.contact.penetration;
-  const double energy = std::max(results.stress.strain_energy, rounding.energy);
+  const double energy = std::max({results.stress.strain_energy, rounding.energy, rounding.work});
   residuals.complementarity = energy > 0 ? results.contact.work_of_gaps / (2 * energy) : results.contact.work_of_gaps;
 
   Evidence evidence;

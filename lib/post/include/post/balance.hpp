@@ -55,9 +55,10 @@ struct Balance {
   double push_of_facets = 0;         ///< of `gauges`, relative to `acting`
 };
 
-/// What rounding may leave of forces and energies where nothing is strained.
+/// What rounding, and a solver whose measure are the loads, may leave where nothing is strained: of forces and of energies; and
+/// of the overlaps that loads press with which go straight into what holds them, and their work.
 struct Rounding {
-  double force = 0, energy = 0;
+  double force = 0, energy = 0, length = 0, work = 0;
 };
 /// For displacements of each subdomain and the forces that act on its nodes, those of loads that go straight into supports among
 /// them. Collective.
