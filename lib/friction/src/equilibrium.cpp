@@ -48,9 +48,20 @@ void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::
   solution.error += std::sqrt(std::max(beyond.dot(product), 0.0));
 }
 
-void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x)
+bool balances(const feti::DualProblem& problem, const std::vector<double>& bounds, const Vector& x)
 {
-  constexpr double short_of = 0.05;
+  constexpr double rounding = 1e-3;
+  auto larger = bounds;
+  for (auto& bound : larger) bound *= 1 + rounding;
+  qp::FeasibleSet given = problem.set();
+  given.set_radii(larger);
+  return !qp::project(x, problem.equality(), given).empty;
+}
+
+void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x, double response)
+{
+  constexpr double little = 0.3;  // of an answer
+  const double short_of = response < little ? 2e-3 : 0.05;
   auto larger = slip_bounds(problem, laws, &x);
   for (auto& bound : larger) bound *= 1 + short_of;
   problem.set().set_radii(larger);

@@ -26,7 +26,12 @@ bool fall_short(const qp::Projection& nearest);
 void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::Hessian& hessian, qp::Solution& solution);
 
 /// Where forces within the law balance the loads, but those that the bodies' stiffness asks for never do: throws as
-/// no_equilibrium() if those at x fall short by more than 5 %. Changes radii. Collective.
-void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x);
+/// no_equilibrium() if those at x fall short by more than 5 %, or where the normal forces hardly answer to the bounds by more
+/// than 0.2 %: `response` is the part of a change of bounds that their answer changes by. Changes radii. Collective.
+void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x, double response);
+
+/// Whether slip bounds leave forces that balance the loads, to a thousandth. What a solution at other bounds would still change
+/// by does not tell it: where all slips, no stiffness resists. Collective.
+bool balances(const feti::DualProblem& problem, const std::vector<double>& bounds, const Vector& x);
 
 }  // namespace mortise::friction

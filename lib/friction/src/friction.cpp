@@ -1,6 +1,7 @@
 #include "friction/friction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -44,6 +45,9 @@ struct Solver::Run {
   Eigen::VectorXd escape;                // nu of the last Tresca problem that was infeasible,
   bool proven = false;                   // and whether it proves that
   double change = 1, least_change = 1;
+  bool any_answer = false;               // of a Tresca problem,
+  std::vector<double> answered, answer;  // its last bounds, and those that its solution asks for; maybe none on this rank
+  double response = 1;                   // how much of a change of bounds the normal forces answer with; 1: unknown
   int step = 0, outer = 0, preconditionings = 0;
   bool converged = false;
 
@@ -97,7 +101,8 @@ void Solver::follow_law(Run& run)
   run.bounds = slip_bounds(problem_, laws_, &found->x);
   run.change = change_of_bounds(run.bounds, radii(problem_.set()), *found);
   // Where the error decides, what the bounds would still change counts in it.
-  run.converged = found->converged && (run.goal.allowed_error || run.change <= options_.tolerance);
+  run.converged = found->converged && (run.goal.allowed_error || run.change <= options_.tolerance) &&
+                  balances(problem_, run.bounds, found->x);
   run.solution = std::move(found);
   run.solved = true;
 }
@@ -127,12 +132,32 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
                           run.goal);
   solution.error += error_of_bounds(wanted, run);
   if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu) &&
-      qp::fits(solution, run.goal))
+      qp::fits(solution, run.goal) && balances(problem_, wanted, solution.x))
     return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
          qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
                         run.goal);
+}
+
+// Of the last step that changes the bounds by more than rounding. Collective.
+void Solver::note_response(const std::vector<double>& wanted, Run& run) const
+{
+  constexpr double step = 1e-3;
+  if (run.any_answer) {
+    std::array<double, 3> squares{0, 0, 0};  // of the changes of bounds and answers, of the answers
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (!std::isfinite(run.bounds[i]) || !std::isfinite(run.answered[i])) continue;
+      squares[0] += std::pow(run.bounds[i] - run.answered[i], 2);
+      squares[1] += std::pow(wanted[i] - run.answer[i], 2);
+      squares[2] += wanted[i] * wanted[i];
+    }
+    problem_.communicator().sum_in_place(squares);
+    if (squares[0] > step * step * squares[2]) run.response = std::sqrt(squares[1] / squares[0]);
+  }
+  run.any_answer = true;
+  run.answered = run.bounds;
+  run.answer = wanted;
 }
 
 // ||.||_F of what multipliers on the edge of their discs would move by with the bounds `wanted`. One product.
@@ -193,7 +218,7 @@ void Solver::fixed_point(Run& run)
     if (!solve_tresca({tolerance}, run)) {
       if (!run.solved) nothing_found(problem_, problem_.set().with_cones(), run.escape, run.proven);
       if (++failures > most_failures || run.step >= options_.max_steps) {
-        refuse_if_far(problem_, laws_, run.solution->x);
+        refuse_if_far(problem_, laws_, run.solution->x, run.response);
         return;
       }
       // Bounds from inexact normal forces may fall short by as much: half way back, now and then to what surely is feasible.
@@ -206,6 +231,7 @@ void Solver::fixed_point(Run& run)
     infeasible = 0;
     auto wanted = slip_bounds(problem_, laws_, &run.solution->x);
     run.change = first ? 1.0 : change_of_bounds(wanted, run.bounds, *run.solution);
+    note_response(wanted, run);
     run.converged = !first && at_rest(wanted, tolerance, run);
     // Bounds at rest beside an error that is too large.
     if (!run.converged && run.change <= options_.tolerance && tolerance <= tightest) strictness *= 0.1;

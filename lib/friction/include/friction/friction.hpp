@@ -74,6 +74,7 @@ class Solver {
   bool solve_tresca(const qp::Goal& goal, Run& run);
   bool at_rest(const std::vector<double>& wanted, double tolerance, Run& run);
   double error_of_bounds(const std::vector<double>& wanted, const Run& run);
+  void note_response(const std::vector<double>& wanted, Run& run) const;
   double change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const;
   void admit(Run& run);
   void fixed_point(Run& run);
