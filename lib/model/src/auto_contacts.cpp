@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "contact/proximity.hpp"
 #include "mesh/topology.hpp"
+#include "model/model.hpp"
 #include "model/patterns.hpp"
 #include "partition/skin.hpp"
 
@@ -69,6 +71,24 @@ std::vector<bool> unnamed_bodies(const mesh::Surface& skin, const std::set<conta
   return result;
 }
 
+// Of Young's modulus: from here on the softer side is secondary, whichever has the smaller faces; see post::scattered_contacts().
+constexpr double stiffer = 10;
+
+double modulus_of(const Deck& deck, const std::vector<mesh::Body>& bodies, int body)
+{
+  double softest = std::numeric_limits<double>::infinity();
+  for (const auto& name : material_names(body_entry(deck, bodies[static_cast<std::size_t>(body)].group)->second))
+    softest = std::min(softest, deck.materials.at(name).modulus());
+  return softest;
+}
+
+void swap_sides(contact::ContactCandidate& candidate)
+{
+  std::swap(candidate.secondary, candidate.primary);
+  std::swap(candidate.secondary_faces, candidate.primary_faces);
+  std::swap(candidate.secondary_facing, candidate.primary_facing);
+}
+
 // 0 for what rounding leaves of it.
 double without_rounding(double gap, double reach)
 {
@@ -114,6 +134,9 @@ std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& 
   auto candidates = contact::find_contact_candidates(
       partition::outer_surface(decomposition, context.comm), static_cast<int>(bodies.size()),
       pairs_that_are_named(contacts.options, decomposition, context.comm), entry, deck.kinematics, context.comm);
+  for (auto& candidate : candidates)
+    if (modulus_of(deck, bodies, candidate.secondary) > stiffer * modulus_of(deck, bodies, candidate.primary))
+      swap_sides(candidate);
   std::vector<contact::Options> found;
   std::vector<std::pair<std::string, const std::vector<Global>*>> boundaries;
   for (const auto& candidate : candidates) {

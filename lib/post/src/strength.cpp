@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "wording.hpp"
 
@@ -66,6 +67,125 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
     w.contact = pairs[c].options.name;
     w.value = peaks[c].value;
     w.limit = limit;
+    result.push_back(std::move(w));
+  }
+  return worst(std::move(result), "contacts");
+}
+
+std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
+                                     const Communicator& comm)
+{
+  std::vector<Found> peaks(pairs.size());
+  std::vector<double> faces(pairs.size(), 0.0);  // that are pressed at all corners
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (pairs[c].options.law == contact::Law::bonded) continue;
+    const auto& side = pairs[c].secondary;
+    const auto pressed = [&](Local n) { return surfaces[c].status[static_cast<std::size_t>(n)] != 0; };
+    for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i)
+      if (surfaces[c].status[i] != 0) peaks[c].take(surfaces[c].pressure[i], side.points[i]);
+    for (std::size_t f = 0; f < side.faces.size(); ++f) {
+      const auto corners = side.faces[f].first(static_cast<std::size_t>(mesh::corner_count(side.faces.type[f])));
+      if (std::all_of(corners.begin(), corners.end(), pressed)) ++faces[c];
+    }
+  }
+  peaks = largest_of_ranks(peaks, comm);
+  comm.sum_in_place(faces);
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (!(peaks[c].value > 0) || faces[c] > 0) continue;
+    Warning w{
+        "narrow_contact",
+        fmt::format("contact {} presses at {}, but on no whole face of its secondary side: it is narrower than a face, and its "
+                    "area, its pressure and how far the bodies approach are those of the mesh",
+                    pairs[c].options.name, spell(peaks[c].at)),
+        "make the faces there smaller, those of the other side as well; or let the side with the smaller faces be secondary"};
+    w.at = peaks[c].at;
+    w.boundary = pairs[c].options.secondary;
+    w.contact = pairs[c].options.name;
+    w.value = 0;
+    w.limit = 1;
+    result.push_back(std::move(w));
+  }
+  return worst(std::move(result), "contacts");
+}
+
+namespace {
+
+// The faces of one side of a contact.
+struct Faces {
+  double count = 0, size = 0;  // `size`: the sum of the longest distances from their first corners
+  double modulus = std::numeric_limits<double>::infinity();
+
+  void take(const mesh::Surface& side, const std::vector<double>& softest)
+  {
+    for (std::size_t f = 0; f < side.faces.size(); ++f) {
+      const auto corners = side.faces[f].first(static_cast<std::size_t>(mesh::corner_count(side.faces.type[f])));
+      const auto at = [&](Local n) { return side.points[static_cast<std::size_t>(n)]; };
+      double longest = 0;
+      for (const Local n : corners) longest = std::max(longest, (at(n) - at(corners[0])).norm());
+      size += longest;
+      ++count;
+      modulus = std::min(modulus, softest[static_cast<std::size_t>(side.body[f])]);
+    }
+  }
+  void take(const Faces& others)
+  {
+    count += others.count, size += others.size;
+    modulus = std::min(modulus, others.modulus);
+  }
+};
+
+struct Pressed {
+  Faces secondary, primary;
+  double whole = 0, partly = 0;  // secondary faces that are pressed at all corners, at some
+};
+
+}  // namespace
+
+std::vector<Warning> scattered_contacts(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
+                                        const std::vector<double>& softest, const Communicator& comm)
+{
+  constexpr double stiffer = 10, finer = 1.2, twice = 2, least = 8;
+  std::vector<Pressed> mine(pairs.size());
+  std::vector<Found> peaks(pairs.size());
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const auto& side = pairs[c].secondary;
+    if (!pairs[c].primary || pairs[c].options.law == contact::Law::bonded) continue;
+    mine[c].secondary.take(side, softest);
+    mine[c].primary.take(*pairs[c].primary, softest);
+    const auto pressed = [&](Local n) { return surfaces[c].status[static_cast<std::size_t>(n)] != 0; };
+    for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i) peaks[c].take(surfaces[c].pressure[i], side.points[i]);
+    for (std::size_t f = 0; f < side.faces.size(); ++f) {
+      const auto corners = side.faces[f].first(static_cast<std::size_t>(mesh::corner_count(side.faces.type[f])));
+      const auto count = std::count_if(corners.begin(), corners.end(), pressed);
+      (count == static_cast<std::ptrdiff_t>(corners.size()) ? mine[c].whole : mine[c].partly) += count > 0;
+    }
+  }
+  peaks = largest_of_ranks(peaks, comm);
+  const auto all = comm.all_gather(mine);
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    Pressed sum;
+    for (std::size_t r = c; r < all.size(); r += pairs.size()) {
+      sum.secondary.take(all[r].secondary), sum.primary.take(all[r].primary);
+      sum.whole += all[r].whole, sum.partly += all[r].partly;
+    }
+    const auto& [secondary, primary, whole, partly] = sum;
+    if (!(secondary.modulus > stiffer * primary.modulus) ||
+        !(secondary.size * finer * primary.count < primary.size * secondary.count) || partly < least || partly <= twice * whole)
+      continue;
+    Warning w{
+        "scattered_contact",
+        fmt::format("contact {} presses at single points, most at {}: its secondary side is the stiffer one, {:.2g} times, and "
+                    "has the smaller faces, and those of the soft side do not follow it between their nodes: pressures are too "
+                    "large by as much as the contact's area is too small, forces are right",
+                    pairs[c].options.name, spell(peaks[c].at), secondary.modulus / primary.modulus),
+        "let the softer side be secondary, or give it faces as small as those of the other side"};
+    w.at = peaks[c].at;
+    w.boundary = pairs[c].options.secondary;
+    w.contact = pairs[c].options.name;
+    w.value = partly;
+    w.limit = twice * whole;
     result.push_back(std::move(w));
   }
   return worst(std::move(result), "contacts");

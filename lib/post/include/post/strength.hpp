@@ -18,6 +18,17 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
                                      const std::vector<double>& softest, const std::vector<std::string>& bodies,
                                      const Communicator& comm);
 
+/// "narrow_contact": a contact presses, but on no face of its secondary side at all corners, so that it is narrower than these
+/// faces: its area, its pressures and how far bodies approach are those of the mesh. Collective.
+std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
+                                     const Communicator& comm);
+
+/// "scattered_contact": a secondary side of smaller faces and more than ten times the other side's Young's modulus presses on few
+/// faces at all corners, on twice as many, eight at least, at some: the soft side's faces cannot follow a stiff one between their
+/// nodes, so that single points bear what all should. `softest` as in large_pressures(). Collective.
+std::vector<Warning> scattered_contacts(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
+                                        const std::vector<double>& softest, const Communicator& comm);
+
 /// The largest tension, force over area at one point, of each contact; 0 where none pulls. Collective.
 std::vector<double> largest_tensions(std::span<const contact::ContactNodeState> points, std::size_t contacts,
                                      const Communicator& comm);
