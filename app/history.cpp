@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 #include "base/interruption.hpp"
@@ -27,17 +28,26 @@ std::string number(double x, int digits = 6)
 
 }  // namespace
 
+// The residual that ends the solve: the tolerance or, where that is auto, the one at which the error is about what it may be. Not
+// a number while that is not known, nor where the error is small enough and contact has still to settle.
+double History::target(const qp::Progress& p, double residual) const
+{
+  if (options_.tolerance.value) return *options_.tolerance.value;
+  const double part = p.allowed_error / p.error;
+  return part < 1 ? residual * part : std::numeric_limits<double>::quiet_NaN();
+}
+
 // In this state, if the residual goes on falling by as many powers of ten a second as until now; "" where nothing can be said
 // yet.
-std::string History::time_left(const model::LoadState& state, double residual)
+std::string History::time_left(const model::LoadState& state, double residual, double target)
 {
   constexpr double soon = 3;  // seconds that are not worth a word
   if (state_ != state.time || !(first_residual_ > 0)) {
     state_ = state.time, start_ = MPI_Wtime(), first_residual_ = residual;
     return "";
   }
-  if (!options_.tolerance.value || !(residual > *options_.tolerance.value) || !(residual < first_residual_)) return "";
-  const double done = std::log(first_residual_ / residual), all = std::log(first_residual_ / *options_.tolerance.value);
+  if (!(residual > target) || !(residual < first_residual_)) return "";
+  const double done = std::log(first_residual_ / residual), all = std::log(first_residual_ / target);
   const double elapsed = MPI_Wtime() - start_, left = elapsed * (all / done - 1);
   return elapsed > soon && left > soon ? fmt::format("; about {:.0f} s left", left) : "";
 }
@@ -51,10 +61,12 @@ void History::note(const model::LoadState& state, int step, double change, const
                               ? fmt::format("gradient {:.1e}, equality {:.1e}", p.projected_gradient, p.equality)
                           : std::isfinite(residual) ? fmt::format("residual {:.1e}", residual)
                                                     : "no residual yet";
-    context_.log.progress("  {}outer {}, {} products, {} (tolerance {}){}",
-                          step > 1 ? fmt::format("friction step {}, ", step) : "", p.outer, p.applications, measures,
-                          options_.tolerance.value ? fmt::format("{:.1e}", *options_.tolerance.value) : "auto",
-                          active_ + time_left(state, residual));
+    const double end = target(p, residual);
+    const auto goal = options_.tolerance.value ? fmt::format("tolerance {:.1e}", end)
+                      : std::isfinite(end)     ? fmt::format("tolerance auto, about {:.1e}", end)
+                                               : "tolerance auto";
+    context_.log.progress("  {}outer {}, {} products, {} ({}){}", step > 1 ? fmt::format("friction step {}, ", step) : "",
+                          p.outer, p.applications, measures, goal, active_ + time_left(state, residual, end));
     return;
   }
   const auto bounds = context_.comm.sum(p.active.bounds), discs = context_.comm.sum(p.active.discs);

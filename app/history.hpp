@@ -23,7 +23,8 @@ class History {
   std::string text() const;
 
  private:
-  std::string time_left(const model::LoadState& state, double residual);
+  double target(const qp::Progress& p, double residual) const;
+  std::string time_left(const model::LoadState& state, double residual, double target);
 
   const qp::Options& options_;
   const Context& context_;

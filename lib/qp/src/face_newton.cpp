@@ -162,7 +162,8 @@ void FaceNewton::report(const Run& run, const char* what, bool outer) const
 {
   if (run.observer)
     run.observer({what, run.result.outer_iterations, problem_.hessian.count(), run.residual / run.size, run.mismatch / run.size,
-                  0, run.active, preconditionings_, run.energy, run.result.error, outer ? &run.state.z : nullptr});
+                  0, run.active, preconditionings_, run.energy, run.result.error, outer ? &run.state.z : nullptr,
+                  run.allowed > 0 ? run.allowed : std::numeric_limits<double>::quiet_NaN()});
 }
 
 // Projects a step from y, which follows the gradient there or, where bounds follow the solution, is `beyond`. Those bounds are

@@ -79,6 +79,8 @@ struct Progress {
   double energy = std::numeric_limits<double>::quiet_NaN();  ///< 1/2 x'A x - b'x of face Newton's point
   double error = std::numeric_limits<double>::quiet_NaN();   ///< the estimate of ||x - x*||_A there
   const Vector* point = nullptr;                             ///< of outer steps: x in Omega
+  /// What the error may be at the end; not a number while nobody has asked for it, or where a residual is the goal.
+  double allowed_error = std::numeric_limits<double>::quiet_NaN();
 };
 using Observer = std::function<void(const Progress&)>;
 
