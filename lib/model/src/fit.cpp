@@ -16,6 +16,27 @@ namespace {
 
 // A node nearer to the axis than this part of the radius of the model lies on it.
 constexpr double on_the_axis = 1e-9;
+// Nodes of one surface in space, beyond which boundary elements take more than 4 GB and many minutes: V is 72 m^2 bytes for m = 2
+// n triangles, and its factorization 9 m^3 operations.
+constexpr std::size_t most_nodes_of_skin = 4000;
+
+void require_small_skins(const partition::Decomposition& decomposition, const Deck& deck, deck::Document& document)
+{
+  std::map<std::string, std::size_t> large;  // entry of the deck's section, nodes of its largest piece
+  for (const auto& subdomain : decomposition.subdomains) {
+    const std::size_t nodes = subdomain.mesh.points.size();
+    if (!subdomain.skin || decomposition.catalogue.dimension != 3 || nodes <= most_nodes_of_skin) continue;
+    auto& most = large[body_entry(deck, decomposition.catalogue.bodies[static_cast<std::size_t>(subdomain.body)].group)->first];
+    most = std::max(most, nodes);
+  }
+  for (const auto& [body, nodes] : large)
+    document.error(
+        "bodies." + body + ".method",
+        fmt::format("boundary elements are for surfaces of up to {} nodes in a piece, and one here has {}: take a coarser "
+                    "surface mesh, a body with cells, which is cut (decomposition.unknowns_per_subdomain), or "
+                    "finite_elements",
+                    most_nodes_of_skin, nodes));
+}
 
 }  // namespace
 
@@ -121,6 +142,7 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
                        fmt::format("\"{}\" and \"{}\" have faces in common; contact of a surface with itself is not available",
                                    contacts_[c].secondary, contacts_[c].primary));
     require_formulations(document);
+    require_small_skins(decomposition_, deck_, document);
     if (deck_.axisymmetric()) require_axis(document, near);
     require_temperatures(document);
     document.check();
