@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include "model/patterns.hpp"
 #include "post/deformation.hpp"
@@ -151,6 +152,48 @@ std::vector<Warning> idle_contacts(const Rows& rows, const Communicator& comm)
   return result;
 }
 
+// The longest edge of the cells between two corners, with its middle. Collective.
+post::Found longest_edge(const partition::Decomposition& decomposition, const Communicator& comm)
+{
+  post::Found longest;
+  for (const auto& subdomain : decomposition.subdomains) {
+    const auto& [points, cells] = std::tie(subdomain.mesh.points, subdomain.mesh.cells);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      for (const auto& face : mesh::faces(cells.type[c])) {
+        const auto corners = static_cast<std::size_t>(mesh::corner_count(face.type));
+        for (std::size_t i = 0; i < corners; ++i) {
+          const auto place = [&](std::size_t k) {
+            return points[static_cast<std::size_t>(cells[c][static_cast<std::size_t>(face.nodes[k % corners])])];
+          };
+          longest.take((place(i + 1) - place(i)).norm(), (place(i) + place(i + 1)) / 2, subdomain.body);
+        }
+      }
+  }
+  return post::largest_of_ranks({longest}, comm).front();
+}
+
+// A geometry that says itself where nodes lie (Transfinite, Layers of Extrude) does not obey mesh.size, and gmsh is silent.
+std::vector<Warning> coarser_than_asked(const model::Model& model, const Communicator& comm)
+{
+  constexpr double longer = 2;  // gmsh's own cells have edges up to some 1.6 times the size
+  const auto& asked = model.deck().mesh.size.max;
+  if (!asked) return {};
+  const auto longest = longest_edge(model.decomposition(), comm);
+  if (!(longest.value > longer * *asked)) return {};
+  Warning w{
+      "coarser_than_asked",
+      fmt::format(
+          "an edge of a cell is {:.4g} long at ({:.4g}, {:.4g}, {:.4g}), and mesh.size.max is {:.4g}: the geometry says itself "
+          "where nodes lie there",
+          longest.value, longest.at[0], longest.at[1], longest.at[2], *asked),
+      "look for Transfinite, Layers and sizes in the .geo, or give it a constant"};
+  w.at = longest.at;
+  if (longest.body >= 0) w.body = model.decomposition().catalogue.bodies[static_cast<std::size_t>(longest.body)].name;
+  w.value = longest.value;
+  w.limit = longer * *asked;
+  return {w};
+}
+
 }  // namespace
 
 std::vector<Warning> check_model(const model::Model& model, const Rows& rows, const Communicator& comm)
@@ -161,6 +204,7 @@ std::vector<Warning> check_model(const model::Model& model, const Rows& rows, co
   append(result, post::locking(materials, kinematics));
   append(result, post::mixed_units(materials, applied_stresses(model, rows.acts, comm)));
   append(result, post::doubled_contacts(rows.pairs, comm));
+  append(result, coarser_than_asked(model, comm));
   return result;
 }
 
