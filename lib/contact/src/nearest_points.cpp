@@ -116,7 +116,7 @@ class Search {
       const auto place = holds(p, shift);
       const auto at_place = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
       const Point change = at_place ? Point(-(*inverse * at_place->difference)) : Point::Zero();
-      if (!at_place || (shift + change - to_node).norm() > best->size) return accepted(p, to_node);
+      if (!at_place || (shift + change - to_node).norm() > best->size) return Point::Zero();
       shift += change;
       if (change.norm() < exact * size_) break;
     }
