@@ -87,25 +87,24 @@ SupernodalFactor::SupernodalFactor(const cholmod_factor& factor)
   const auto* numbers = static_cast<const double*>(factor.x);
   const auto* permutation = static_cast<const int*>(factor.Perm);
   permutation_.assign(permutation, permutation + factor.n);
-  std::size_t size = 0;
   for (std::size_t s = 0; s < factor.nsuper; ++s)
     for (int first = super[s]; first < super[s + 1]; first += widest) {
       const int width = std::min(widest, super[s + 1] - first);
       const int height = row_start[s + 1] - row_start[s] - (first - super[s]) - width;
-      pieces_.push_back({first, width, blocks(height), 0, size});
-      size += triangle_values(width) + panel_values(pieces_.back());
+      pieces_.push_back({first, width, blocks(height), 0, size_});
+      size_ += triangle_values(width) + panel_values(pieces_.back());
     }
-  values_.assign(size, 0);
+  values_ = std::make_unique_for_overwrite<double[]>(size_);
   auto piece = pieces_.begin();
   for (std::size_t s = 0; s < factor.nsuper; ++s) {
     const std::ptrdiff_t height = row_start[s + 1] - row_start[s];
     for (int first = super[s]; first < super[s + 1]; first += widest, ++piece) {
       const std::ptrdiff_t above = first - super[s];
       const double* block = numbers + panel_start[s] + above * height + above;  // of the piece, its diagonal first
-      double* value = values_.data() + piece->value;
+      double* value = values_.get() + piece->value;
       const auto copy = [&](std::ptrdiff_t row, std::ptrdiff_t end, int columns) {
         for (int j = 0; j < columns; ++j, value += tile)
-          for (std::ptrdiff_t r = row; r < std::min(row + tile, end); ++r) value[r - row] = block[j * height + r];
+          for (std::ptrdiff_t r = row; r < row + tile; ++r) value[r - row] = r < end ? block[j * height + r] : 0;
       };
       for (int b = 0; b < piece->width; b += tile) {
         copy(b, piece->width, b);

@@ -10,6 +10,7 @@
 #include <cholmod.h>
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -31,17 +32,18 @@ class SupernodalFactor {
 
   /// columns[c] <- A^-1 columns[c]. Not for two threads at once.
   void solve(std::span<double* const> columns) const;
-  std::size_t bytes() const { return values_.size() * sizeof(double) + rows_.size() * sizeof(int); }
+  std::size_t bytes() const { return size_ * sizeof(double) + rows_.size() * sizeof(int); }
 
   std::span<const Piece> pieces() const { return pieces_; }
   const int* rows() const { return rows_.data(); }
-  const double* values() const { return values_.data(); }
+  const double* values() const { return values_.get(); }
 
  private:
   std::vector<Piece> pieces_;
   std::vector<int> rows_;
-  std::vector<double> values_;
-  std::vector<int> permutation_;  // row k of the factor is row permutation_[k] of the matrix
+  std::size_t size_ = 0;              // of values_
+  std::unique_ptr<double[]> values_;  // filled once: to set it to zero before would cost half as much again
+  std::vector<int> permutation_;      // row k of the factor is row permutation_[k] of the matrix
   mutable std::vector<double> work_;
 };
 
