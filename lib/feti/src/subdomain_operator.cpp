@@ -180,6 +180,14 @@ ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, s
 {
 }
 
+// The columns of the lower triangle begin with it; Eigen would search for it in each.
+Eigen::VectorXd ElasticSubdomain::diagonal() const
+{
+  Eigen::VectorXd result(size());
+  for (int j = 0; j < size(); ++j) result[j] = stiffness_.valuePtr()[stiffness_.outerIndexPtr()[j]];
+  return result;
+}
+
 std::size_t ElasticSubdomain::foreseen_factor_bytes(const SparseMatrix& lower, const Eigen::MatrixXd& kernel,
                                                     std::span<const Point> points, int dimension)
 {

@@ -78,7 +78,7 @@ class ElasticSubdomain : public SubdomainOperator {
   void apply_inverse(std::span<double* const> columns) const override { solver_->solve(columns); }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override { return stiffness_.selfadjointView<Eigen::Lower>() * u; }
   SparseMatrix regularised() const override { return stiffness_ + fixing_; }
-  Eigen::VectorXd diagonal() const override { return stiffness_.diagonal(); }
+  Eigen::VectorXd diagonal() const override;
   std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
                                                                 const std::string& factorization) const override;
   /// The lower triangle of K.
