@@ -10,10 +10,10 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr int max_inner = 60;            // steps on one active set
-constexpr int max_unconstrained = 1000;  // where there are no others
-constexpr double least_new = 1e-3;       // of a recycled direction, for an active set to use it
-constexpr double least_recycled = 1e-4;  // of x: below, rounding spoils what the difference of two points tells of A
+constexpr std::size_t fewest_inner = 60;  // steps on one active set; more where there is room to keep them
+constexpr int max_unconstrained = 1000;   // where there are no others
+constexpr double least_new = 1e-3;        // of a recycled direction, for an active set to use it
+constexpr double least_recycled = 1e-4;   // of x: below, rounding spoils what the difference of two points tells of A
 
 // [E'(A + Sigma) d, weight * constrained part of d], what an active set feels of a direction d; `product`: A d.
 Vector projected_image(const ActiveSet& active_set, const Vector& direction, const Vector& product, double weight, int sweeps)
@@ -272,7 +272,8 @@ bool FaceNewton::descend(const ActiveSet& active_set, double goal, double weight
   for (auto pair = recycled_directions_.rbegin(); trusted && pair != recycled_directions_.rend(); ++pair)
     descent.go(pair->direction, pair->product, projected_image(active_set, pair->direction, pair->product, weight, 1), least_new);
   std::deque<std::pair<Vector, Vector>> fresh;
-  for (int step = 0; step < max_inner && descent.size() > goal && !problem_.hessian.exhausted(); ++step) {
+  const int most = static_cast<int>(std::max(fewest_inner, kept_));
+  for (int step = 0; step < most && descent.size() > goal && !problem_.hessian.exhausted(); ++step) {
     const Vector free = descent.split(constrained);
     constrained.scale(1 / weight);
     precondition(active_set, free, direction);

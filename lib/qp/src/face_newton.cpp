@@ -21,21 +21,24 @@ constexpr double norm_accuracy = 0.4;    // the step only picks the active set, 
 constexpr int max_active_sets = 200;
 constexpr double first_active_set_tolerance = 1e-3;  // distances from bounds, over the largest, that count as none
 constexpr double first_active_set_tolerance_updated =
-    1e-5;                                 // the same where bounds follow the solution: the longer step picks better
-constexpr double company = 3;             // so many times stiffer is a point to forces that its neighbours share: they slip, too
-constexpr double longer = 4.0;            // from one of the steps that a start is looked for with to the next
-constexpr double soft = 0.25;             // curvature along the first step over ||P A P|| below which one is looked for
-constexpr int max_starts = 10;            // attempts
-constexpr int patience = 20;              // active sets without a better residual after which it gives up
-constexpr int update_patience = 10;       // the same where slip bounds move, for then there is another way
-constexpr std::size_t max_recycled = 60;  // directions kept from one active set to the next
-constexpr double recycled_bytes = 1e9;    // that they may take of each rank; at least 10 are kept
-constexpr int max_updates = 2;            // updates of slip bounds by a projection's own normal forces
-constexpr int max_retreats = 8;           // of slip bounds
-constexpr int max_retreats_to_z = 2;      // quarters of the way back, before the step becomes a gradient projection
-constexpr int max_safeguards = 12;        // after which another algorithm will do better
-constexpr double at_rest = 0.05;          // of normal forces: change that is still to come
-constexpr double certain = 0.1;           // of the allowed error, at which their change does not matter
+    1e-5;                               // the same where bounds follow the solution: the longer step picks better
+constexpr double company = 3;           // so many times stiffer is a point to forces that its neighbours share: they slip, too
+constexpr double longer = 4.0;          // from one of the steps that a start is looked for with to the next
+constexpr double soft = 0.25;           // curvature along the first step over ||P A P|| below which one is looked for
+constexpr int max_starts = 10;          // attempts
+constexpr int patience = 20;            // active sets without a better residual after which it gives up
+constexpr int update_patience = 10;     // the same where slip bounds move, for then there is another way
+constexpr double max_recycled = 300;    // directions kept from one active set to the next, where they take less than
+constexpr double recycled_bytes = 3e8;  // on each rank,
+constexpr double more_bytes = 1e9;      // or up to so much,
+constexpr double few_recycled = 60;     // so many,
+constexpr double least_kept = 10;       // in any case
+constexpr int max_updates = 2;          // updates of slip bounds by a projection's own normal forces
+constexpr int max_retreats = 8;         // of slip bounds
+constexpr int max_retreats_to_z = 2;    // quarters of the way back, before the step becomes a gradient projection
+constexpr int max_safeguards = 12;      // after which another algorithm will do better
+constexpr double at_rest = 0.05;        // of normal forces: change that is still to come
+constexpr double certain = 0.1;         // of the allowed error, at which their change does not matter
 constexpr double least_size = 0.01;  // of ||A||^1/2 ||x||_A: where b asks for nearly nothing, ||P b|| is no measure of residuals
 constexpr double first_look = 0.1;   // part of the first error at which the allowed one is asked for
 
@@ -48,7 +51,9 @@ FaceNewton::FaceNewton(const Problem& problem, ActiveSetPreconditioner* precondi
   unconstrained_ = problem.equality.communicator().sum(constraints) == 0;
   // Three vectors each, and three more while an active set uses them.
   const double pair = 48.0 * static_cast<double>(problem.linear.getGlobalLength()) / problem.equality.communicator().size();
-  kept_ = static_cast<std::size_t>(std::clamp(recycled_bytes / std::max(pair, 1.0), 10.0, static_cast<double>(max_recycled)));
+  const double room = std::max(std::min(recycled_bytes / std::max(pair, 1.0), max_recycled),
+                               std::min(more_bytes / std::max(pair, 1.0), few_recycled));
+  kept_ = static_cast<std::size_t>(std::max(room, least_kept));
 }
 
 // Where the next projection begins if bounds follow the solution: y less a step along its gradient that is long where the active
