@@ -41,6 +41,20 @@ int compare(const ConstraintStates& before, ConstraintStates& now, std::vector<i
   return changes;
 }
 
+// That of W^-1 = L^-T L^-1: the squares of the columns of L^-1, which are zero above the diagonal.
+VectorXd diagonal_of_inverse(const Eigen::LLT<MatrixXd>& factor)
+{
+  const auto& l = factor.matrixLLT();
+  VectorXd result(l.rows());
+  in_pieces(l.rows(), [&](Eigen::Index first, Eigen::Index count) {
+    const Eigen::Index rest = l.rows() - first;
+    MatrixXd columns = MatrixXd::Identity(rest, count);
+    l.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>().solveInPlace(columns);
+    result.segment(first, count) = columns.colwise().squaredNorm();
+  });
+  return result;
+}
+
 }  // namespace
 
 CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const FeasibleSet& set) : constrained_(set.constrained())
@@ -69,7 +83,7 @@ CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const Feasi
 void CondensedNewton::measure()
 {
   contact_ = factorize(matrices_.w);
-  matrices_.own = qp::solve(contact_, MatrixXd::Identity(matrices_.w.rows(), matrices_.w.rows())).diagonal().cwiseInverse();
+  matrices_.own = diagonal_of_inverse(contact_).cwiseInverse();
 }
 
 // Rows that depend on each other, as those of two contacts along the edge that a body has in a corner: how a force is shared out
@@ -97,7 +111,7 @@ VectorXd CondensedNewton::inverse_times(const VectorXd& r) const
 }
 
 // Guesses from `states` on; false if they do not converge.
-bool CondensedNewton::iterate(const CondensedProgramme& programme, ConstraintStates& states, Point& point)
+bool CondensedNewton::iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point)
 {
   std::vector<int> turns(states.kind.size(), 0);
   double before = 0;
@@ -146,7 +160,7 @@ bool CondensedNewton::harden(CondensedProgramme& programme, double softness, Con
 
 CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd& e, const FeasibleSet& set) const
 {
-  CondensedProgramme programme(matrices_, set.compact(), b(constrained_) - coupling_.transpose() * b(others_),
+  CondensedProgramme programme(matrices_, contact_, set.compact(), b(constrained_) - coupling_.transpose() * b(others_),
                                e - motion_.transpose() * b(others_));
   Point point;
   point.x = VectorXd::Zero(programme.unknowns());

@@ -16,6 +16,7 @@ constexpr double spring = 1e-8;        // on motions, of what constraints would 
 constexpr double singular = 1e-11;     // reciprocal condition of what needs them
 constexpr double definite = 1e-13;     // part of the diagonal that is added first
 constexpr double indefinite = 1e-6;    // and that is too much
+constexpr Eigen::Index many = 1000;    // unknowns from which on factors serve several problems
 constexpr double tiny_radius = 1e-12;  // of a disc, over the distance from its centre
 
 using Eigen::Index;
@@ -60,20 +61,19 @@ Eigen::LLT<MatrixXd> factorize(const MatrixXd& a)
               "the compliance of the contacts is not positive definite to rounding: their rows depend on each other");
 }
 
+bool invertible(const Eigen::PartialPivLU<MatrixXd>& factors, double least)
+{
+  return (factors.matrixLU().diagonal().array().abs() > 0).all() && factors.rcond() > least;
+}
+
 MatrixXd solve(const Eigen::LLT<MatrixXd>& factor, MatrixXd b)
 {
   in_pieces(b.cols(), [&](Index first, Index count) { factor.solveInPlace(b.middleCols(first, count)); });
   return b;
 }
 
-// One unknown of a linear problem: x moves along `trial`, what is felt is asked along `test`.
-struct CondensedProgramme::Move {
-  std::array<Local, 3> index{-1, -1, -1};
-  std::array<double, 3> trial{}, test{};
-  double curvature = 0;
-};
-
-CondensedProgramme::CondensedProgramme(const CondensedMatrices& matrices, FeasibleSet set, VectorXd b, VectorXd e)
+CondensedProgramme::CondensedProgramme(const CondensedMatrices& matrices, const Eigen::LLT<MatrixXd>& factor_of_w,
+                                       FeasibleSet set, VectorXd b, VectorXd e)
     : matrices_(matrices), set_(std::move(set)), b_(std::move(b)), e_(std::move(e)), own_(matrices.own)
 {
   std::vector<int> bound_at(static_cast<std::size_t>(unknowns()), -1);
@@ -88,11 +88,24 @@ CondensedProgramme::CondensedProgramme(const CondensedMatrices& matrices, Feasib
   springs_ = spring * gram.diagonal();
   if (motions() > 0) gram_ = factorize(gram);
   soften(0);
+  if (unknowns() < many) return;
+  VectorXd base = VectorXd::Zero(unknowns());
+  bool symmetric = true;
+  auto all = moves(all_closed(), base, symmetric);
+  std::vector<Local> order;
+  for (const auto& move : all) order.push_back(move.index[0]);
+  factor_.emplace(std::move(all), [&factor_of_w, order](const MatrixXd& right) {
+    MatrixXd x(factor_of_w.rows(), right.cols());
+    x(order, Eigen::all) = right;
+    factor_of_w.solveInPlace(x);
+    return MatrixXd(x(order, Eigen::all));
+  });
 }
 
 void CondensedProgramme::soften(double softness)
 {
   softness_ = softness;
+  softening_ = softness * own_;
   step_ = (own_ * (1 + softness)).cwiseInverse();
 }
 
@@ -172,8 +185,7 @@ double CondensedProgramme::rounding(const VectorXd& x) const
 }
 
 // `base`: what does not move; `symmetric`: trial and test are alike.
-std::vector<CondensedProgramme::Move> CondensedProgramme::moves(const ConstraintStates& states, VectorXd& base,
-                                                                bool& symmetric) const
+std::vector<Move> CondensedProgramme::moves(const ConstraintStates& states, VectorXd& base, bool& symmetric) const
 {
   const auto bounds = set_.bounds();
   const auto discs = set_.discs();
@@ -221,7 +233,7 @@ void CondensedProgramme::solve_with_springs(MatrixXd matrix, const VectorXd& rig
 {
   if (right.size() == 0) return;
   const Eigen::PartialPivLU<MatrixXd> alone(matrix);
-  if (alone.rcond() > singular) {
+  if (invertible(alone, singular)) {
     nu = alone.solve(right);
     return;
   }
@@ -229,58 +241,38 @@ void CondensedProgramme::solve_with_springs(MatrixXd matrix, const VectorXd& rig
   nu = matrix.partialPivLu().solve(right + springs_.cwiseProduct(nu));
 }
 
-void CondensedProgramme::solve(const ConstraintStates& states, VectorXd& x, VectorXd& nu) const
+void CondensedProgramme::solve(const ConstraintStates& states, VectorXd& x, VectorXd& nu)
 {
-  const auto& [w, h, c, own] = matrices_;
   VectorXd base = VectorXd::Zero(unknowns());
   bool symmetric = true;
-  const auto all = moves(states, base, symmetric);
-  const auto count = static_cast<Index>(all.size());
-  // T: trial, E: test; the matrix E'W T, H T and E'H'.
-  MatrixXd moved = MatrixXd::Zero(unknowns(), count), h_moved = MatrixXd::Zero(motions(), count),
-           push = MatrixXd::Zero(count, motions());
-  for (Index j = 0; j < count; ++j) {
-    const auto& [index, trial, test, curvature] = all[static_cast<std::size_t>(j)];
-    for (std::size_t k = 0; k < 3 && index[k] >= 0; ++k) {
-      moved.col(j) += trial[k] * w.col(index[k]);
-      moved(index[k], j) += softness_ * own_[index[k]] * trial[k];
-      h_moved.col(j) += trial[k] * h.col(index[k]);
-      push.row(j) += test[k] * h.col(index[k]).transpose();
+  auto all = moves(states, base, symmetric);
+  const MoveProblem problem(matrices_, softening_, std::move(all), symmetric);
+  const VectorXd right = problem.test(b_ - matrices_.w * base - softening_.cwiseProduct(base));
+  const VectorXd lacking = e_ - matrices_.h * base;
+  if (factor_ && problem.size() >= many) {
+    const VectorXd start = problem.test(VectorXd(x - base));
+    if (const auto found = factor_->iterate(problem, right, lacking, springs_ / spring, {start, nu})) {
+      x = base + problem.extend(found->amount);
+      nu = found->nu;
+      return;
     }
+    factor_.reset();  // before there are others: they are large
   }
-  const VectorXd known = b_ - w * base - softness_ * own_.cwiseProduct(base);
-  MatrixXd matrix = MatrixXd::Zero(count, count);
-  VectorXd right = VectorXd::Zero(count);
-  for (Index j = 0; j < count; ++j) {
-    const auto& [index, trial, test, curvature] = all[static_cast<std::size_t>(j)];
-    for (std::size_t k = 0; k < 3 && index[k] >= 0; ++k) {
-      if (test[k] == 0) continue;
-      matrix.row(j) += test[k] * moved.row(index[k]);
-      right[j] += test[k] * known[index[k]];
-    }
-    matrix(j, j) += curvature;
-  }
-  const VectorXd lacking = e_ - h * base;
-  VectorXd amount = VectorXd::Zero(count);
-  const auto eliminate = [&](const auto& factor) {
-    const VectorXd alone = factor.solve(right);
-    amount = alone;
-    if (motions() == 0) return;
-    const MatrixXd response = factor.solve(push);
-    solve_with_springs(c + h_moved * response, h_moved * alone - lacking, nu);
-    amount -= response * nu;
-  };
-  if (count == 0)
-    solve_with_springs(c, -lacking, nu);
-  else if (symmetric)
-    eliminate(factorize(matrix));
-  else
-    eliminate(Eigen::PartialPivLU<MatrixXd>(matrix));
   x = base;
-  for (Index j = 0; j < count; ++j) {
-    const auto& [index, trial, test, curvature] = all[static_cast<std::size_t>(j)];
-    for (std::size_t k = 0; k < 3 && index[k] >= 0; ++k) x[index[k]] += trial[k] * amount[j];
+  if (problem.size() == 0) {
+    solve_with_springs(matrices_.c, -lacking, nu);
+    return;
   }
+  MoveFactor factor(problem);
+  const VectorXd alone = factor.solve(right);
+  VectorXd amount = alone;
+  if (motions() > 0) {
+    const MatrixXd response = factor.solve(problem.push());
+    solve_with_springs(matrices_.c + problem.motion() * response, problem.motion() * alone - lacking, nu);
+    amount -= response * nu;
+  }
+  x += problem.extend(amount);
+  if (problem.size() >= many) factor_ = std::move(factor);
 }
 
 }  // namespace mortise::qp

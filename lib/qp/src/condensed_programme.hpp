@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "base/interruption.hpp"
+#include "move_problem.hpp"
 #include "qp/condensed_newton.hpp"
 
 namespace mortise::qp {
@@ -13,6 +16,10 @@ namespace mortise::qp {
 /// Cholesky factors, with as little added to the diagonal as rounding or dependent rows make necessary. Throws
 /// Error(not_converged) if that is not enough, and as stop_if_requested: some thousand rows take a while.
 Eigen::LLT<Eigen::MatrixXd> factorize(const Eigen::MatrixXd& a);
+
+/// Whether a matrix has an inverse, of a reciprocal condition above `least`. Eigen's estimate of that is any number where a pivot
+/// is exactly zero.
+bool invertible(const Eigen::PartialPivLU<Eigen::MatrixXd>& factors, double least);
 
 /// Has `work` take columns first to first + count of so many; between two pieces throws as stop_if_requested.
 template <class Work>
@@ -44,8 +51,9 @@ struct ConstraintStates {
 /// unknown of its own, `softness` times what the unknown has if all others are fixed.
 class CondensedProgramme {
  public:
-  /// `set` over the unknowns of `matrices`, which outlive it.
-  CondensedProgramme(const CondensedMatrices& matrices, FeasibleSet set, Eigen::VectorXd b, Eigen::VectorXd e);
+  /// `set` over the unknowns of `matrices`, which outlive it, as `factor_of_w` does.
+  CondensedProgramme(const CondensedMatrices& matrices, const Eigen::LLT<Eigen::MatrixXd>& factor_of_w, FeasibleSet set,
+                     Eigen::VectorXd b, Eigen::VectorXd e);
 
   /// Steps of unknowns become the inverse of their compliance, so softened, too.
   void soften(double softness);
@@ -60,15 +68,15 @@ class CondensedProgramme {
   /// What rounding of W x makes of the residual.
   double rounding(const Eigen::VectorXd& x) const;
   /// x and nu become the solution of the linear problem with these states. Weak springs hold motions near the nu that comes in,
-  /// for states may leave a body free.
-  void solve(const ConstraintStates& states, Eigen::VectorXd& x, Eigen::VectorXd& nu) const;
+  /// for states may leave a body free. Where there are many unknowns, the factors of an earlier problem serve as long as they
+  /// lead on; x is a start then.
+  void solve(const ConstraintStates& states, Eigen::VectorXd& x, Eigen::VectorXd& nu);
 
   const FeasibleSet& set() const { return set_; }
   Eigen::Index unknowns() const { return b_.size(); }
   Eigen::Index motions() const { return e_.size(); }
 
  private:
-  struct Move;
   std::vector<Move> moves(const ConstraintStates& states, Eigen::VectorXd& base, bool& symmetric) const;
   void solve_with_springs(Eigen::MatrixXd matrix, const Eigen::VectorXd& right, Eigen::VectorXd& nu) const;
   Eigen::VectorXd gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
@@ -79,7 +87,9 @@ class CondensedProgramme {
   std::vector<int> bound_of_;  // of each disc: the bound of the unknown that its radius follows, -1 if the radius is given
   Eigen::VectorXd own_;        // one compliance for both unknowns of a disc
   double softness_ = 0;
+  Eigen::VectorXd softening_;  // compliance that is added
   Eigen::VectorXd step_, springs_;
+  std::optional<MoveFactor> factor_;  // of an earlier problem
   Eigen::LLT<Eigen::MatrixXd> gram_;  // by which a lack of H x - C nu is measured
 };
 

@@ -236,6 +236,21 @@ TEST(CondensedNewton, EverythingMayBeOpen)
   }
 }
 
+// A body between two walls with play, pressed against the first: closed both, both pull, so that next nothing holds the body.
+// Other bodies are held by what an elimination before has left.
+TEST(CondensedNewton, ABodyThatAGuessSetsFree)
+{
+  const MatrixXd a = MatrixXd::Identity(2, 2), g{{0, 0}, {1, -1}, {0, 0}};
+  const MatrixXd c = Eigen::Vector3d(1, 0, 2).asDiagonal();
+  const VectorXd b = Vector2d(0, -4), e = Eigen::Vector3d(0, 1, 0);
+  const FeasibleSet set({{0}, {1}}, {});
+  const auto point = CondensedNewton(a, g, c, set).solve(b, e, set);
+  EXPECT_TRUE(point.converged);
+  EXPECT_NEAR(point.x[0], 1, 1e-12);
+  EXPECT_NEAR(point.x[1], 0, 1e-12);
+  EXPECT_NEAR(point.nu[1], -1, 1e-12);
+}
+
 TEST(CondensedNewton, GoesOnFromAnotherElimination)
 {
   for (int seed = 1; seed <= 10; ++seed) {

@@ -49,7 +49,7 @@ class CondensedNewton {
  private:
   void measure();
   bool separate_dependent_rows();
-  static bool iterate(const CondensedProgramme& programme, ConstraintStates& states, Point& point);
+  static bool iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point);
   static bool harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
 
   std::vector<Local> constrained_, others_;  // unknowns

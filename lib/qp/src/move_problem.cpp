@@ -1,0 +1,276 @@
+#include "move_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "base/interruption.hpp"
+#include "condensed_programme.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+constexpr int most_steps = 120;       // of GMRES,
+constexpr int unknowns_of_step = 60;  // and one for so many unknowns: new factors cost twice as much
+constexpr int look = 8;               // steps, whose pace foretells how many it will be
+constexpr int cycles = 4;             // the later ones mend what rounding has left
+constexpr double reduction = 1e-9;    // of the residual in each of them
+constexpr double exact = 1e-13;       // residual over the right-hand side
+constexpr double least_held = 1e-8;   // reciprocal condition of motions: below, springs may be needed
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+template <class Visit>
+void for_each_entry(const Move& move, const std::array<double, 3>& values, const Visit& visit)
+{
+  for (std::size_t k = 0; k < 3 && move.index[k] >= 0; ++k)
+    if (values[k] != 0) visit(move.index[k], values[k]);
+}
+
+// Sum of values along the columns of `columns`.
+VectorXd combine(const std::vector<Move>& moves, std::array<double, 3> Move::*direction, const VectorXd& a, Index size)
+{
+  VectorXd x = VectorXd::Zero(size);
+  for (std::size_t j = 0; j < moves.size(); ++j)
+    for_each_entry(moves[j], moves[j].*direction, [&](Local i, double v) { x[i] += v * a[static_cast<Index>(j)]; });
+  return x;
+}
+
+MatrixXd ask(const std::vector<Move>& moves, const MatrixXd& x)
+{
+  MatrixXd result = MatrixXd::Zero(static_cast<Index>(moves.size()), x.cols());
+  for (Index c = 0; c < x.cols(); ++c)
+    for (std::size_t j = 0; j < moves.size(); ++j)
+      for_each_entry(moves[j], moves[j].test, [&](Local i, double v) { result(static_cast<Index>(j), c) += v * x(i, c); });
+  return result;
+}
+
+// Generalised minimal residuals for A P z = b in the ordinary norm; adds to z. Returns the residual that is left.
+template <class Apply>
+double gmres(const Apply& apply, const VectorXd& b, double goal, int most, VectorXd& z)
+{
+  std::vector<VectorXd> basis{b / b.norm()};
+  MatrixXd triangle = MatrixXd::Zero(most + 1, most);
+  std::vector<Eigen::JacobiRotation<double>> turns;
+  VectorXd left = VectorXd::Zero(most + 1);
+  const double left_at_start = b.norm();
+  left[0] = left_at_start;
+  int count = 0;
+  const auto hopeless = [&] {
+    const double part = std::log(std::abs(left[count]) / left_at_start) / std::log(goal / left_at_start);
+    return count >= look && count > 2 * part * most;
+  };
+  while (count < most && std::abs(left[count]) > goal && !hopeless()) {
+    stop_if_requested();
+    VectorXd next = apply(basis.back());
+    for (int repeat = 0; repeat < 2; ++repeat)
+      for (int i = 0; i <= count; ++i) {
+        const double part = basis[static_cast<std::size_t>(i)].dot(next);
+        triangle(i, count) += part;
+        next -= part * basis[static_cast<std::size_t>(i)];
+      }
+    const double size = next.norm();
+    if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
+    triangle(count + 1, count) = size;
+    for (int i = 0; i < count; ++i) triangle.col(count).applyOnTheLeft(i, i + 1, turns[static_cast<std::size_t>(i)].adjoint());
+    Eigen::JacobiRotation<double> turn;
+    turn.makeGivens(triangle(count, count), triangle(count + 1, count));
+    triangle.col(count).applyOnTheLeft(count, count + 1, turn.adjoint());
+    left.applyOnTheLeft(count, count + 1, turn.adjoint());
+    turns.push_back(turn);
+    ++count;
+    if (size == 0) break;
+    basis.push_back(next / size);
+  }
+  const VectorXd y = triangle.topLeftCorner(count, count).triangularView<Eigen::Upper>().solve(left.head(count));
+  for (int i = 0; i < count; ++i) z += y[i] * basis[static_cast<std::size_t>(i)];
+  return std::abs(left[count]);
+}
+
+}  // namespace
+
+MoveProblem::MoveProblem(const CondensedMatrices& matrices, const VectorXd& softening, std::vector<Move> moves, bool symmetric)
+    : matrices_(matrices), softening_(softening), moves_(std::move(moves)), symmetric_(symmetric)
+{
+  const auto& h = matrices_.h;
+  matrix_ = make_matrix();
+  push_ = MatrixXd::Zero(size(), h.rows());
+  motion_ = MatrixXd::Zero(h.rows(), size());
+  for (Index j = 0; j < size(); ++j) {
+    const auto& move = moves_[static_cast<std::size_t>(j)];
+    for_each_entry(move, move.trial, [&](Local i, double v) { motion_.col(j) += v * h.col(i); });
+    for_each_entry(move, move.test, [&](Local i, double v) { push_.row(j) += v * h.col(i).transpose(); });
+  }
+}
+
+VectorXd MoveProblem::extend(const VectorXd& a) const
+{
+  return combine(moves_, &Move::trial, a, matrices_.w.rows());
+}
+
+VectorXd MoveProblem::test(const VectorXd& x) const
+{
+  return ask(moves_, x);
+}
+
+MatrixXd MoveProblem::make_matrix() const
+{
+  const auto& w = matrices_.w;
+  MatrixXd result(size(), size());
+  for (Index j = 0; j < size(); ++j) {
+    const auto& move = moves_[static_cast<std::size_t>(j)];
+    VectorXd moved = VectorXd::Zero(w.rows());
+    for_each_entry(move, move.trial, [&](Local i, double v) {
+      moved += v * w.col(i);
+      moved[i] += softening_[i] * v;
+    });
+    result.col(j) = test(moved);
+    result(j, j) += move.curvature;
+  }
+  return result;
+}
+
+MoveFactor::MoveFactor(const MoveProblem& problem) : moves_(problem.moves())
+{
+  if (problem.symmetric())
+    solve_ = [factor = std::make_shared<const Eigen::LLT<MatrixXd>>(factorize(problem.matrix()))](const MatrixXd& right) {
+      return MatrixXd(factor->solve(right));
+    };
+  else
+    solve_ = [factor = std::make_shared<const Eigen::PartialPivLU<MatrixXd>>(problem.matrix())](const MatrixXd& right) {
+      return MatrixXd(factor->solve(right));
+    };
+}
+
+// About the inverse of [M B; N -C] of another problem.
+class MoveFactor::Inverse {
+ public:
+  // `scale` measures lacks of N a - C nu, as in iterate().
+  Inverse(const MoveFactor& factor, const MoveProblem& problem, const VectorXd& scale) : factor_(factor), problem_(problem)
+  {
+    const auto& matrices = problem.matrices();
+    // What of each direction the old problem had fixed.
+    std::vector<std::array<std::pair<Index, double>, 2>> old(static_cast<std::size_t>(matrices.w.rows()), {{{-1, 0}, {-1, 0}}});
+    for (std::size_t j = 0; j < factor.moves_.size(); ++j)
+      for_each_entry(factor.moves_[j], factor.moves_[j].test, [&](Local i, double v) {
+        auto& entries = old[static_cast<std::size_t>(i)];
+        entries[entries[0].first < 0 ? 0 : 1] = {static_cast<Index>(j), v};
+      });
+    alone_.resize(problem.size());
+    for (Index j = 0; j < problem.size(); ++j) {
+      const auto& move = problem.moves()[static_cast<std::size_t>(j)];
+      std::vector<std::pair<Index, double>> known;
+      double own = 0;
+      for_each_entry(move, move.test, [&](Local i, double v) {
+        own += v * v * (matrices.own[i] + problem.softening()[i]);
+        for (const auto& [o, part] : old[static_cast<std::size_t>(i)]) {
+          if (o < 0) continue;
+          const auto found = std::find_if(known.begin(), known.end(), [o = o](const auto& k) { return k.first == o; });
+          if (found == known.end())
+            known.emplace_back(o, v * part);
+          else
+            found->second += v * part;
+        }
+      });
+      double fixed = 1;
+      for (const auto& [o, part] : known) fixed -= part * part;
+      alone_[j] = std::max(fixed, 0.0) / (own + move.curvature);
+    }
+    response_ = inverse_of_m(problem.push());
+    const MatrixXd stiffness = matrices.c + problem.motion() * response_;
+    if (stiffness.size() == 0) return;
+    const VectorXd unit = scale.cwiseSqrt().cwiseInverse();
+    held_ = invertible(Eigen::PartialPivLU<MatrixXd>(unit.asDiagonal() * stiffness * unit.asDiagonal()), least_held);
+    motions_.compute(stiffness);
+  }
+  // Whether motions are held so that springs are none of their matter.
+  bool holds() const { return held_; }
+  Solution operator()(const VectorXd& r, const VectorXd& l) const
+  {
+    Solution result{inverse_of_m(r), VectorXd::Zero(l.size())};
+    if (l.size() == 0) return result;
+    result.nu = motions_.solve(problem_.motion() * result.amount - l);
+    result.amount -= response_ * result.nu;
+    return result;
+  }
+
+ private:
+  MatrixXd inverse_of_m(const MatrixXd& r) const
+  {
+    MatrixXd result = alone_.asDiagonal() * r;
+    const auto n = problem_.matrices().w.rows();
+    MatrixXd felt(n, r.cols());
+    for (Index c = 0; c < r.cols(); ++c) felt.col(c) = combine(problem_.moves(), &Move::test, r.col(c), n);
+    const MatrixXd amount = factor_.solve_(ask(factor_.moves_, felt));
+    for (Index c = 0; c < r.cols(); ++c) felt.col(c) = combine(factor_.moves_, &Move::trial, amount.col(c), n);
+    return result + ask(problem_.moves(), felt);
+  }
+
+  const MoveFactor& factor_;
+  const MoveProblem& problem_;
+  VectorXd alone_;
+  MatrixXd response_;
+  bool held_ = true;
+  Eigen::PartialPivLU<MatrixXd> motions_;
+};
+
+std::optional<MoveFactor::Solution> MoveFactor::iterate(const MoveProblem& problem, const VectorXd& r, const VectorXd& l,
+                                                        const VectorXd& scale, const Solution& start) const
+{
+  const Inverse inverse(*this, problem, scale);
+  if (!inverse.holds()) return {};
+  const auto& c = problem.matrices().c;
+  const Index n = r.size(), m = l.size();
+  VectorXd weight(n + m);
+  for (Index j = 0; j < n; ++j) {
+    double own = 0;
+    const auto& move = problem.moves()[static_cast<std::size_t>(j)];
+    for_each_entry(move, move.test,
+                   [&](Local i, double v) { own += v * v * (problem.matrices().own[i] + problem.softening()[i]); });
+    weight[j] = 1 / std::sqrt(own);
+  }
+  weight.tail(m) = scale.cwiseSqrt().cwiseInverse();
+  const auto join = [&](const VectorXd& a, const VectorXd& b) {
+    VectorXd both(n + m);
+    both << a, b;
+    return VectorXd(both.cwiseProduct(weight));
+  };
+  const auto image = [&](const Solution& s) {
+    return join(problem.matrix() * s.amount + problem.push() * s.nu, problem.motion() * s.amount - c * s.nu);
+  };
+  const auto solve = [&](const VectorXd& both) {
+    return inverse(both.head(n).cwiseQuotient(weight.head(n)), both.tail(m).cwiseQuotient(weight.tail(m)));
+  };
+  const VectorXd right = join(r, l);
+  Solution at = start;
+  int left = std::min(most_steps, static_cast<int>(n / unknowns_of_step));
+  double before = std::numeric_limits<double>::infinity();
+  for (int cycle = 0; cycle < cycles; ++cycle) {
+    const VectorXd residual = right - image(at);
+    const double size = residual.norm();
+    if (!std::isfinite(size)) return {};
+    if (size <= exact * right.norm() || (cycle > 0 && size > 0.1 * before)) {
+      VectorXd rounding = VectorXd::Zero(n);
+      for (Index j = 0; j < n; ++j) rounding += problem.matrix().col(j).cwiseAbs() * std::abs(at.amount[j]);
+      const double least = 10 * std::numeric_limits<double>::epsilon() * rounding.cwiseProduct(weight.head(n)).norm();
+      if (size <= std::max(exact * right.norm(), least)) return at;
+      return {};
+    }
+    before = size;
+    VectorXd z = VectorXd::Zero(n + m);
+    const double goal = std::max(reduction * size, 0.1 * exact * right.norm());
+    const double reached = gmres([&](const VectorXd& v) { return image(solve(v)); }, residual, goal, left, z);
+    if (!(reached <= goal)) return {};
+    const Solution step = solve(z);
+    at.amount += step.amount;
+    at.nu += step.nu;
+  }
+  return {};
+}
+
+}  // namespace mortise::qp
