@@ -308,7 +308,7 @@ Point DualProblem::gauge_force(const Vector& lambda) const
   return {sum[0], sum[1], sum[2]};
 }
 
-double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const
+double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double nothing) const
 {
   const auto forces = jump_->apply_transpose(lambda);
   std::vector<Eigen::VectorXd> given;
@@ -323,7 +323,7 @@ double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vecto
       size += std::pow(1e-6 * k * u[s][i], 2);
     }
   }
-  size = comm_.sum(size);
+  size = std::max(comm_.sum(size), nothing * nothing);
   return size > 0 ? std::sqrt(comm_.sum(residual) / size) : 0;
 }
 

@@ -11,6 +11,11 @@ namespace {
 
 // Of what nodal stiffness makes of displacements.
 constexpr double part_of_stiffness = 1e-12;
+// The same of forces, of which a thousandth still counts in their balance: a solver's tolerance goes by what prescribed motions
+// would take if nothing else moved.
+constexpr double part_of_stiffness_in_forces = 1e-9;
+// Of a model's size: displacements below it are none. A body at rest, lifted clear of all others, has forces of rounding alone.
+constexpr double part_of_size = 1e-13;
 // Of loads at nodes that cancel, as those of warmth do. Sums of dense matrices' rows have larger ones than those of elements.
 constexpr double part_of_loads = 1e-11;
 // Of the displacements that loads would have if each node resisted alone, a body's own being at least some tenths of them: what
@@ -118,11 +123,11 @@ std::vector<SpringState> spring_states(const feti::DualProblem& problem, const V
 }
 
 Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<Eigen::VectorXd>& load,
-                  const std::vector<std::vector<double>>& nodal_stiffness, int dimension, const Communicator& comm)
+                  const std::vector<std::vector<double>>& nodal_stiffness, int dimension, double size, const Communicator& comm)
 {
   // k |u| and k |u|^2 / 2: forces and energy if nothing moved with its neighbours; |f|^2 / 2k: energy if nodes held themselves.
   std::array<double, 3> sums{0, 0, 0};
-  double longest = 0;  // |f| / k
+  double longest = 0, stiffest = 0;  // |f| / k, k
   for (std::size_t s = 0; s < displacement.size(); ++s)
     for (Eigen::Index i = 0; i < displacement[s].size(); i += dimension) {
       const double length = displacement[s].segment(i, dimension).norm();
@@ -130,11 +135,15 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
       sums[0] += k * length;
       sums[1] += 0.5 * k * length * length;
       sums[2] += 0.5 * load[s].segment(i, dimension).squaredNorm() / k;
+      stiffest = std::max(stiffest, k);
       longest = std::max(longest, load[s].segment(i, dimension).norm() / k);
     }
   comm.sum_in_place(sums);
-  return {part_of_stiffness * sums[0],
-          std::max(part_of_stiffness * sums[1], part_of_displacement * part_of_displacement * sums[2]),
+  const double nothing = part_of_size * size;
+  stiffest = comm.max(stiffest);
+  return {std::max(part_of_stiffness_in_forces * sums[0], stiffest * nothing),
+          std::max({part_of_stiffness * sums[1], part_of_displacement * part_of_displacement * sums[2],
+                    0.5 * stiffest * nothing * nothing}),
           part_of_overlap * comm.max(longest), part_of_overlap * sums[2]};
 }
 

@@ -53,15 +53,16 @@ double jacobian(const Eigen::MatrixXd& x, const Eigen::MatrixXd& gradient)
 template <int d>
 double least_volume_ratio(const Eigen::MatrixXd& x, const Eigen::MatrixXd& deformed, const std::vector<Eigen::MatrixXd>& tables)
 {
-  using Values = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_places, 1>;  // on the stack: this is asked for each cell
-  const auto count = static_cast<Eigen::Index>(tables.size());
-  Values before = Values::Zero(count), after = Values::Zero(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    before[i] = jacobian<d>(x, tables[static_cast<std::size_t>(i)]);
-    after[i] = jacobian<d>(deformed, tables[static_cast<std::size_t>(i)]);
+  std::array<double, most_places> before, after;  // on the stack: this is asked for each cell
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    before[i] = jacobian<d>(x, tables[i]);
+    after[i] = jacobian<d>(deformed, tables[i]);
   }
-  const double collapsed = 1e-6 * std::max(before.maxCoeff(), 0.0);
-  return (before > collapsed).select(after / before, std::numeric_limits<double>::infinity()).minCoeff();
+  const double collapsed = 1e-6 * std::max(*std::max_element(before.begin(), before.begin() + tables.size()), 0.0);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    if (before[i] > collapsed) least = std::min(least, after[i] / before[i]);
+  return least;
 }
 
 // What a row needs to know of a node: its displacement, and the size of the faces of secondary sides at it.

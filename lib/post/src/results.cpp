@@ -50,7 +50,9 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   const auto& lambda = solved.solution.x;
   const auto& nu = solved.solution.nu;
   const int dimension = problem.dimension();
-  const auto rounding = post::rounding(displacement, problem.load(), system.nodal_stiffness, dimension, comm);
+  const auto sizes = body_sizes(bodies.decomposition, bodies.kinematics, comm);
+  const auto rounding = post::rounding(displacement, problem.load(), system.nodal_stiffness, dimension,
+                                       *std::max_element(sizes.begin(), sizes.end()), comm);
   Results results;
   results.max_displacement = largest_displacement(displacement, dimension, comm);
   results.stress = recover_stress(bodies, displacement, comm);
@@ -66,7 +68,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   auto& residuals = results.residuals;
   residuals.projected_gradient = solved.solution.projected_gradient;
   residuals.equality = solved.solution.equality;
-  residuals.equilibrium = problem.imbalance(displacement, lambda);
+  residuals.equilibrium = problem.imbalance(displacement, lambda, rounding.force);
   const double length = std::max(results.max_displacement, rounding.length);
   residuals.penetration = length > 0 ? results.contact.penetration / length : results.contact.penetration;
   const double energy = std::max({results.stress.strain_energy, rounding.energy, rounding.work});
@@ -79,8 +81,8 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   static_cast<Residuals&>(evidence) = residuals;
   evidence.imbalance = results.balance.difference;
   evidence.algebraic_error = results.algebraic_error;
-  evidence.drift = drift(bodies.decomposition, bodies.kinematics, body_sizes(bodies.decomposition, bodies.kinematics, comm),
-                         displacement, prescribed(problem.constraints(), comm), comm);
+  evidence.drift =
+      drift(bodies.decomposition, bodies.kinematics, sizes, displacement, prescribed(problem.constraints(), comm), comm);
   results.verdict = verdict(evidence);
   return results;
 }

@@ -98,8 +98,9 @@ class DualProblem {
   std::string unbounded_rigid_mode(const Eigen::VectorXd& nu) const;
   /// What the gauges of motions hold against that nothing resists but facets: the sum of their forces on the bodies. Collective.
   Point gauge_force(const Vector& lambda) const;
-  /// ||K u + B'lambda + B0'mu - f|| / (||f|| + ||B'lambda||) over all subdomains, B0'mu the forces inside clusters. Collective.
-  double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda) const;
+  /// ||K u + B'lambda + B0'mu - f|| / (||f|| + ||B'lambda||) over all subdomains, B0'mu the forces inside clusters;
+  /// forces below `nothing` are none. Collective.
+  double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double nothing = 0) const;
 
  private:
   void gauge_rigid_modes(const partition::NodeDirectory& directory, const partition::Interface& interface,

@@ -61,9 +61,10 @@ struct Rounding {
   double force = 0, energy = 0, length = 0, work = 0;
 };
 /// For displacements of each subdomain and the forces that act on its nodes, those of loads that go straight into supports among
-/// them. Collective.
+/// them; `size` is that of the model. Collective.
 Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<Eigen::VectorXd>& load,
-                  const std::vector<std::vector<double>>& nodal_stiffness, int dimension, const Communicator& comm);
+                  const std::vector<std::vector<double>>& nodal_stiffness, int dimension, double size,
+                  const Communicator& comm);
 
 /// `reactions`, `contacts` and `couplings`: of each support, contact and coupling. Collective.
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,

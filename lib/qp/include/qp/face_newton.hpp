@@ -57,6 +57,7 @@ class FaceNewton {
   Projection accept(Run& run, const Trial& trial);
   void find_error(Run& run, const Projection& natural);
   bool is_compatible(const Run& run) const;
+  bool radii_settled(const Run& run) const;
   bool is_solved(Run& run, const Projection& natural);
   bool gives_up(Run& run) const;
   void minimise(Run& run, const Trial& trial);
