@@ -114,6 +114,9 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
     load = assembly_.loads(acts, comm);
   }
   const auto scope = context_.timers.scope("solve");
+  const auto constitution = model.constitution(rows_->acts);
+  largest_norm_ =
+      std::max(largest_norm_, post::energy_norms(elastic_bodies(assembly_, constitution), from.displacement, comm).solution);
   Rows rows = *from.rows;
   const Eigen::VectorXd jumps = problem_->jumps(from.displacement);
   const auto& ranges = problem_->jump().ranges();
@@ -159,7 +162,8 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
                                     [&](const Vector& lambda, const Eigen::VectorXd& nu) {
                                       return post::incompatibility(*problem_, assembly_.decomposition(), assembly_.interface(),
                                                                    problem_->displacement(lambda, nu), nu);
-                                    }};
+                                    },
+                                    negligible()};
   const auto count_on = [&](int step, double change, qp::Progress progress) {
     progress.applications += before_;
     observer(step, change, progress);
@@ -194,7 +198,8 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
                                       state.solved,
                                       state.displacement,
                                       deck.supports.size(),
-                                      deck.solver.programme.tolerance.value.value_or(0)};
+                                      deck.solver.programme.tolerance.value.value_or(0),
+                                      solver.negligible()};
   const auto bodies = elastic_bodies(assembly, constitution);
   auto results = [&] {
     const auto scope = context.timers.scope("stresses");

@@ -259,6 +259,7 @@ Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy)
       return contact_converged(problem_, x, argument, off);
     };
     run.goal.incompatibility = accuracy.incompatibility;
+    run.goal.negligible = accuracy.negligible;
   }
   run.goal.energy_norm = accuracy.energy_norm;
   if (start) run.solution = *start;

@@ -15,7 +15,7 @@ constexpr double part_of_stiffness = 1e-12;
 // would take if nothing else moved.
 constexpr double part_of_stiffness_in_forces = 1e-9;
 // Of a model's size: displacements below it are none. A body at rest, lifted clear of all others, has forces of rounding alone.
-constexpr double part_of_size = 1e-13;
+constexpr double part_of_size = 1e-12;
 // Of loads at nodes that cancel, as those of warmth do. Sums of dense matrices' rows have larger ones than those of elements.
 constexpr double part_of_loads = 1e-11;
 // Of the displacements that loads would have if each node resisted alone, a body's own being at least some tenths of them: what
@@ -144,7 +144,7 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
   return {std::max(part_of_stiffness_in_forces * sums[0], stiffest * nothing),
           std::max({part_of_stiffness * sums[1], part_of_displacement * part_of_displacement * sums[2],
                     0.5 * stiffest * nothing * nothing}),
-          part_of_overlap * comm.max(longest), part_of_overlap * sums[2]};
+          std::max(part_of_overlap * comm.max(longest), nothing), part_of_overlap * sums[2]};
 }
 
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,

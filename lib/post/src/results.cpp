@@ -46,13 +46,14 @@ void estimate_errors(const friction::Result& solved, const Rounding& rounding, c
 
 Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, const Communicator& comm)
 {
-  const auto& [problem, system, pairs, solved, displacement, supports, tolerance] = equilibrium;
+  const auto& [problem, system, pairs, solved, displacement, supports, tolerance, negligible] = equilibrium;
   const auto& lambda = solved.solution.x;
   const auto& nu = solved.solution.nu;
   const int dimension = problem.dimension();
   const auto sizes = body_sizes(bodies.decomposition, bodies.kinematics, comm);
-  const auto rounding = post::rounding(displacement, problem.load(), system.nodal_stiffness, dimension,
-                                       *std::max_element(sizes.begin(), sizes.end()), comm);
+  auto rounding = post::rounding(displacement, problem.load(), system.nodal_stiffness, dimension,
+                                 *std::max_element(sizes.begin(), sizes.end()), comm);
+  rounding.energy = std::max(rounding.energy, 100 * negligible * negligible);
   Results results;
   results.max_displacement = largest_displacement(displacement, dimension, comm);
   results.stress = recover_stress(bodies, displacement, comm);

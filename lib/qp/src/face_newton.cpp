@@ -303,6 +303,8 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   const auto& result = run.result;
   const double worst = run.worst();
   const double to_come = run.contact.change_to_come(z, result.error);
+  if (goal.allowed_error && result.error <= goal.negligible && goal.energy_norm(z, result.nu) <= 10 * goal.negligible)
+    return true;
   // Infinite while points stick whose bounds are still to come.
   if (run.first_error == 0 && std::isfinite(result.error)) run.first_error = result.error;
   const bool small = worst <= (goal.allowed_error ? tolerances::finest : goal.residual) * run.size;

@@ -39,6 +39,8 @@ class LoadStepSolver {
   StepState take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record);
 
   const feti::DualProblem& problem() const { return *problem_; }
+  /// The energy norm that is nothing beside the states before: a millionth of the largest.
+  double negligible() const { return 1e-6 * largest_norm_; }
   /// Products of the approaches before.
   int spent_before() const { return spent_before_; }
   /// Products of all load steps and of the approaches before, also of a load step that threw.
@@ -57,6 +59,7 @@ class LoadStepSolver {
   std::unique_ptr<feti::DualProblem> problem_;
   std::optional<friction::Solver> solver_;  // refers to the problem
   int before_ = 0;                          // products of the solvers and approaches before this one
+  double largest_norm_ = 0;                 // energy norm of the displacements, of all states before
 };
 
 /// What there is to know of a state that solver.solve() returned last, also inside bodies where `probes` are. Throws

@@ -45,6 +45,7 @@ struct Accuracy {
   Measure allowed_error;         ///< the algebraic error that is good enough
   Measure energy_norm;           ///< that of the displacements
   Measure incompatibility = {};  ///< what displacements leave open, over the largest of them
+  double negligible = 0;         ///< see qp::Goal
 };
 
 class StateRecord;

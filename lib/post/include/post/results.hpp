@@ -32,7 +32,8 @@ struct Results {
 /// Of all nodes of all subdomains, `dimension` components each. Collective.
 double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, int dimension, const Communicator& comm);
 
-/// A solved equilibrium. `displacement`: of each subdomain; `tolerance`: the deck's, 0 where it is auto.
+/// A solved equilibrium. `displacement`: of each subdomain; `tolerance`: the deck's, 0 where it is auto; `negligible`: an energy
+/// norm that is nothing, see qp::Goal.
 struct Equilibrium {
   const feti::DualProblem& problem;
   const feti::SubdomainSystem& system;
@@ -41,6 +42,7 @@ struct Equilibrium {
   const std::vector<Eigen::VectorXd>& displacement;
   std::size_t supports = 0;
   double tolerance = 0;
+  double negligible = 0;
 };
 
 /// Evaluates, and changes nothing. Whether it is solved, and what to say if not, stands in the verdict. Collective.

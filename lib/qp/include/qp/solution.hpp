@@ -33,6 +33,10 @@ struct Goal {
   /// small, since a small residual alone says little where A is badly conditioned; if absent, it is believed. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> energy_norm = {};
 
+  /// In the norm of A, with an allowed error: a solution of ten times this size is none, and an error of this size nothing. What
+  /// counts as none beside the other problems of a sequence, as the state without a load on the way from pushing to pulling.
+  double negligible = 0;
+
   /// Part of the energy norm. An error below it ends face Newton whatever the residual: for a start that is exact.
   double exact = 0;
 
