@@ -13,7 +13,7 @@ namespace {
 // Of the size of the facets round a node: shorter steps are none, and those that start longer lead elsewhere.
 constexpr double least_step = 0.02, longest_step = 1.0;
 // Of the sum of both sides' curvatures: what less of it is left between them is that of meshes.
-constexpr double parallel = 0.05;
+constexpr double parallel = 0.3;
 // Of the same size: how exactly the place is known. What is squeezed between two such places leaves sideways if they are not
 // opposite each other.
 constexpr double exact = 1e-10;

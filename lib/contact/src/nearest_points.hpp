@@ -14,7 +14,7 @@ namespace mortise::contact {
 /// Of each surface node, the tangential step from it to the place near it where the gap is least: along its normal the smooth
 /// surfaces are parallel there, n + m = 0 with the normals n and m of both sides. Zero where the node itself is that place, to a
 /// fiftieth of a face, or another node is nearer to it. Newton's method, its matrix the least squares' fit to n + m at the nodes
-/// round; directions in which the sides are curved alike, to a twentieth of their curvature, count as parallel. Of the nodes of
+/// round; directions in which the sides are curved alike, to 0.3 of their curvature, count as parallel. Of the nodes of
 /// `faces` alone.
 std::vector<Point> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes, const std::vector<std::size_t>& faces,
                                   Rays& rays);
