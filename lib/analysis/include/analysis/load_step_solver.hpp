@@ -39,8 +39,8 @@ class LoadStepSolver {
   StepState take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record);
 
   const feti::DualProblem& problem() const { return *problem_; }
-  /// The energy norm that is nothing beside the states before: a millionth of the largest.
-  double negligible() const { return 1e-6 * largest_norm_; }
+  /// The energy norm that is nothing beside the states before: rounding and tolerances leave as much of a state without a load.
+  double negligible() const { return 1e-8 * largest_norm_; }
   /// Products of the approaches before.
   int spent_before() const { return spent_before_; }
   /// Products of all load steps and of the approaches before, also of a load step that threw.
