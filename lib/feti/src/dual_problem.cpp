@@ -238,12 +238,13 @@ std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, con
 
 Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu) const
 {
-  constexpr double no_force = 1e-9;   // of the largest contact force
+  constexpr double no_force = 1e-9;   // of the largest contact force: the next node may just touch
   constexpr Eigen::Index most = 600;  // amplitudes: more would take seconds
   const auto& contacts = constraints_.contacts;
   const bool unbonded = std::find(contacts.bonded.begin(), contacts.bonded.end(), false) != contacts.bonded.end();
+  if (!comm_.any(unbonded)) return nu;
   const Bodies bodies = aggregate(decomposition_, system_.clusters, system_.kinematics, load_, comm_);
-  if (!comm_.any(unbonded) || bodies.aggregate.cols() > most) return nu;
+  if (bodies.aggregate.cols() > most) return nu;
 
   const Local first = jump_->ranges().dirichlet, count = jump_->ranges().end - first;
   const auto kernels = system_.clusters.kernel_dimension();
