@@ -39,6 +39,7 @@ constexpr int max_retreats_to_z = 2;    // quarters of the way back, before the 
 constexpr int max_safeguards = 12;      // after which another algorithm will do better
 constexpr double at_rest = 0.05;        // of normal forces: change that is still to come
 constexpr double certain = 0.1;         // of the allowed error, at which their change does not matter
+constexpr double part_that_is_nothing = 0.1;  // of what rounding may make of an error
 constexpr double least_size = 0.01;  // of ||A||^1/2 ||x||_A: where b asks for nearly nothing, ||P b|| is no measure of residuals
 constexpr double first_look = 0.1;   // part of the first error at which the allowed one is asked for
 
@@ -303,8 +304,9 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   const auto& result = run.result;
   const double worst = run.worst();
   const double to_come = run.contact.change_to_come(z, result.error);
-  if (goal.allowed_error && result.error <= goal.negligible && goal.energy_norm(z, result.nu) <= 10 * goal.negligible)
-    return true;
+  // Bodies that only move, or are warm and free to expand, are not strained: b asks for motions, and x is rounding.
+  const double nothing = std::max(goal.negligible, part_that_is_nothing * rounding_of_error(problem_, norm_));
+  if (goal.allowed_error && result.error <= nothing && goal.energy_norm(z, result.nu) <= 10 * nothing) return true;
   // Infinite while points stick whose bounds are still to come.
   if (run.first_error == 0 && std::isfinite(result.error)) run.first_error = result.error;
   const bool small = worst <= (goal.allowed_error ? tolerances::finest : goal.residual) * run.size;
