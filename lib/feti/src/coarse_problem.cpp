@@ -57,6 +57,17 @@ Eigen::VectorXd kernel_coordinates(const Clusters& clusters, const std::vector<E
   return result;
 }
 
+Eigen::VectorXd load_coordinates(const Clusters& clusters, const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
+{
+  constexpr double rounding = 1e-12;
+  Eigen::VectorXd result = kernel_coordinates(clusters, load, comm);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(result.size());  // of the loads on each cluster
+  for (std::size_t s = 0; s < load.size(); ++s)
+    squares.segment(clusters.first(s), clusters.modes()).array() += load[s].squaredNorm();
+  comm.sum_in_place({squares.data(), static_cast<std::size_t>(squares.size())});
+  return (result.array().abs() <= rounding * squares.array().sqrt()).select(0, result);
+}
+
 std::vector<Unknown> unknowns(const constraint::Constraints& constraints, const JumpOperator& jump, int dimension)
 {
   std::vector<Unknown> result;

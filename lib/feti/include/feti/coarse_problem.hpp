@@ -18,6 +18,10 @@ SparseMatrix coarse_rows(const JumpOperator& jump, const Clusters& clusters, con
 /// R_c'v_c of every cluster, on every rank: e for v = f. Collective.
 Eigen::VectorXd kernel_coordinates(const Clusters& clusters, const std::vector<Eigen::VectorXd>& v, const Communicator& comm);
 
+/// The same for loads, e = R'f: 0 where forces on a cluster cancel but for rounding, as those of warmth do. Else it would be
+/// taken for a load that lifts a body off what it lies on. Collective.
+Eigen::VectorXd load_coordinates(const Clusters& clusters, const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
+
 /// An unknown s besides the displacements and kernels, on which `force` works: what a pretension section that is tightened to a
 /// force is drawn together by, or a component of the motion of a rigid coupling's point. Rows give way to it, row . u = bound +
 /// part s.
