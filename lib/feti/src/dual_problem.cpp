@@ -101,7 +101,7 @@ void DualProblem::make_rhs()
   else
     linear_ = std::make_unique<Vector>(d, Teuchos::Copy);
 
-  Eigen::VectorXd e = kernel_coordinates(system_.clusters, load_, comm_);
+  Eigen::VectorXd e = load_coordinates(system_.clusters, load_, comm_);
   const auto kernels = e.size();
   std::vector<double> forces;
   for (const auto& unknown : unknowns(constraints_, *jump_, dimension())) forces.push_back(-unknown.force);
@@ -236,7 +236,7 @@ std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, con
   return u;
 }
 
-Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu) const
+Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double nothing) const
 {
   constexpr double no_force = 1e-9;   // of the largest contact force: the next node may just touch
   constexpr Eigen::Index most = 600;  // amplitudes: more would take seconds
@@ -257,10 +257,10 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   const Eigen::VectorXd force = forces(lambda), jump = jumps(u);
   double largest = 0;
   for (const auto& rows : node_rows_) largest = std::max(largest, std::abs(force[rows.normal]));
-  largest = comm_.max(largest);
+  const double least = std::max(no_force * comm_.max(largest), nothing);
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     const auto& rows = node_rows_[i];
-    if (contacts.bonded[i] || force[rows.normal] > no_force * largest) continue;
+    if (contacts.bonded[i] || force[rows.normal] > least) continue;
     felt.closed.segment(rows.normal - first, 1 + rows.tangents).setZero();
     felt.gap[rows.normal - first] = contacts.rows.bound[contacts.nodes[i].row] - jump[rows.normal];
   }
@@ -307,6 +307,16 @@ Point DualProblem::gauge_force(const Vector& lambda) const
     for (Eigen::Index i = 0; i < f.size(); ++i) sum[static_cast<std::size_t>(i) % dimension] -= f[i];
   comm_.sum_in_place(sum);
   return {sum[0], sum[1], sum[2]};
+}
+
+std::vector<double> DualProblem::loads_of_bodies() const
+{
+  std::vector<double> loads(decomposition_.catalogue.bodies.size(), 0.0);
+  for (std::size_t s = 0; s < load_.size(); ++s)
+    for (Eigen::Index i = 0; i < load_[s].size(); i += dimension())
+      loads[static_cast<std::size_t>(decomposition_.subdomains[s].body)] += load_[s].segment(i, dimension()).norm();
+  comm_.sum_in_place(loads);
+  return loads;
 }
 
 double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double nothing) const

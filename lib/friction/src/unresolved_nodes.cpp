@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "pressures.hpp"
 #include "qp/projection.hpp"
 
 namespace mortise::friction {
@@ -25,37 +26,6 @@ int contact_count(const feti::DualProblem& problem)
   for (const auto& point : problem.constraints().contacts.nodes) count = std::max(count, point.contact + 1);
   return static_cast<int>(problem.communicator().max(static_cast<long long>(count)));
 }
-
-// Pressures of contacts: what force of each point makes which, and the largest of each contact.
-class Pressures {
- public:
-  Pressures(const feti::DualProblem& problem, const Vector& x) : problem_(problem)
-  {
-    const auto& comm = problem.communicator();
-    const auto value = view(x);
-    const auto& points = problem.constraints().contacts.nodes;
-    largest.assign(static_cast<std::size_t>(contact_count(problem)), 0.0);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      auto& most = largest[static_cast<std::size_t>(points[i].contact)];
-      most = std::max(most, of(i, value[problem.node_rows()[i].normal]));
-    }
-    for (auto& pressure : largest) all = std::max(all, pressure = comm.max(pressure));
-  }
-  // 0 where a point has no pressure of its own or is bonded.
-  double of(std::size_t i, double multiplier) const
-  {
-    const auto& contacts = problem_.constraints().contacts;
-    const auto& point = contacts.nodes[i];
-    if (contacts.bonded[i] || point.cover < narrow_cover || !(point.area > 0)) return 0;
-    return problem_.jump().force(problem_.node_rows()[i].normal, multiplier) / point.area;
-  }
-
-  std::vector<double> largest;  // of each contact
-  double all = 0;               // of them all
-
- private:
-  const feti::DualProblem& problem_;
-};
 
 // Length of the tangential part of a point.
 double tangential(const feti::NodeRows& rows, const Eigen::Ref<const Eigen::VectorXd>& values)
@@ -183,8 +153,9 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector&
   std::vector<bool> rim(points.size(), false), edge_of_stick(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& rows = problem.node_rows()[i];
-    const double largest = pressures.largest[static_cast<std::size_t>(points[i].contact)];
-    if (largest < idle_pressure * pressures.all) continue;
+    const auto contact = static_cast<std::size_t>(points[i].contact);
+    if (pressures.idle(contact)) continue;
+    const double largest = pressures.largest(contact);
     const double off = std::abs(change[rows.normal]), at = argument[rows.normal];
     rim[i] = pressures.of(i, off) > negligible_change * largest && off >= std::abs(at);
     if (rows.disc < 0 || rim[i] || at <= 0) continue;
@@ -193,8 +164,8 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector&
     edge_of_stick[i] = pressures.of(i, moved) > negligible_change * largest &&
                        moved >= std::abs(qp::from_centre(disc, argument).norm() - disc.radius);
   }
-  const auto rims = bands(problem, pressures.largest.size(), rim);
-  const auto edges = bands(problem, pressures.largest.size(), edge_of_stick);
+  const auto rims = bands(problem, pressures.contacts(), rim);
+  const auto edges = bands(problem, pressures.contacts(), edge_of_stick);
   std::vector<Undecided> result;
   for (std::size_t c = 0; c < rims.size(); ++c)
     if (rims[c].points + edges[c].points > 0) result.push_back({static_cast<int>(c), rims[c], edges[c]});
@@ -229,9 +200,9 @@ std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& re
   std::vector<double> parts(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& rows = problem.node_rows()[i];
-    const double largest = pressures.largest[static_cast<std::size_t>(problem.constraints().contacts.nodes[i].contact)];
-    const double moved = std::hypot(change[rows.normal], tangential(rows, change));
-    if (largest >= idle_pressure * pressures.all && largest > 0) parts[i] = pressures.of(i, moved) / largest;
+    const auto contact = static_cast<std::size_t>(problem.constraints().contacts.nodes[i].contact);
+    const double largest = pressures.largest(contact), moved = std::hypot(change[rows.normal], tangential(rows, change));
+    if (!pressures.idle(contact) && largest > 0) parts[i] = pressures.of(i, moved) / largest;
   }
   for (int c = 0; c < contacts; ++c)
     if (auto found = worst_points(problem, c, parts, at_rest)) {

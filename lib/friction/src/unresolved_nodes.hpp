@@ -14,10 +14,6 @@ namespace mortise::friction {
 
 /// Change of a pressure over the largest of the contact that decides nothing.
 inline constexpr double negligible_change = 1e-4;
-/// Largest pressure of a contact over that of all, below which the contact only touches.
-inline constexpr double idle_pressure = 1e-3;
-/// Cover of points below which they have a force but no pressure of their own.
-inline constexpr double narrow_cover = 0.35;
 
 /// The states of this rank's points at multipliers x in Omega; forces of 1e-8 of the largest multiplier are none. Bonded points
 /// stick. Collective.

@@ -9,9 +9,15 @@ namespace mortise::post {
 
 namespace {
 
-// The largest distance of a copy of a node from the mean of its copies, on this rank. Collective.
-double largest_tear(const partition::Decomposition& decomposition, const partition::Interface& interface,
-                    const std::vector<Eigen::VectorXd>& u, int dimension, const Communicator& comm)
+// Loads of a body over the largest of all, and displacements over the largest of all, below which they are none.
+constexpr double loaded_part = 1e-7, moved_part = 1e-7;
+
+// Of each body the largest distance of a copy of a node from the mean of its copies, and the largest displacement. Collective.
+struct Tears {
+  std::vector<double> tear, size;
+};
+Tears tears(const partition::Decomposition& decomposition, const partition::Interface& interface,
+            const std::vector<Eigen::VectorXd>& u, int dimension, const Communicator& comm)
 {
   std::vector<Eigen::MatrixXd> sums;
   for (const auto& values : u) {
@@ -19,14 +25,21 @@ double largest_tear(const partition::Decomposition& decomposition, const partiti
     for (Eigen::Index n = 0; n < sums.back().rows(); ++n) sums.back().row(n) = values.segment(dimension * n, dimension);
   }
   sum_over_copies(decomposition, interface, sums, comm);
-  double largest = 0;
-  for (std::size_t s = 0; s < u.size(); ++s)
+  const auto bodies = decomposition.catalogue.bodies.size();
+  std::vector<double> largest(2 * bodies, 0.0);
+  for (std::size_t s = 0; s < u.size(); ++s) {
+    const auto body = static_cast<std::size_t>(decomposition.subdomains[s].body);
+    for (Eigen::Index i = 0; i < u[s].size(); i += dimension)
+      largest[bodies + body] = std::max(largest[bodies + body], u[s].segment(i, dimension).norm());
     for (std::size_t i = 0; i < interface.nodes[s].size(); ++i) {
       const Local node = interface.nodes[s][i];
       const Eigen::VectorXd mean = sums[s].row(node) / static_cast<double>(interface.copies[s][i].size());
-      largest = std::max(largest, (u[s].segment(dimension * node, dimension) - mean).norm());
+      largest[body] = std::max(largest[body], (u[s].segment(dimension * node, dimension) - mean).norm());
     }
-  return largest;
+  }
+  for (auto& value : largest) value = comm.max(value);
+  const auto middle = largest.begin() + static_cast<std::ptrdiff_t>(bodies);
+  return {{largest.begin(), middle}, {middle, largest.end()}};
 }
 
 // The largest overlap at a contact node of this rank. Collective.
@@ -50,10 +63,16 @@ double incompatibility(const feti::DualProblem& problem, const partition::Decomp
                        const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
 {
   const auto& comm = problem.communicator();
-  const double tear = largest_tear(decomposition, interface, u, problem.dimension(), comm);
-  const double off = comm.max(std::max(tear, largest_overlap(problem, u, nu)));
-  const double size = largest_displacement(u, problem.dimension(), comm);
-  return size > 0 ? off / size : off;
+  const auto [tear, size] = tears(decomposition, interface, u, problem.dimension(), comm);
+  const auto loads = problem.loads_of_bodies();
+  const double largest = *std::max_element(size.begin(), size.end()), load = *std::max_element(loads.begin(), loads.end());
+  if (!(largest > 0)) return 0;
+  double worst = comm.max(largest_overlap(problem, u, nu)) / largest;
+  for (std::size_t b = 0; b < tear.size(); ++b) {
+    const bool loaded = loads[b] > loaded_part * load;
+    worst = std::max(worst, tear[b] / (loaded ? std::max(size[b], moved_part * largest) : largest));
+  }
+  return worst;
 }
 
 }  // namespace mortise::post

@@ -66,6 +66,8 @@ class DualProblem {
   const std::vector<NodeRows>& node_rows() const { return node_rows_; }  ///< one for each contact node of this rank
   const constraint::Constraints& constraints() const { return constraints_; }
   const std::vector<Eigen::VectorXd>& load() const { return load_; }
+  /// The sum of the sizes of the loads at the nodes of each body. Collective.
+  std::vector<double> loads_of_bodies() const;
   int dimension() const { return decomposition_.catalogue.dimension; }
   const Clusters& clusters() const { return system_.clusters; }
   const Communicator& communicator() const { return comm_; }
@@ -91,8 +93,8 @@ class DualProblem {
   std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;
   /// nu of the least displacements among those that lambda leaves: bodies are moved back along rigid motions that no row with a
   /// force feels, as far as gaps let them. A roller that rests on one node of a flat side may roll until the next one touches.
-  /// Collective.
-  Eigen::VectorXd least_motion(const Vector& lambda, const Eigen::VectorXd& nu) const;
+  /// Contact forces below `nothing` are none. Collective.
+  Eigen::VectorXd least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double nothing = 0) const;
   /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers are unbounded.
   /// Collective.
   std::string unbounded_rigid_mode(const Eigen::VectorXd& nu) const;

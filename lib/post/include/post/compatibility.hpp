@@ -7,8 +7,9 @@
 namespace mortise::post {
 
 /// How far displacements `u` of subdomains, with the multipliers nu, are from those of one assembly: the largest distance of a
-/// copy of a node from the mean of its copies, and the largest overlap at a contact node, over the largest displacement. A plate
-/// bends by much at little energy, so that a small error in the energy norm alone says little of it. Collective.
+/// copy of a node from the mean of its copies, over the largest displacement of its body if that is loaded, else of all; and the
+/// largest overlap at a contact node over the largest displacement. A plate bends by much at little energy, and a clip does
+/// beside a press, so that a small error in the energy norm alone says little of them. Collective.
 double incompatibility(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                        const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu);
 
