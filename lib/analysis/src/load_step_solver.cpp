@@ -117,6 +117,10 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   const auto constitution = model.constitution(rows_->acts);
   largest_norm_ =
       std::max(largest_norm_, post::energy_norms(elastic_bodies(assembly_, constitution), from.displacement, comm).solution);
+  const auto& bodies = assembly_.decomposition();
+  const auto sizes = post::body_sizes(bodies, assembly_.deck().kinematics, comm);
+  rounding_before_.take(post::rounding(from.displacement, problem_->load(), assembly_.system().nodal_stiffness,
+                                       problem_->dimension(), *std::max_element(sizes.begin(), sizes.end()), comm));
   Rows rows = *from.rows;
   const Eigen::VectorXd jumps = problem_->jumps(from.displacement);
   const auto& ranges = problem_->jump().ranges();
@@ -170,7 +174,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   };
   auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
   if (found.gave_up) return {rows_, std::move(found), {}, {}};
-  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu);
+  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, rounding_before_.force);
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   auto shortenings = problem_->shortenings(found.solution.nu);
   return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};
@@ -199,7 +203,8 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
                                       state.displacement,
                                       deck.supports.size(),
                                       deck.solver.programme.tolerance.value.value_or(0),
-                                      solver.negligible()};
+                                      solver.negligible(),
+                                      solver.rounding_before()};
   const auto bodies = elastic_bodies(assembly, constitution);
   auto results = [&] {
     const auto scope = context.timers.scope("stresses");

@@ -122,6 +122,13 @@ std::vector<SpringState> spring_states(const feti::DualProblem& problem, const V
   return result;
 }
 
+void Rounding::take(const Rounding& other)
+{
+  force = std::max(force, other.force);
+  energy = std::max(energy, other.energy);
+  length = std::max(length, other.length);
+}
+
 Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<Eigen::VectorXd>& load,
                   const std::vector<std::vector<double>>& nodal_stiffness, int dimension, double size, const Communicator& comm)
 {

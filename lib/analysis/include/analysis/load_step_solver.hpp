@@ -41,6 +41,8 @@ class LoadStepSolver {
   const feti::DualProblem& problem() const { return *problem_; }
   /// The energy norm that is nothing beside the states before: rounding and tolerances leave as much of a state without a load.
   double negligible() const { return 1e-8 * largest_norm_; }
+  /// What counts as rounding in the states before.
+  const post::Rounding& rounding_before() const { return rounding_before_; }
   /// Products of the approaches before.
   int spent_before() const { return spent_before_; }
   /// Products of all load steps and of the approaches before, also of a load step that threw.
@@ -59,7 +61,8 @@ class LoadStepSolver {
   std::unique_ptr<feti::DualProblem> problem_;
   std::optional<friction::Solver> solver_;  // refers to the problem
   int before_ = 0;                          // products of the solvers and approaches before this one
-  double largest_norm_ = 0;                 // energy norm of the displacements, of all states before
+  post::Rounding rounding_before_;
+  double largest_norm_ = 0;  // energy norm of the displacements, of all states before
 };
 
 /// What there is to know of a state that solver.solve() returned last, also inside bodies where `probes` are. Throws

@@ -59,12 +59,13 @@ struct Balance {
 /// of the overlaps that loads press with which go straight into what holds them, and their work.
 struct Rounding {
   double force = 0, energy = 0, length = 0, work = 0;
+  /// What is rounding here or there; but for the work, which a state of smaller loads has to fit to.
+  void take(const Rounding& other);
 };
 /// For displacements of each subdomain and the forces that act on its nodes, those of loads that go straight into supports among
 /// them; `size` is that of the model. Collective.
 Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<Eigen::VectorXd>& load,
-                  const std::vector<std::vector<double>>& nodal_stiffness, int dimension, double size,
-                  const Communicator& comm);
+                  const std::vector<std::vector<double>>& nodal_stiffness, int dimension, double size, const Communicator& comm);
 
 /// `reactions`, `contacts` and `couplings`: of each support, contact and coupling. Collective.
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,
