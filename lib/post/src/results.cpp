@@ -46,13 +46,14 @@ void estimate_errors(const friction::Result& solved, const Rounding& rounding, c
 
 Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, const Communicator& comm)
 {
-  const auto& [problem, system, pairs, solved, displacement, supports, tolerance, negligible] = equilibrium;
+  const auto& [problem, system, pairs, solved, displacement, supports, tolerance, negligible, before] = equilibrium;
   const auto& lambda = solved.solution.x;
   const auto& nu = solved.solution.nu;
   const int dimension = problem.dimension();
   const auto sizes = body_sizes(bodies.decomposition, bodies.kinematics, comm);
   auto rounding = post::rounding(displacement, problem.load(), system.nodal_stiffness, dimension,
                                  *std::max_element(sizes.begin(), sizes.end()), comm);
+  rounding.take(before);
   // An error of this size is a hundredth: it excuses residuals that are measured by what is nothing itself.
   rounding.energy = std::max(rounding.energy, std::pow(100 * negligible, 2));
   Results results;
@@ -60,6 +61,8 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   results.stress = recover_stress(bodies, displacement, comm);
   estimate_errors(solved, rounding, comm, results);
   results.contact = contact_results(problem, lambda, nu, displacement, pairs);
+  if (bodies.kinematics != fem::Kinematics::axisymmetric)
+    results.moments = contact_moments(problem, lambda, bodies.decomposition, pairs, results.contact.points);
   results.reactions = reactions(problem, lambda, supports);
   results.couplings = coupling_states(problem, lambda);
   results.springs = spring_states(problem, lambda);

@@ -3,6 +3,7 @@
 
 #include "friction/friction.hpp"
 #include "post/balance.hpp"
+#include "post/contact_checks.hpp"
 #include "post/contact_results.hpp"
 #include "post/extremes.hpp"
 #include "post/interior.hpp"
@@ -18,6 +19,7 @@ struct Results {
   Interior interior;              ///< see evaluate_interior()
   std::vector<Extreme> extremes;  ///< see find_extremes()
   ContactResults contact;
+  std::vector<ContactMoment> moments;    ///< of each contact; none in axisymmetry
   std::vector<Reaction> reactions;       ///< of each support
   std::vector<CouplingState> couplings;  ///< of each coupling, by name
   std::vector<SpringState> springs;      ///< of each spring between points, by name
@@ -33,7 +35,7 @@ struct Results {
 double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, int dimension, const Communicator& comm);
 
 /// A solved equilibrium. `displacement`: of each subdomain; `tolerance`: the deck's, 0 where it is auto; `negligible`: an energy
-/// norm that is nothing, see qp::Goal.
+/// norm that is nothing, see qp::Goal; `before`: the rounding of the states before, which is none in this one either.
 struct Equilibrium {
   const feti::DualProblem& problem;
   const feti::SubdomainSystem& system;
@@ -43,6 +45,7 @@ struct Equilibrium {
   std::size_t supports = 0;
   double tolerance = 0;
   double negligible = 0;
+  Rounding before;
 };
 
 /// Evaluates, and changes nothing. Whether it is solved, and what to say if not, stands in the verdict. Collective.

@@ -1,0 +1,159 @@
+#include "post/contact_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "contact/cyclic.hpp"
+#include "post/bodies.hpp"
+
+namespace mortise::post {
+
+namespace {
+
+constexpr double part_of_moment = 0.01, part_of_forces = 0.01, nothing_beside = 1e-6;
+
+// sum x_n x f_n over this rank's subdomains.
+Point moment(const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& force, int dimension)
+{
+  Point result = Point::Zero();
+  for (std::size_t s = 0; s < force.size(); ++s)
+    for (Eigen::Index i = 0; i < force[s].size(); i += dimension) {
+      Point f = Point::Zero();
+      f.head(dimension) = force[s].segment(i, dimension);
+      result += decomposition.subdomains[s].mesh.points[static_cast<std::size_t>(i / dimension)].cross(f);
+    }
+  return result;
+}
+
+// The part of the multipliers that is a contact's.
+Vector multipliers_of(const feti::DualProblem& problem, const Vector& lambda, int contact)
+{
+  Vector result(lambda.getMap());
+  auto part = view(result);
+  const auto all = view(lambda);
+  const auto& nodes = problem.constraints().contacts.nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto& rows = problem.node_rows()[i];
+    if (nodes[i].contact == contact) part.segment(rows.normal, rows.tangents + 1) = all.segment(rows.normal, rows.tangents + 1);
+  }
+  return result;
+}
+
+// What contact forces that go straight into supports turn, of the rows of `part`, on this rank.
+Point moment_on_supports(const feti::DualProblem& problem, const Vector& part)
+{
+  const Eigen::VectorXd forces = problem.forces(part);
+  const Local first = problem.jump().ranges().contacts;
+  Point result = Point::Zero();
+  for (const auto& entry : problem.constraints().contacts.prescribed)
+    result += Point(entry.at[0], entry.at[1], entry.at[2])
+                  .cross(entry.coefficient * forces[first + static_cast<Local>(entry.row)] * Point::Unit(entry.component));
+  return result;
+}
+
+// The sum of the sizes of the forces at a contact's points, and what they could turn. Collective.
+std::pair<double, double> turning(std::span<const constraint::ContactNode> nodes,
+                                  std::span<const contact::ContactNodeState> points, int contact, const Communicator& comm)
+{
+  double largest = 0;            // area of a point: a force at one point alone may act somewhere within it
+  std::array<double, 5> sums{};  // size, size * place, size * distance^2 from the origin
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].contact != contact) continue;
+    const double size = points[i].force_on_secondary.norm();
+    sums[0] += size;
+    if (size > 0) largest = std::max(largest, points[i].area);
+    for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(1 + c)] += size * nodes[i].at[c];
+    sums[4] += size * nodes[i].at.squaredNorm();
+  }
+  comm.sum_in_place(sums);
+  const Point centre = sums[0] > 0 ? Point(Point(sums[1], sums[2], sums[3]) / sums[0]) : Point::Zero();
+  const double apart = std::sqrt(std::max(sums[0] * (sums[4] - sums[0] * centre.squaredNorm()), 0.0));
+  return {sums[0], std::max(apart, sums[0] * std::sqrt(comm.max(largest)))};
+}
+
+Warning about(const contact::Pair& pair, const char* kind, std::string text, const char* cure, double value, double limit)
+{
+  Warning w{kind, std::move(text), cure};
+  w.boundary = pair.options.secondary;
+  w.contact = pair.options.name;
+  w.value = value;
+  w.limit = limit;
+  return w;
+}
+
+}  // namespace
+
+std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, const Vector& lambda,
+                                           const partition::Decomposition& decomposition, std::span<const contact::Pair> pairs,
+                                           std::span<const contact::ContactNodeState> points)
+{
+  const auto& comm = problem.communicator();
+  const auto& nodes = problem.constraints().contacts.nodes;
+  std::vector<ContactMoment> result(pairs.size());
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (pairs[c].options.obstacle || contact::rotation_of(pairs[c].options)) continue;
+    const auto contact = static_cast<int>(c);
+    const Vector part = multipliers_of(problem, lambda, contact);
+    const Point mine =
+        moment(decomposition, problem.jump().apply_transpose(part), problem.dimension()) + moment_on_supports(problem, part);
+    std::array<double, 3> sum{mine[0], mine[1], mine[2]};
+    comm.sum_in_place(sum);
+    const auto [sizes, scale] = turning(nodes, points, contact, comm);
+    result[c] = {std::hypot(sum[0], sum[1], sum[2]), scale, sizes};
+  }
+  return result;
+}
+
+std::vector<Warning> lost_moments(std::span<const ContactMoment> moments, std::span<const contact::Pair> pairs, double forces)
+{
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < moments.size(); ++c) {
+    const auto& m = moments[c];
+    if (!(m.lost > part_of_moment * m.scale) || m.sizes < nothing_beside * forces) continue;
+    result.push_back(about(
+        pairs[c], "lost_moment",
+        fmt::format("the two sides of contact {} feel moments that differ by {:.4g}, {:.2g} % of what its forces can turn: as "
+                    "if they acted {:.3g} apart",
+                    pairs[c].options.name, m.lost, 100 * m.lost / m.scale, m.lost / m.sizes),
+        "let the sides lie on each other, or make the cells of curved sides smaller or alike", m.lost, part_of_moment * m.scale));
+  }
+  return worst(std::move(result), "contacts");
+}
+
+std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> points,
+                                           std::span<const contact::Pair> pairs, double forces, const Communicator& comm)
+{
+  std::vector<double> sums(2 * pairs.size(), 0.0);  // forces at open points, at all points
+  std::vector<Found> gaps(pairs.size());
+  for (const auto& p : points) {
+    const auto c = static_cast<std::size_t>(p.contact);
+    const double force = p.force_on_secondary.norm();
+    sums[2 * c + 1] += force;
+    if (p.status != contact::Status::open) continue;
+    sums[2 * c] += force;
+    if (force > 0) gaps[c].take(p.gap, Point::Zero());
+  }
+  comm.sum_in_place(sums);
+  gaps = largest_of_ranks(gaps, comm);
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const double across = sums[2 * c], all = sums[2 * c + 1];
+    if (pairs[c].options.law != contact::Law::tresca || !(across > part_of_forces * all) || all < nothing_beside * forces)
+      continue;
+    result.push_back(
+        about(pairs[c], "friction_across_gap",
+              fmt::format(
+                  "{:.4g} of {:.4g} of the forces of contact {} act at points that are open, over gaps of up to {:.3g}: Tresca's "
+                  "bound holds whether the sides touch or not",
+                  across, all, pairs[c].options.name, gaps[c].value),
+              "take Coulomb's law, or a boundary that stays closed", across, part_of_forces * all));
+  }
+  return worst(std::move(result), "contacts");
+}
+
+}  // namespace mortise::post
