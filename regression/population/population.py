@@ -1,19 +1,24 @@
 #!/usr/bin/env python3
 """Solves a population of random decks, or the decks of the table, and tabulates what they took.
 
-    population.py MORTISE [--seed N --count M [--first K] [--small] | --table] [--tolerance 1e-6] [--jobs J] [--limit SECONDS] [--reference]
-                  [--only PATTERN ...] [--set key=value ...] [--directory D] [--json FILE] [--markdown FILE]
+    population.py MORTISE [--seed N ... --count M [--first K] [--small] | --table] [--tolerance 1e-6] [--jobs J] [--limit SECONDS] [--processor SECONDS]
+                  [--reference] [--only PATTERN ...] [--set key=value ...] [--directory D] [--json FILE] [--markdown FILE]
+
+Several seeds take turns, deck by deck, so that a run that is stopped has seen all of them; what is done stands in the JSON file every ten decks.
 
 A line a deck: exit status, products, seconds, residuals, warnings. Then percentiles of the products, the worst ten decks and how to run them again.
 Decks stay in --directory, each with its results in `out`. --reference also solves the decks that have an independent reference, see reference.py.
 Exit status 1 if a deck that has an equilibrium ended other than with 0, one without it other than with 3, or if a reference differs.
 """
 import argparse
+import itertools
 import json
 import multiprocessing
 import os
 import pathlib
+import resource
 import shlex
+import signal
 import subprocess
 import sys
 import time
@@ -38,11 +43,15 @@ def command(arguments, folder):
 
 
 def run(arguments, folder):
-    """Exit status ("time" beyond the limit), summary or None, seconds."""
+    """Exit status ("time" beyond a limit), summary or None, seconds."""
     start = time.monotonic()
+    limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (arguments.processor, arguments.processor))
     with (folder / "log.txt").open("w") as log:
         try:
-            status = subprocess.run(command(arguments, folder), stdout=log, stderr=subprocess.STDOUT, env=ENVIRONMENT, timeout=arguments.limit).returncode
+            status = subprocess.run(command(arguments, folder), stdout=log, stderr=subprocess.STDOUT, env=ENVIRONMENT, timeout=arguments.limit,
+                                    preexec_fn=limit if arguments.processor else None).returncode
+            if arguments.processor and status in (-signal.SIGKILL, -signal.SIGXCPU):
+                status = "time"
         except subprocess.TimeoutExpired:
             status = "time"
     seconds = time.monotonic() - start
@@ -136,9 +145,19 @@ def folders_of(arguments):
         import table
         made = table.decks(arguments.directory, arguments.tolerance, arguments.only)
     else:
-        made = generate.random_decks(arguments.seed, arguments.count, arguments.directory, arguments.tolerance or 1e-6, arguments.small, arguments.first,
-                                     arguments.only)
-    return [(arguments, folder) for folder in made]
+        each = [generate.random_decks(seed, arguments.count, arguments.directory, arguments.tolerance or 1e-6, arguments.small, arguments.first,
+                                      arguments.only) for seed in arguments.seed]
+        made = (folder for turn in itertools.zip_longest(*each) for folder in turn if folder)
+    return ((arguments, folder) for folder in made)
+
+
+def results_of(arguments, tasks):
+    """The rows of all tasks, in their order. One job writes a deck when its turn comes, a pool all of them at once."""
+    if arguments.jobs == 1:
+        yield from map(work, tasks)
+        return
+    with multiprocessing.Pool(arguments.jobs) as pool:
+        yield from pool.imap(work, tasks)
 
 
 def wants_reference():
@@ -154,7 +173,7 @@ def wants_reference():
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mortise", type=lambda p: pathlib.Path(p).resolve())
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seed", type=int, nargs="+", default=[1])
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--small", action="store_true", help="below some 3,000 unknowns")
@@ -164,6 +183,7 @@ def main():
     parser.add_argument("--set", action="append", default=[], help="passed to the program")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--limit", type=float, default=600, help="seconds of each run")
+    parser.add_argument("--processor", type=int, help="seconds of processor of each run")
     parser.add_argument("--reference", action="store_true")
     parser.add_argument("--directory", type=lambda p: pathlib.Path(p).resolve(), default=pathlib.Path("population").resolve())
     parser.add_argument("--json", type=pathlib.Path, help="all rows; default: rows.json in the directory")
@@ -174,10 +194,11 @@ def main():
     arguments.directory.mkdir(parents=True, exist_ok=True)
     arguments.json, arguments.markdown = arguments.json or arguments.directory / "rows.json", arguments.markdown or arguments.directory / "rows.md"
     rows = []
-    with multiprocessing.Pool(arguments.jobs) as pool:
-        for row in pool.imap(work, folders_of(arguments)):
-            rows.append(row)
-            print(line(row), flush=True)
+    for row in results_of(arguments, folders_of(arguments)):
+        rows.append(row)
+        print(line(row), flush=True)
+        if len(rows) % 10 == 0:
+            arguments.json.write_text(json.dumps({"rows": rows}, indent=1) + "\n")
     if not rows:
         parser.error("no such deck")
     return 0 if report(arguments, rows) else 1
