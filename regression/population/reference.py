@@ -195,9 +195,10 @@ def figures(problem, rows, summary, exact, forces):
             pairs.append((abs(total @ r.normals[0]), abs(theirs @ r.normals[0])))
         elif not r.friction:
             pairs.append((np.linalg.norm(total), np.linalg.norm(theirs)))
-    largest = max([a for a, _ in pairs] + [1e-300])
+    least = 1e-6 * summary["max_von_mises"]  # nothing where bodies do not meet
+    largest = max([a for a, _ in pairs] + [least * sum(r.area.sum() for r in rows), 1e-300])
     found["force"] = max((abs(a - b) for a, b in pairs), default=0.0) / largest
-    top = max(max(p for p, _ in pressures), 1e-6 * summary["max_von_mises"])  # nothing where bodies do not meet
+    top = max(max(p for p, _ in pressures), least)
     found["pressure"] = max(abs(a - b) for a, b in pressures) / top
     return found
 

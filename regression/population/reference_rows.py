@@ -87,8 +87,9 @@ def obstacle_rows(problem, contact, side):
     return make_rows(problem, contact, side, normals, gap, [(side.control, side.nodes)])
 
 
-def make_rows(problem, contact, side, normals, gap, terms):
-    """gap is nodal; terms: (matrix, nodes) that add up to the relative displacement."""
+def make_rows(problem, contact, side, normals, gap, terms, fixed=None):
+    """gap is nodal; terms: (matrix, nodes) that add up to the relative displacement; fixed(directions): where supports hold what lies
+    opposite, everywhere if it is not given."""
     friction, held = contact.get("friction", {}), held_along(problem, side, normals)
     if held.any() and "tresca" in friction:
         raise Skip("a contact that supports hold along its normal")
@@ -97,8 +98,9 @@ def make_rows(problem, contact, side, normals, gap, terms):
     free = np.ones(problem.count)
     free[list(problem.held)] = 0
     kept = (abs(normal) @ free > 1e-12) & ~(held & (len(terms) == 1))
-    # Where a support holds the secondary node along a tangent alone there is no friction along it, whatever lies opposite.
-    across = [see(d * (held | ~held_along(problem, side, d))[:, None])[kept] for d in tangents(normals)]
+    # Where supports hold the secondary node along a tangent, the other side feels the friction all the same if it moves.
+    moves = lambda d: ~held_along(problem, side, d) | (~fixed(d) if fixed else False)
+    across = [see(d * (held | moves(d))[:, None])[kept] for d in tangents(normals)]
     return Rows(normal[kept], across, normals[kept], (side.control @ gap)[kept], side.area[kept], friction)
 
 
@@ -107,6 +109,21 @@ def held_along(problem, side, normals):
     feels, and none over an obstacle."""
     held = np.array([[node * problem.axes + axis in problem.held for axis in range(problem.axes)] for node in side.nodes])
     return np.any(held & (np.abs(normals) > 1e-6), axis=1)
+
+
+def opposite_held(problem, side, other, paired, directions):
+    """Where supports hold the other side along the directions: the partners of matching nodes, else all nodes of its flat face at the same
+    place along them."""
+    if paired is not None:
+        held = np.array([[node * problem.axes + axis in problem.held for axis in range(problem.axes)] for node in paired])
+        return np.any(held & (np.abs(directions) > 1e-6), axis=1)
+    size = np.ptp(problem.points, axis=0).max()
+    result = np.zeros(len(side.nodes), bool)
+    for i, direction in enumerate(directions):
+        axis = np.abs(direction).argmax()
+        same = other.nodes[np.abs(other.points[:, axis] - side.points[i, axis]) < 1e-9 * size]
+        result[i] = len(same) > 0 and all(node * problem.axes + axis in problem.held for node in same)
+    return result
 
 
 def partners(problem, side, other):
@@ -133,11 +150,12 @@ def pair_rows(problem, contact):
         raise Skip("a contact with other keys")
     paired = partners(problem, side, other)
     normals, gap = directions(side, other, contact)
+    fixed = lambda d: opposite_held(problem, side, other, paired, d)
     if paired is not None:
-        return make_rows(problem, contact, side, normals, gap, [(side.control, side.nodes), (-side.control, paired)])
+        return make_rows(problem, contact, side, normals, gap, [(side.control, side.nodes), (-side.control, paired)], fixed)
     if np.ptp(normals, axis=0).max() > 1e-9:
         raise Skip("curved meshes that do not match")
-    return make_rows(problem, contact, side, normals, gap, [(side.control, side.nodes), (-mortar(side, other, problem.kind), other.nodes)])
+    return make_rows(problem, contact, side, normals, gap, [(side.control, side.nodes), (-mortar(side, other, problem.kind), other.nodes)], fixed)
 
 
 def directions(side, other, contact):
