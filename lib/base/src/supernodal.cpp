@@ -7,9 +7,9 @@
 #include "tiles.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__)
-#define MORTISE_AVX512 1
+#define MORTISE_X86 1
 #else
-#define MORTISE_AVX512 0
+#define MORTISE_X86 0
 #endif
 
 namespace mortise {
@@ -32,7 +32,25 @@ void solve_8(const SupernodalFactor& factor, double* y)
 {
   Tiles<4, 2, 4>::solve(factor, y);
 }
-#if MORTISE_AVX512
+#if MORTISE_X86
+[[gnu::target("avx2,fma")]] void solve_8_avx2(const SupernodalFactor& factor, double* y)
+{
+  Tiles<4, 2, 4>::solve(factor, y);
+}
+[[gnu::target("avx2,fma")]] void solve_4_avx2(const SupernodalFactor& factor, double* y)
+{
+  Tiles<4, 1, 8>::solve(factor, y);
+}
+[[gnu::target("avx2,fma")]] void solve_2_avx2(const SupernodalFactor& factor, double* y)
+{
+  AlongRows<2, 4>::forwards(factor, y);
+  AlongRows<2, 4>::backwards(factor, y);
+}
+[[gnu::target("avx2,fma")]] void solve_1_avx2(const SupernodalFactor& factor, double* y)
+{
+  AlongRows<1, 4>::forwards(factor, y);
+  AlongRows<1, 4>::backwards(factor, y);
+}
 [[gnu::target("avx512f,avx512vl,avx512dq,fma")]] void solve_16_avx512(const SupernodalFactor& factor, double* y)
 {
   Tiles<8, 2, 8>::solve(factor, y);
@@ -43,13 +61,13 @@ void solve_8(const SupernodalFactor& factor, double* y)
 }
 [[gnu::target("avx512f,avx512vl,avx512dq,fma")]] void solve_2_avx512(const SupernodalFactor& factor, double* y)
 {
-  AlongRows<2>::forwards(factor, y);
-  AlongRows<2>::backwards(factor, y);
+  AlongRows<2, 8>::forwards(factor, y);
+  AlongRows<2, 8>::backwards(factor, y);
 }
 [[gnu::target("avx512f,avx512vl,avx512dq,fma")]] void solve_1_avx512(const SupernodalFactor& factor, double* y)
 {
-  AlongRows<1>::forwards(factor, y);
-  AlongRows<1>::backwards(factor, y);
+  AlongRows<1, 8>::forwards(factor, y);
+  AlongRows<1, 8>::backwards(factor, y);
 }
 #endif
 
@@ -57,12 +75,15 @@ void solve_8(const SupernodalFactor& factor, double* y)
 std::span<const Kernel> kernels()
 {
   static constexpr Kernel any[] = {{8, solve_8}, {4, solve_4}};
-#if MORTISE_AVX512
+#if MORTISE_X86
   static constexpr Kernel avx512[] = {
-      {16, solve_16_avx512}, {8, solve_8_avx512}, {4, solve_4}, {2, solve_2_avx512}, {1, solve_1_avx512}};
+      {16, solve_16_avx512}, {8, solve_8_avx512}, {4, solve_4_avx2}, {2, solve_2_avx512}, {1, solve_1_avx512}};
   static const bool has_avx512 =
       __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq");
   if (has_avx512) return avx512;
+  static constexpr Kernel avx2[] = {{8, solve_8_avx2}, {4, solve_4_avx2}, {2, solve_2_avx2}, {1, solve_1_avx2}};
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (has_avx2) return avx2;
 #endif
   return any;
 }
