@@ -14,6 +14,7 @@
 #include "cut_faces.hpp"
 #include "discretization.hpp"
 #include "face_integrals.hpp"
+#include "moments.hpp"
 #include "nearest_points.hpp"
 #include "one_surface.hpp"
 #include "opposite.hpp"
@@ -58,6 +59,7 @@ class Builder {
         index_(index),
         reach_(reach),
         dimension_(fem::dimension(kinematics)),
+        axisymmetric_(kinematics == fem::Kinematics::axisymmetric),
         share_(share),
         secondary_(share.secondary),
         primary_(share.primary),
@@ -347,8 +349,14 @@ class Builder {
       if (!bonded()) note_crossing(p, d, normal, point.gap);
       return;
     }
-    writer_.add(terms_, d, normal, point.gap, contacts);
-    for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
+    if (axisymmetric_) {  // rings do not turn
+      writer_.add(terms_, d, normal, point.gap, contacts);
+      for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
+    } else {
+      const Moments moments(terms_, d, normal, secondary_, primary_, dimension_);
+      writer_.add(terms_, d, normal, point.gap, contacts);
+      for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), normal);
+    }
     contacts.nodes.push_back(std::move(point));
     contacts.bonded.push_back(bonded());
   }
@@ -484,6 +492,7 @@ class Builder {
   int index_;
   double reach_;
   int dimension_;
+  bool axisymmetric_;
   const Share& share_;
   const Side &secondary_, &primary_;
   const std::vector<PressedNode>& pressed_nodes_;

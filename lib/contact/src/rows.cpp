@@ -15,6 +15,13 @@ constexpr double negligible_coefficient = 1e-12;  // of a coefficient
 const std::vector<RowWriter::Coefficient>& RowWriter::coefficients(std::span<const Term> terms, double d, const Point& axis)
 {
   coefficients_.clear();
+  append_coefficients(terms, d, axis);
+  if (rotation_) merge();
+  return coefficients_;
+}
+
+void RowWriter::append_coefficients(std::span<const Term> terms, double d, const Point& axis)
+{
   for (const auto& term : terms) {
     if (!(std::abs(term.value) > negligible_coefficient * d)) continue;
     const Global node = node_of(term);
@@ -29,11 +36,9 @@ const std::vector<RowWriter::Coefficient>& RowWriter::coefficients(std::span<con
     for (int c = 0; c < dimension_; ++c)
       if (std::abs(rest[c]) > 1e-14) coefficients_.push_back({node, c, term.value / d * rest[c], supports.find(node, c)});
   }
-  if (rotation_) merge();
-  return coefficients_;
 }
 
-// Nodes on the axis of a cyclic pair are on both of its sides.
+// Nodes on the axis of a cyclic pair are on both of its sides; those of a couple have coefficients already.
 void RowWriter::merge()
 {
   std::stable_sort(coefficients_.begin(), coefficients_.end(), [](const Coefficient& a, const Coefficient& b) {
@@ -69,7 +74,8 @@ double RowWriter::prescribed_part(std::span<const Term> terms, double d, const P
   return sum;
 }
 
-void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts)
+void RowWriter::take_skew_supports(std::span<const Term> terms, double d, const Point& axis, double& bound,
+                                   constraint::Contacts& contacts)
 {
   const auto row = contacts.rows.size();
   for (const auto& term : terms)
@@ -81,7 +87,20 @@ void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, do
           if (const double part = coefficient * share.part[static_cast<std::size_t>(c)]; part != 0)
             contacts.prescribed.push_back({row, c, share.support, part, i.at});
     }
-  for (const auto& c : coefficients(terms, d, axis)) {
+}
+
+void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
+                    std::span<const Term> couple, const Point& couple_axis)
+{
+  const auto row = contacts.rows.size();
+  take_skew_supports(terms, d, axis, bound, contacts);
+  take_skew_supports(couple, 1, couple_axis, bound, contacts);
+  coefficients(terms, d, axis);
+  if (!couple.empty()) {
+    append_coefficients(couple, 1, couple_axis);
+    merge();
+  }
+  for (const auto& c : coefficients_) {
     if (c.prescribed) {
       bound -= c.value * c.prescribed->value;
       contacts.prescribed.push_back({row, c.component, c.prescribed->support, c.value, c.prescribed->at});

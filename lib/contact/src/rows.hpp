@@ -31,8 +31,9 @@ class RowWriter {
   bool moves(std::span<const Term> terms, double d, const Point& axis);
   /// What supports contribute to the row.
   double prescribed_part(std::span<const Term> terms, double d, const Point& axis);
-  /// Appends the row <= bound, without what supports hold.
-  void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts);
+  /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
+  void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
+           std::span<const Term> couple = {}, const Point& couple_axis = Point::Zero());
 
  private:
   struct Coefficient {
@@ -43,6 +44,10 @@ class RowWriter {
   };
   // Of the row, but for what skew supports hold.
   const std::vector<Coefficient>& coefficients(std::span<const Term> terms, double d, const Point& axis);
+  void append_coefficients(std::span<const Term> terms, double d, const Point& axis);
+  // What skew supports hold of the row goes to them and out of its bound.
+  void take_skew_supports(std::span<const Term> terms, double d, const Point& axis, double& bound,
+                          constraint::Contacts& contacts);
   Point axis_of(const Term& term, const Point& axis) const
   {
     return rotation_ && term.on_primary ? Point(rotation_->rotation.transpose() * axis) : axis;

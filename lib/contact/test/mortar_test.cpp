@@ -210,6 +210,39 @@ TEST(Mortar, FacetedCylindersHaveTheGapOfTheirCircles)
   }
 }
 
+// Facets that do not match: forces pass on their moments, so that no row feels both sides turn together. What lets the cylinder
+// slide along itself no normal row feels at all, though facets tilt.
+TEST(Mortar, FacetedCylindersPassOnMomentsAndSlideAlongThemselves)
+{
+  const Communicator comm;
+  const auto arc = [](double x, double y) { return Point(10 * std::sin(x), y, 10 * std::cos(x)); };
+  for (const bool triangles : {false, true}) {
+    auto pair = make_pair(surface({9, 3, -0.6, 0.6, 0, 4, true, triangles, 0, 0.2}, arc, comm),
+                          surface({11, 4, -0.7, 0.7, -0.5, 4.5, false, triangles, primary_ids, 0.2}, arc, comm), Law::tresca);
+    const auto nodes = nodes_of(pair, comm);
+    for (const Law law : {Law::tresca, Law::bonded}) {
+      pair.options.law = law;
+      const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+      ASSERT_EQ(rows.rows.size(), 3U * 40U);
+      for (const auto& row : rows.rows)
+        for (int axis = 0; axis < 3; ++axis) {
+          double both = 0, secondary = 0, shift = 0;
+          for (const auto& e : row.entries) {
+            const double part = e.coefficient * Point(Point::Unit(axis).cross(nodes.at(e.node)))[e.component];
+            both += part;
+            if (e.component == axis) shift += e.coefficient;
+            if (e.node < primary_ids) secondary += axis == 1 ? part : e.component == 1 ? e.coefficient : 0;
+          }
+          EXPECT_NEAR(shift, 0, 1e-12);
+          EXPECT_NEAR(both, 0, 1e-10) << "axis " << axis << (row.is_normal ? ", normal" : ", tangent");
+          if (row.is_normal) {
+            EXPECT_NEAR(secondary, 0, 1e-9) << "axis " << axis;
+          }
+        }
+    }
+  }
+}
+
 TEST(Mortar, FarAndFacingAwayNeverMeet)
 {
   const Communicator comm;
