@@ -5,6 +5,8 @@
 #include "base/error.hpp"
 #include "constraint/right_hand_sides.hpp"
 #include "contact/sliding_surfaces.hpp"
+#include "feti/facet_support.hpp"
+#include "friction/law.hpp"
 #include "post/compatibility.hpp"
 #include "same_nodes.hpp"
 
@@ -78,17 +80,41 @@ LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach& a
   make_solver();
 }
 
+namespace {
+
+std::vector<constraint::SlidingSurface> sliding_surfaces_of(const Rows& rows, const model::Model& model, const Communicator& comm)
+{
+  // A support along normals is to its body what an obstacle that it touches everywhere is.
+  auto pairs = rows.pairs;
+  for (auto& surface : model.surfaces_held_along_normals(rows.acts)) pairs.push_back({{}, std::move(surface), nullptr});
+  return contact::sliding_surfaces(pairs, rows.constraints.contacts, model.deck().kinematics, comm);
+}
+
+// Facets of the mesh stop what slides along itself once friction is used up: a solution, but no equilibrium of the bodies meant.
+// Throws Error(no_equilibrium). Collective.
+void refuse_support_of_facets(const feti::DualProblem& problem, const Assembly& assembly, const Rows& rows,
+                              const friction::Result& found)
+{
+  constexpr double inexact = 2e-3, unfinished = 2e-2;  // of what friction holds
+  const auto bounds = friction::slip_bounds(problem, model::friction_laws(assembly.model().contacts()), &found.solution.x);
+  const auto& comm = problem.communicator();
+  if (!comm.any(!bounds.empty())) return;
+  const auto moved = feti::held_by_facets(problem, assembly.decomposition(), assembly.deck().kinematics,
+                                          sliding_surfaces_of(rows, assembly.model(), comm), found.solution.x, bounds,
+                                          found.converged ? inexact : unfinished);
+  if (moved)
+    throw Error(ExitStatus::no_equilibrium,
+                "no equilibrium: " + *moved + ". Support it, or look at the direction of the loads and at the friction");
+}
+
+}  // namespace
+
 std::unique_ptr<feti::DualProblem> LoadStepSolver::make_problem(std::vector<Eigen::VectorXd> load) const
 {
   const auto& deck = assembly_.deck();
-  // A support along normals is to its body what an obstacle that it touches everywhere is.
-  auto pairs = rows_->pairs;
-  for (auto& surface : assembly_.model().surfaces_held_along_normals(rows_->acts))
-    pairs.push_back({{}, std::move(surface), nullptr});
   auto problem = std::make_unique<feti::DualProblem>(
       assembly_.decomposition(), assembly_.directory(), assembly_.interface(), rows_->constraints, assembly_.system(),
-      std::move(load), deck.solver.subdomains, context_,
-      contact::sliding_surfaces(pairs, rows_->constraints.contacts, deck.kinematics, context_.comm));
+      std::move(load), deck.solver.subdomains, context_, sliding_surfaces_of(*rows_, assembly_.model(), context_.comm));
   context_.log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(),
                     problem->kernel_dimension());
   return problem;
@@ -174,6 +200,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   };
   auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
   if (found.gave_up) return {rows_, std::move(found), {}, {}};
+  refuse_support_of_facets(*problem_, assembly_, *rows_, found);
   found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, rounding_before_.force);
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   auto shortenings = problem_->shortenings(found.solution.nu);

@@ -112,8 +112,8 @@ BodyRows body_rows(const JumpOperator& jump, Bodies& bodies, const SparseMatrix&
   return rows;
 }
 
-std::vector<std::vector<int>> units(const BodyRows& rows_of_bodies, const constraint::Contacts& contacts, const Bodies& bodies,
-                                    const Communicator& comm)
+std::vector<std::vector<int>> units(const BodyRows& rows_of_bodies, const constraint::Contacts& contacts,
+                                    const std::vector<bool>& joins, const Bodies& bodies, const Communicator& comm)
 {
   struct BodyPair {
     int one, other;
@@ -121,7 +121,7 @@ std::vector<std::vector<int>> units(const BodyRows& rows_of_bodies, const constr
   std::vector<BodyPair> pairs;
   const Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows(rows_of_bodies.values);
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
-    if (!contacts.bonded[i]) continue;
+    if (!joins[i]) continue;
     int before = -1;
     for (decltype(rows)::InnerIterator entry(rows, rows_of_bodies.first_contact + static_cast<Local>(contacts.nodes[i].row));
          entry; ++entry) {

@@ -34,9 +34,15 @@ struct BodyRows {
 BodyRows body_rows(const JumpOperator& jump, Bodies& bodies, const SparseMatrix& g, const constraint::Constraints& constraints,
                    std::span<const Unknown> unknowns, const Communicator& comm);
 
-// The bodies that bonded contacts join, with the others alone: each body by itself first, then the sets of several. Collective.
-std::vector<std::vector<int>> units(const BodyRows& rows, const constraint::Contacts& contacts, const Bodies& bodies,
-                                    const Communicator& comm);
+// The bodies that contact nodes join, those that `joins` marks, with the others alone: each body by itself first, then the sets
+// of several. Collective.
+std::vector<std::vector<int>> units(const BodyRows& rows, const constraint::Contacts& contacts, const std::vector<bool>& joins,
+                                    const Bodies& bodies, const Communicator& comm);
+
+// The free motions of bodies that move as one, all others at rest: see find_free_motions(). Collective.
+std::vector<FreeMotion> motions_of_unit(const Bodies& bodies, const BodyRows& rows, const constraint::Contacts& contacts,
+                                        const std::vector<int>& unit,
+                                        std::span<const constraint::SlidingSurface> sliding_surfaces, const Communicator& comm);
 
 // The velocities of a motion at points, one after the other.
 Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& points, int dimension);

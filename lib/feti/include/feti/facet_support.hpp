@@ -1,0 +1,28 @@
+// What friction alone would have to hold, and does not: facets of the mesh stop a surface that slides along itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "constraint/sliding_surface.hpp"
+#include "feti/dual_problem.hpp"
+
+namespace mortise::feti {
+
+/// A ring on its shaft turns along the surface that they share: pressure does no work on it, and friction alone balances a
+/// torque,
+///
+///     e.v <= sum_i r_i |t_i v|    for every rigid motion v that lets surfaces slide along themselves,
+///
+/// e.v the work of the loads, t_i the tangential rows of a contact node, r_i the bound of its force. Where normals of the mesh do
+/// work on v, a solution may exceed this: the ring turns until facets stop it. Looked for are such motions of each body, of
+/// those that bonds join, and of those that nodes join which stick; what all normals of a contact feel alike (a taper) is no
+/// facet. `lambda`: a solution; `bounds`: r_i of each disc of problem.set(), as multipliers; `slack`: of the right side, what
+/// counts as inexact. Returns `body "ring" rotates about ..`, and how much of the load friction holds, or nothing. Collective.
+std::optional<std::string> held_by_facets(const DualProblem& problem, const partition::Decomposition& decomposition,
+                                          fem::Kinematics kinematics,
+                                          std::span<const constraint::SlidingSurface> sliding_surfaces, const Vector& lambda,
+                                          std::span<const double> bounds, double slack);
+
+}  // namespace mortise::feti
