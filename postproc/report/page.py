@@ -1,7 +1,9 @@
 """The page: what a run's summary.json, deck.yaml and history.csv hold, as HTML of its own."""
 import base64
-import html
 import math
+
+from markup import largest, number, paragraph, percent, section, table, text, vector
+from model import model
 
 STYLE = """
 body { font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; color: #1b1f24; max-width: 78em; margin: 2em auto; padding: 0 1em; }
@@ -23,50 +25,6 @@ ENDS = {
     4: ("bad", "Not solved: the machine failed the run, or it was told to end."),
     None: ("bad", "Not finished: the run was still at work when this was written, or was stopped."),
 }
-MOST_ROWS = 20  # longer tables fold
-
-
-def text(value):
-    return html.escape(str(value))
-
-
-def number(x, digits=4):
-    """Four figures; what is not known is a dash."""
-    if x is None or (isinstance(x, float) and not math.isfinite(x)):
-        return "–"
-    return f"{x:.{digits}g}"
-
-
-def largest(x):
-    return max((abs(c) for c in x if c is not None), default=0)
-
-
-def vector(x, beside=0.0):
-    """Components that are rounding beside the others, or beside a size, are 0."""
-    size = max(largest(x), beside)
-    return "(" + ", ".join(number(0 if c is not None and abs(c) < 1e-9 * size else c) for c in x) + ")"
-
-
-def percent(x):
-    return "not estimated" if x is None else f"about {100 * x:.2g} %"
-
-
-def table(head, rows):
-    if not rows:
-        return ""
-    cell = lambda c: f'<td class="n">{number(c)}</td>' if isinstance(c, (int, float)) or c is None else f"<td>{text(c)}</td>"
-    body = "".join("<tr>" + "".join(cell(c) for c in row) + "</tr>" for row in rows)
-    whole = f"<table><tr>{''.join(f'<th>{text(h)}</th>' for h in head)}</tr>{body}</table>"
-    return whole if len(rows) <= MOST_ROWS else f"<details><summary>{len(rows)} rows</summary>{whole}</details>"
-
-
-def section(title, *parts):
-    parts = [p for p in parts if p]
-    return f"<h2>{text(title)}</h2>" + "".join(parts) if parts else ""
-
-
-def paragraph(words):
-    return f"<p>{text(words)}</p>" if words else ""
 
 
 def gallery(groups, missing):
@@ -96,43 +54,47 @@ def head(summary):
     return "".join(parts)
 
 
-def model(summary, deck):
-    bodies = deck.get("bodies") or {}
-    materials = deck.get("materials") or {}
-    size = (f"Dimension {deck.get('dimension', 3)}; {summary.get('bodies', 0)} bodies, {summary.get('primal_unknowns', 0)} unknowns in "
-            f"{summary.get('subdomains', 0)} subdomains, {summary.get('dual_unknowns', 0)} multipliers. Any consistent units: those of the deck.")
-    made = [(name, (b or {}).get("material") or ", ".join(f"{v}: {m}" for v, m in ((b or {}).get("volumes") or {}).items()),
-             (b or {}).get("method", "finite_elements").replace("_", " "), (b or {}).get("formulation", "")) for name, b in bodies.items()]
-    of = [(name, *(m.get(k) for k in ("young_modulus", "poisson_ratio", "density", "thermal_expansion"))) for name, m in materials.items()]
-    plain = lambda value: ", ".join(f"{k} {v}" for k, v in value.items()) if isinstance(value, dict) else str(value)
-    what = lambda entry, keys: "; ".join(f"{k.replace('_', ' ')} {plain(entry[k])}" for k in keys if entry.get(k) not in (None, ""))
-    where = lambda entry: entry.get("boundary") or entry.get("body") or (f"coupling {entry['coupling']}" if entry.get("coupling") else "")
-    supports = [(where(s), what(s, ("displacement", "rotation"))) for s in deck.get("supports") or []]
-    loads = [(where(l), what(l, ("pressure", "traction", "force", "moment", "acceleration", "centrifugal", "temperature_change")))
-             for l in deck.get("loads") or []]
-    couplings = [(n, c["boundary"], c.get("kind", ""), str(c["point"])) for n, c in (deck.get("couplings") or {}).items()]
-    return section("Model", paragraph(size), table(("body", "material", "method", "formulation"), made),
-                   table(("material", "Young's modulus", "Poisson's ratio", "density", "thermal expansion"), of),
-                   table(("coupling", "boundary", "kind", "point"), couplings),
-                   table(("support on", "prescribes"), supports), table(("load on", "quantity"), loads))
+def place(at):
+    return f"{at.get('body') or at.get('contact') or ''} {vector(at['coordinates'])}".strip() if at and at.get("coordinates") else ""
+
+
+def value_of(probe):
+    """Of an extreme its value; of a point what is there; of a path where it is written."""
+    if "value" in probe:
+        return number(probe["value"])
+    if "displacement" in probe:
+        return f"moves {vector(probe['displacement'])}, von Mises {number(probe.get('von_mises'))}"
+    return f"probe.{probe['name']}.csv"
 
 
 def results(state):
+    big = table(("", "value", "where"), [("largest von Mises stress", state.get("max_von_mises"), place(state.get("max_von_mises_place"))),
+                                         ("largest displacement", state.get("max_displacement"), ""), ("strain energy", state.get("strain_energy"), "")])
     e = state.get("error_estimate", {})
-    big = table(("", "value"), [("largest von Mises stress", state.get("max_von_mises")), ("largest displacement", state.get("max_displacement")),
-                                ("strain energy", state.get("strain_energy"))])
     errors = paragraph(f"Estimated error in the energy norm: of the mesh {percent(e.get('discretization'))}, of the solver "
                        f"{percent(e.get('algebraic'))}. Stresses at single points may be off by more than the mesh's figure.")
     reactions = state.get("reactions", [])
     most = max((largest(r["force"]) for r in reactions), default=0)
     turn = max((largest(r["moment"]) for r in reactions if r.get("moment")), default=0)
     forces = table(("support", "force on the bodies", "moment"),
-                   [(r.get("name") or r["boundary"], vector(r["force"], most), vector(r["moment"], turn) if r.get("moment") else "") for r in reactions])
+                   [(r.get("name") or r["boundary"], vector(r["force"], most), vector(r["moment"], turn) if r.get("moment") else "") for r in reactions + total(reactions)])
     points = table(("coupling", "moves", "turns", "force on the boundary", "moment about the point", "supports' force", "supports' moment"),
                    [(c["name"], vector(c["displacement"], largest(c["rotation"])), vector(c["rotation"], largest(c["displacement"])),
                      *(vector(c[k], largest(c["force"] + c["moment"])) for k in ("force", "moment", "reaction_force", "reaction_moment")))
                     for c in state.get("couplings", [])])
-    return big + errors + forces + points
+    springs = table(("spring", "force (> 0 pulls)", "elongation"), [(s["name"], s["force"], s["elongation"]) for s in state.get("springs", [])])
+    probes = table(("probe", "quantity", "value", "where"),
+                   [(p["name"], " ".join(f"{k} {p[k]}" for k in ("largest", "smallest") if p.get(k)), value_of(p), place(p.get("place")))
+                    for p in state.get("probes", [])])
+    return big + errors + forces + points + springs + probes
+
+
+def total(reactions):
+    """All supports together: what balances the loads."""
+    if len(reactions) < 2:
+        return []
+    add = lambda key: [None if any(r[key][c] is None for r in reactions) else sum(r[key][c] for r in reactions) for c in range(3)]
+    return [{"boundary": "all together", "force": add("force"), "moment": add("moment") if all(r.get("moment") for r in reactions) else None}]
 
 
 def rounded(gap):
@@ -192,7 +154,9 @@ def page(summary, deck, rows, pictures, missing):
     solved = bool(summary.get("contacts") or summary.get("reactions") or summary.get("max_displacement"))
     parts = [head(summary)]
     if solved:
-        parts += [section("Results", results(summary)), section("Contacts", contacts(summary)), steps(summary)]
+        states = summary.get("steps", [])
+        when = f", load step {states[-1]['name']}, time {number(states[-1]['time'])}" if states else ""
+        parts += [section("Results" + when, results(summary)), section("Contacts" + when, contacts(summary)), steps(summary)]
     parts.append(gallery(pictures, missing))
     parts += [model(summary, deck), solver(summary, rows)]
     return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'

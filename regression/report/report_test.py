@@ -83,8 +83,19 @@ class Reports(unittest.TestCase):
         directory, status = self.run_deck(CASES / "coupling_steps.yaml")
         self.assertEqual(status, 0)
         words = self.page_of(directory)
-        for name in ("Load steps", "half", "all", "turned", "straight", "grip"):
+        for name in ("Load steps", "half", "all", "turned", "straight", "grip", "coupling grip"):
             self.assertIn(name, words)
+        self.assertIn("Results, load step straight, time 4", words)  # of which state they are
+        self.assertIn("bent 0.5, pulled 0", words)
+
+    def test_all_that_holds_and_loads_a_model_is_told(self):
+        directory, status = self.run_deck(CASES / "coupling_cap.yaml", "--set", "supports[0]={boundary: lower.zmin, stiffness: {x: 5e4, y: 5e4, z: 5e4}}",
+                                          "--set", "contacts[0].friction={coulomb: 0.3}", "--set", "output.probes={low: {smallest: uz}}")  # fmt: skip
+        summary = json.loads((directory / "summary.json").read_text())
+        self.assertEqual(status, 0, summary)
+        words = self.page_of(directory)
+        for name in ("stiffness x 5e4, y 5e4, z 5e4", "coulomb 0.3", "smallest uz", f"{summary['probes'][0]['value']:.4g}"):
+            self.assertTrue(any(name == word or name.replace("5e4", "50000") == word for word in words), (name, words))
 
     def test_a_run_that_did_not_converge_says_so_first(self):
         directory, status = self.run_deck(CASES / "coupling_cap.yaml", "--set", "solver.max_multiplications=2", "--set", "solver.algorithm=face_newton")
