@@ -134,11 +134,28 @@ auto& isotropic_key(deck::Description<Material>& d, const char* name, double Mat
       [](const deck::Limits& limits) { return deck::Codec<double>::schema(limits); });
 }
 
+// The rules of check_load for the schema.
+nlohmann::ordered_json load_rules()
+{
+  using namespace deck;
+  const KeyNames on_bodies{"acceleration", "centrifugal", "temperature_change"};
+  const KeyNames kinds{"pressure", "traction", "force", "acceleration", "centrifugal", "temperature_change"};
+  const auto of_coupling = all_of(
+      {any_given({"force", "moment"}),
+       none_given({"boundary", "body", "points", "pressure", "traction", "acceleration", "centrifugal", "temperature_change"})});
+  const auto of_points = all_of({given({"force"}), none_given({"boundary"})});
+  const auto of_boundary = all_of({given({"boundary"}), none_given({"body"}), when(given({"pressure"}), none_given({"axes"}))});
+  const auto place = schema_by_case(any_given(on_bodies), all_of({given({"body"}), none_given({"boundary", "points", "axes"})}),
+                                    schema_by_case(given({"points"}), of_points, of_boundary));
+  return schema_by_case(given({"coupling"}), of_coupling, all_of({one_given(kinds), none_given({"moment"}), place}));
+}
+
 // What goes together, and on what it acts.
 void check_load(const LoadOptions& load, const std::string& path, deck::Document& document)
 {
   if (!load.coupling.empty()) {
-    if (!load.boundary.empty() || !load.body.empty()) document.error(path, "expected one of `coupling`, `boundary` and `body`");
+    if (!load.boundary.empty() || !load.body.empty() || !load.points.empty())
+      document.error(path, "expected one of `coupling`, `boundary`, `points` and `body`");
     if (!load.force && !load.moment) document.error(path, "a coupling takes a `force`, a `moment`, or both");
     if (load.pressure || load.traction || load.acceleration || load.centrifugal || load.temperature_change)
       document.error(path, "a coupling takes a `force` and a `moment` alone");
@@ -199,6 +216,8 @@ void describe(deck::Description<Material>& d)
   d.key("orthotropic", &Material::orthotropic, "Instead of these two: constants along three directions.");
   d.key("density", &Material::density, "Mass a volume, for accelerations.").at_least(0);
   d.key("thermal_expansion", &Material::thermal_expansion, "Strain a degree, for changes of temperature.");
+  d.rule(deck::schema_by_case(deck::given({"orthotropic"}), deck::none_given({"young_modulus", "poisson_ratio"}),
+                              deck::given({"young_modulus", "poisson_ratio"})));
   d.check_keys([](const std::vector<std::string>& given, const std::string& path, deck::Document& document) {
     const auto has = [&](const char* key) { return std::find(given.begin(), given.end(), key) != given.end(); };
     for (const char* key : {"young_modulus", "poisson_ratio"}) {
@@ -251,6 +270,11 @@ void describe(deck::Description<BodyOptions>& d)
       "quad4).",
       &BodyOptions::formulation, formulations)
       .one_of({"standard", "bbar", "incompatible"});
+  d.rule(deck::one_given({"material", "volumes"}));
+  d.rule(
+      deck::schema_by_case(deck::given_as("method", {{"const", "boundary_elements"}}),
+                           deck::all_of({deck::none_given({"volumes"}), deck::key_fits("formulation", {{"const", "standard"}})}),
+                           deck::none_given({"surfaces"})));
   d.check([](const BodyOptions& body, const std::string& path, deck::Document& document) {
     if (body.material.empty() == body.volumes.empty())
       document.error(path, body.volumes.empty() ? "the key \"material\" is missing: Name of a material."
@@ -313,7 +337,7 @@ void describe(deck::Description<LoadOptions>& d)
   d.key("points", &LoadOptions::points,
         "Instead of a boundary: nodes of the surface that share the `force`, by their coordinates or by the name of a curve or a "
         "point of the mesh; those of a curve by its length.");
-  d.key("axes", &LoadOptions::axes, "Local axes, by their name in the section `axes`, of a traction or a force.");
+  d.key("axes", &LoadOptions::axes, "Local axes, by their name in the section `axes`, of a traction, a force or a moment.");
   d.key("body", &LoadOptions::body, "Body that is accelerated, turns or is heated.");
   d.key("pressure", &LoadOptions::pressure,
         "Force an area, positive into the body: a number, or a formula in x, y, z, r, theta, t.");
@@ -332,6 +356,7 @@ void describe(deck::Description<LoadOptions>& d)
                                     deck::Codec<deck::Formula>::schema(limits));
       });
   d.check(check_load);
+  d.rule(load_rules());
 }
 
 }  // namespace mortise::fem

@@ -87,9 +87,10 @@ std::vector<constraint::Coupling> Model::couplings(const LoadState& state, const
     for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
       const auto& load = deck_.loads[i];
       if (load.coupling != name) continue;
+      const Point force = along_model(load, load.force), moment = along_model(load, load.moment);
       for (std::size_t c = 0; c < 3; ++c) {
-        if (load.force) coupling.load[c] += state.load[i] * (*load.force)[c];
-        if (load.moment) coupling.load[3 + c] += state.load[i] * (*load.moment)[c];
+        coupling.load[c] += state.load[i] * force[static_cast<int>(c)];
+        coupling.load[3 + c] += state.load[i] * moment[static_cast<int>(c)];
       }
     }
     result.push_back(std::move(coupling));

@@ -217,8 +217,9 @@ void check_uses_of_axes(const Deck& deck, deck::Document& document)
     const auto& load = deck.loads[i];
     const auto path = fmt::format("loads[{}]", i);
     if (load.axes.empty()) continue;
-    if (const auto* axes = find(load.axes, path); axes && axes->axis && load.force)
-      document.error(path + ".axes", "a force has one direction; expected turned axes, or a traction");
+    if (const auto* axes = find(load.axes, path); axes && axes->axis && (load.force || load.moment))
+      document.error(path + ".axes", load.force ? "a force has one direction; expected turned axes, or a traction"
+                                                : "a moment has one direction; expected turned axes");
   }
 }
 

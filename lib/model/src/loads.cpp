@@ -61,17 +61,16 @@ void Model::add_point_forces(const LoadState& state, std::vector<Eigen::VectorXd
     for (const auto& found : places.loads[i]) {
       if (found.subdomain < 0 || decomposition_.rank_of(found.subdomain) != comm.rank()) continue;
       const auto s = static_cast<std::size_t>(found.subdomain - decomposition_.subdomains.front().id);
-      const Point force = state.load[i] * found.share * force_of(deck_.loads[i]);
+      const Point force = state.load[i] * found.share * along_model(deck_.loads[i], deck_.loads[i].force);
       f[s].segment(found.local * dimension, dimension) += force.head(dimension);
     }
 }
 
-// The resultant of a load along the axes of the model.
-Point Model::force_of(const fem::LoadOptions& load) const
+Point Model::along_model(const fem::LoadOptions& load, const std::optional<std::array<double, 3>>& value) const
 {
-  const Point force = place(*load.force);
-  if (load.axes.empty()) return force;
-  return local_axes(deck_, load.axes).at(Point::Zero())->transpose() * force;
+  if (!value) return Point::Zero();
+  if (load.axes.empty()) return place(*value);
+  return local_axes(deck_, load.axes).at(Point::Zero())->transpose() * place(*value);
 }
 
 // Pressure, traction or force of loads[index].
@@ -116,7 +115,8 @@ void Model::add_boundary_load(std::size_t index, const LoadState& state, std::ve
             subdomain.mesh, boundary, deck_.kinematics,
             [&, t = *load.traction](const Point& x) { return turned(Point(value(t[0], x), value(t[1], x), value(t[2], x)), x); },
             f[s]);
-      if (load.force) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, Point(factor * force_of(load) / area), f[s]);
+      if (load.force)
+        fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, Point(factor * along_model(load, load.force) / area), f[s]);
     }
   });
 }

@@ -108,7 +108,8 @@ class Model {
   Point acceleration(const partition::Subdomain& subdomain, const LoadState& state) const;
   void add_boundary_load(std::size_t index, const LoadState& state, std::vector<Eigen::VectorXd>& f,
                          const Communicator& comm) const;
-  Point force_of(const fem::LoadOptions& load) const;
+  /// The force or moment of a load along the axes of the model; zero if it has none.
+  Point along_model(const fem::LoadOptions& load, const std::optional<std::array<double, 3>>& value) const;
   struct NodeAtPoint;
   class CandidatesAtPoints;
   struct NodesAtPoints;
