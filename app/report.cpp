@@ -44,11 +44,16 @@ Report::Report(const model::Deck& deck, const deck::Document& document, const Co
   directory_.emplace(deck.output.directory, files, context.comm);
 }
 
-// The line of a stage: the time since it was last asked for.
 void Report::end_stage(const char* what, const char* name)
 {
-  const double seconds = context_.timers.seconds(name);
   stop_if_requested(context_.comm);
+  tell_stage(what, name);
+}
+
+// The line of a stage: the time since it was last asked for.
+void Report::tell_stage(const char* what, const char* name)
+{
+  const double seconds = context_.timers.seconds(name);
   context_.log.line("  {:<22} {:8.2f} s", what, context_.comm.max(seconds - seconds_before_[name]));
   seconds_before_[name] = seconds;
 }
@@ -159,14 +164,14 @@ void Report::write(const analysis::LoadStepSolver& solver, const analysis::StepS
   }
   summary_ = std::move(summary);  // now that what it tells is on the disk
   results_ = std::move(results);
-  end_stage("output", "output");
+  tell_stage("output", "output");  // does not end the run: a state that is written is to be kept for --resume
 }
 
 void Report::fail(const Error& error, const analysis::Approach& approach)
 {
   context_.log.end_progress();
   if (analysis::is_tried_again(approach, error)) throw error;
-  if (index_ == 1) throw error;
+  if (summary_.version.empty()) throw error;  // no state is written
   summary_.converged = false;
   summary_.exit_status = static_cast<int>(error.status());
   try {

@@ -63,6 +63,7 @@ class Report {
  private:
   bool is_due(bool converged) const;
   void end_stage(const char* what, const char* name);
+  void tell_stage(const char* what, const char* name);
   void write_summary(bool finished);
 
   const model::Deck& deck_;
