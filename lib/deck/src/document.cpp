@@ -51,10 +51,12 @@ std::string parser_error(const std::string& file, const std::string& text, const
   std::string cure;
   if (error.msg == "illegal map value")
     cure = "; a value that holds a colon and a space takes quotes, and keys of one mapping are indented alike";
+  else if (error.msg.find("flow") != std::string::npos)
+    cure = "; look for a bracket or brace that is not closed";
   else if (error.msg.starts_with("end of map not found"))
     cure = "; this line is indented otherwise than the keys it belongs to";
-  else if (error.msg.starts_with("end of sequence") || error.msg.find("flow") != std::string::npos)
-    cure = "; look for a bracket or brace that is not closed";
+  else if (error.msg.starts_with("end of sequence"))
+    cure = "; this line is indented otherwise than the entry of a list that it belongs to";
   return fmt::format("{}:{}: this is not valid YAML: {}{}", file, error.mark.line + 1, error.msg, cure);
 }
 
@@ -257,6 +259,9 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
 std::string suggestion(const std::string& name, const std::vector<std::string>& candidates)
 {
   std::string text;
+  if (const auto colon = name.find(':');
+      colon != std::string::npos && std::find(candidates.begin(), candidates.end(), name.substr(0, colon)) != candidates.end())
+    return fmt::format(", a space is missing after \"{}\"", name.substr(0, colon + 1));
   if (const auto near = nearest(name, candidates); !near.empty()) text += fmt::format(", did you mean \"{}\"?", near);
   if (candidates.empty()) return text;
   const auto shown = std::min<std::size_t>(candidates.size(), candidates.size() > most_candidates ? 8 : most_candidates);

@@ -131,6 +131,11 @@ TEST(Deck, WhatIsNoYamlIsToldWithACure)
             "cart.yaml:3: a tab indents this line; YAML takes spaces alone");
   EXPECT_NE(complaints("title: a: b\n").find("takes quotes"), std::string::npos);
   EXPECT_NE(complaints("wheels:\n  left: {radius: 1}\n right: {radius: 1}\n").find("indented otherwise"), std::string::npos);
+  const auto in_list = complaints("spares:\n  - radius: 1\n   tyre: road\n");
+  EXPECT_NE(in_list.find("indented otherwise"), std::string::npos) << in_list;
+  EXPECT_EQ(in_list.find("bracket"), std::string::npos) << in_list;
+  EXPECT_NE(complaints("spares:\n  - {radius: 1\n").find("bracket or brace that is not closed"), std::string::npos);
+  EXPECT_NE(complaints("wheels: {left: {radius:1}}\n").find("a space is missing after \"radius:\""), std::string::npos);
 }
 
 TEST(Deck, AllMistakesAreReportedAtOnceInTheOrderOfLines)
