@@ -14,12 +14,8 @@ import sys
 import tempfile
 import unittest
 
+import jsonschema
 import yaml
-
-try:
-    import jsonschema
-except ImportError:
-    jsonschema = None
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "inputs" / "start"))
@@ -113,12 +109,12 @@ class Schema(unittest.TestCase):
 
         walk(json.loads(explain.SCHEMA.read_text()), "schema")
 
-    @unittest.skipUnless(jsonschema, "needs python3-jsonschema")
     def test_all_decks_fit_and_wrong_keys_of_contacts_are_found(self):
         schema = json.loads(explain.SCHEMA.read_text())
         jsonschema.Draft202012Validator.check_schema(schema)
         validator = jsonschema.Draft202012Validator(schema)
-        decks = sorted([*(ROOT / "inputs").glob("*/*.yaml"), *(ROOT / "regression" / "cases").glob("*.yaml")])
+        decks = [d for folder in ("inputs", "regression") for d in sorted((ROOT / folder).rglob("*.yaml")) if "must_fail" not in d.parts]
+        decks = [d for d in decks if d.name != "bonded_interference.yaml"]  # the program refuses it as well
         self.assertGreater(len(decks), 90)
         for deck in decks:
             self.assertEqual([(e.json_path, e.message) for e in validator.iter_errors(yaml.load(deck.read_text(), Yaml12))], [], deck)

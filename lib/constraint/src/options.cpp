@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "deck/cases.hpp"
+
 namespace mortise::constraint {
 
 namespace {
@@ -108,6 +110,8 @@ nlohmann::ordered_json stiffness_schema(const deck::Limits& limits)
   for (const char* name : {"normal", "tangential", "x", "y", "z"}) schema["properties"][name] = value;
   schema["additionalProperties"] = false;
   schema["minProperties"] = 1;
+  schema["allOf"].push_back(deck::when(deck::any_given({"normal", "tangential"}), deck::none_given({"x", "y", "z"})));
+  schema["allOf"].push_back(deck::when(deck::given({"tangential"}), deck::given({"normal"})));
   return schema;
 }
 
@@ -120,7 +124,23 @@ nlohmann::ordered_json displacement_schema(const deck::Limits& limits)
   schema["properties"]["normal"] = value;
   schema["additionalProperties"] = false;
   schema["minProperties"] = 1;
+  schema["allOf"].push_back(deck::when(deck::any_given({"radial", "tangential", "axial"}), deck::none_given({"x", "y", "z"})));
   return schema;
+}
+
+// The rules of the check below for the schema.
+nlohmann::ordered_json support_rules()
+{
+  using namespace deck;
+  const auto no_normal = key_fits("displacement", none_given({"normal"}));
+  const auto of_coupling =
+      all_of({any_given({"displacement", "rotation"}), none_given({"stiffness", "axes", "body"}), no_normal});
+  const auto of_points =
+      when(given({"points"}), all_of({no_normal, key_fits("stiffness", none_given({"normal", "tangential"}))}));
+  const auto of_nodes = all_of({one_given({"displacement", "stiffness"}), none_given({"rotation"}),
+                                when(given({"stiffness"}), none_given({"axes"})), of_points});
+  return all_of({one_given({"boundary", "coupling", "points"}), when(given({"body"}), given({"points"})),
+                 schema_by_case(given({"coupling"}), of_coupling, of_nodes)});
 }
 
 }  // namespace
@@ -150,6 +170,7 @@ void describe(deck::Description<SupportOptions>& d)
          const deck::Limits& limits) { Angles::read(support.rotation, node, path, document, limits); },
       [](const SupportOptions& support) { return any(support.rotation) ? Angles::write(support.rotation) : YAML::Node(); },
       [](const deck::Limits& limits) { return Angles::schema(limits); });
+  d.rule(support_rules());
   d.check([](const SupportOptions& support, const std::string& path, deck::Document& document) {
     const int places = !support.boundary.empty() + !support.coupling.empty() + !support.points.empty();
     if (places == 0) document.error(path, "the key \"boundary\" is missing: Boundary that is held.");

@@ -67,6 +67,24 @@ nlohmann::ordered_json friction_schema(const deck::Limits&)
           {"maxProperties", 1}};
 }
 
+// The rules of check_options that hold for `auto` as well, for the schema.
+nlohmann::ordered_json gap_rules()
+{
+  using namespace deck;
+  const auto bonded = given_as("friction", given_as("bonded", {{"const", true}}));
+  return all_of({key_fits("clearance", {{"minimum", 0}}), when(given({"clearance"}), none_given({"adjust"})),
+                 when(bonded, all_of({none_given({"adjust", "clearance"}), key_fits("interference", {{"const", 0}})}))});
+}
+
+// Those of pairs alone.
+nlohmann::ordered_json pair_rules()
+{
+  using namespace deck;
+  const auto bonded = given_as("friction", given_as("bonded", {{"const", true}}));
+  return all_of({when(given({"preload"}), bonded),
+                 when(given({"cyclic"}), all_of({none_given({"preload"}), key_fits("primary", {{"type", "string"}})}))});
+}
+
 // What goes together.
 void check_options(const Options& contact, const std::string& path, deck::Document& document)
 {
@@ -105,6 +123,7 @@ void describe(deck::Description<PreloadOptions>& d)
         "Tension of the bolt; how far that shortens it is found (plane models: a thickness; axisymmetric: of the whole turn).")
       .positive();
   d.key("shortening", &PreloadOptions::shortening, "How far the two sides are drawn together; the force is found.");
+  d.rule(deck::one_given({"force", "shortening"}));
   d.check([](const PreloadOptions& preload, const std::string& path, deck::Document& document) {
     if (preload.force.has_value() == preload.shortening.has_value())
       document.error(path, fmt::format("expected either a force or a shortening, found {}", preload.force ? "both" : "neither"));
@@ -162,6 +181,8 @@ void describe(deck::Description<Options>& d)
       "the "
       "two are the cuts through the material, whose meshes need not match; with other laws sectors touch their neighbours "
       "there.");
+  d.rule(gap_rules());
+  d.rule(pair_rules());
   d.check(check_options);
 }
 
@@ -210,6 +231,7 @@ void describe(deck::Description<AutoOptions>& d)
         "of the smaller face; faces round those may come from as far away as the largest of these faces is long, or a fiftieth "
         "of the "
         "smaller body's diagonal.");
+  d.rule(gap_rules());
   d.check([](const AutoOptions& options, const std::string& path, deck::Document& document) {
     deck::description<Options>().whole_check()(options.contact, path, document);
   });

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "deck/cases.hpp"
 #include "deck/document.hpp"
 
 namespace mortise::deck {
@@ -27,6 +28,8 @@ void describe(Description<AxesOptions>& d)
   d.key("point", &AxesOptions::point, "A point of the axis.");
   d.key("x", &AxesOptions::x, "Turned: the direction of the first axis.");
   d.key("y", &AxesOptions::y, "The direction of the second axis, made orthogonal to the first (plane models: not needed).");
+  d.rule(one_given({"axis", "x"}));
+  d.rule(when(given({"y"}), given({"x"})));
   d.check([](const AxesOptions& axes, const std::string& path, Document& document) {
     if (axes.axis.has_value() == axes.x.has_value())
       document.error(path, "expected either an `axis`, for cylindrical components, or `x`, for turned axes");

@@ -14,6 +14,8 @@ using Points = std::vector<std::array<double, 3>>;
 
 constexpr const char* only_cells = "cells";  // short for {cells: true}
 constexpr int most_points = 100'000;         // of a path
+// What is the same along all axes.
+constexpr std::array<const char*, 4> quantities_alike{"von_mises", "principal_stress", "displacement", "pressure"};
 
 bool goes_into_file_names(const std::string& name)
 {
@@ -26,6 +28,18 @@ void check_names(const std::map<std::string, Named>& named, const std::string& p
   for (const auto& [name, value] : named)
     if (name.empty() || !goes_into_file_names(name))
       document.error(path + "." + name, "the name goes into file names: letters, digits, - and _ alone are for it");
+}
+
+// The rules of check_probe for the schema.
+nlohmann::ordered_json probe_rules()
+{
+  using namespace deck;
+  const auto path = all_of({given({"from", "to"}), none_given({"largest", "smallest", "point", "of"})});
+  const nlohmann::ordered_json alike{{"enum", quantities_alike}};
+  return all_of({schema_by_case(any_given({"from", "to"}), path,
+                                all_of({one_given({"largest", "smallest", "point"}), none_given({"count"})})),
+                 when(given({"point"}), none_given({"of"})), when(given_as("largest", alike), none_given({"axes"})),
+                 when(given_as("smallest", alike), none_given({"axes"}))});
 }
 
 // One of the four kinds, and what belongs to it.
@@ -42,8 +56,8 @@ void check_probe(const ProbeOptions& probe, const std::string& path, deck::Docum
   else if (probe.from && probe.from == probe.to)
     document.error(path + ".to", "a path has two ends, but both are the same point");
   if (probe.count && !probe.is_path()) document.error(path + ".count", "this is for paths, which have `from` and `to`");
-  constexpr std::array<const char*, 4> alike{"von_mises", "principal_stress", "displacement", "pressure"};
-  if (!probe.axes.empty() && std::find(alike.begin(), alike.end(), probe.quantity()) != alike.end())
+  if (!probe.axes.empty() &&
+      std::find(quantities_alike.begin(), quantities_alike.end(), probe.quantity()) != quantities_alike.end())
     document.error(path + ".axes", "this is for components, ux to sxz; " + probe.quantity() + " is the same along all axes");
   if (!probe.of.empty() && !probe.is_extreme()) document.error(path + ".of", "this is for `largest` and `smallest`");
 }
@@ -150,6 +164,7 @@ void describe(deck::Description<ProbeOptions>& d)
         "tangential and axial.");
   d.key("count", &ProbeOptions::count, "Points on a path, both ends among them; default: 21.").at_least(2).below(most_points + 1);
   d.check(check_probe);
+  d.rule(probe_rules());
 }
 
 void describe(deck::Description<Options>& d)

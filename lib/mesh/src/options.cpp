@@ -1,5 +1,6 @@
 #include "mesh/options.hpp"
 
+#include "deck/cases.hpp"
 #include "file_kind.hpp"
 #include "mesh/cell.hpp"
 
@@ -62,6 +63,8 @@ void describe(deck::Description<Options>& d)
       .hidden();
   d.key("scale", &Options::scale, "Coordinates are multiplied by this.").positive();
   d.key("blocks", &Options::blocks, "Structured boxes by body name.");
+  d.rule(deck::one_given({"file", "blocks"}));
+  d.rule(deck::when(deck::given({"blocks"}), deck::none_given({"constants", "size", "order", "dimension"})));
   d.check([](const Options& mesh, const std::string& path, deck::Document& document) {
     if (mesh.file.empty() == mesh.blocks.empty()) document.error(path, "expected either `file` or `blocks`");
     if (mesh.file.empty() && !mesh.constants.empty())

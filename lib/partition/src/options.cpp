@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "deck/cases.hpp"
+
 namespace mortise::partition {
 
 namespace {
@@ -27,6 +29,8 @@ void describe(deck::Description<Options>& d)
         "subdomains; "
         "with more let some 500 to 1000 clusters be left.")
       .at_least(1);
+  d.rule(deck::when(deck::given({"subdomains"}), deck::none_given({"unknowns_per_subdomain"})));
+  d.rule(deck::when(deck::given({"counts"}), deck::given_as("method", {{"const", "grid"}})));
   d.check([](const Options& options, const std::string& path, deck::Document& document) {
     if (options.subdomains && options.unknowns_per_subdomain)
       document.error(deck::join(path, "subdomains"), "is given beside unknowns_per_subdomain; remove one of them");

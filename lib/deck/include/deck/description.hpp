@@ -86,11 +86,15 @@ class Description {
     key_check_ = std::move(function);
   }
 
+  /// What of its keys goes together, as a schema (cases.hpp): tells editors what the checks tell those who run the program.
+  void rule(nlohmann::ordered_json schema) { rules_.push_back(std::move(schema)); }
+
   const std::vector<std::unique_ptr<Key<T>>>& keys() const { return keys_; }
   const std::vector<std::string>& unavailable() const { return unavailable_; }
   const std::string& help() const { return help_; }
   const auto& whole_check() const { return check_; }
   const auto& key_check() const { return key_check_; }
+  const std::vector<nlohmann::ordered_json>& rules() const { return rules_; }
 
  private:
   std::string help_;
@@ -98,6 +102,7 @@ class Description {
   std::vector<std::string> unavailable_;
   std::function<void(const T&, const std::string&, Document&)> check_;
   std::function<void(const std::vector<std::string>&, const std::string&, Document&)> key_check_;
+  std::vector<nlohmann::ordered_json> rules_;
 };
 
 /// The description of T, made once.
@@ -179,6 +184,7 @@ struct Codec {
       result["properties"][key->name] = property;
       if (key->is_required) result["required"].push_back(key->name);
     }
+    if (!d.rules().empty()) result["allOf"] = d.rules();
     return result;
   }
 };
