@@ -40,7 +40,7 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
   }
   bool loadA_impl(Amesos2::EPhase) { return true; }
 
-  // x and b are on this rank alone: their columns are read and written where they are.
+  // In place: b is copied into x unless it is x.
   int solve_impl(Teuchos::Ptr<Amesos2::MultiVecAdapter<Vector>> x, Teuchos::Ptr<const Amesos2::MultiVecAdapter<Vector>> b) const;
   // The arrays of the CRS matrix, read as the compressed columns of its transpose.
   SparseMatrix lower() const;

@@ -6,19 +6,18 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <algorithm>
 #include <map>
-#include <optional>
-#include <vector>
+#include <memory>
 
 #include "base/error.hpp"
 #include "base/tpetra.hpp"
 #include "cholmod_solver.hpp"
+#include "columns.hpp"
 
 namespace mortise::feti {
 
 namespace {
 
 using CrsMatrix = Tpetra::CrsMatrix<Scalar, Local, Global, Node>;
-using Amesos2Solver = Amesos2::Solver<CrsMatrix, MultiVector>;
 using OrdinalView = Kokkos::View<Local*, Kokkos::DefaultHostExecutionSpace>;
 using ScalarView = Kokkos::View<Scalar*, Kokkos::DefaultHostExecutionSpace>;
 
@@ -62,16 +61,20 @@ template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::solve_impl(Teuchos::Ptr<Amesos2::MultiVecAdapter<Vector>> x,
                                               Teuchos::Ptr<const Amesos2::MultiVecAdapter<Vector>> b) const
 {
-  const std::size_t count = x->getGlobalNumVectors();
-  std::vector<double*> columns;
-  for (std::size_t c = 0; c < count; ++c) {
-    const auto from = b->getVector(c)->getData();
-    columns.push_back(x->getVectorNonConst(c)->getDataNonConst().getRawPtr());
-    if (columns.back() != from.getRawPtr()) std::copy(from.begin(), from.end(), columns.back());
-  }
-  factor_->solve(columns);
+  for (std::size_t c = 0; c < x->columns.size(); ++c)
+    if (x->columns[c] != b->columns[c]) std::copy_n(b->columns[c], this->globalNumCols_, x->columns[c]);
+  factor_->solve(x->columns);
   return 0;
 }
+
+// An Amesos2 solver, whatever it takes for right-hand sides.
+class Amesos2Factor {
+ public:
+  virtual ~Amesos2Factor() = default;
+  virtual void factorize() = 0;
+  virtual void solve(std::span<double* const> columns) = 0;
+  virtual std::size_t bytes() const = 0;
+};
 
 namespace {
 
@@ -96,19 +99,56 @@ Teuchos::RCP<const CrsMatrix> crs(const SparseMatrix& columns)
   return matrix;
 }
 
+// Vector: Columns, which our solver takes where they are; MultiVector for those that Amesos2 brings, with copies of the columns.
+template <class Vector>
+class Factor : public Amesos2Factor {
+ public:
+  explicit Factor(Teuchos::RCP<Amesos2::Solver<CrsMatrix, Vector>> solver, std::size_t size)
+      : solver_(std::move(solver)), size_(size)
+  {
+  }
+  void factorize() override { solver_->symbolicFactorization().numericFactorization(); }
+  void solve(std::span<double* const> columns) override;
+  std::size_t bytes() const override { return solver_->getStatus().getNnzLU() * sizeof(double); }
+
+ private:
+  void solve(Vector& x) { solver_->solve(Teuchos::ptr(&x), Teuchos::ptr<const Vector>(&x)); }
+
+  Teuchos::RCP<Amesos2::Solver<CrsMatrix, Vector>> solver_;
+  std::size_t size_;
+};
+
+template <>
+void Factor<Columns>::solve(std::span<double* const> columns)
+{
+  Columns x{columns};
+  solve(x);
+}
+
+template <>
+void Factor<MultiVector>::solve(std::span<double* const> columns)
+{
+  MultiVector x(local_map(size_), columns.size(), false);
+  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(columns[c], size_, x.getDataNonConst(c).begin());
+  solve(x);
+  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(x.getData(c).begin(), size_, columns[c]);
+}
+
 template <bool Tiled>
-Teuchos::RCP<Amesos2Solver> cholmod(const SparseMatrix& lower, int block)
+std::unique_ptr<Amesos2Factor> cholmod(const SparseMatrix& lower, int block)
 {
-  return Teuchos::rcp(new CholmodSolver<CrsMatrix, MultiVector>(crs(lower), block, Tiled));
+  const auto solver = Teuchos::rcp(new CholmodSolver<CrsMatrix, Columns>(crs(lower), block, Tiled));
+  return std::make_unique<Factor<Columns>>(solver, static_cast<std::size_t>(lower.cols()));
 }
 
-Teuchos::RCP<Amesos2Solver> klu2(const SparseMatrix& lower, int)
+std::unique_ptr<Amesos2Factor> klu2(const SparseMatrix& lower, int)
 {
-  return Amesos2::create<CrsMatrix, MultiVector>("KLU2", crs(lower.selfadjointView<Eigen::Lower>()));
+  const auto solver = Amesos2::create<CrsMatrix, MultiVector>("KLU2", crs(lower.selfadjointView<Eigen::Lower>()));
+  return std::make_unique<Factor<MultiVector>>(solver, static_cast<std::size_t>(lower.cols()));
 }
 
-// To add a factorization: a function here that makes an Amesos2 solver from a lower triangle, and its name in feti::Options.
-using Maker = Teuchos::RCP<Amesos2Solver> (*)(const SparseMatrix& lower, int block);
+// To add a factorization: a function here that makes an Amesos2 solver of a lower triangle, and its name in feti::Options.
+using Maker = std::unique_ptr<Amesos2Factor> (*)(const SparseMatrix& lower, int block);
 const std::map<std::string, Maker>& makers()
 {
   static const std::map<std::string, Maker> table{{"cholmod", cholmod<true>}, {"cholmod_plain", cholmod<false>}, {"klu2", klu2}};
@@ -118,25 +158,16 @@ const std::map<std::string, Maker>& makers()
 }  // namespace
 
 struct DirectSolver::Data {
-  Teuchos::RCP<Amesos2Solver> solver;
-  Teuchos::RCP<const Map> map;
-  std::optional<MultiVector> columns;  // at work, of the last count of right-hand sides
-
-  MultiVector& room_for(std::size_t count)
-  {
-    if (!columns || columns->getNumVectors() != count) columns.emplace(map, count, false);
-    return *columns;
-  }
+  std::unique_ptr<Amesos2Factor> factor;
 };
 
 DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower, int block) : data_(std::make_unique<Data>())
 {
   const auto maker = makers().find(name);
   if (maker == makers().end()) throw Error(ExitStatus::bad_input, "there is no factorization called \"" + name + "\"");
-  data_->map = local_map(static_cast<std::size_t>(lower.cols()));
   try {
-    data_->solver = maker->second(lower, block);
-    data_->solver->symbolicFactorization().numericFactorization();
+    data_->factor = maker->second(lower, block);
+    data_->factor->factorize();
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -155,17 +186,12 @@ DirectSolver::~DirectSolver() = default;
 
 void DirectSolver::solve(std::span<double* const> columns) const
 {
-  if (columns.empty()) return;
-  MultiVector& x = data_->room_for(columns.size());
-  const std::size_t size = x.getLocalLength();
-  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(columns[c], size, x.getDataNonConst(c).begin());
-  data_->solver->solve(Teuchos::ptr(&x), Teuchos::ptr<const MultiVector>(&x));
-  for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(x.getData(c).begin(), size, columns[c]);
+  if (!columns.empty()) data_->factor->solve(columns);
 }
 
 std::size_t DirectSolver::factor_bytes() const
 {
-  return data_->solver->getStatus().getNnzLU() * sizeof(double);
+  return data_->factor->bytes();
 }
 
 }  // namespace mortise::feti
