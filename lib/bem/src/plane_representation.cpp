@@ -108,10 +108,10 @@ struct Gathered {
 // most twice the smaller one of the two differences, nothing at an extremum [van Leer, J. Comput. Phys. 23 (1977)].
 std::vector<Eigen::Matrix3d> changes(const PlanePanels& panels, const std::vector<Eigen::Matrix3d>& gradients)
 {
-  struct Meeting {
+  struct Neighbours {
     std::size_t count = 0, before = 0, after = 0;
   };
-  std::vector<Meeting> nodes(panels.points.size());
+  std::vector<Neighbours> nodes(panels.points.size());
   for (std::size_t p = 0; p < panels.corners.size(); ++p) {
     nodes[static_cast<std::size_t>(panels.corners[p][0])].after = p;
     auto& end = nodes[static_cast<std::size_t>(panels.corners[p][1])];
@@ -188,8 +188,8 @@ std::pair<Point, std::size_t> Representation<2>::evaluated_at(const Point& x) co
     if (std::abs(s - static_cast<double>(k)) < on_surface)
       for (const std::size_t other : around_[static_cast<std::size_t>(panels_.corners[p][k])])
         if (other != p) inward -= panels_.normal[other];
-  const Point foot = panels_.corner(p, 0) + s * (panels_.corner(p, 1) - panels_.corner(p, 0));
-  return {foot + on_surface * length * inward.normalized(), p};
+  const Point closest = panels_.corner(p, 0) + s * (panels_.corner(p, 1) - panels_.corner(p, 0));
+  return {closest + on_surface * length * inward.normalized(), p};
 }
 
 InteriorField Representation<2>::evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const

@@ -126,20 +126,21 @@ namespace {
 
 constexpr double rounding_of_motion = 1e-9;  // of what makes it up
 
-struct Held {
+// What a support prescribes, by node and component.
+struct PrescribedValue {
   Global node;
   int component;
   double value;
-  bool operator<(const Held& other) const { return std::tie(node, component) < std::tie(other.node, other.component); }
+  bool operator<(const PrescribedValue& other) const { return std::tie(node, component) < std::tie(other.node, other.component); }
 };
 
 // What supports make of a mean motion whose nodes they hold all, and the sum of what makes it up.
-std::optional<std::pair<double, double>> mean_of_supports(const MeanMotion& motion, const std::vector<Held>& held)
+std::optional<std::pair<double, double>> mean_of_supports(const MeanMotion& motion, const std::vector<PrescribedValue>& held)
 {
   double mean = 0, scale = 0;
   for (const auto& entry : motion.entries) {
     if (entry.coefficient == 0) continue;
-    const Held wanted{entry.node, entry.component, 0};
+    const PrescribedValue wanted{entry.node, entry.component, 0};
     const auto found = std::lower_bound(held.begin(), held.end(), wanted);
     if (found == held.end() || wanted < *found) return {};
     mean += entry.coefficient * found->value;
@@ -167,7 +168,7 @@ void require_consistent(std::span<const MeanMotion> motions, std::span<const Pre
                         std::span<const Coupling> couplings, const Communicator& comm)
 {
   if (!comm.any(!motions.empty())) return;
-  std::vector<Held> held;
+  std::vector<PrescribedValue> held;
   for (const auto& p : prescribed)
     if (p.coupling < 0) held.push_back({p.node, p.component, p.value});
   held = comm.all_gather(held);

@@ -111,7 +111,7 @@ TEST_P(Answers, AreInEquilibriumAndJoined)
   EXPECT_NEAR(dot(f, answer), dot(u, ones), 1e-9 * norm(f) * norm(answer));
 }
 
-// Rigid motions of a cluster are orthonormal, cost no energy and do not stretch its joints.
+// Rigid motions of a cluster are orthonormal, cost no energy and fulfil its constraints.
 TEST_P(Answers, KernelsAreRigidMotionsOfClusters)
 {
   const Block block(GetParam());

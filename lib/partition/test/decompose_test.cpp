@@ -211,7 +211,7 @@ Decomposition two_halves()
   return d;
 }
 
-TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
+TEST(Congruence, RotatedCopiesAreFoundAndMirroredOnesAreNot)
 {
   auto d = two_halves();
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).matrix();
@@ -223,10 +223,10 @@ TEST(Congruence, TurnedCopiesAreFoundAndMirroredOnesAreNot)
   ASSERT_TRUE(copies[1].rotation);
   EXPECT_LT((*copies[1].rotation - rotation).norm(), 1e-10);
   EXPECT_EQ(congruent(d.subdomains, kind, Motions::along_y)[1].original, 1U);
-  const auto turned_alike = [&](const Subdomain&, const Subdomain&, const Eigen::Matrix3d& r) {
+  const auto rotated_alike = [&](const Subdomain&, const Subdomain&, const Eigen::Matrix3d& r) {
     return (r - rotation).norm() < 1e-9;
   };
-  EXPECT_EQ(congruent(d.subdomains, kind, Motions::rigid, turned_alike)[1].original, 0U);
+  EXPECT_EQ(congruent(d.subdomains, kind, Motions::rigid, rotated_alike)[1].original, 0U);
   const auto unlike = [](const Subdomain&, const Subdomain&, const Eigen::Matrix3d&) { return false; };
   EXPECT_EQ(congruent(d.subdomains, kind, Motions::rigid, unlike)[1].original, 1U);
   for (auto& p : rotated) p[1] = -p[1];
