@@ -5,7 +5,7 @@ import random
 
 import numpy as np
 
-import generate
+import deck_files
 import model
 from meshes import even, graded
 from model import bored, disc, sector, solid_cap
@@ -169,7 +169,7 @@ def rows():
 
 def from_model(made, subdomains, preconditioner, tolerance, name):
     plan = {**made.plan, "family": name, "preconditioner": preconditioner, "spread": 0.0, "grid": False}
-    deck = generate.deck_of(made, plan, tolerance)
+    deck = deck_files.deck_of(made, plan, tolerance)
     deck.pop("decomposition")
     if subdomains:
         deck["decomposition"] = {"subdomains": subdomains}
@@ -179,7 +179,7 @@ def from_model(made, subdomains, preconditioner, tolerance, name):
 def decks(directory, tolerance=None, only=None):
     """Writes the decks of the table; yields their folders. A tolerance replaces their own."""
     for name, make, subdomains, preconditioner in rows():
-        if not generate.chosen(name, only):
+        if not deck_files.chosen(name, only):
             continue
         made = make()
         expected = {"exit_status": 0, "family": name.split("_")[0], "preconditioner": preconditioner or "lumped"}
@@ -193,5 +193,5 @@ def decks(directory, tolerance=None, only=None):
         else:
             deck, bodies = from_model(made, subdomains, preconditioner, tolerance or 1e-6, name), made.bodies
             expected.update({"element": made.plan["element"], "law": made.law, "kind": made.kind, "unknowns": made.unknowns(), "reference": False})
-        generate.write(directory / name, deck, bodies, {}, expected)
+        deck_files.write(directory / name, deck, bodies, {}, expected)
         yield directory / name
