@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "base/error.hpp"
@@ -16,6 +17,7 @@
 #include "file_kind.hpp"
 #include "gmsh_library.hpp"
 #include "msh2_tags.hpp"
+#include "script_check.hpp"
 
 namespace mortise::mesh {
 
@@ -265,18 +267,24 @@ bool has_word(const std::string& text, const std::string& word)
   return false;
 }
 
-// A constant whose name stands nowhere in a geometry is a slip of the pen, which gmsh passes over. What a geometry includes from
-// elsewhere is not looked into: then any name may be right.
+// A constant whose name stands nowhere in a geometry is a slip of the pen, which gmsh passes over, as it does one that the
+// geometry sets anew. What a geometry includes from elsewhere is not looked into: then any name may be right.
 void require_constants(const Options& options)
 {
   std::ifstream stream(options.file);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   for (const char* elsewhere : {"Include", "Merge", "Open"})
     if (has_word(text, elsewhere)) return;
-  for (const auto& [name, value] : options.constants)
+  for (const auto& [name, value] : options.constants) {
     if (!has_word(text, name))
       fail(options.file,
            fmt::format("has no constant \"{}\", which mesh.constants sets; expected a name of its DefineConstant", name));
+    std::istringstream script(text);
+    if (const auto line = overwritten_at(name, script))
+      fail(options.file, fmt::format("line {0}: gives \"{1}\" a value of its own, whatever mesh.constants.{1} says; write "
+                                     "DefineConstant[ {1} = ... ]; there",
+                                     *line, name));
+  }
 }
 
 void work(const Options& options, int dimension, Sender& sender)

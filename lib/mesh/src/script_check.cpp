@@ -1,4 +1,4 @@
-// A script's words, without comments and strings, are enough to see which macro calls which.
+// A script's words, without comments, are enough to see which macro calls which, and which names it gives values of its own.
 #include "script_check.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ struct Word {
   int line;
 };
 
-// Names and strings (with their quotes) in the script; all else, but for line ends, parts them.
+// Names, numbers, strings (with the quote that begins them) and every other character in the script, but for spaces.
 std::vector<Word> words_of(std::istream& script)
 {
   std::vector<Word> words;
@@ -48,6 +48,8 @@ std::vector<Word> words_of(std::istream& script)
       std::string text = "\"";
       for (c = script.get(); c != EOF && c != '"' && c != '\n'; c = script.get()) text += static_cast<char>(c);
       words.push_back({text, line});
+    } else if (std::ispunct(c)) {
+      words.push_back({std::string(1, static_cast<char>(c)), line});
     }
     if (c == '\n') ++line;
   }
@@ -85,7 +87,44 @@ Calls certain_calls(const std::vector<Word>& words)
   return calls;
 }
 
+// The names that stand in a DefineConstant, which leaves those that have a value theirs.
+std::set<std::string> constants_of(const std::vector<Word>& words)
+{
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i].text != "DefineConstant") continue;
+    int depth = 0;
+    for (++i; i < words.size(); ++i) {
+      const auto& word = words[i].text;
+      if (word == "[" || word == "(") ++depth;
+      if ((word == "]" || word == ")") && --depth == 0) break;
+      names.insert(word);
+    }
+  }
+  return names;
+}
+
 }  // namespace
+
+std::optional<int> overwritten_at(const std::string& name, std::istream& script)
+{
+  const auto words = words_of(script);
+  if (constants_of(words).contains(name)) return std::nullopt;
+  std::optional<int> line;
+  bool first = true;   // that the name stands in the script
+  int conditions = 0;  // and macros, which need not be called
+  const auto text = [&](std::size_t i) { return i < words.size() ? words[i].text : std::string(); };
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto& word = words[i].text;
+    if (word == "If" || word == "For" || word == "Macro" || word == "Function") ++conditions;
+    if (word == "EndIf" || word == "EndFor" || word == "Return") --conditions;
+    if (word != name || !std::exchange(first, false)) continue;
+    const bool begins = i == 0 || text(i - 1) == ";" || text(i - 1) == "]" || text(i - 1) == "}" || text(i - 1) == ")" ||
+                        text(i - 1) == "EndIf" || text(i - 1) == "EndFor" || text(i - 1) == "Return";
+    if (begins && conditions <= 0 && text(i + 1) == "=" && text(i + 2) != "=") line = words[i].line;
+  }
+  return line;
+}
 
 void check_script(const std::string& file, std::istream& script)
 {

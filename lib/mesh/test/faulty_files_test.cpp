@@ -255,5 +255,23 @@ TEST(FaultyFiles, GroupsThatShareAnElementaryTagInBinary)
   }
 }
 
+TEST(Constants, ThatTheGeometryGivesAnotherValueAreRefused)
+{
+  const auto with = [](const std::string& head) {
+    auto result = options(write("constants.geo", head + "\n" + box + "MeshSize{:} = h;\n"));
+    result.constants = {{"h", 0.4}};
+    return result;
+  };
+  const std::string refused = "gives \"h\" a value of its own, whatever mesh.constants.h says";
+  EXPECT_SAID(with("h = 0.5;"), "line 1: " + refused);
+  EXPECT_SAID(with("// h\nn = 3; h= 0.5;"), "line 2: " + refused);
+  EXPECT_SAID(with("h = DefineNumber[0.5, Min 0.1];"), refused);
+  EXPECT_SAID(with("h = DefineNumber[0.5, Name \"h\"];"), refused);  // a name for ONELAB, which is not asked
+  for (const char* head : {"DefineConstant[ h = 0.5 ];", "DefineConstant[ n = {3, Name \"n\"}, h = {0.5, Min 0.1} ];",
+                           "If (!Exists(h))\n h = 0.5;\nEndIf", "size = h; h = size / 2;", "If (h == 3)\n h = 0.5;\nEndIf",
+                           "n = 2; h *= n;", "", "DefineConstant[ h ]; h = 0.5;"})
+    EXPECT_EQ(said(with(head)), "") << head;
+}
+
 }  // namespace
 }  // namespace mortise::mesh

@@ -95,9 +95,11 @@ std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surf
     if (!(peaks[c].value > 0) || faces[c] > 0) continue;
     Warning w{
         "narrow_contact",
-        fmt::format("contact {} presses at {}, but on no whole face of its secondary side: it is narrower than a face, and its "
-                    "area, its pressure and how far the bodies approach are those of the mesh",
-                    pairs[c].options.name, spell(peaks[c].at)),
+        fmt::format(
+            "contact {} presses at {}, but on no whole face of its secondary side: it is narrower than a face, and its "
+            "area, its pressure and how far the bodies approach are those of the mesh; the error that is given for the mesh "
+            "leaves this out and may be far too small",
+            pairs[c].options.name, spell(peaks[c].at)),
         "make the faces there smaller, those of the other side as well; or let the side with the smaller faces be secondary"};
     w.at = peaks[c].at;
     w.boundary = pairs[c].options.secondary;

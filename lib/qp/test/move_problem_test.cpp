@@ -85,7 +85,9 @@ TEST(MoveFactor, SaysThatItDoesNotLeadFarther)
   const MoveProblem far(matrices, hard, pressed_moves(700, 0), false);
   const VectorXd r = normal_numbers(far.size(), 1, 2), l = normal_numbers(3, 1, 3);
   const auto found = factor.iterate(far, r, l, scale, {VectorXd::Zero(far.size()), VectorXd::Zero(3)});
-  if (found) EXPECT_LT(lack_of(far, r, l, *found), 1e-10);
+  if (found) {
+    EXPECT_LT(lack_of(far, r, l, *found), 1e-10);
+  }
   auto loose = matrices;  // a motion that no point feels
   loose.h.row(1).setZero();
   const MoveProblem free(loose, hard, pressed_moves(300, 300), true);
