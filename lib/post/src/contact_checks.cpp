@@ -10,6 +10,7 @@
 
 #include "contact/cyclic.hpp"
 #include "post/bodies.hpp"
+#include "wording.hpp"
 
 namespace mortise::post {
 
