@@ -1,6 +1,7 @@
 #include "analysis/load_step_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "constraint/right_hand_sides.hpp"
@@ -18,6 +19,9 @@ namespace {
 constexpr double algebraic_part = 0.1;
 // Of the size of the solution, whatever the discretization error is estimated to be.
 constexpr double smallest_part = 1e-6, largest_part = 0.05;
+
+// Of the forces of all states before: below it there is none, and what a state's forces have at least to be in balance with.
+constexpr double unfelt_force = 1e-8, part_to_balance = 1e-3;
 
 // Multipliers of one problem as a start for another one of the same assembly, where other components are prescribed.
 qp::Solution carry_multipliers(const feti::DualProblem& from, const qp::Solution& solution, const feti::DualProblem& to)
@@ -95,13 +99,13 @@ std::vector<constraint::SlidingSurface> sliding_surfaces_of(const Rows& rows, co
 void refuse_support_of_facets(const feti::DualProblem& problem, const Assembly& assembly, const Rows& rows,
                               const friction::Result& found)
 {
-  constexpr double inexact = 2e-3, unfinished = 2e-2;  // of what friction holds
+  constexpr double inexact = 2e-3;  // of what friction holds
+  if (!found.converged) return;     // bounds of an unfinished solution may be much too small
   const auto bounds = friction::slip_bounds(problem, model::friction_laws(assembly.model().contacts()), &found.solution.x);
   const auto& comm = problem.communicator();
   if (!comm.any(!bounds.empty())) return;
   const auto moved = feti::held_by_facets(problem, assembly.decomposition(), assembly.deck().kinematics,
-                                          sliding_surfaces_of(rows, assembly.model(), comm), found.solution.x, bounds,
-                                          found.converged ? inexact : unfinished);
+                                          sliding_surfaces_of(rows, assembly.model(), comm), found.solution.x, bounds, inexact);
   if (moved)
     throw Error(ExitStatus::no_equilibrium,
                 "no equilibrium: " + *moved + ". Support it, or look at the direction of the loads and at the friction");
@@ -147,6 +151,10 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   const auto sizes = post::body_sizes(bodies, assembly_.deck().kinematics, comm);
   rounding_before_.take(post::rounding(from.displacement, problem_->load(), assembly_.system().nodal_stiffness,
                                        problem_->dimension(), *std::max_element(sizes.begin(), sizes.end()), comm));
+  double square = 0;
+  for (const auto& f : problem_->jump().apply_transpose(from.solved.solution.x)) square += f.squaredNorm();
+  largest_force_ = std::max(largest_force_, std::sqrt(comm.sum(square)));
+  rounding_before_.force = std::max(rounding_before_.force, part_to_balance * largest_force_);
   Rows rows = *from.rows;
   const Eigen::VectorXd jumps = problem_->jumps(from.displacement);
   const auto& ranges = problem_->jump().ranges();
@@ -201,7 +209,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
   if (found.gave_up) return {rows_, std::move(found), {}, {}};
   refuse_support_of_facets(*problem_, assembly_, *rows_, found);
-  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, rounding_before_.force);
+  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, unfelt_force * largest_force_);
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   auto shortenings = problem_->shortenings(found.solution.nu);
   return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};

@@ -353,7 +353,7 @@ class Builder {
       writer_.add(terms_, d, normal, point.gap, contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
     } else {
-      const Moments moments(terms_, d, normal, secondary_, primary_, dimension_);
+      const Moments moments(terms_, d, normal, bonded() ? 0 : mesh_gap, secondary_, primary_, dimension_);
       writer_.add(terms_, d, normal, point.gap, contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), normal);
     }

@@ -10,11 +10,14 @@ namespace {
 
 // All of the nodes' spread. Farther apart than that, a lever is no correction of facets any more: its coefficients would be
 // larger than the row's own. Nodes in a line pass on no moment across it.
-constexpr double no_moment = 1e-10, longest = 1, in_line = 0.1;
+constexpr double longest = 1, in_line = 0.1;
+// Of the distances of the nodes: less is rounding, and nodes of which one has nearly all do not spread.
+constexpr double no_moment = 1e-11, no_spread = 1e-4;
 
 }  // namespace
 
-Moments::Moments(std::span<Term> terms, double d, const Point& normal, const Side& secondary, const Side& primary, int dimension)
+Moments::Moments(std::span<Term> terms, double d, const Point& normal, double gap, const Side& secondary, const Side& primary,
+                 int dimension)
 {
   if (dimension == 2)
     axes_.col(0) = Point(-normal[1], normal[0], 0);
@@ -45,7 +48,7 @@ Moments::Moments(std::span<Term> terms, double d, const Point& normal, const Sid
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(place_ * size_.asDiagonal() * place_.transpose() / size_.sum());
   directions_ = spread.eigenvectors();
   lengths_ = spread.eigenvalues().cwiseMax(0).cwiseSqrt();
-  offset_ = apart.dot(normal);
+  offset_ = apart.dot(normal) - gap;
   const Eigen::VectorXd change = least(axes_.transpose() * apart);
   for (Eigen::Index k = 0; k < change.size(); ++k) {
     auto& term = terms[mine[static_cast<std::size_t>(k)]];
@@ -57,9 +60,11 @@ Moments::Moments(std::span<Term> terms, double d, const Point& normal, const Sid
 Eigen::VectorXd Moments::least(const Eigen::Vector2d& moment) const
 {
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  const double extent = place_.colwise().norm().maxCoeff();
   for (int k = 0; k < 2; ++k) {
     const double part = directions_.col(k).dot(moment), length = lengths_[k];
-    if (length < in_line * lengths_[1] || std::abs(part) > longest * length || std::abs(part) < no_moment * length) continue;
+    if (length < std::max(in_line * lengths_[1], no_spread * extent) || std::abs(part) > longest * length) continue;
+    if (std::abs(part) < no_moment * extent) continue;
     slope += part / (length * length * size_.sum()) * directions_.col(k);
   }
   if (slope.isZero(0)) return {};

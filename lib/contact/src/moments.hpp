@@ -19,8 +19,10 @@ namespace mortise::contact {
 class Moments {
  public:
   /// Changes the primary ones of `terms` (sums of coefficients are kept) by the least, relative to their size, so that s lies
-  /// along `normal`: then neither side's rotations are felt by the normal row more than by the other. `dimension`: 2 or 3.
-  Moments(std::span<Term> terms, double d, const Point& normal, const Side& secondary, const Side& primary, int dimension);
+  /// along `normal`: then neither side's rotations are felt by the normal row more than by the other. `dimension`: 2 or 3. `gap`:
+  /// the part of s along the normal that closes before a force acts, as that of smooth surfaces which come to touch.
+  Moments(std::span<Term> terms, double d, const Point& normal, double gap, const Side& secondary, const Side& primary,
+          int dimension);
 
   /// The couple along the normal on the primary nodes that makes up for s in a row along `tangent`: its coefficients sum to 0.
   /// Empty where there is none.

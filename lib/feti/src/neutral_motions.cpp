@@ -7,22 +7,42 @@
 
 namespace mortise::feti {
 
-Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now, const Communicator& comm)
+namespace {
+
+// The amplitudes `now` without what rows with `closed` feel, as a change that takes the rest away.
+Eigen::VectorXd unfelt_change(const SparseMatrix& rows, const Eigen::VectorXd& closed, const Eigen::VectorXd& now,
+                              const Communicator& comm)
 {
   constexpr double nothing = 1e-6;
-  const SparseMatrix closed = felt.closed.asDiagonal() * felt.rows;
-  Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(closed.transpose() * closed));
+  const SparseMatrix felt = closed.asDiagonal() * rows;
+  Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(felt.transpose() * felt));
   comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
   const double least = nothing * nothing * std::max(gram.diagonal().maxCoeff(), 1.0);
   const Eigen::Index neutral = (eigen.eigenvalues().array() < least).count();
   const auto basis = eigen.eigenvectors().leftCols(neutral);
-  const Eigen::VectorXd change = -(basis * (basis.transpose() * now));
-  const Eigen::VectorXd closing = felt.rows * change;
-  double part = 1;
-  for (Eigen::Index i = 0; i < closing.size(); ++i)
-    if (closing[i] > 0 && felt.gap[i] < part * closing[i]) part = std::max(felt.gap[i], 0.0) / closing[i];
-  return -comm.max(-part) * change;
+  return -(basis * (basis.transpose() * now));
+}
+
+}  // namespace
+
+Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now, const Communicator& comm)
+{
+  constexpr int most = 5;             // times that what stops a motion is taken for closed
+  constexpr double rounding = 1e-10;  // of the change
+  Eigen::VectorXd closed = felt.closed;
+  for (int pass = 0;; ++pass) {
+    const Eigen::VectorXd change = unfelt_change(felt.rows, closed, now, comm);
+    const Eigen::VectorXd closing = felt.rows * change;
+    const double least = rounding * change.lpNorm<Eigen::Infinity>();
+    double part = 1;
+    for (Eigen::Index i = 0; i < closing.size(); ++i)
+      if (closing[i] > least && felt.gap[i] < part * closing[i]) part = std::max(felt.gap[i], 0.0) / closing[i];
+    part = -comm.max(-part);
+    if (part >= 1 || pass == most) return part * change;
+    for (Eigen::Index i = 0; i < closing.size(); ++i)
+      if (closing[i] > least && felt.gap[i] < closing[i]) closed[i] = 1;
+  }
 }
 
 Eigen::VectorXd mean_amplitudes(const partition::Decomposition& decomposition, const Bodies& bodies,

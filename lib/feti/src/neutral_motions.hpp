@@ -13,7 +13,8 @@ struct FeltMotions {
 };
 
 /// The change of the amplitudes that takes the present ones, `now`, as near to 0 as can be: along motions that no closed row
-/// feels (to 1e-6 of a row), and so far that no gap closes. 0 where there is no such motion. The same on every rank. Collective.
+/// feels (to 1e-6 of a row), and so far that no gap closes; what closes a gap counts as closed, and motions beside it go on. 0
+/// where there is no such motion. The same on every rank. Collective.
 Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now, const Communicator& comm);
 
 /// The mean amplitudes of each body's motions in `u`, over its nodes. Collective.

@@ -97,7 +97,12 @@ CondensedProgramme::CondensedProgramme(const CondensedMatrices& matrices, const 
   factor_.emplace(std::move(all), [&factor_of_w, order](const MatrixXd& right) {
     MatrixXd x(factor_of_w.rows(), right.cols());
     x(order, Eigen::all) = right;
-    factor_of_w.solveInPlace(x);
+    if (x.cols() == 1) {  // not as a matrix, which would be packed for more columns
+      auto column = x.col(0);
+      factor_of_w.solveInPlace(column);
+    } else {
+      factor_of_w.solveInPlace(x);
+    }
     return MatrixXd(x(order, Eigen::all));
   });
 }

@@ -50,6 +50,14 @@ MatrixXd ask(const std::vector<Move>& moves, const MatrixXd& x)
   return result;
 }
 
+// A^-1 right. One column goes through the factors as a vector: as a matrix it would be packed for others that are not there.
+template <class Factor>
+MatrixXd times_inverse(const Factor& factor, const MatrixXd& right)
+{
+  if (right.cols() == 1) return VectorXd(factor.solve(right.col(0)));
+  return factor.solve(right);
+}
+
 // Generalised minimal residuals for A P z = b in the ordinary norm; adds to z. Returns the residual that is left.
 template <class Apply>
 double gmres(const Apply& apply, const VectorXd& b, double goal, int most, VectorXd& z)
@@ -139,11 +147,11 @@ MoveFactor::MoveFactor(const MoveProblem& problem) : moves_(problem.moves())
 {
   if (problem.symmetric())
     solve_ = [factor = std::make_shared<const Eigen::LLT<MatrixXd>>(factorize(problem.matrix()))](const MatrixXd& right) {
-      return MatrixXd(factor->solve(right));
+      return times_inverse(*factor, right);
     };
   else
     solve_ = [factor = std::make_shared<const Eigen::PartialPivLU<MatrixXd>>(problem.matrix())](const MatrixXd& right) {
-      return MatrixXd(factor->solve(right));
+      return times_inverse(*factor, right);
     };
 }
 

@@ -62,7 +62,8 @@ class LoadStepSolver {
   std::optional<friction::Solver> solver_;  // refers to the problem
   int before_ = 0;                          // products of the solvers and approaches before this one
   post::Rounding rounding_before_;
-  double largest_norm_ = 0;  // energy norm of the displacements, of all states before
+  double largest_force_ = 0;  // ||B'lambda||, likewise
+  double largest_norm_ = 0;   // energy norm of the displacements, of all states before
 };
 
 /// What there is to know of a state that solver.solve() returned last, also inside bodies where `probes` are. Throws
