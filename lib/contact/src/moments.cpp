@@ -13,6 +13,7 @@ namespace {
 constexpr double longest = 1, in_line = 0.1;
 // Of the distances of the nodes: less is rounding, and nodes of which one has nearly all do not spread.
 constexpr double no_moment = 1e-11, no_spread = 1e-4;
+constexpr double no_gap = 1e-3;  // what is less is what smooth surfaces through the nodes are wrong by
 
 }  // namespace
 
@@ -48,7 +49,7 @@ Moments::Moments(std::span<Term> terms, double d, const Point& normal, double ga
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(place_ * size_.asDiagonal() * place_.transpose() / size_.sum());
   directions_ = spread.eigenvectors();
   lengths_ = spread.eigenvalues().cwiseMax(0).cwiseSqrt();
-  offset_ = apart.dot(normal) - gap;
+  offset_ = apart.dot(normal) - (std::abs(gap) > no_gap * place_.colwise().norm().maxCoeff() ? gap : 0.0);
   const Eigen::VectorXd change = least(axes_.transpose() * apart);
   for (Eigen::Index k = 0; k < change.size(); ++k) {
     auto& term = terms[mine[static_cast<std::size_t>(k)]];

@@ -28,8 +28,9 @@ Eigen::VectorXd unfelt_change(const SparseMatrix& rows, const Eigen::VectorXd& c
 
 Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now, const Communicator& comm)
 {
-  constexpr int most = 5;             // times that what stops a motion is taken for closed
+  constexpr int most = 20;            // times that what stops a motion is taken for closed
   constexpr double rounding = 1e-10;  // of the change
+  constexpr double whole = 0.999;     // of the way: what stops it there is where it was before it moved
   Eigen::VectorXd closed = felt.closed;
   for (int pass = 0;; ++pass) {
     const Eigen::VectorXd change = unfelt_change(felt.rows, closed, now, comm);
@@ -39,9 +40,9 @@ Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now
     for (Eigen::Index i = 0; i < closing.size(); ++i)
       if (closing[i] > least && felt.gap[i] < part * closing[i]) part = std::max(felt.gap[i], 0.0) / closing[i];
     part = -comm.max(-part);
-    if (part >= 1 || pass == most) return part * change;
+    if (part >= whole || pass == most) return part * change;
     for (Eigen::Index i = 0; i < closing.size(); ++i)
-      if (closing[i] > least && felt.gap[i] < closing[i]) closed[i] = 1;
+      if (closing[i] > least && felt.gap[i] <= part * closing[i] + least) closed[i] = 1;
   }
 }
 

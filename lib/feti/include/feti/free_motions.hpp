@@ -65,8 +65,7 @@ double work(const FreeMotion& motion, const partition::Decomposition& decomposit
             const Communicator& comm);
 
 /// The equality row that says that the mean of the motion, weighted with the stiffness of the nodes, is zero: D v / ||v||_D,
-/// v the motion at all unknowns, a unit vector in D^-1; of a body that rotates, its rotation about the centre of that stiffness,
-/// so that the row is a couple. Collective.
+/// v the motion at all unknowns, a unit vector in D^-1. Collective.
 SubdomainRow gauge(const FreeMotion& motion, const partition::Decomposition& decomposition,
                    const std::vector<std::vector<double>>& nodal_stiffness, const Communicator& comm);
 
