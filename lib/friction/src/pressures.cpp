@@ -8,7 +8,7 @@ namespace mortise::friction {
 
 namespace {
 
-constexpr double idle_part = 1e-3;      // of a pressure and of a load
+constexpr double idle_part = 1e-3;    // of a pressure and of a load
 constexpr double loaded_part = 1e-7;  // of the largest load of a body, below which a load is none
 
 double least_load_of(const feti::DualProblem& problem)
