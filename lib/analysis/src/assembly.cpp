@@ -20,9 +20,9 @@ Eigen::VectorXd forces_of_inside(const mesh::Mesh& skin, const bem::ParticularSo
   return s.apply(particular.displacement(panels)) - particular.nodal_forces(panels);
 }
 
-// Factorizes every subdomain that is not a copy of an earlier one.
+// Factorizes every subdomain that is not a copy of an earlier one; takes their stiffness.
 feti::Subdomains factorize(const model::Model& model, const std::vector<partition::CopyOf>& copies,
-                           std::vector<SparseMatrix> stiffness,
+                           std::vector<SparseMatrix>& stiffness,
                            const std::vector<std::shared_ptr<const feti::SubdomainOperator>>& dense)
 {
   const auto& deck = model.deck();
@@ -42,9 +42,11 @@ feti::Subdomains factorize(const model::Model& model, const std::vector<partitio
     const auto& subdomain = decomposition.subdomains[s];
     const auto& points = subdomain.mesh.points;
     try {
-      subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(std::move(stiffness[s]),
-                                                                    fem::rigid_motions(points, deck.kinematics), points,
-                                                                    deck.dimension(), deck.solver.subdomains.factorization));
+      SparseMatrix own;  // so that it goes when it is factorized: Eigen 3.4 would copy what is moved
+      own.swap(stiffness[s]);
+      subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(std::move(own), fem::rigid_motions(points, deck.kinematics),
+                                                                    points, deck.dimension(),
+                                                                    deck.solver.subdomains.factorization));
     } catch (const Error& error) {
       if (error.status() != ExitStatus::bad_input) throw;
       const auto& body = decomposition.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];
@@ -84,7 +86,7 @@ Assembly::Stiffness Assembly::assemble(const model::Model& model, const std::vec
             subdomain.mesh.points, dimension);
         diagonal = stiffness.dense[s]->diagonal();
       } else {
-        stiffness.matrices[s] = model.stiffness(subdomain);
+        model.stiffness(subdomain).swap(stiffness.matrices[s]);
         diagonal = stiffness.matrices[s].diagonal();
       }
       stiffness.of_nodes.push_back(feti::nodal_stiffness(diagonal, dimension));
@@ -104,8 +106,8 @@ Assembly::Assembly(const model::Model& model, const std::vector<partition::CopyO
   const auto scope = context.timers.scope("factorization");
   collectively(context.comm, [&] {
     system_.clusters =
-        feti::Clusters(model.decomposition(), interface_,
-                       factorize(model, copies, std::move(stiffness.matrices), stiffness.dense), stiffness.of_nodes, kinematics);
+        feti::Clusters(model.decomposition(), interface_, factorize(model, copies, stiffness.matrices, stiffness.dense),
+                       stiffness.of_nodes, kinematics);
   });
   system_.nodal_stiffness = std::move(stiffness.of_nodes);
   system_.kinematics = kinematics;

@@ -170,14 +170,14 @@ class SparseInterface : public InterfaceStiffness {
 
 }  // namespace
 
+// `lower` is taken by a swap: Eigen 3.4 has no move of sparse matrices.
 ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
                                    const std::string& factorization)
-    : stiffness_(std::move(lower)),
-      fixing_(fixing_term(stiffness_.diagonal(), kernel, points, dimension)),
-      kernel_(std::move(kernel)),
-      dimension_(dimension),
-      solver_(std::make_unique<DirectSolver>(factorization, stiffness_ + fixing_, dimension))
+    : kernel_(std::move(kernel)), dimension_(dimension)
 {
+  stiffness_.swap(lower);
+  fixing_ = fixing_term(diagonal(), kernel_, points, dimension);
+  solver_ = std::make_unique<DirectSolver>(factorization, stiffness_ + fixing_, dimension);
 }
 
 // The columns of the lower triangle begin with it; Eigen would search for it in each.
