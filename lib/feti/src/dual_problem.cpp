@@ -27,6 +27,18 @@ std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bo
   return text;
 }
 
+// Whether no other motion moves its bodies.
+bool moves_alone(const FreeMotion& motion, const std::vector<FreeMotion>& all)
+{
+  const auto moves = [](const FreeMotion& other, int body) {
+    return std::ranges::any_of(other.motions, [&](const RigidMotion& part) { return part.body == body; });
+  };
+  return std::ranges::none_of(all, [&](const FreeMotion& other) {
+    return &other != &motion &&
+           std::ranges::any_of(motion.motions, [&](const RigidMotion& part) { return moves(other, part.body); });
+  });
+}
+
 [[noreturn]] void throw_driven(const std::string& motions)
 {
   throw Error(ExitStatus::no_equilibrium,
@@ -163,7 +175,7 @@ void DualProblem::gauge_rigid_modes(const partition::NodeDirectory& directory, c
       if (free) loaded += fmt::format("\n  {}, driven by its loads", describe(motion, bodies, frames));
       continue;
     }
-    gauges.push_back(gauge(motion, decomposition_, system_.nodal_stiffness, comm_));
+    gauges.push_back(gauge(motion, moves_alone(motion, motions), decomposition_, system_.nodal_stiffness, comm_));
     gauged_.push_back(motion);
     if (gauges.size() <= 10)
       context.log.line("  free rigid motion, set to zero: {}{}", describe(motion, bodies, frames),
