@@ -1,8 +1,9 @@
 """Opens a run of Mortise in ParaView as its report shows it: the whole, a section at the largest stress, and the contacts, side by side.
 
-In ParaView: Macros > Import new macro..., this file; then open solution.pvd of a run and press the macro. Without a display:
+In ParaView: Macros > Import new macro..., this file; then open solution.pvd of a run and press the macro. Without a display
+(Debian's ParaView ends by a signal with --force-offscreen-rendering alone; packages xvfb and xauth):
 
-    pvpython --force-offscreen-rendering paraview_macro.py OUT picture.png
+    xvfb-run -a pvpython paraview_macro.py OUT picture.png
 """
 import json
 import pathlib

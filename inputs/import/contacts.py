@@ -28,7 +28,7 @@ class Contacts:
                 names = ", ".join(self.bodies.bodies[b].name for b in sorted(own[0] & own[1]))
                 self.model.leave_out(card, f"both sides belong to one body ({names}): bodies of the deck do not touch themselves", line)
                 continue
-            if "law" in contact:
+            if "law" in contact and sides:
                 self.report_soft(contact["law"], own)
             if contact.get("name"):
                 item["name"] = self.name_of(clean(contact["name"]))

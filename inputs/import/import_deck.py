@@ -13,6 +13,7 @@ import pathlib
 import sys
 
 import model
+import parameters
 import translate
 import writers
 from reader import InputError, read_cards
@@ -26,6 +27,7 @@ def import_file(path, target, schema):
     heading = next((c for c in cards if c.name == "HEADING"), None)
     title = first_line(path, heading) or path.stem
     result = translate.Translation(model.build(cards), schema, title, target.stem)
+    parameters.report(cards, result.model, [state.card for state in result.history.states])
     mesh = target.with_suffix(".msh")
     deck = {"title": title, "dimension": result.deck["dimension"], "mesh": {"file": mesh.name}, **result.deck}
     head = [f"From {path.name}, by ./mortise import."]

@@ -130,11 +130,9 @@ class Interactions:
             clearance = self.clearances.pop((words[0].upper(), words[1].upper()), None)
             if clearance:
                 contact["clearance"] = clearance[0]
-            if law.get("bonded") or "TIED" in card.parameters:
+            self.give_law(contact, law)
+            if "TIED" in card.parameters:
                 contact["friction"] = {"bonded": True}
-            elif law.get("friction"):
-                contact["friction"] = {"coulomb": law["friction"]}
-            contact["law"] = law
             self.contacts.append(contact)
 
     def read_tie(self, card):
@@ -160,21 +158,41 @@ class Interactions:
             self.contacts.append(contact)
 
     def read_general(self):
-        """*CONTACT with all exterior faces: the entry that finds contacts."""
+        """*CONTACT: with all exterior faces the entry that finds contacts, else pairs; each has the last property that is meant for it."""
+        assigned = []  # (names of two surfaces, or none for all; name of the interaction; card; line)
+        for card in [c for c in self.model.cards if c.name == "CONTACTPROPERTYASSIGNMENT"]:
+            for line, words in card.rows():
+                if len(words) != 3 or words[2].upper() not in self.laws:
+                    raise card.error("expected two surfaces, or none, and a *SURFACE INTERACTION", line)
+                assigned.append(({w.upper() for w in words[:2] if w}, words[2].upper(), card, line))
+        used = set()
         for card in [c for c in self.model.cards if c.name == "CONTACTINCLUSIONS"]:
-            if "ALLEXTERIOR" not in card.parameters:
-                for line, words in card.rows():
-                    contact = self.pair(card, line, words)
-                    if contact:
-                        self.contacts.append(contact)
-                continue
-            entry = {"card": card, "line": card.line, "auto": True}
-            for other in [c for c in self.model.cards if c.name == "CONTACTPROPERTYASSIGNMENT"]:
-                rows = other.rows()
-                if len(rows) == 1 and len(rows[0][1]) == 3 and not any(rows[0][1][:2]) and rows[0][1][2].upper() in self.laws:
-                    friction = self.laws[rows[0][1][2].upper()].get("friction")
-                    if friction:
-                        entry["friction"] = {"coulomb": friction}
-                else:
-                    self.model.leave_out(other, "expected one line that is meant for all surfaces")
-            self.contacts.append(entry)
+            if "ALLEXTERIOR" in card.parameters:
+                contacts = [{"card": card, "line": card.line, "auto": True}]
+            else:
+                contacts = [pair for line, words in card.rows() if (pair := self.pair_of_inclusions(card, line, words))]
+            for contact in contacts:
+                names = {contact[side].upper() for side in ("secondary", "primary") if side in contact}
+                for k, (of, name, _, _) in enumerate(assigned):
+                    if not of or of == names:
+                        used.add(k)
+                        self.give_law(contact, self.laws[name])
+            self.contacts += contacts
+        for k, (_, name, card, line) in enumerate(assigned):
+            if k not in used:
+                self.model.leave_out(card, f'"{name}" is meant for no contact that the deck has', line)
+
+    def pair_of_inclusions(self, card, line, words):
+        if len(words) == 2 and not all(words):
+            self.model.leave_out(card, "a surface against all others; say ALL EXTERIOR, or both surfaces", line)
+            return None
+        return self.pair(card, line, words)
+
+    @staticmethod
+    def give_law(contact, law):
+        contact.pop("friction", None)
+        if law.get("bonded"):
+            contact["friction"] = {"bonded": True}
+        elif law.get("friction"):
+            contact["friction"] = {"coulomb": law["friction"]}
+        contact["law"] = law

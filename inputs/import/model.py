@@ -83,7 +83,7 @@ class Model:
 
     # Findings.
     def leave_out(self, card, reason, line=None, changes=True, keyword=None):
-        self.findings.append(Finding(card.file, line or card.line, keyword or "*" + card.name, reason, changes))
+        self.findings.append(Finding(card.file, line or card.line, keyword or "*" + card.spelt, reason, changes))
 
     def note(self, card, reason, line=None):
         self.leave_out(card, reason, line, changes=False)

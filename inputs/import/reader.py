@@ -19,6 +19,7 @@ class Card:
     file: pathlib.Path
     line: int
     data: list = dataclasses.field(default_factory=list)  # (line, fields)
+    spelt: str = ""  # the keyword for people: in capitals, with its blanks
 
     def get(self, key, default=""):
         return self.parameters.get(key, default)
@@ -140,7 +141,8 @@ def read_cards(path):
     root, result = path.resolve().parent, []
     for file, number, line in lines(path, root):
         if line.startswith("*"):
-            card = Card(re.sub(r"\s", "", line[1:].partition(",")[0]).upper(), parameters(line), file, number)
+            keyword = line[1:].partition(",")[0].upper()
+            card = Card(re.sub(r"\s", "", keyword), parameters(line), file, number, spelt=" ".join(keyword.split()))
             result.append(card)
             if card.get("INPUT"):
                 data = beside(card.get("INPUT"), file, number, root)

@@ -100,6 +100,8 @@ class Rest:
             self.model.leave_out(card, "the deck has solids alone")
         elif card.name in ("CFLUX", "DFLUX", "FILM", "RADIATE", "VIEWFACTOR", "COUPLEDHEAT"):
             self.model.note(card, "without influence on a static equilibrium at given temperatures")
+        elif card.name == "NONSTRUCTURALMASS" and any(s.accelerations or s.turning for s in self.history.states):
+            self.model.leave_out(card, "mass beside that of materials, which has weight and is turned")
         elif card.name in history.HARMLESS:
             self.model.note(card, "without influence on a static equilibrium")
         else:

@@ -387,11 +387,26 @@ class Contacts(Import):
         tie = self.deck(MODEL + SECOND + "*TIE, NAME=T\nUPPER_BOTTOM, CUBE_TOP\n" + step("*DLOAD\nUPPER, P2, 5.\n"))
         self.assertEqual(tie["contacts"], [{**sides, "name": "T", "friction": {"bonded": True}}])
 
+    def test_general_contact(self):
+        def made(inclusions, assignment):
+            laws = "*SURFACE INTERACTION, NAME=I\n*FRICTION\n.3\n*CONTACT\n"
+            general = f"*CONTACT INCLUSIONS{inclusions}*CONTACT PROPERTY ASSIGNMENT\n{assignment}, I\n"
+            text = MODEL + SECOND + laws + general + step("*DLOAD\nUPPER, P2, 5.\n")
+            return self.translate(text).deck["contacts"], [f.keyword for f in self.translate(text).model.findings if f.changes]
+
+        sides, friction = {"secondary": "UPPER_BOTTOM", "primary": "CUBE_TOP"}, {"friction": {"coulomb": 0.3}}
+        pair = "\nUPPER_BOTTOM, CUBE_TOP\n"
+        self.assertEqual(made(pair, ","), ([{**sides, **friction}], []))
+        self.assertEqual(made(pair, "CUBE_TOP, UPPER_BOTTOM"), ([{**sides, **friction}], []))
+        self.assertEqual(made(", ALL EXTERIOR\n", ","), ([{"auto": True, **friction}], []))
+        self.assertEqual(made(pair, "CUBE_TOP,"), ([sides], ["*CONTACT PROPERTY ASSIGNMENT"]))
+        self.assertEqual(made("\n, CUBE_TOP\n", ",")[1], ["*CONTACT INCLUSIONS", "*CONTACT PROPERTY ASSIGNMENT"])
+
     def test_bodies_do_not_touch_themselves(self):
         text = (
             MODEL + SECOND.replace("2,11,12,13,14,15", "2,5,6,7,8,15").replace("UPPER, S1", "UPPER, S3") + self.PAIR.format(law="", more="")
         )
-        self.assertTrue(any("*CONTACTPAIR" == k for _, k, _ in self.left_out(text + step(""))))
+        self.assertTrue(any("*CONTACT PAIR" == k for _, k, _ in self.left_out(text + step(""))))
 
     def test_bolts(self):
         bolt = MODEL.replace("*BOUNDARY", "*NODE\n99, 0., 0., 9.\n*BOUNDARY", 1)
@@ -440,6 +455,24 @@ class LeftOut(Import):
         self.assertEqual([k for _, k, _ in self.left_out(text)], ["*WHATEVER", "*EQUATION", "*STEP, NLGEOM", "*FOUNDATION"])
         written = (self.folder / "deck.yaml").read_text()
         self.assertIn("#   model.inp:26: *WHATEVER", written)
+
+    def test_parameters_that_are_unknown(self):
+        for there, keyword, unknown in (
+            ("*NODE, ", "*NODE", "FOO"), ("*ELASTIC", "*ELASTIC", "DEPENDENCIES"), ("*BOUNDARY", "*BOUNDARY", "FOO"),
+            ("*SOLID SECTION, ", "*SOLID SECTION", "COMPOSITE"), ("*STATIC", "*STATIC", "FULLYPLASTIC"), ("*DLOAD", "*DLOAD", "FOO"),
+        ):  # fmt: skip
+            head = there.rstrip(", ")
+            text = (MODEL + step("*DLOAD\nCUBE, P2, 1.\n")).replace(there, f"{head}, {unknown}=1" + there[len(head) :], 1)
+            self.assertEqual([(k, r) for _, k, r in self.left_out(text)], [(keyword, f"{unknown} is not understood")])
+        quiet = MODEL.replace("*NSET, ", "*NSET, INTERNAL, ").replace("*ELASTIC\n", "*ELASTIC, TYPE=ISO\n")
+        self.assertEqual(self.left_out(quiet + step("*DLOAD, OP=NEW\nCUBE, P2, 1.\n", "*STEP, INC=9, UNSYMM=YES")), [])
+        other = "*STEP\n*FREQUENCY\n3\n*BOUNDARY, FOO=1\nBOTTOM, 1\n*END STEP\n"  # of what is left out as a whole nothing more is told
+        self.assertEqual([k for _, k, _ in self.left_out(MODEL + step("*DLOAD\nCUBE, P2, 1.\n") + other)], ["*STEP"])
+
+    def test_mass_that_is_weighed(self):
+        mass = MODEL + "*NONSTRUCTURAL MASS, ELSET=CUBE, UNITS=TOTAL MASS\n3.\n"
+        self.assertEqual(self.left_out(mass + step("*DLOAD\nCUBE, P2, 1.\n")), [])
+        self.assertEqual([k for _, k, _ in self.left_out(mass + step("*DLOAD\nCUBE, GRAV, 9., 0, 0, -1\n"))], ["*NONSTRUCTURAL MASS"])
 
     def test_exit_status(self):
         path = self.folder / "model.inp"

@@ -117,6 +117,10 @@ class Installed(unittest.TestCase):
         for word in ("build", "test", "package"):
             self.assertIn("for the sources", self.run_in("refused", word, status=1)[1])
         self.assertIn("no deck", self.run_in("refused", "lost.yaml", status=1)[1])
+        commands = self.run_in("refused", status=1)[1]
+        self.assertIn("  mortise report OUT", commands)
+        for of_sources in ("./mortise", "mortise test", "mortise package", "builds"):
+            self.assertNotIn(of_sources, commands)
 
     def test_documents_and_schema_are_there(self):
         for name in ("share/mortise/docs/schema.json", "share/doc/mortise/docs/tutorial.md", "share/doc/mortise/copyright",
