@@ -63,11 +63,13 @@ def value_of(probe):
     if "value" in probe:
         return number(probe["value"])
     if "displacement" in probe:
-        return f"moves {vector(probe['displacement'])}, von Mises {number(probe.get('von_mises'))}"
+        along = f" along {probe['axes']}" if probe.get("axes") else ""
+        return f"moves {vector(probe['displacement'])}{along}, von Mises {number(probe.get('von_mises'))}"
     return f"probe.{probe['name']}.csv"
 
 
-def results(state):
+def results(state, about):
+    """`about`: the point of the moments of supports."""
     big = table(("", "value", "where"), [("largest von Mises stress", state.get("max_von_mises"), place(state.get("max_von_mises_place"))),
                                          ("largest displacement", state.get("max_displacement"), ""), ("strain energy", state.get("strain_energy"), "")])
     e = state.get("error_estimate", {})
@@ -76,7 +78,7 @@ def results(state):
     reactions = state.get("reactions", [])
     most = max((largest(r["force"]) for r in reactions), default=0)
     turn = max((largest(r["moment"]) for r in reactions if r.get("moment")), default=0)
-    forces = table(("support", "force on the bodies", "moment"),
+    forces = table(("support", "force on the bodies", f"moment about {vector(about)}"),
                    [(r.get("name") or r["boundary"], vector(r["force"], most), vector(r["moment"], turn) if r.get("moment") else "") for r in reactions + total(reactions)])
     points = table(("coupling", "moves", "turns", "force on the boundary", "moment about the point", "supports' force", "supports' moment"),
                    [(c["name"], vector(c["displacement"], largest(c["rotation"])), vector(c["rotation"], largest(c["displacement"])),
@@ -156,7 +158,8 @@ def page(summary, deck, rows, pictures, missing):
     if solved:
         states = summary.get("steps", [])
         when = f", load step {states[-1]['name']}, time {number(states[-1]['time'])}" if states else ""
-        parts += [section("Results" + when, results(summary)), section("Contacts" + when, contacts(summary)), steps(summary)]
+        about = summary.get("moments_about", [0, 0, 0])
+        parts += [section("Results" + when, results(summary, about)), section("Contacts" + when, contacts(summary)), steps(summary)]
     parts.append(gallery(pictures, missing))
     parts += [model(summary, deck), solver(summary, rows)]
     return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'

@@ -90,11 +90,13 @@ class Reports(unittest.TestCase):
 
     def test_all_that_holds_and_loads_a_model_is_told(self):
         directory, status = self.run_deck(CASES / "coupling_cap.yaml", "--set", "supports[0]={boundary: lower.zmin, stiffness: {x: 5e4, y: 5e4, z: 5e4}}",
-                                          "--set", "contacts[0].friction={coulomb: 0.3}", "--set", "output.probes={low: {smallest: uz}}")  # fmt: skip
+                                          "--set", "contacts[0].friction={coulomb: 0.3}", "--set", "output.probes={low: {smallest: uz}, tip: {point: [1, 1, 2], axes: turned}}",
+                                          "--set", "output.moments_about=[1, 2, 3]", "--set", "axes={turned: {x: [1, 1, 0], y: [0, 0, 1]}}")  # fmt: skip
         summary = json.loads((directory / "summary.json").read_text())
         self.assertEqual(status, 0, summary)
         words = self.page_of(directory)
-        for name in ("stiffness x 5e4, y 5e4, z 5e4", "coulomb 0.3", "smallest uz", f"{summary['probes'][0]['value']:.4g}"):
+        self.assertTrue(any("along turned, von Mises" in word for word in words), words)
+        for name in ("stiffness x 5e4, y 5e4, z 5e4", "coulomb 0.3", "smallest uz", f"{summary['probes'][0]['value']:.4g}", "moment about (1, 2, 3)"):
             self.assertTrue(any(name == word or name.replace("5e4", "50000") == word for word in words), (name, words))
 
     def test_a_run_that_did_not_converge_says_so_first(self):
