@@ -54,7 +54,7 @@ KEYS = {
 }  # fmt: skip
 LISTS = ("loads", "supports", "contacts")
 OF_OTHERS = ("prescribes a component of the motion", "blocks ")  # two entries of which each is right; what the mesh here lacks
-AT_ONCE = 12  # the program tells a hundred errors
+AT_ONCE = 48  # the program tells a hundred errors; where there are more, each half is asked by itself
 
 
 def deck_of(section, entries):
@@ -82,7 +82,8 @@ class Rules(unittest.TestCase):
     def refused_by_program(self, section, deck):
         self.file.write_text(yaml.safe_dump(deck, sort_keys=False))
         run = subprocess.run([MORTISE, str(self.file), "--check"], capture_output=True, text=True, check=False)
-        self.assertNotIn("more\n", run.stderr[-20:], "the program did not tell of all entries")
+        if run.stderr.endswith(" more\n"):
+            return None
         told = "\n".join(line for line in run.stderr.splitlines() if not any(words in line for words in OF_OTHERS))
         found = re.findall(rf"\b{section}(?:\[(\d+)\]|\.n(\d+)\b)", told)
         self.assertTrue(run.returncode == 1 or not found, run.stderr)
@@ -96,22 +97,26 @@ class Rules(unittest.TestCase):
             refused.add(entry if isinstance(entry, int) else int(entry[1:]))
         return refused
 
+    def compare(self, section, part):
+        """The number of entries that are accepted."""
+        deck = deck_of(section, part)
+        program, schema = self.refused_by_program(section, deck), self.refused_by_schema(section, deck)
+        if program is None:
+            half = len(part) // 2
+            return self.compare(section, part[:half]) + self.compare(section, part[half:])
+        for i, entry in enumerate(part):
+            with self.subTest(section=section, keys=list(entry)):
+                self.assertEqual(i in schema, i in program)
+        return len(part) - len(program)
+
     def test_the_schema_refuses_what_the_program_refuses(self):
         for section, keys in KEYS.items():
             entries = [{key: keys[key] for key in chosen} for n in range(5) for chosen in itertools.combinations(keys, n)]
-            accepted = 0
-            for begin in range(0, len(entries), AT_ONCE):
-                part = entries[begin : begin + AT_ONCE]
-                if section == "contacts":  # of two entries of one name the second is refused
-                    part = [{"name": f"n{i}", **entry} for i, entry in enumerate(part) if "auto" not in entry]
-                own = {"volumes": lambda i: {f"x{i}": "steel"}, "surfaces": lambda i: [f"s{i}"]}  # of no other body
-                part = [{k: own[k](i) if k in own else v for k, v in entry.items()} for i, entry in enumerate(part)]
-                deck = deck_of(section, part)
-                program, schema = self.refused_by_program(section, deck), self.refused_by_schema(section, deck)
-                for i, entry in enumerate(part):
-                    with self.subTest(section=section, keys=list(entry)):
-                        self.assertEqual(i in schema, i in program)
-                accepted += len(part) - len(program)
+            if section == "contacts":  # of two entries of one name the second is refused
+                entries = [{"name": f"n{i}", **entry} for i, entry in enumerate(entries) if "auto" not in entry]
+            own = {"volumes": lambda i: {f"x{i}": "steel"}, "surfaces": lambda i: [f"s{i}"]}  # of no other body
+            entries = [{k: own[k](i) if k in own else v for k, v in entry.items()} for i, entry in enumerate(entries)]
+            accepted = sum(self.compare(section, entries[begin : begin + AT_ONCE]) for begin in range(0, len(entries), AT_ONCE))
             self.assertGreater(accepted, 4, section)
 
     def test_smaller_entries(self):

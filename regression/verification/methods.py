@@ -65,6 +65,8 @@ solver: {{tolerance: 1.0e-7}}
 # Cells by size: a, b, c of the decks above; the last is that of the reference, hex20.
 CELLS = {"punch": [(4, 2, 1), (8, 4, 2), (12, 6, 3)], "beam": [(8, 2, 2), (16, 4, 4), (24, 6, 6)]}
 REFERENCE = {"punch": (24, 12, 6), "beam": (48, 12, 12)}
+# Strain energies of two thirds of those cells, with which --quick compares: 17 s of CPU.
+QUICK_REFERENCE = {"punch": 0.00018496128646128704, "beam": 0.13188446540560744}
 # Relative errors that boundary elements may have on the coarsest mesh: of the pressure, or of the energy.
 BOUND = {"hertz": 0.06, "punch": 0.15, "beam": 0.08}
 
@@ -102,7 +104,9 @@ def runs(mortise, case, quick, directory):
     for cells in CELLS[case][:2] if quick else CELLS[case]:
         for method in ("finite_elements", "boundary_elements"):
             rows.append((cells[0], method, *solve(mortise, block_deck(case, cells, "hex8", method, directory), [], directory)))
-    reference = REFERENCE[case] if not quick else tuple(n * 2 // 3 for n in REFERENCE[case])
+    if quick:
+        return rows, QUICK_REFERENCE[case]
+    reference = REFERENCE[case]
     energy = solve(mortise, block_deck(case, reference, "hex20", "finite_elements", directory), [], directory)[0]["strain_energy"]
     return rows, energy
 
