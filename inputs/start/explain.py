@@ -81,7 +81,9 @@ def explain(schema, path, width):
     node = find(schema, path)
     result = []
     if path:
-        result += [f"{path}: {kind(node)}", *textwrap.wrap(node.get("description", ""), width, initial_indent="  ", subsequent_indent="  ")]
+        above = find(schema, path.rpartition(".")[0])  # tells of keys that need no words of their own
+        words = node.get("description", "") or above.get("description", "")
+        result += [f"{path}: {kind(node)}", *textwrap.wrap(words, width, initial_indent="  ", subsequent_indent="  ")]
     for number, mapping in enumerate(mappings(node)):
         if path and mapping.get("description", "") != node.get("description", ""):
             result += ["", *textwrap.wrap(mapping.get("description", ""), width)]

@@ -97,6 +97,10 @@ class Schema(unittest.TestCase):
             self.assertTrue(text.startswith(f"{path}: "), text)
             self.assertIn(" ".join(value.get("description", "").split())[:40], " ".join(text.split()))
 
+    def test_a_key_without_words_has_those_above(self):
+        text = explain.explain(json.loads(explain.SCHEMA.read_text()), "supports.displacement.radial", 200)
+        self.assertIn("One that is not named is free.", text)
+
     def test_no_mapping_is_one_of_several_by_trial(self):
         """Where it is, editors can only say that none fits, not which key is wrong."""
 

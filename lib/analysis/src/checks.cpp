@@ -194,6 +194,35 @@ std::vector<Warning> coarser_than_asked(const model::Model& model, const Communi
   return {w};
 }
 
+// Nodes that a file of temperatures does not reach have what is found nearest to it, or a straight line goes on to them.
+std::vector<Warning> uncovered_temperatures(const model::Model& model, const Communicator& comm)
+{
+  const auto& decomposition = model.decomposition();
+  const auto& bodies = decomposition.catalogue.bodies;
+  std::vector<Warning> result;
+  for (const auto& [load, field] : model.temperatures()) {
+    post::Found farthest{0};
+    for (const auto& subdomain : decomposition.subdomains) {
+      if (!model::matches_name(bodies[static_cast<std::size_t>(subdomain.body)], model.deck().loads[load].body)) continue;
+      for (const auto& x : subdomain.mesh.points) farthest.take(field->outside(x), x, subdomain.body);
+    }
+    farthest = post::largest_of_ranks({farthest}, comm).front();
+    if (!(farthest.value > 0)) continue;
+    const auto& body = bodies[static_cast<std::size_t>(farthest.body)].name;
+    Warning w{"uncovered_temperatures",
+              fmt::format(
+                  "nodes of body \"{}\" lie up to {:.3g} outside what {} covers, the farthest at ({:.4g}, {:.4g}, {:.4g}): their "
+                  "temperatures are guessed",
+                  body, farthest.value, field->path(), farthest.at[0], farthest.at[1], farthest.at[2]),
+              "give temperatures of the whole body; look at the file's place and its unit of length"};
+    w.at = farthest.at;
+    w.body = body;
+    w.value = farthest.value;
+    result.push_back(std::move(w));
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Warning> check_model(const model::Model& model, const Rows& rows, const Communicator& comm)
@@ -205,6 +234,7 @@ std::vector<Warning> check_model(const model::Model& model, const Rows& rows, co
   append(result, post::mixed_units(materials, applied_stresses(model, rows.acts, comm)));
   append(result, post::doubled_contacts(rows.pairs, comm));
   append(result, coarser_than_asked(model, comm));
+  append(result, uncovered_temperatures(model, comm));
   return result;
 }
 

@@ -224,11 +224,19 @@ void Document::error(const std::string& path, const std::string& message)
       return;
     }
   int line = 1;
-  for (std::string at = path; !at.empty(); at = parent(at))
-    if (const auto found = lines_.find(at); found != lines_.end() && found->second > 0) {
+  for (std::string at = path; !at.empty(); at = parent(at)) {
+    const auto found = lines_.find(at);
+    if (found == lines_.end()) continue;
+    if (found->second > 0) {
       line = found->second;
       break;
     }
+    // It has no line because a setting of something in it made it.
+    const auto inner = set_.lower_bound(at);
+    if (inner == set_.end() || inner->first.rfind(at, 0) != 0) continue;
+    errors_.push_back({0, fmt::format("--set {}: {}{}", inner->second, shown, message)});
+    return;
+  }
   errors_.push_back({line, fmt::format("{}:{}: {}{}", file_, line, shown, message)});
 }
 

@@ -157,6 +157,8 @@ TEST(Deck, SettingsSayThatTheyAreToBlame)
             "--set spares[1].radius=2: spares has no entry [1], only 1");
   EXPECT_EQ(complaints(good + "spares: [{radius: 1}]\n", {"spares.0.radius=-2"}),
             "--set spares.0.radius=-2: spares[0].radius: expected a number > 0, found \"-2\"");
+  const std::string without = std::string(good).substr(0, std::string(good).find("spares"));
+  EXPECT_EQ(complaints(without, {"spares.0.radius=2"}), "--set spares.0.radius=2: spares: expected a list, found a mapping");
   EXPECT_EQ(complaints(good, {"seats", "title.a.b=1", "price=[", "seats=3"}),
             "--set seats: expected key.path=value\n--set price=[: the value is not valid YAML: end of sequence flow not found");
 }

@@ -39,6 +39,7 @@ using Content = NodalField::Content;
 constexpr const char* usual_name = "temperature";
 constexpr std::size_t longest_row = 10'000;
 constexpr double half_a_cell = 0.5;  // diagonals of the nearest cell that a place may lie beside it
+constexpr double covered = 0.1;  // of a cell, or of what the nearest points span: two meshes of a curved surface are so far apart
 constexpr double same_place = 1e-9;  // of the distance of the points around
 constexpr double degenerate = 1e-6;  // eigenvalues below this part of the largest: the points lie in a plane or on a line
 
@@ -181,6 +182,8 @@ Content read_csv(const std::string& path, const std::string& name, int dimension
     content.values.push_back(value);
   }
   if (content.values.empty()) fail(path + ": holds no points; expected a line of names and then one a line");
+  if (content.values.size() == 1)
+    fail(path + ": holds one point alone, which says nothing of those around it; a change that is the same all over is a number");
   return content;
 }
 
@@ -207,6 +210,7 @@ struct NodalField::Source {
   std::optional<CellField> cells;
   // Else loose points.
   std::vector<double> places, values;
+  Point lowest = Point::Zero(), highest = Point::Zero();  // corners of the box round them
   vtkNew<vtkPolyData> cloud;
   vtkNew<vtkStaticPointLocator> points;
   vtkNew<vtkIdList> near;
@@ -214,6 +218,8 @@ struct NodalField::Source {
   void prepare(Content content);
   double in_cells(const Point& x) const;
   double among_points(const Point& x);
+  double outside(const Point& x);
+  double span_round(const Point& x);
   int neighbours() const { return std::min(dimension == 3 ? 24 : 12, static_cast<int>(size)); }
   Point point(vtkIdType p) const { return Eigen::Map<const Point>(&places[3 * static_cast<std::size_t>(p)]); }
   [[noreturn]] void too_far(const Point& x, double distance, double most) const;
@@ -241,6 +247,9 @@ void NodalField::Source::prepare(Content content)
   at->SetDataTypeToDouble();
   at->SetNumberOfPoints(static_cast<vtkIdType>(size));
   for (std::size_t p = 0; p < size; ++p) at->SetPoint(static_cast<vtkIdType>(p), &places[3 * p]);
+  const Eigen::Map<const Eigen::Matrix3Xd> all(places.data(), 3, static_cast<Eigen::Index>(size));
+  lowest = all.rowwise().minCoeff();
+  highest = all.rowwise().maxCoeff();
   cloud->SetPoints(at);
   points->SetDataSet(cloud);
   points->BuildLocator();
@@ -253,6 +262,26 @@ double NodalField::Source::in_cells(const Point& x) const
   return found.value;
 }
 
+// How far the neighbours of the point nearest to x are from it.
+double NodalField::Source::span_round(const Point& x)
+{
+  const Point at = point(points->FindClosestPoint(x.data()));
+  points->FindClosestNPoints(neighbours(), at.data(), near);
+  double result = 0;
+  for (vtkIdType i = 0; i < near->GetNumberOfIds(); ++i) result = std::max(result, (point(near->GetId(i)) - at).norm());
+  return result;
+}
+
+double NodalField::Source::outside(const Point& x)
+{
+  if (cells) {
+    const auto found = cells->nearest(x);
+    return found.distance > covered * found.size ? found.distance : 0;
+  }
+  const double beside = (x - x.cwiseMax(lowest).cwiseMin(highest)).norm();
+  return beside > 0 && beside > covered * span_round(x) ? beside : 0;
+}
+
 double NodalField::Source::among_points(const Point& x)
 {
   points->FindClosestNPoints(neighbours(), x.data(), near);
@@ -261,7 +290,7 @@ double NodalField::Source::among_points(const Point& x)
   const double distance = (point(closest) - x).norm();
   double farthest = 0;
   for (vtkIdType i = 0; i < count; ++i) farthest = std::max(farthest, (point(near->GetId(i)) - x).norm());
-  if (distance <= same_place * farthest || count == 1) return values[static_cast<std::size_t>(closest)];
+  if (distance <= same_place * farthest) return values[static_cast<std::size_t>(closest)];
   // Weighted means, and the slopes about them.
   double sum = 0, mean = 0;
   Point centre = Point::Zero();
@@ -291,11 +320,7 @@ double NodalField::Source::among_points(const Point& x)
     if (const double size = modes.eigenvalues()[m]; size > degenerate * modes.eigenvalues()[2])
       slope += modes.eigenvectors().col(m).dot(moment) / size * modes.eigenvectors().col(m);
   // Farther away than the points around the closest one are from it, they tell nothing.
-  const Point at = point(closest);
-  points->FindClosestNPoints(neighbours(), at.data(), near);
-  double around = 0;
-  for (vtkIdType i = 0; i < near->GetNumberOfIds(); ++i) around = std::max(around, (point(near->GetId(i)) - at).norm());
-  if (distance > around) too_far(x, distance, around);
+  if (const double around = span_round(x); distance > around) too_far(x, distance, around);
   return mean + slope.dot(x - centre);
 }
 
@@ -322,6 +347,11 @@ double NodalField::operator()(const Point& x) const
   return source_->cells ? source_->in_cells(x) : source_->among_points(x);
 }
 
+double NodalField::outside(const Point& x) const
+{
+  return source_->outside(x);
+}
+
 std::size_t NodalField::size() const
 {
   return source_->size;
@@ -330,6 +360,11 @@ std::size_t NodalField::size() const
 const std::string& NodalField::name() const
 {
   return source_->name;
+}
+
+const std::string& NodalField::path() const
+{
+  return source_->path;
 }
 
 }  // namespace mortise::io

@@ -53,6 +53,9 @@ TEST(NodalField, IsThatOfTheCellsOfAnotherMesh)
     EXPECT_NEAR(field(x), product(x), 1e-9) << x.transpose();
   EXPECT_NEAR(field(Point(2.1, 0.5, 0.5)), product(Point(2, 0.5, 0.5)), 1e-9);  // beside it, as on its skin
   EXPECT_THROW(field(Point(4, 0.5, 0.5)), Error);
+  EXPECT_EQ(field.outside(Point(2.1, 0.5, 0.5)), 0);  // less than a tenth of the cell's diagonal
+  EXPECT_NEAR(field.outside(Point(2.3, 0.5, 0.5)), 0.3, 1e-9);
+  EXPECT_EQ(field.outside(Point(1, 0.5, 0.5)), 0);
 }
 
 // Of a face of second order VTK says that a place beside it, in its plane, lies in it.
@@ -140,6 +143,9 @@ TEST(NodalField, TakesPointsOfALineOrAPlaneAsTheyAre)
   const NodalField field(scratch / "plane.csv", "", 3, comm);
   EXPECT_NEAR(field(Point(0.5, 0.5, 0)), 1.5, 1e-12);
   EXPECT_NEAR(field(Point(0.5, 0.5, 0.2)), 1.5, 1e-12);  // across the plane nothing changes
+  EXPECT_EQ(field.outside(Point(0.5, 0.5, 0.1)), 0);
+  EXPECT_NEAR(field.outside(Point(0.5, 0.5, 0.3)), 0.3, 1e-12);
+  EXPECT_EQ(field.outside(Point(0.5, 0.5, 0)), 0);
 }
 
 TEST(NodalField, SaysWhatIsWrongWithAFile)
@@ -163,6 +169,7 @@ TEST(NodalField, SaysWhatIsWrongWithAFile)
   expect("a.csv", "x,y,z,T\n0,0,zero,1\n", "", "a.csv:2: expected 4 values");
   expect("a.csv", "x,y,z,T\n", "", "holds no points");
   expect("a.csv", "", "", "holds no points");
+  expect("a.csv", "x,y,z,T\n0,0,0,1\n", "", "holds one point alone");
   expect("a.csv", "x,y,z,T,U\n0,0,0,1,1\n", "", "say with `field` which one is meant: \"T\", \"U\"");
   expect("a.csv", "x,y,z,T,U\n0,0,0,1,1\n", "V", "has no column \"V\"; it has \"T\", \"U\"");
   expect("a.txt", "x,y,z,T\n", "", "expected a .vtu or a .csv file");

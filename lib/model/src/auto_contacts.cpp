@@ -144,8 +144,10 @@ std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& 
     contact.name = fmt::format(
         "{}{}/{}{}", entry.name == "auto" ? "" : entry.name + ".", bodies[static_cast<std::size_t>(candidate.secondary)].name,
         bodies[static_cast<std::size_t>(candidate.primary)].name, candidate.patch > 0 ? fmt::format(".{}", candidate.patch) : "");
-    contact.secondary = contact.name + ".secondary";
-    contact.primary = contact.name + ".primary";
+    std::string sides = contact.name;  // a colon in a body's name would part boundary from body
+    std::replace(sides.begin(), sides.end(), ':', '_');
+    contact.secondary = sides + ".secondary";
+    contact.primary = sides + ".primary";
     contact.search_distance = candidate.reach;
     contact.automatic = false;
     boundaries.emplace_back(contact.secondary, &candidate.secondary_faces);

@@ -22,10 +22,15 @@ class NodalField {
   /// exact for linear fields. Throws Error(bad_input) where x is too far away to tell.
   double operator()(const Point& x) const;
 
+  /// How far x lies outside what the file covers, where operator() guesses: beside all cells, by more than a tenth of the nearest
+  /// one; beside the box round all points, by more than a tenth of what those next to it span. Else 0.
+  double outside(const Point& x) const;
+
   struct Content;
 
   std::size_t size() const;  ///< of nodes or points
   const std::string& name() const;
+  const std::string& path() const;
 
  private:
   struct Source;

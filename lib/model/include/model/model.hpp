@@ -36,6 +36,7 @@ class Model {
   const Deck& deck() const { return deck_; }
   const Contacts& contacts() const { return contacts_; }
   const partition::Decomposition& decomposition() const { return decomposition_; }
+  const Temperatures& temperatures() const { return temperatures_; }
 
   /// Of each cell, in the same order in every subdomain of a body.
   fem::Materials materials(const partition::Subdomain& subdomain) const;
