@@ -8,6 +8,7 @@
 
 #include "cut_faces.hpp"
 #include "face_integrals.hpp"
+#include "nearest_points.hpp"
 #include "opposite.hpp"
 
 namespace mortise::contact {
@@ -18,13 +19,13 @@ struct TwoSides {
   const SurfaceNodes& places;
   const Side& primary;
   const SurfaceNodes& primary_nodes;
-  const Tree& tree;                  ///< of the primary facets
-  CutFaces& faces;                   ///< of the secondary side
-  Rays& rays;                        ///< from the places
-  bool obstacle;                     ///< the primary side is rigid and has no faces
-  double reach;                      ///< what lies farther away does not count
-  bool mesh_gaps;                    ///< the contact starts with the gaps of the meshes
-  const std::vector<Point>& shifts;  ///< of each place: see nearest_points()
+  const Tree& tree;                          ///< of the primary facets
+  CutFaces& faces;                           ///< of the secondary side
+  Rays& rays;                                ///< from the places
+  bool obstacle;                             ///< the primary side is rigid and has no faces
+  double reach;                              ///< what lies farther away does not count
+  bool mesh_gaps;                            ///< the contact starts with the gaps of the meshes
+  const std::vector<NearestPoint>& nearest;  ///< of each place, or none
 };
 
 class Discretization {

@@ -16,6 +16,7 @@
 #include "face_integrals.hpp"
 #include "moments.hpp"
 #include "nearest_points.hpp"
+#include "one_part.hpp"
 #include "one_surface.hpp"
 #include "opposite.hpp"
 #include "rows.hpp"
@@ -70,10 +71,10 @@ class Builder {
         tree_(tree_of_facets(primary_)),
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, options.obstacle, reach),
         mesh_gaps_(options.law != Law::bonded && !options.clearance),
-        shifts_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<Point>()),
+        nearest_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<NearestPoint>()),
         discretization_(
             make_discretization(options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
-                                                         options.obstacle.has_value(), reach, mesh_gaps_, shifts_})),
+                                                         options.obstacle.has_value(), reach, mesh_gaps_, nearest_})),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
         supports_(supports, secondary_.node_id, comm),
@@ -116,6 +117,8 @@ class Builder {
 
  private:
   bool own(std::size_t surface_node) const { return share_.own[static_cast<std::size_t>(nodes_.all[surface_node].node)] != 0; }
+  bool at_nearest_place(std::size_t p) const { return !nearest_.empty() && nearest_[p].found; }
+  bool moved(std::size_t p) const { return !nearest_.empty() && nearest_[p].moved(); }
   bool bonded() const { return options_.law == Law::bonded; }
 
   // Which surface nodes carry a multiplier: covered enough, and not left out of a bond.
@@ -234,7 +237,18 @@ class Builder {
     }
     if (!(d > 0)) return;
     merge_terms();
+    if (at_nearest_place(p) && !options_.obstacle) take_one_part(p);
     add_point(p, d, rise, contacts);
+  }
+
+  // What is nearest there may be one of several bodies that the functions see.
+  void take_one_part(std::size_t p)
+  {
+    const auto [at, normal] = point_of(p);
+    const auto met = rays_.met_from(p, at, normal);
+    if (!std::isfinite(met.gap)) return;
+    if (!one_part_) one_part_.emplace(primary_);
+    one_part_->take(met, terms_);
   }
 
   // A surface node where supports prescribe both sides. At the border of a side they may move it along a curved surface, which
@@ -287,21 +301,13 @@ class Builder {
     for (const auto& tangent : directions(normal, {false, false, false}, {}, dimension_).tangents) note(tangent);
   }
 
-  // The point of a surface node's multiplier and the secondary side's normal there: at the node, unless it was moved into what is
-  // covered.
+  // The point of a surface node's multiplier and the secondary side's normal there: at the node, unless it was moved to where the
+  // other side comes nearest, or into what is covered.
   std::pair<Point, Point> point_of(std::size_t p)
   {
     const SurfaceNode& surface_node = nodes_.all[p];
     const Point& node = secondary_.points[static_cast<std::size_t>(surface_node.node)];
-    if (const auto place = nearest_place(p)) {
-      const auto corners = secondary_.facets[place->facet];
-      Point at = Point::Zero(), normal = Point::Zero();
-      for (std::size_t c = 0; c < corners.size(); ++c) {
-        at += place->shape[static_cast<Eigen::Index>(c)] * secondary_.points[static_cast<std::size_t>(corners[c])];
-        normal += place->shape[static_cast<Eigen::Index>(c)] * nodes_.normal(secondary_, place->facet, c);
-      }
-      return {at, normal.normalized()};
-    }
+    if (const auto place = nearest_place(p)) return point_at(*place);
     Point shift = Point::Zero(), tilt = Point::Zero();
     double d = 0;
     for (const auto& [face, i, k] : faces_.at(p)) {
@@ -316,6 +322,17 @@ class Builder {
       }
     }
     return {node + shift / d, (surface_node.normal + tilt / d).normalized()};
+  }
+
+  std::pair<Point, Point> point_at(const Rays::FacetPoint& place) const
+  {
+    const auto corners = secondary_.facets[place.facet];
+    Point at = Point::Zero(), normal = Point::Zero();
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      at += place.shape[static_cast<Eigen::Index>(c)] * secondary_.points[static_cast<std::size_t>(corners[c])];
+      normal += place.shape[static_cast<Eigen::Index>(c)] * nodes_.normal(secondary_, place.facet, c);
+    }
+    return {at, normal.normalized()};
   }
 
   void add_point(std::size_t p, double d, double rise, constraint::Contacts& contacts)
@@ -341,8 +358,9 @@ class Builder {
     point.weight = weight;
     point.at = at;
     point.cover = cover_[p];
-    const double mean = (normal.dot(separation) - rise / d) / weight, mesh_gap = without_rounding(p, gap_at(p, normal, mean), at);
-    const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, starting_gap_at(p, normal, mean), at);
+    const double mean = (normal.dot(separation) - rise / d) / weight,
+                 mesh_gap = without_rounding(p, gap_at(p, normal, mean), at, normal);
+    const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, starting_gap_at(p, normal, mean), at, normal);
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     if (prescribed) {
@@ -353,7 +371,8 @@ class Builder {
       writer_.add(terms_, d, normal, point.gap, contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
     } else {
-      const Moments moments(terms_, d, normal, bonded() ? 0 : mesh_gap, secondary_, primary_, dimension_);
+      const Moments moments(terms_, d, normal, bonded() ? 0 : mesh_gap, moved(p) ? &at : nullptr, secondary_, primary_,
+                            dimension_);
       writer_.add(terms_, d, normal, point.gap, contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), normal);
     }
@@ -451,12 +470,12 @@ class Builder {
   std::optional<Rays::FacetPoint> nearest_place(std::size_t p)
   {
     constexpr double rounding = 1e-9;
-    if (shifts_.empty() || shifts_[p].isZero(0)) return {};
+    if (!moved(p)) return {};
     for (const auto& [face, i, k] : faces_.at(p)) {
       const auto piece = faces_.piece(i);
       if (piece.facet < 0 || piece.point_facet.empty() || piece.point_facet[static_cast<std::size_t>(k)] < 0) continue;
       const auto facet = static_cast<std::size_t>(piece.facet);
-      const Eigen::Vector4d shape = shape_beside(secondary_, facet, static_cast<std::size_t>(k), shifts_[p]);
+      const Eigen::Vector4d shape = shape_beside(secondary_, facet, static_cast<std::size_t>(k), nearest_[p].shift);
       const auto corners = static_cast<Eigen::Index>(secondary_.facets[facet].size());
       if (shape.head(corners).minCoeff() >= -rounding && (piece.points.row(k).transpose() - shape).norm() < rounding)
         return Rays::FacetPoint{facet, shape};
@@ -464,13 +483,16 @@ class Builder {
     return {};
   }
 
-  // Of places that coordinates say are the same the gap is 0: bodies that touch without a load press with nothing then.
-  // Nor is an overlap between nodes that is next to nothing of what the sides come nearer there: surfaces are known no better.
-  double without_rounding(std::size_t p, double gap, const Point& at)
+  // Of places that coordinates say are the same the gap is 0: bodies that touch without a load press with nothing then. Nor is an
+  // overlap where a side comes nearest that is next to nothing of what the sides come nearer there, or of what stands out of a
+  // facet: surfaces are known no better.
+  double without_rounding(std::size_t p, double gap, const Point& at, const Point& direction)
   {
     constexpr double of_surfaces = 0.02;
-    if (gap < 0 && !shifts_.empty() && !shifts_[p].isZero(0))
+    if (gap < 0 && at_nearest_place(p)) {
       if (const double at_node = rays_.meet(p).gap; std::isfinite(at_node) && -gap < of_surfaces * (at_node - gap)) return 0;
+      if (!options_.obstacle && -gap < of_surfaces * rays_.rise_of(rays_.met_from(p, at, direction))) return 0;
+    }
     return std::abs(gap) < rounding_of_gap * reach_ + rounding_of_coordinates * at.norm() ? 0 : gap;
   }
 
@@ -501,7 +523,8 @@ class Builder {
   Tree tree_;       // of the primary facets
   Rays rays_;
   bool mesh_gaps_;
-  std::vector<Point> shifts_;  // of each surface node, or none
+  std::vector<NearestPoint> nearest_;  // of each surface node, or none
+  std::optional<OnePart> one_part_;    // once one is asked
   std::unique_ptr<Discretization> discretization_;
   OneSurface one_surface_;
   InitialGap initial_gap_;

@@ -33,14 +33,15 @@ Eigen::Vector4d whole_of(const FaceGeometry& face)
 }  // namespace
 
 Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary,
-                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach, const std::vector<Point>& shifts)
+                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach,
+                       const std::vector<NearestPoint>& nearest)
     : secondary_(secondary),
       secondary_nodes_(secondary_nodes),
       primary_(primary),
       primary_nodes_(primary_nodes),
       tree_(tree),
       reach_(reach),
-      shifts_(shifts),
+      nearest_(nearest),
       slot_(primary.points.size(), -1)
 {
 }
@@ -360,10 +361,10 @@ void Integrator::cut_into_facets(std::size_t face)
 
 bool Integrator::moved(std::size_t face) const
 {
-  if (shifts_.empty()) return false;
+  if (nearest_.empty()) return false;
   const auto begin = static_cast<std::size_t>(secondary_.faces.offset[face]), end = begin + secondary_.faces[face].size();
   for (std::size_t k = begin; k < end; ++k)
-    if (!shifts_[static_cast<std::size_t>(secondary_nodes_.of_node[k])].isZero(0)) return true;
+    if (nearest_[static_cast<std::size_t>(secondary_nodes_.of_node[k])].moved()) return true;
   return false;
 }
 
@@ -373,12 +374,12 @@ SmallMatrix Integrator::points_of(std::size_t facet) const
   const std::size_t count = secondary_.facets[facet].size();
   const auto r = static_cast<Eigen::Index>(count);
   SmallMatrix points = SmallMatrix::Identity(r, r);
-  if (shifts_.empty()) return points;
+  if (nearest_.empty()) return points;
   for (std::size_t k = 0; k < count; ++k) {
     const auto p = secondary_nodes_.of_corner[static_cast<std::size_t>(secondary_.facets.offset[facet]) + k];
-    const Point& shift = shifts_[static_cast<std::size_t>(p)];
-    if (!shift.isZero(0))
-      points.row(static_cast<Eigen::Index>(k)) = shape_beside(secondary_, facet, k, shift).head(r).transpose();
+    const auto& nearest = nearest_[static_cast<std::size_t>(p)];
+    if (nearest.moved())
+      points.row(static_cast<Eigen::Index>(k)) = shape_beside(secondary_, facet, k, nearest.shift).head(r).transpose();
   }
   return points;
 }

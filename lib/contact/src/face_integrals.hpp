@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "covered_basis.hpp"
+#include "nearest_points.hpp"
 #include "pieces.hpp"
 #include "surface_nodes.hpp"
 #include "tree.hpp"
@@ -15,9 +16,9 @@ namespace mortise::contact {
 /// Integrates over secondary faces and what lies opposite them. Holds room to work in.
 class Integrator {
  public:
-  /// All of which must outlive it. `tree` has the facets of the primary side; `shifts` are those of nearest_points().
+  /// All of which must outlive it. `tree` has the facets of the primary side; `nearest` are those of nearest_points().
   Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
-             const Tree& tree, double reach, const std::vector<Point>& shifts);
+             const Tree& tree, double reach, const std::vector<NearestPoint>& nearest);
   /// Everything on the primary side that a face looks at within reach: one piece, or those of its facets; `in_facets`: of these
   /// in any case. Valid until the next call.
   std::span<const PieceIntegrals> integrate(std::size_t face, bool in_facets);
@@ -55,7 +56,7 @@ class Integrator {
   const SurfaceNodes& primary_nodes_;
   const Tree& tree_;
   double reach_;
-  const std::vector<Point>& shifts_;  // of each surface node of the secondary side; see nearest_points()
+  const std::vector<NearestPoint>& nearest_;  // of each surface node of the secondary side, or none
   std::vector<PieceIntegrals> pieces_;
   PieceIntegrals* piece_ = nullptr;  // at work: the last of pieces_, if there is one
   std::vector<Local> slot_;          // of each primary node its place in piece_->nodes, or -1

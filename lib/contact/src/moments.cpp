@@ -15,68 +15,91 @@ constexpr double longest = 1, in_line = 0.1;
 constexpr double no_moment = 1e-11, no_spread = 1e-4;
 constexpr double no_gap = 1e-3;  // what is less is what smooth surfaces through the nodes are wrong by
 
+// Minus the sum of coefficients times places.
+Point resultant(std::span<const Term> terms, double d, const Side& side)
+{
+  Point result = Point::Zero();
+  for (const auto& term : terms) result -= term.value / d * side.points[static_cast<std::size_t>(term.node)];
+  return result;
+}
+
+Eigen::Matrix<double, 3, 2> tangent_plane(const Point& normal, int dimension)
+{
+  Eigen::Matrix<double, 3, 2> axes = Eigen::Matrix<double, 3, 2>::Zero();
+  if (dimension == 2) {
+    axes.col(0) = Point(-normal[1], normal[0], 0);
+  } else {
+    axes.col(0) = normal.unitOrthogonal();
+    axes.col(1) = normal.cross(Point(axes.col(0)));
+  }
+  return axes;
+}
+
+void add(const Eigen::VectorXd& change, double d, std::span<Term> terms)
+{
+  for (Eigen::Index k = 0; k < change.size(); ++k) terms[static_cast<std::size_t>(k)].value += d * change[k];
+}
+
 }  // namespace
 
-Moments::Moments(std::span<Term> terms, double d, const Point& normal, double gap, const Side& secondary, const Side& primary,
-                 int dimension)
+Spread::Spread(std::span<const Term> terms, double d, const Side& side, const Eigen::Matrix<double, 3, 2>& axes)
 {
-  if (dimension == 2)
-    axes_.col(0) = Point(-normal[1], normal[0], 0);
-  else {
-    axes_.col(0) = normal.unitOrthogonal();
-    axes_.col(1) = normal.cross(Point(axes_.col(0)));
-  }
-  Point apart = Point::Zero();  // s
-  std::vector<std::size_t> mine;
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const auto& term = terms[i];
-    const Side& side = term.on_primary ? primary : secondary;
-    apart -= term.value / d * side.points[static_cast<std::size_t>(term.node)];
-    if (term.on_primary) mine.push_back(i);
-  }
-  const auto count = static_cast<Eigen::Index>(mine.size());
+  const auto count = static_cast<Eigen::Index>(terms.size());
   if (count < 2) return;
   size_.resize(count);
   place_.resize(2, count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const auto& term = terms[mine[static_cast<std::size_t>(k)]];
-    nodes_.push_back(term.node);
+    const auto& term = terms[static_cast<std::size_t>(k)];
     size_[k] = std::abs(term.value) / d;
-    place_.col(k) = axes_.transpose() * primary.points[static_cast<std::size_t>(term.node)];
+    place_.col(k) = axes.transpose() * side.points[static_cast<std::size_t>(term.node)];
   }
   const Eigen::Vector2d mean = place_ * size_ / size_.sum();
   place_.colwise() -= mean;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(place_ * size_.asDiagonal() * place_.transpose() / size_.sum());
   directions_ = spread.eigenvectors();
   lengths_ = spread.eigenvalues().cwiseMax(0).cwiseSqrt();
-  offset_ = apart.dot(normal) - (std::abs(gap) > no_gap * place_.colwise().norm().maxCoeff() ? gap : 0.0);
-  const Eigen::VectorXd change = least(axes_.transpose() * apart);
-  for (Eigen::Index k = 0; k < change.size(); ++k) {
-    auto& term = terms[mine[static_cast<std::size_t>(k)]];
-    term.value += d * change[k];
-    offset_ -= change[k] * primary.points[static_cast<std::size_t>(term.node)].dot(normal);  // they lie on no plane
-  }
 }
 
-Eigen::VectorXd Moments::least(const Eigen::Vector2d& moment) const
+Eigen::VectorXd Spread::least(const Eigen::Vector2d& moment) const
 {
+  if (size_.size() == 0) return {};
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-  const double extent = place_.colwise().norm().maxCoeff();
   for (int k = 0; k < 2; ++k) {
     const double part = directions_.col(k).dot(moment), length = lengths_[k];
-    if (length < std::max(in_line * lengths_[1], no_spread * extent) || std::abs(part) > longest * length) continue;
-    if (std::abs(part) < no_moment * extent) continue;
+    if (length < std::max(in_line * lengths_[1], no_spread * extent()) || std::abs(part) > longest * length) continue;
+    if (std::abs(part) < no_moment * extent()) continue;
     slope += part / (length * length * size_.sum()) * directions_.col(k);
   }
   if (slope.isZero(0)) return {};
   return size_.cwiseProduct(place_.transpose() * slope);
 }
 
+Moments::Moments(std::span<Term> terms, double d, const Point& normal, double gap, const Point* at, const Side& secondary,
+                 const Side& primary, int dimension)
+    : axes_(tangent_plane(normal, dimension))
+{
+  const auto middle = std::find_if(terms.begin(), terms.end(), [](const Term& term) { return term.on_primary; });
+  const std::span own(terms.begin(), middle), other(middle, terms.end());
+  if (at) {
+    double weight = 0;
+    for (const auto& term : own) weight += term.value / d;
+    add(Spread(own, d, secondary, axes_).least(axes_.transpose() * (weight * *at + resultant(own, d, secondary))), d, own);
+  }
+  Point apart = resultant(own, d, secondary) + resultant(other, d, primary);  // s
+  if (other.size() < 2) return;
+  for (const auto& term : other) nodes_.push_back(term.node);
+  spread_ = Spread(other, d, primary, axes_);
+  offset_ = apart.dot(normal) - (std::abs(gap) > no_gap * spread_.extent() ? gap : 0.0);
+  const Eigen::VectorXd change = spread_.least(axes_.transpose() * apart);
+  add(change, d, other);
+  for (Eigen::Index k = 0; k < change.size(); ++k)  // they lie on no plane
+    offset_ -= change[k] * primary.points[static_cast<std::size_t>(other[static_cast<std::size_t>(k)].node)].dot(normal);
+}
+
 std::vector<Term> Moments::couple(const Point& tangent) const
 {
   std::vector<Term> result;
-  if (nodes_.empty()) return result;
-  const Eigen::VectorXd values = least(-offset_ * (axes_.transpose() * tangent));
+  const Eigen::VectorXd values = spread_.least(-offset_ * (axes_.transpose() * tangent));
   for (Eigen::Index k = 0; k < values.size(); ++k) result.push_back({nodes_[static_cast<std::size_t>(k)], true, values[k]});
   return result;
 }

@@ -15,29 +15,44 @@
 
 namespace mortise::contact {
 
-/// The primary terms of one row, and what they lack.
+/// The nodes of one side that a row pushes on, in the tangent plane of its direction.
+class Spread {
+ public:
+  Spread() = default;
+  /// `axes`: of the tangent plane, in its columns. `terms`: those of one side.
+  Spread(std::span<const Term> terms, double d, const Side& side, const Eigen::Matrix<double, 3, 2>& axes);
+
+  /// Values c_j = w_j b.y_j, w_j the present sizes and y_j the places from their mean: their sum is 0, and sum c_j y_j is given.
+  /// Empty if that is next to nothing, or the nodes lie too close together for it.
+  Eigen::VectorXd least(const Eigen::Vector2d& moment) const;
+  double extent() const { return place_.cols() > 0 ? place_.colwise().norm().maxCoeff() : 0.0; }
+
+ private:
+  Eigen::VectorXd size_;  // of the coefficients
+  Eigen::Matrix2Xd place_;
+  Eigen::Matrix2d directions_ = Eigen::Matrix2d::Identity();  // in which they spread least and most,
+  Eigen::Vector2d lengths_ = Eigen::Vector2d::Zero();         // and how far
+};
+
+/// The terms of one row, and what they lack.
 class Moments {
  public:
-  /// Changes the primary ones of `terms` (sums of coefficients are kept) by the least, relative to their size, so that s lies
-  /// along `normal`: then neither side's rotations are felt by the normal row more than by the other. `dimension`: 2 or 3. `gap`:
-  /// the part of s along the normal that closes before a force acts, as that of smooth surfaces which come to touch.
-  Moments(std::span<Term> terms, double d, const Point& normal, double gap, const Side& secondary, const Side& primary,
-          int dimension);
+  /// Changes `terms` (merged, those of the secondary side first; sums of coefficients are kept) by the least, relative to their
+  /// size: the secondary ones so that the row acts `at` that point, but along `normal`, if it is one other than their own; the
+  /// primary ones so that s lies along `normal`: then neither side's rotations are felt by the normal row more than by the other.
+  /// `dimension`: 2 or 3. `gap`: the part of s along the normal that closes before a force acts, as that of smooth surfaces which
+  /// come to touch.
+  Moments(std::span<Term> terms, double d, const Point& normal, double gap, const Point* at, const Side& secondary,
+          const Side& primary, int dimension);
 
   /// The couple along the normal on the primary nodes that makes up for s in a row along `tangent`: its coefficients sum to 0.
   /// Empty where there is none.
   std::vector<Term> couple(const Point& tangent) const;
 
  private:
-  // Values c_j = w_j b.y_j, w_j the present sizes: their sum is 0, and sum c_j y_j is given. Empty if that is next to nothing.
-  Eigen::VectorXd least(const Eigen::Vector2d& moment) const;
-
   Eigen::Matrix<double, 3, 2> axes_ = Eigen::Matrix<double, 3, 2>::Zero();  // of the tangent plane
   std::vector<Local> nodes_;                                                // of the primary side
-  Eigen::VectorXd size_;                                                    // of their coefficients
-  Eigen::Matrix2Xd place_;                                                  // y_j, in the tangent plane, from their weighted mean
-  Eigen::Matrix2d directions_ = Eigen::Matrix2d::Identity();                // in which they spread least and most,
-  Eigen::Vector2d lengths_ = Eigen::Vector2d::Zero();                       // and how far
+  Spread spread_;                                                           // of these
   double offset_ = 0;                                                       // s along the normal
 };
 

@@ -11,7 +11,7 @@ class Mortar : public Discretization {
  public:
   explicit Mortar(const TwoSides& sides)
       : Discretization(sides),
-        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_nodes, sides.tree, sides.reach, sides.shifts)
+        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_nodes, sides.tree, sides.reach, sides.nearest)
   {
   }
 

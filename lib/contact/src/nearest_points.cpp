@@ -6,18 +6,20 @@
 #include <cmath>
 #include <optional>
 
+#include "opposite.hpp"
+
 namespace mortise::contact {
 
 namespace {
 
 // Of the size of the facets round a node: shorter steps are none, and those that start longer lead elsewhere.
-constexpr double least_step = 0.02, longest_step = 1.0;
+constexpr double least_step = 1e-6, longest_step = 1.0;
 // Of the sum of both sides' curvatures: what less of it is left between them is that of meshes.
 constexpr double parallel = 0.3;
 // Of the same size: how exactly the place is known. What is squeezed between two such places leaves sideways if they are not
-// opposite each other.
-constexpr double exact = 1e-10;
-constexpr int most_steps = 40;
+// opposite each other: steps end where they are rounding, and a place that is not known to `known` is none.
+constexpr double exact = 1e-15, known = 1e-10;
+constexpr int most_steps = 60;
 
 // Corners of facets by surface node.
 struct Corner {
@@ -42,13 +44,13 @@ class Search {
     each([&](std::size_t facet, std::size_t k, std::size_t p) { corners_[next[p]++] = {facet, k}; });
   }
 
-  Point step(std::size_t p)
+  NearestPoint step(std::size_t p)
   {
-    if (round(p).empty()) return Point::Zero();
+    if (round(p).empty()) return {};
     size_ = 0;
     for (const auto& at : round(p)) size_ = std::max(size_, side_.geometry(at.facet).size());
-    const Point from_node = step_from_node(p);
-    return from_node.isZero(0) && looks_for_nodes(p) ? step_to_node(p) : from_node;
+    if (const auto found = step_from_node(p); found.found) return found;
+    return looks_for_nodes(p) ? step_to_node(p) : NearestPoint();
   }
 
  private:
@@ -58,23 +60,24 @@ class Search {
   };
 
   // Newton's method from the node.
-  Point step_from_node(std::size_t p)
+  NearestPoint step_from_node(std::size_t p)
   {
     const auto at_node = rays_.tilt(p);
-    if (!at_node) return Point::Zero();
+    if (!at_node) return {};
     const auto inverse = inverse_change(p, *at_node, rays_.own_normal(p));
-    if (!inverse) return Point::Zero();
+    if (!inverse) return {};
     Point shift = -(*inverse * at_node->difference);
-    if (!(shift.norm() < longest_step * size_)) return Point::Zero();
-    for (int i = 0; i < most_steps; ++i) {
+    if (!(shift.norm() < longest_step * size_)) return {};
+    double last = shift.norm();
+    for (int i = 0; i < most_steps && last > exact * size_; ++i) {
       const auto place = holds(p, shift);
       const auto here = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
-      if (!here) return Point::Zero();
+      if (!here) return {};
       const Point change = -(*inverse * here->difference);
       shift += change;
-      if (change.norm() < exact * size_) return accepted(p, shift);
+      last = change.norm();
     }
-    return Point::Zero();
+    return last < known * size_ ? accepted(p, shift) : NearestPoint();
   }
 
   // Whether there are nodes of the primary side between those of the secondary one, or it ends there.
@@ -90,7 +93,7 @@ class Search {
   }
 
   // To the node of the primary side that is nearest, if the gap is less there, and from there by differences.
-  Point step_to_node(std::size_t p)
+  NearestPoint step_to_node(std::size_t p)
   {
     std::optional<Rays::NearNode> best;
     Corner where{};
@@ -101,34 +104,35 @@ class Search {
       });
       if (found && (!best || found->gap < best->gap)) best = found, where = at;
     }
-    if (!best) return Point::Zero();
+    if (!best) return {};
     Point shift = Point::Zero();
     const auto nodes = side_.facets[where.facet];
     for (std::size_t k = 0; k < nodes.size(); ++k)
       shift += best->shape[static_cast<Eigen::Index>(k)] *
                (side_.points[static_cast<std::size_t>(nodes[k])] - side_.points[static_cast<std::size_t>(nodes[where.corner])]);
     const auto here = rays_.tilt(p, where.facet, best->shape);
-    if (!here) return Point::Zero();
+    if (!here) return {};
     const auto inverse = inverse_beside(p, shift, *here, std::min(0.1 * best->size, 0.01 * size_));
-    if (!inverse) return Point::Zero();
+    if (!inverse) return {};
     const Point to_node = shift;
-    for (int i = 0; i < most_steps; ++i) {
+    double last = size_;
+    for (int i = 0; i < most_steps && last > exact * size_; ++i) {
       const auto place = holds(p, shift);
       const auto at_place = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
       const Point change = at_place ? Point(-(*inverse * at_place->difference)) : Point::Zero();
-      if (!at_place || (shift + change - to_node).norm() > best->size) return Point::Zero();
+      if (!at_place || (shift + change - to_node).norm() > best->size) return {};
       shift += change;
-      if (change.norm() < exact * size_) break;
+      last = change.norm();
     }
-    return accepted(p, shift);
+    return last < known * size_ ? accepted(p, shift) : NearestPoint();
   }
 
   // A step that leads into a facet round the node, whose nearest node it is.
-  Point accepted(std::size_t p, const Point& shift) const
+  NearestPoint accepted(std::size_t p, const Point& shift) const
   {
     const auto place = holds(p, shift);
-    if (!place || !nearest(*place) || shift.norm() < least_step * size_) return Point::Zero();
-    return part_within(*place) * shift;
+    if (!place || !nearest(*place)) return {};
+    return {true, shift.norm() < least_step * size_ ? Point(Point::Zero()) : Point(part_within(*place) * shift)};
   }
 
   std::size_t surface_node(std::size_t facet, std::size_t corner) const
@@ -261,13 +265,13 @@ class Search {
 
 }  // namespace
 
-std::vector<Point> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes, const std::vector<std::size_t>& faces,
-                                  Rays& rays)
+std::vector<NearestPoint> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes,
+                                         const std::vector<std::size_t>& faces, Rays& rays)
 {
   Search search(secondary, surface_nodes, faces, rays);
-  std::vector<Point> shifts(surface_nodes.all.size(), Point::Zero());
-  for (std::size_t p = 0; p < shifts.size(); ++p) shifts[p] = search.step(p);
-  return shifts;
+  std::vector<NearestPoint> result(surface_nodes.all.size());
+  for (std::size_t p = 0; p < result.size(); ++p) result[p] = search.step(p);
+  return result;
 }
 
 Eigen::Vector4d shape_beside(const Side& side, std::size_t facet, std::size_t corner, const Point& shift)

@@ -7,17 +7,26 @@
 
 #include <vector>
 
-#include "opposite.hpp"
+#include "side.hpp"
+#include "surface_nodes.hpp"
 
 namespace mortise::contact {
 
-/// Of each surface node, the tangential step from it to the place near it where the gap is least: along its normal the smooth
-/// surfaces are parallel there, n + m = 0 with the normals n and m of both sides. Zero where the node itself is that place, to a
-/// fiftieth of a face, or another node is nearer to it. Newton's method, its matrix the least squares' fit to n + m at the nodes
+class Rays;
+
+/// The place near a surface node where the gap is least.
+struct NearestPoint {
+  bool found = false;           ///< there is one, and no other node is nearer to it
+  Point shift = Point::Zero();  ///< the tangential step to it; zero where the node is that place
+  bool moved() const { return !shift.isZero(0); }
+};
+
+/// Of each surface node: along its normal the smooth surfaces are parallel there, n + m = 0 with the normals n and m of both
+/// sides. Newton's method, its matrix the least squares' fit to n + m at the nodes
 /// round; directions in which the sides are curved alike, to 0.3 of their curvature, count as parallel. Of the nodes of
 /// `faces` alone.
-std::vector<Point> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes, const std::vector<std::size_t>& faces,
-                                  Rays& rays);
+std::vector<NearestPoint> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes,
+                                         const std::vector<std::size_t>& faces, Rays& rays);
 
 /// The shape functions of a facet at the tangential step `shift` from one of its corners, also beyond its border.
 Eigen::Vector4d shape_beside(const Side& side, std::size_t facet, std::size_t corner, const Point& shift);

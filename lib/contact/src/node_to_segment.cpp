@@ -68,7 +68,7 @@ class NodeToSegment : public Discretization {
       if (control(k, l) != 0) see(static_cast<std::size_t>(l), control(k, l));
   }
 
-  const std::vector<Point> none_;  // its rows stay at the nodes
+  const std::vector<NearestPoint> none_;  // its rows stay at the nodes
   Integrator integrator_;
 };
 

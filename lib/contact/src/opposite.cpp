@@ -224,6 +224,11 @@ Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
   return (others * normal - own * other).normalized();
 }
 
+double Rays::rise_of(const Opposite& met) const
+{
+  return std::isfinite(met.gap) ? std::abs(Bulge(primary_, primary_nodes_, met.facet)(met.hit.shape)) : 0.0;
+}
+
 Point Rays::primary_normal(const Opposite& opposite) const
 {
   Point normal = Point::Zero();

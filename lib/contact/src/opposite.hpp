@@ -62,6 +62,15 @@ class Rays {
   /// opposite; an obstacle's own.
   Point direction(std::size_t surface_node, const Point& at, const Point& normal) const;
 
+  /// What the line from there along that direction meets; nothing where the gap is infinite.
+  Opposite met_from(std::size_t surface_node, const Point& at, const Point& direction) const
+  {
+    return shoot_past(surface_node, at, direction, 2 * reach_, past_[surface_node]);
+  }
+
+  /// How far the smooth surface stands out of the facet that is met, where it is met; 0 where nothing is.
+  double rise_of(const Opposite& met) const;
+
   /// Takes another gap than that of the meshes where a line from a surface node meets something.
   using GapOf = std::function<double(std::size_t surface_node, const Opposite&)>;
   /// The gap along a direction of contact at a surface node, as the rows see it: in the middle of edges and faces as a control

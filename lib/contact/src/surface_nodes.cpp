@@ -134,6 +134,7 @@ Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals) : n_(face
   for (std::size_t i = 0; i < n_; ++i) {
     const std::size_t j = (i + 1) % n_;
     rise_[i] = (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8;
+    normal_[i] = normals[i];
   }
 }
 
@@ -143,6 +144,15 @@ Bulge::Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t fa
 }
 
 double Bulge::operator()(const Eigen::Vector4d& shape) const
+{
+  const double rise = quadratic(shape);
+  if (rise == 0) return 0;
+  Point mean = Point::Zero();
+  for (std::size_t i = 0; i < n_; ++i) mean += shape[static_cast<Eigen::Index>(i)] * normal_[i];
+  return 2 * rise / (1 + mean.norm());
+}
+
+double Bulge::quadratic(const Eigen::Vector4d& shape) const
 {
   if (n_ == 2) return 4 * shape[0] * shape[1] * rise_[0];
   double result = 0;

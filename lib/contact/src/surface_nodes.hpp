@@ -29,9 +29,11 @@ struct SurfaceNodes {
 /// arc has opposite slopes at its ends.
 SurfaceNodes find_surface_nodes(const Side& side);
 
-/// How far the smooth surface through the nodes stands out of a face (positive outwards) at reference shape values `shape`: the
-/// quadratic that bulges by (x_j - x_i).(n_j - n_i) / 8 at the middle of edge ij. It makes the gaps between facetted cylinders
-/// and spheres exact to fourth order in the size of the facets, while the facets alone are wrong by their sagitta.
+/// How far the smooth surface through the nodes stands out of a face (positive outwards) at reference shape values `shape`, along
+/// the mean of the normals there: the quadratic that bulges by (x_j - x_i).(n_j - n_i) / 8 at the middle of edge ij, times
+/// 2 / (1 + q) with q = |sum N_i n_i|. On a sphere or a cylinder of radius r the place x = sum N_i x_i lies r q from the centre
+/// and the quadratic is r (1 - q^2) / 2: what stands out is r (1 - q), exactly, while the facets alone are wrong by their
+/// sagitta.
 class Bulge {
  public:
   Bulge(const FaceGeometry& face, std::span<const Point> normals);
@@ -39,8 +41,11 @@ class Bulge {
   double operator()(const Eigen::Vector4d& shape) const;
 
  private:
+  double quadratic(const Eigen::Vector4d& shape) const;
+
   std::size_t n_;
   std::array<double, 4> rise_{};  // at the middle of each edge
+  std::array<Point, 4> normal_;   // at each corner
 };
 
 }  // namespace mortise::contact
