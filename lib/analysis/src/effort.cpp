@@ -18,8 +18,8 @@ namespace {
 // Measured on one core of 2025: dense algebra on matrices is bound by arithmetic, a product with F by memory.
 constexpr double dense_rate = 15e9, sparse_rate = 1.5e9;  // operations a second
 constexpr double set_up = 10;                             // products that assembling and cutting anew take
-constexpr double newton_steps = 15;
-constexpr double shortest = 20;         // products that are tried in any case
+constexpr double newton_steps = 8;
+constexpr double shortest = 15;         // products that are tried in any case
 constexpr double a_second = 8;          // products more for each second that a direct solution takes,
 constexpr double a_moment = 60;         // where these are less,
 constexpr double longest = 100;         // up to so many

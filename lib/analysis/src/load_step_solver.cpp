@@ -19,6 +19,8 @@ namespace {
 constexpr double algebraic_part = 0.1;
 // Of the size of the solution, whatever the discretization error is estimated to be.
 constexpr double smallest_part = 1e-6, largest_part = 0.05;
+// Of the norm with what springs store, below which bodies that hang on them are not strained.
+constexpr double strained = 1e-3;
 
 // Of the forces of all states before: below it there is none, and what a state's forces have at least to be in balance with.
 constexpr double unfelt_force = 1e-8, part_to_balance = 1e-3;
@@ -145,8 +147,7 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   }
   const auto scope = context_.timers.scope("solve");
   const auto constitution = model.constitution(rows_->acts);
-  largest_norm_ =
-      std::max(largest_norm_, post::energy_norms(elastic_bodies(assembly_, constitution), from.displacement, comm).solution);
+  largest_norm_ = std::max(largest_norm_, norms(constitution, from.solved.solution.x, from.displacement).whole);
   const auto& bodies = assembly_.decomposition();
   const auto sizes = post::body_sizes(bodies, assembly_.deck().kinematics, comm);
   rounding_before_.take(post::rounding(from.displacement, problem_->load(), assembly_.system().nodal_stiffness,
@@ -180,23 +181,30 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   make_solver();
 }
 
+LoadStepSolver::Norms LoadStepSolver::norms(std::span<const fem::Constitution> constitution, const Vector& lambda,
+                                            const std::vector<Eigen::VectorXd>& displacement) const
+{
+  const auto [error, strain] = post::energy_norms(elastic_bodies(assembly_, constitution), displacement, context_.comm);
+  const double whole =
+      std::hypot(strain, problem_->springs() ? std::sqrt(std::max(problem_->springs()->stored(lambda), 0.0)) : 0);
+  return {error, std::max(strain, strained * whole), whole};
+}
+
 StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer)
 {
   const auto& comm = context_.comm;
   if (before) update(acts, *before);
   const auto scope = context_.timers.scope("solve");
   const auto constitution = assembly_.model().constitution(acts);
-  const auto bodies = elastic_bodies(assembly_, constitution);
-  const auto norms = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+  const auto norms_at = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
     const auto estimating = context_.timers.scope("error estimate");
-    return post::energy_norms(bodies, problem_->displacement(lambda, nu), comm);
+    return norms(constitution, lambda, problem_->displacement(lambda, nu));
   };
   const friction::Accuracy accuracy{[&](const Vector& lambda, const Eigen::VectorXd& nu) {
-                                      const auto [error, solution] = norms(lambda, nu);
-                                      return std::clamp(algebraic_part * error, smallest_part * solution,
-                                                        largest_part * solution);
+                                      const auto [error, size, whole] = norms_at(lambda, nu);
+                                      return std::clamp(algebraic_part * error, smallest_part * whole, largest_part * size);
                                     },
-                                    [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms(lambda, nu).solution; },
+                                    [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
                                     [&](const Vector& lambda, const Eigen::VectorXd& nu) {
                                       return post::incompatibility(*problem_, assembly_.decomposition(), assembly_.interface(),
                                                                    problem_->displacement(lambda, nu), nu);

@@ -46,6 +46,12 @@ void ElasticRows::add_stiffness(double alpha, const Vector& x, Vector& y) const
   add(alpha, weight_.cwiseProduct(stiffness_ * weight_.cwiseProduct(gather(view(x)))), y);
 }
 
+double ElasticRows::stored(const Vector& x) const
+{
+  const Eigen::VectorXd force = scale_.cwiseProduct(gather(view(x)));
+  return force.dot(factor_->solve(force));
+}
+
 double ElasticRows::energy(const Vector& x) const
 {
   const Eigen::VectorXd moved = weight_.cwiseProduct(gather(view(x)));

@@ -17,6 +17,10 @@ double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, in
 
 namespace {
 
+// Of twice what springs store: energy that is nothing, and below which bodies that hang on them are not strained, as the solver's
+// goals have it.
+constexpr double part_of_springs = 1e-10, strained = 1e-6;
+
 // How far supports, gaps and overlaps may move a body.
 double prescribed(const constraint::Constraints& constraints, const Communicator& comm)
 {
@@ -27,15 +31,16 @@ double prescribed(const constraint::Constraints& constraints, const Communicator
   return comm.max(prescribed) + comm.max(gap);
 }
 
-// Relative errors of the mesh and of the solver.
-void estimate_errors(const friction::Result& solved, const Rounding& rounding, const Communicator& comm, Results& results)
+// Relative errors of the mesh and of the solver; `stored`: twice what springs store.
+void estimate_errors(const friction::Result& solved, const Rounding& rounding, double stored, const Communicator& comm,
+                     Results& results)
 {
   const auto& stress = results.stress;
   results.algebraic_error = solved.solution.error;
   // Where nothing is strained, rounding is not the error of anything.
   const double squared_norm = std::max(2 * stress.strain_energy + stress.squared_error, rounding.energy);
   if (!(squared_norm > 0)) return;  // a state at rest is exact
-  results.algebraic_error /= std::sqrt(squared_norm);
+  results.algebraic_error /= std::sqrt(std::max(squared_norm, strained * stored));
   results.mesh_error = {std::sqrt(stress.squared_error / squared_norm), largest_of_ranks(stress.worst_cell, comm),
                         stress.body_error};
   comm.sum_in_place(results.mesh_error.part);
@@ -56,10 +61,13 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   rounding.take(before);
   // An error of this size is a hundredth: it excuses residuals that are measured by what is nothing itself.
   rounding.energy = std::max(rounding.energy, std::pow(100 * negligible, 2));
+  // Bodies that hang on springs move more exactly than they are strained.
+  const double stored = problem.springs() ? problem.springs()->stored(lambda) : 0;
+  rounding.energy = std::max(rounding.energy, part_of_springs * stored);
   Results results;
   results.max_displacement = largest_displacement(displacement, dimension, comm);
   results.stress = recover_stress(bodies, displacement, comm);
-  estimate_errors(solved, rounding, comm, results);
+  estimate_errors(solved, rounding, stored, comm, results);
   results.contact = contact_results(problem, lambda, nu, displacement, pairs);
   if (bodies.kinematics != fem::Kinematics::axisymmetric)
     results.moments = contact_moments(problem, lambda, bodies.decomposition, pairs, results.contact.points);

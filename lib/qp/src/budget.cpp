@@ -10,6 +10,7 @@ namespace mortise::qp {
 namespace {
 
 constexpr double less = 0.7;  // times the best so far is better
+constexpr int of_late = 50;   // products that tell a pace
 
 bool improve(double value, double& best)
 {
@@ -58,11 +59,16 @@ void Budget::note(const Progress& progress, std::optional<long long> changes, do
     better = true;
   }
   if (better) better_ = hessian_.count();
-  if (const int spent = hessian_.count() - begin_; patience_ && spent >= look && foreseen() > *patience_) patience_ = spent;
+  // The pace is that of late: a residual may fall at first, and stand later.
+  const int spent = hessian_.count() - begin_;
+  if (patience_ && first_ && spent >= look && spent - first_->first >= of_late) {
+    if (foreseen() > *patience_) patience_ = spent;
+    first_ = {spent, least_};
+  }
   set_limit();
 }
 
-// Products that the solve would take, at the pace of its residuals on a logarithmic scale.
+// Products that the solve would take, at the pace of its residuals since `first_`, on a logarithmic scale.
 double Budget::foreseen() const
 {
   if (!first_ || !(least_ < first_->second)) return std::numeric_limits<double>::infinity();

@@ -1,5 +1,6 @@
 #include "qp/condensed_newton.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,7 +10,10 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr int max_guesses = 15;             // at one softness
+constexpr int max_guesses = 15;             // at one softness,
+constexpr int look_back = 4;                // the first ones no more if in so many of them changes have not become half as many,
+constexpr double few_changes = 0.02;        // of all constraints, or so few,
+constexpr double handful = 8;               // or so few in all
 constexpr double dependent = 1e-10;         // of what a row gives way with all others: less alone comes of rounding
 constexpr double apart = 1e-8;              // compliance of its own that such a row is given, over that
 constexpr int max_turns = 3;                // of the slip at a point; then it sticks before it turns
@@ -21,7 +25,9 @@ constexpr double roundings = 1e4;           // what rounding makes of W x
 constexpr double softest = 0.1;             // of what a point gives way together with all others
 constexpr double hardest = 1e-4;            // softness that is as good as none
 constexpr double stride = 0.1;              // from one softness to the next
-constexpr double least_stride = 0.8;        // as slow as it gets
+constexpr double least_stride = 0.8;        // as slow as it gets,
+constexpr double largest_stride = 1e-4;     // and as fast, where
+constexpr int at_once = 2;                  // guesses were enough
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -110,10 +116,12 @@ VectorXd CondensedNewton::inverse_times(const VectorXd& r) const
   return x;
 }
 
-// Guesses from `states` on; false if they do not converge.
+// Guesses from `states` on; false if they do not converge. The very first ones, which soft contact comes after, may end sooner.
 bool CondensedNewton::iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point)
 {
-  std::vector<int> turns(states.kind.size(), 0);
+  std::vector<int> turns(states.kind.size(), 0), history;
+  const double few = std::max(few_changes * static_cast<double>(states.closed.size() + states.kind.size()), handful);
+  const bool first = point.steps == 0;
   double before = 0;
   for (int step = 0; step < max_guesses; ++step) {
     stop_if_requested();
@@ -123,10 +131,14 @@ bool CondensedNewton::iterate(CondensedProgramme& programme, ConstraintStates& s
     auto next = programme.states(point.x, point.nu);
     const int changes = compare(states, next, turns);
     states = std::move(next);
-    const bool small = residual <= settled_residual * size ||
-                       (residual > stalled * before &&
-                        (residual <= rounded_residual * size || residual <= roundings * programme.rounding(point.x)));
-    if (step > 0 && small && (changes == 0 || residual <= flutter * size)) return true;
+    const bool stands = residual > stalled * before, rounded = stands && residual <= roundings * programme.rounding(point.x);
+    const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
+    // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
+    if (step > 0 && small && (changes == 0 || residual <= flutter * size || rounded)) return true;
+    if (changes == 0 && residual <= settled_residual * size) return true;
+    history.push_back(changes);
+    if (first && step >= look_back && changes > few && 2 * changes > history[history.size() - 1 - look_back])
+      return false;  // taking turns
     before = residual;
   }
   return false;
@@ -142,9 +154,10 @@ bool CondensedNewton::harden(CondensedProgramme& programme, double softness, Con
     const double next = softness * part > hardest ? softness * part : 0;
     auto trial = states;
     const VectorXd nu = point.nu;
+    const int steps = point.steps;
     programme.soften(next);
     if (iterate(programme, trial, point)) {
-      part = std::max(stride, part * part);
+      part = std::max(point.steps - steps <= at_once ? largest_stride : stride, part * part);
     } else if (part < least_stride) {
       part = std::sqrt(part);
       point.nu = nu;

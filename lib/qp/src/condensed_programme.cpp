@@ -13,9 +13,12 @@ namespace mortise::qp {
 namespace {
 
 constexpr double spring = 1e-8;        // on motions, of what constraints would hold them with
+constexpr int most_repeats = 30;       // of solutions with springs,
+constexpr double nearer_part = 0.5;    // as long as they leave less than this of what is lacking
 constexpr double singular = 1e-11;     // reciprocal condition of what needs them
 constexpr double definite = 1e-13;     // part of the diagonal that is added first
 constexpr double indefinite = 1e-6;    // and that is too much
+constexpr int fewest_steps = 8;        // of GMRES that are worth a beginning
 constexpr Eigen::Index many = 1000;    // unknowns from which on factors serve several problems
 constexpr double tiny_radius = 1e-12;  // of a disc, over the distance from its centre
 
@@ -234,7 +237,7 @@ std::vector<Move> CondensedProgramme::moves(const ConstraintStates& states, Vect
 
 // `matrix` nu = `right`; by springs that hold nu where it is, if the matrix is singular without. Else there are none: where
 // contact is much stiffer than its bodies, what is weak beside it is not so beside them.
-void CondensedProgramme::solve_with_springs(MatrixXd matrix, const VectorXd& right, VectorXd& nu) const
+void CondensedProgramme::solve_with_springs(const MatrixXd& matrix, const VectorXd& right, VectorXd& nu) const
 {
   if (right.size() == 0) return;
   const Eigen::PartialPivLU<MatrixXd> alone(matrix);
@@ -242,8 +245,21 @@ void CondensedProgramme::solve_with_springs(MatrixXd matrix, const VectorXd& rig
     nu = alone.solve(right);
     return;
   }
-  matrix.diagonal() += springs_;
-  nu = matrix.partialPivLu().solve(right + springs_.cwiseProduct(nu));
+  MatrixXd held = matrix;
+  held.diagonal() += springs_;
+  const Eigen::PartialPivLU<MatrixXd> factors(held);
+  // Again and again from where they have led, so that motions that are held softly without them, as by a slender rod, do not feel
+  // them; once where a motion is driven and not held, which would go on.
+  const VectorXd unit = springs_.cwiseSqrt().cwiseInverse();
+  VectorXd lack = right - matrix * nu;
+  for (int repeat = 0; repeat < most_repeats; ++repeat) {
+    const VectorXd next = nu + factors.solve(lack), left = right - matrix * next;
+    const bool nearer = left.cwiseProduct(unit).norm() < nearer_part * lack.cwiseProduct(unit).norm();
+    if (repeat > 0 && !nearer) return;
+    nu = next;
+    if (!nearer) return;
+    lack = left;
+  }
 }
 
 void CondensedProgramme::solve(const ConstraintStates& states, VectorXd& x, VectorXd& nu)
@@ -254,15 +270,16 @@ void CondensedProgramme::solve(const ConstraintStates& states, VectorXd& x, Vect
   const MoveProblem problem(matrices_, softening_, std::move(all), symmetric);
   const VectorXd right = problem.test(b_ - matrices_.w * base - softening_.cwiseProduct(base));
   const VectorXd lacking = e_ - matrices_.h * base;
-  if (factor_ && problem.size() >= many) {
+  const int steps = factor_ && problem.size() >= many ? factor_->affordable_steps(problem) : 0;
+  if (steps >= fewest_steps) {
     const VectorXd start = problem.test(VectorXd(x - base));
-    if (const auto found = factor_->iterate(problem, right, lacking, springs_ / spring, {start, nu})) {
+    if (const auto found = factor_->iterate(problem, right, lacking, springs_ / spring, {start, nu}, steps)) {
       x = base + problem.extend(found->amount);
       nu = found->nu;
       return;
     }
-    factor_.reset();  // before there are others: they are large
   }
+  if (problem.size() >= many) factor_.reset();  // before there are others: they are large
   x = base;
   if (problem.size() == 0) {
     solve_with_springs(matrices_.c, -lacking, nu);

@@ -8,6 +8,7 @@
 #include "face_newton_run.hpp"
 #include "qp/error_estimate.hpp"
 #include "qp/norm.hpp"
+#include "rounding.hpp"
 
 namespace mortise::qp {
 
@@ -259,10 +260,20 @@ Projection FaceNewton::accept(Run& run, const Trial& trial)
   run.mismatch = run.slip_bound_update ? run.slip_bound_update->update(z, false) * norm_ / step_length : 0.0;
   result.nu = natural.nu * norm_;
   ++result.outer_iterations;
+  run.size = std::max(run.size, rounding_of_motions(run, natural));
   const bool near = run.worst() <= run.goal.residual * run.size, slow = run.worst() >= 0.9 * run.best;
   result.error = std::numeric_limits<double>::quiet_NaN();
   if (run.goal.allowed_error || run.goal.exact > 0 || near || slow) find_error(run, natural);
   return natural;
+}
+
+// What residuals are relative to at least: the motions G'nu, which gaps are left by, have rounding. What moves far is not always
+// asked for by b: the body on soft springs is not.
+double FaceNewton::rounding_of_motions(const Run& run, const Projection& natural) const
+{
+  Vector motions(natural.argument, Teuchos::Copy);  // z - g / ||P A P|| - G'nu
+  motions.update(-1, run.state.z, 1 / norm_, run.state.g, 1);
+  return rounding_over(run.goal.allowed_error ? tolerances::finest : run.goal.residual) * motions.norm2() * norm_;
 }
 
 // The bound of the error at z. It costs as much as some products, so it is found where somebody asks for it alone: not as long as

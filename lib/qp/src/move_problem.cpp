@@ -13,13 +13,13 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr int most_steps = 120;       // of GMRES,
-constexpr int unknowns_of_step = 60;  // and one for so many unknowns: new factors cost twice as much
-constexpr int look = 8;               // steps, whose pace foretells how many it will be
-constexpr int cycles = 4;             // the later ones mend what rounding has left
-constexpr double reduction = 1e-9;    // of the residual in each of them
-constexpr double exact = 1e-13;       // residual over the right-hand side
-constexpr double least_held = 1e-8;   // reciprocal condition of motions: below, springs may be needed
+constexpr int most_steps = 120;      // of GMRES
+constexpr double slow = 24;          // operations that factors are made with in the time of one entry of a matrix that is read
+constexpr int look = 8;              // steps, whose pace foretells how many it will be
+constexpr double reduction = 1e-4;   // of the residual: states are still guesses, and each next one goes on from there
+constexpr double roundable = 1e-9;   // residual over the right-hand side that rounding may be all of
+constexpr double exact = 1e-13;      // residual over the right-hand side
+constexpr double least_held = 1e-8;  // reciprocal condition of motions: below, springs may be needed
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -155,6 +155,14 @@ MoveFactor::MoveFactor(const MoveProblem& problem) : moves_(problem.moves())
     };
 }
 
+// Steps of GMRES on `problem` that take as long as new factors of it, each of which reads its matrix and the old factors.
+int MoveFactor::affordable_steps(const MoveProblem& problem) const
+{
+  const auto n = static_cast<double>(problem.size()), old = static_cast<double>(moves_.size());
+  const double factors = (problem.symmetric() ? 1 : 2) * n * n * n / 3;
+  return static_cast<int>(std::min<double>(most_steps, factors / (slow * (n * n + old * old))));
+}
+
 // About the inverse of [M B; N -C] of another problem.
 class MoveFactor::Inverse {
  public:
@@ -228,7 +236,7 @@ class MoveFactor::Inverse {
 };
 
 std::optional<MoveFactor::Solution> MoveFactor::iterate(const MoveProblem& problem, const VectorXd& r, const VectorXd& l,
-                                                        const VectorXd& scale, const Solution& start) const
+                                                        const VectorXd& scale, const Solution& start, int most) const
 {
   const Inverse inverse(*this, problem, scale);
   if (!inverse.holds()) return {};
@@ -256,29 +264,23 @@ std::optional<MoveFactor::Solution> MoveFactor::iterate(const MoveProblem& probl
   };
   const VectorXd right = join(r, l);
   Solution at = start;
-  int left = std::min(most_steps, static_cast<int>(n / unknowns_of_step));
-  double before = std::numeric_limits<double>::infinity();
-  for (int cycle = 0; cycle < cycles; ++cycle) {
-    const VectorXd residual = right - image(at);
-    const double size = residual.norm();
-    if (!std::isfinite(size)) return {};
-    if (size <= exact * right.norm() || (cycle > 0 && size > 0.1 * before)) {
-      VectorXd rounding = VectorXd::Zero(n);
-      for (Index j = 0; j < n; ++j) rounding += problem.matrix().col(j).cwiseAbs() * std::abs(at.amount[j]);
-      const double least = 10 * std::numeric_limits<double>::epsilon() * rounding.cwiseProduct(weight.head(n)).norm();
-      if (size <= std::max(exact * right.norm(), least)) return at;
-      return {};
-    }
-    before = size;
-    VectorXd z = VectorXd::Zero(n + m);
-    const double goal = std::max(reduction * size, 0.1 * exact * right.norm());
-    const double reached = gmres([&](const VectorXd& v) { return image(solve(v)); }, residual, goal, left, z);
-    if (!(reached <= goal)) return {};
-    const Solution step = solve(z);
-    at.amount += step.amount;
-    at.nu += step.nu;
+  const VectorXd residual = right - image(at);
+  const double size = residual.norm(), enough = exact * right.norm();
+  if (!std::isfinite(size)) return {};
+  if (size <= enough) return at;
+  if (size <= roundable * right.norm()) {
+    VectorXd rounding = VectorXd::Zero(n);
+    for (Index j = 0; j < n; ++j) rounding += problem.matrix().col(j).cwiseAbs() * std::abs(at.amount[j]);
+    if (size <= 10 * std::numeric_limits<double>::epsilon() * rounding.cwiseProduct(weight.head(n)).norm()) return at;
   }
-  return {};
+  VectorXd z = VectorXd::Zero(n + m);
+  const double goal = std::max(reduction * size, 0.1 * enough);
+  const double reached = gmres([&](const VectorXd& v) { return image(solve(v)); }, residual, goal, most, z);
+  if (!(reached <= goal)) return {};
+  const Solution step = solve(z);
+  at.amount += step.amount;
+  at.nu += step.nu;
+  return at;
 }
 
 }  // namespace mortise::qp

@@ -67,10 +67,12 @@ class MoveFactor {
   struct Solution {
     Eigen::VectorXd amount, nu;
   };
-  /// a and nu of `problem` to rounding, from `start`. Nothing if that takes too many steps, or if a motion is not held. `scale`:
-  /// the squares of what lacks of N a - C nu are measured by. Throws as stop_if_requested.
+  /// a and nu of `problem`, nearer than `start` by four figures or to rounding. Nothing if that takes more than `most` steps, or
+  /// if a motion is not held. `scale`: the squares of what lacks of N a - C nu are measured by. Throws as stop_if_requested.
   std::optional<Solution> iterate(const MoveProblem& problem, const Eigen::VectorXd& r, const Eigen::VectorXd& l,
-                                  const Eigen::VectorXd& scale, const Solution& start) const;
+                                  const Eigen::VectorXd& scale, const Solution& start, int most) const;
+  /// Steps of GMRES on `problem` that take as long as new factors of it.
+  int affordable_steps(const MoveProblem& problem) const;
 
  private:
   class Inverse;

@@ -63,6 +63,15 @@ std::optional<DowndateBlock> downdate_of_cone(const Disc& disc, const Eigen::Vec
   return block;
 }
 
+// Whether x balances every row of G x = e to what its own forces are rounded by: a body that hangs on soft springs is moved far
+// by what is little beside the forces on others. Collective.
+bool balances_rows(const EqualityConstraint& equality, const Vector& x, const Eigen::VectorXd& missing)
+{
+  Eigen::VectorXd forces = equality.local().cwiseAbs() * view(x).cwiseAbs();
+  equality.communicator().sum_in_place({forces.data(), static_cast<std::size_t>(forces.size())});
+  return (missing.array().abs() <= target * (forces + equality.right_side().cwiseAbs()).array()).all();
+}
+
 }  // namespace
 
 // The gradient of the dual function at one nu; vectors over the constrained unknowns.
@@ -257,7 +266,8 @@ void Projector::repair(const Vector& from, const Given& y, Evaluation now, Proje
     result.nu = now.nu;
     result.residual = residual;
     result.point.assign(point);
-    if (residual <= 1e2 * target || now.multiplier_size >= unbounded * y.scale) break;
+    if (residual <= 1e2 * target && (residual == 0 || balances_rows(equality_, point, missing))) break;
+    if (now.multiplier_size >= unbounded * y.scale) break;
     Eigen::VectorXd w = view(result.argument)(constrained_);
     if (!matrix_.factorize(downdates(w), 1e-14)) break;
     now.nu -= matrix_.solve(missing);

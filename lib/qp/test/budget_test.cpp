@@ -142,6 +142,22 @@ TEST(Budget, GivesUpWhereTheEndIsFurtherThanItsPatienceReaches)
   }
 }
 
+// A residual that fell by six figures in 100 products falls no more by much.
+TEST(Budget, ThePaceIsThatOfLate)
+{
+  Products products;
+  Budget budget(products.hessian, {}, false);
+  budget.start(800, 1e-9);
+  budget.note(at(1), {}, 1);
+  double residual = 1e-6;
+  for (int spent = 100; spent < 200; spent += 20) {
+    products.take(spent == 100 ? 100 : 20);
+    budget.note(at(residual), {}, 1);
+    EXPECT_EQ(products.hessian.exhausted(), spent >= 160) << spent;
+    residual *= 0.85;  // some 850 products more for three figures
+  }
+}
+
 TEST(Budget, GivesUpWhereNothingBecomesBetterAndSomethingElseIsReady)
 {
   Products products;

@@ -347,6 +347,42 @@ TEST(CondensedNewton, MatricesOfSeveralPieces)
   }
 }
 
+// So many that factors of one guess serve the next ones, by steps of GMRES.
+TEST(CondensedNewton, ManyUnknowns)
+{
+  constexpr int points = 600;
+  for (const double coefficient : {0.0, 0.3}) {
+    auto p = random_programme(7, points, 2, 40, 4);
+    p.a.diagonal().array() += 1;
+    for (const auto& bound : p.set.bounds()) p.b[bound.index] = std::abs(p.b[bound.index]) + 1;
+    p.set.set_coefficients(std::vector<double>(points, coefficient));
+    const auto point = p.solve();
+    EXPECT_TRUE(point.converged);
+    EXPECT_LT(violation(p, point), 1e-9) << coefficient;
+    Census census;
+    census.add(p, point.x);
+    EXPECT_GT(census.closed, points / 2) << coefficient;
+    EXPECT_GT(census.sticks, points / 10) << coefficient;
+    EXPECT_GT(census.slips, points / 10) << coefficient;
+  }
+}
+
+// Bodies that were moved and carry nothing, as those of a joint that is loosened: x is rounding, and so are all states.
+TEST(CondensedNewton, NoForceIsLeft)
+{
+  for (const double coefficient : {0.0, 0.3})
+    for (int seed = 1; seed <= 20; ++seed) {
+      auto p = random_programme(seed, 40, 2, 20, 6);
+      p.set.set_coefficients(std::vector<double>(40, coefficient));
+      p.e.setZero();
+      const VectorXd moved = VectorXd::LinSpaced(p.g.rows(), 1, 2);
+      p.b = p.g.transpose() * moved;
+      const auto point = p.solve();
+      EXPECT_TRUE(point.converged) << seed;
+      EXPECT_LT(point.x.norm(), 1e-10 * p.b.norm()) << seed;
+    }
+}
+
 TEST(CondensedNewton, EndsIfItIsToldTo)
 {
   const auto p = random_programme(5, 20, 2, 20, 4);

@@ -68,12 +68,17 @@ TEST(MoveFactor, LeadsToTheSolutionOfAnotherGuess)
   const VectorXd hard = VectorXd::Zero(2 * all_points), scale = VectorXd::Ones(3);
   const MoveProblem first(matrices, hard, pressed_moves(600, 300), false);
   const MoveFactor factor(first);
+  constexpr int steps = 24;  // GMRES ends at the rank of what has changed: at most three unknowns at each of six points, and some
   for (const auto& [closed, sticking] : {std::pair<Index, Index>{600, 300}, {606, 303}, {596, 298}, {604, 296}}) {
     const MoveProblem next(matrices, hard, pressed_moves(closed, sticking), false);
     const VectorXd r = normal_numbers(next.size(), 1, 2), l = normal_numbers(3, 1, 3);
-    const auto found = factor.iterate(next, r, l, scale, {VectorXd::Zero(next.size()), VectorXd::Zero(3)});
-    ASSERT_TRUE(found.has_value()) << closed << ", " << sticking;
-    EXPECT_LT(lack_of(next, r, l, *found), 1e-10) << closed << ", " << sticking;
+    MoveFactor::Solution at{VectorXd::Zero(next.size()), VectorXd::Zero(3)};
+    for (const double lack : {1e-3, 1e-6, 1e-10}) {  // each time nearer by four figures
+      const auto found = factor.iterate(next, r, l, scale, at, steps);
+      ASSERT_TRUE(found.has_value()) << closed << ", " << sticking << ", " << lack;
+      at = *found;
+      EXPECT_LT(lack_of(next, r, l, at), lack) << closed << ", " << sticking;
+    }
   }
 }
 
@@ -84,14 +89,14 @@ TEST(MoveFactor, SaysThatItDoesNotLeadFarther)
   const MoveFactor factor(MoveProblem(matrices, hard, pressed_moves(300, 300), true));
   const MoveProblem far(matrices, hard, pressed_moves(700, 0), false);
   const VectorXd r = normal_numbers(far.size(), 1, 2), l = normal_numbers(3, 1, 3);
-  const auto found = factor.iterate(far, r, l, scale, {VectorXd::Zero(far.size()), VectorXd::Zero(3)});
+  const auto found = factor.iterate(far, r, l, scale, {VectorXd::Zero(far.size()), VectorXd::Zero(3)}, 24);
   if (found) {
-    EXPECT_LT(lack_of(far, r, l, *found), 1e-10);
+    EXPECT_LT(lack_of(far, r, l, *found), 1e-3);
   }
   auto loose = matrices;  // a motion that no point feels
   loose.h.row(1).setZero();
   const MoveProblem free(loose, hard, pressed_moves(300, 300), true);
-  EXPECT_FALSE(factor.iterate(free, VectorXd::Ones(free.size()), l, scale, {VectorXd::Zero(free.size()), VectorXd::Zero(3)}));
+  EXPECT_FALSE(factor.iterate(free, VectorXd::Ones(free.size()), l, scale, {VectorXd::Zero(free.size()), VectorXd::Zero(3)}, 24));
 }
 
 }  // namespace

@@ -31,6 +31,28 @@ TEST(Projection, SimplexHasItsKnownForm)
   EXPECT_LT((x - (y.array() - result.nu[0]).max(0).matrix()).norm(), 1e-12);
 }
 
+// A body that hangs on one soft spring while all its contact points are open: what is little beside the forces that would close
+// these is all that the spring feels.
+TEST(Projection, SoftSpringsAreExactAsWell)
+{
+  constexpr int n = 30;
+  constexpr double soft = 1e-5;
+  const auto map = even_map(n, world());
+  std::vector<Bound> bounds;
+  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i)
+    if (map->getGlobalElement(i) > 0) bounds.push_back({i, 0});
+  const FeasibleSet set(bounds, {});
+  Eigen::MatrixXd g = Eigen::MatrixXd::Constant(1, n, -1);
+  g(0, 0) = soft;
+  const EqualityConstraint equality(local_columns(g, *map), Eigen::VectorXd::Constant(1, 3 * soft), world());
+  const Projection result = project(local_part(Eigen::VectorXd::Constant(n, -10), map), equality, set);
+  ASSERT_TRUE(result.found);
+  const Eigen::VectorXd x = gathered(result.point, world());
+  EXPECT_NEAR(x[0], 3, 1e-10);
+  EXPECT_EQ(x.tail(n - 1).norm(), 0);
+  EXPECT_NEAR(result.nu[0] * soft, -13, 1e-9);
+}
+
 TEST(Projection, TellsThatNothingIsFeasible)
 {
   constexpr int n = 6;

@@ -49,6 +49,13 @@ class LoadStepSolver {
   int applications() const { return before_ + (solver_ ? solver_->applications() : 0); }
 
  private:
+  /// In the energy norm: the estimated error of the mesh; the size of what is strained, but a thousandth of the whole at least;
+  /// the whole, with what springs store: of a body that hangs on springs they may have all of it.
+  struct Norms {
+    double error = 0, size = 0, whole = 0;
+  };
+  Norms norms(std::span<const fem::Constitution> constitution, const Vector& lambda,
+              const std::vector<Eigen::VectorXd>& displacement) const;
   std::unique_ptr<feti::DualProblem> make_problem(std::vector<Eigen::VectorXd> load) const;
   void make_solver();
   void update(const model::LoadState& acts, StepState& from);
@@ -63,7 +70,7 @@ class LoadStepSolver {
   int before_ = 0;                          // products of the solvers and approaches before this one
   post::Rounding rounding_before_;
   double largest_force_ = 0;  // ||B'lambda||, likewise
-  double largest_norm_ = 0;   // energy norm of the displacements, of all states before
+  double largest_norm_ = 0;   // energy norm, springs included, of all states before
 };
 
 /// What there is to know of a state that solver.solve() returned last, also inside bodies where `probes` are. Throws

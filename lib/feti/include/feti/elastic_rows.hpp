@@ -22,6 +22,8 @@ class ElasticRows {
   void add_compliance(double alpha, const Vector& x, Vector& y) const;
   /// y += alpha W C^-1 W x. Collective.
   void add_stiffness(double alpha, const Vector& x, Vector& y) const;
+  /// x'C x, twice what the springs store under the forces x. Collective.
+  double stored(const Vector& x) const;
   /// x'W C^-1 W x. Collective.
   double energy(const Vector& x) const;
   /// C, dense.

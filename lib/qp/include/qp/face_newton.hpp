@@ -55,6 +55,7 @@ class FaceNewton {
   void improve_soft_start(Run& run, Trial& trial);
   void safeguard(Run& run, Trial& trial);
   Projection accept(Run& run, const Trial& trial);
+  double rounding_of_motions(const Run& run, const Projection& natural) const;
   void find_error(Run& run, const Projection& natural);
   bool is_compatible(const Run& run) const;
   bool radii_settled(const Run& run) const;
