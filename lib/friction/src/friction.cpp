@@ -122,6 +122,20 @@ bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
   return true;
 }
 
+// Whether no contact's forces change much any more, and displacements fit together: where the error of the whole is small, that
+// of a part that stores little may not be.
+bool Solver::contacts_at_rest(const Run& run)
+{
+  const auto& solution = *run.solution;
+  const auto& goal = run.goal;
+  qp::ActiveSetPreconditioner* preconditioner = algorithm_->preconditioner();
+  if (goal.contact_converged && preconditioner) {
+    const auto predicted = predict(problem_, solution, *preconditioner);
+    if (predicted && !goal.contact_converged(solution.x, predicted->argument, predicted->change)) return false;
+  }
+  return !goal.incompatibility || goal.incompatibility(solution.x, solution.nu) <= qp::Goal::nearly_compatible;
+}
+
 // Whether the fixed point is at rest, with bounds `wanted` that the last Tresca problem asks for.
 bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& run)
 {
@@ -132,7 +146,7 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
                           run.goal);
   solution.error += error_of_bounds(wanted, run);
   if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu) &&
-      qp::fits(solution, run.goal) && balances(problem_, wanted, solution.x))
+      qp::fits(solution, run.goal) && balances(problem_, wanted, solution.x) && contacts_at_rest(run))
     return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&

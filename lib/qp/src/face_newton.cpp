@@ -330,7 +330,9 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
     solved = result.error <= (to_come <= at_rest ? 1 : certain) * run.allowed &&
              (worst <= Goal::largest_residual * run.size || believable(result.error, 0, z, result.nu, goal));
   }
-  if (goal.allowed_error && solved && goal.contact_converged && preconditioner_) {
+  if (!solved && goal.exact > 0 && std::isfinite(result.error))
+    solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
+  if (goal.allowed_error && solved && goal.contact_converged && preconditioner_ && worst > tolerances::rounding * run.size) {
     Vector gap(z, Teuchos::Copy), change(z.getMap());
     gap.update(-norm_, natural.point, norm_);
     preconditioner_->fix({});
@@ -338,8 +340,6 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
     ++preconditionings_;
     solved = goal.contact_converged(z, natural.argument, change);
   }
-  if (!solved && goal.exact > 0 && std::isfinite(result.error))
-    solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
   if (solved && goal.allowed_error && (!radii_settled(run) || !is_compatible(run))) {
     run.doubtful = true;
     return false;

@@ -73,6 +73,7 @@ class Solver {
   Run begin(const qp::Solution* start, const Accuracy& accuracy);
   void follow_law(Run& run);
   bool solve_tresca(const qp::Goal& goal, Run& run);
+  bool contacts_at_rest(const Run& run);
   bool at_rest(const std::vector<double>& wanted, double tolerance, Run& run);
   double error_of_bounds(const std::vector<double>& wanted, const Run& run);
   void note_response(const std::vector<double>& wanted, Run& run) const;
