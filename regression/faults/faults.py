@@ -86,6 +86,18 @@ def interrupted(options, scratch):
     os.kill(run.process.pid, signal.SIGTERM)
     start = time.monotonic()
     expect(run.wait() == INTERRUPTED and time.monotonic() - start < 60 and summary(run.directory) is None, f"early: {run.said}")
+    # While gmsh meshes, in a process of its own: a terminal tells both, a batch system the run alone.
+    fine = 'SetFactory("OpenCASCADE");\nSphere(1) = {0, 0, 0, 1};\nPhysical Volume("ball") = {1};\nMesh.MeshSizeMax = 0.02;\n'
+    (scratch / "fine.geo").write_text(fine)
+    (scratch / "fine.yaml").write_text("mesh: {file: fine.geo}\nmaterials: {m: {young_modulus: 1, poisson_ratio: 0}}\nbodies: {ball: {material: m}}\n")
+    for number, tell in ((signal.SIGUSR1, os.killpg), (signal.SIGTERM, os.kill)):
+        run = Run(options, scratch / "fine.yaml", scratch / f"meshing {number.name}", prepare=os.setsid)
+        expect(run.has("mortise.lock"), f"meshing {number.name}: no lock")
+        time.sleep(0.5)
+        start = time.monotonic()
+        tell(run.process.pid, number)
+        expect(run.wait() == INTERRUPTED and time.monotonic() - start < 8 and number.name in run.said, f"meshing {number.name}: {run.said}")
+        expect(not (run.directory / "mortise.lock").exists(), f"meshing {number.name}: the lock stays")
 
 
 def resumed(options, scratch):

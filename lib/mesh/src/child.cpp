@@ -18,6 +18,7 @@
 #include <new>
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "base/timer.hpp"
 #include "sandbox.hpp"
 
@@ -109,12 +110,14 @@ double data_segment()
   return number * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-// Signals as a program has them at its start, no file of the parent but the pipe, an end together with the parent.
+// Signals as a program has them at its start, but for those by which a run is told to end: the parent hears them as well, and
+// decides. No file of the parent but the pipe, an end together with the parent.
 void stand_alone(pid_t parent)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);
   for (int number = 1; number < NSIG; ++number) std::signal(number, SIG_DFL);
+  for (const int number : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2}) std::signal(number, SIG_IGN);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -231,6 +234,7 @@ void Child::out_of_time()
 void Child::ended()
 {
   const int status = stop(0);
+  stop_if_requested();  // told together with this process, the child may have been the first to hear it
   const bool killed = WIFSIGNALED(status);
   if (killed && WTERMSIG(status) == SIGXCPU)
     throw Error(
@@ -252,6 +256,8 @@ void Child::bytes(void* data, std::size_t size)
   for (auto at = static_cast<char*>(data); size > 0;) {
     const auto left = std::chrono::duration<double>(deadline_ - std::chrono::steady_clock::now()).count();
     if (left <= 0) out_of_time();
+    if (stop_requested() != 0) stop(SIGKILL);
+    stop_if_requested();
     pollfd wanted{pipe_, POLLIN, 0};
     if (poll(&wanted, 1, static_cast<int>(std::min(1000 * left + 1, 1000.0))) <= 0) continue;
     const auto got = ::read(pipe_, at, size);
