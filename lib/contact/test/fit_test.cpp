@@ -76,10 +76,10 @@ TEST(Fit, ClearanceIsTheGapOfEveryPoint)
 {
   const Communicator comm;
   for (const char* discretization : {"mortar", "node_to_segment"}) {
-    auto pair = pin_in_hole(10, 10, comm);
+    auto pair = pin_in_hole(10, 10.02, comm);
     pair.options.discretization = discretization;
     const auto raw = find(pair, {}, comm);
-    EXPECT_GT(raw.gaps.back() - raw.gaps.front(), 1e-5);
+    for (const double gap : raw.gaps) EXPECT_NEAR(gap, 0.02, 1e-4);
     EXPECT_EQ(raw.initial.smallest, raw.gaps.front());
     EXPECT_EQ(raw.initial.largest, raw.gaps.back());
     for (const double clearance : {0.0, 0.05}) {
@@ -121,7 +121,8 @@ TEST(Fit, FacesOfOneSurfaceTouch)
     const auto found = find(pair, on_cylinders(pair, 10, 10), comm);
     EXPECT_EQ(found.gaps, std::vector<double>(raw.gaps.size(), 0.0));
     EXPECT_NEAR(found.initial.on_one_surface, found.initial.area, 1e-12);
-    EXPECT_EQ(found.initial.least_in_mesh, raw.gaps.front());
+    // Smooth surfaces are exact on cylinders: the meshes say the same.
+    for (const double gap : raw.gaps) EXPECT_NEAR(gap, 0, 1e-8);
     // A clearance that the geometry has is kept, and so is what the deck says.
     auto loose = pin_in_hole(10, 10.001, comm);
     loose.options.discretization = discretization;
