@@ -291,7 +291,11 @@ bool FaceNewton::is_compatible(const Run& run) const
   const auto& goal = run.goal;
   if (!goal.incompatibility || run.worst() <= tolerances::rounding * run.size) return true;
   if (run.result.error <= rounding_of_error(problem_, norm_)) return true;
-  return goal.incompatibility(run.state.z, run.result.nu) <= (run.since_best > 0 ? Goal::nearly_compatible : Goal::compatible);
+  // From a direct solution figures are cheap to come by: a step of A^-1 each.
+  const double enough = run.since_best > 0 ? Goal::nearly_compatible
+                        : goal.exact > 0   ? Goal::exactly_compatible
+                                           : Goal::compatible;
+  return goal.incompatibility(run.state.z, run.result.nu) <= enough;
 }
 
 // Whether radii that follow the solution have settled: an error that is small beside the mesh's may leave a joint beyond its

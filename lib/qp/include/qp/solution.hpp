@@ -40,8 +40,8 @@ struct Goal {
   /// Part of the energy norm. An error below it ends face Newton whatever the residual: for a start that is exact.
   double exact = 0;
 
-  /// What may be left of `incompatibility`; and where going on did not make the residual smaller.
-  static constexpr double compatible = 1e-3, nearly_compatible = 1e-2;
+  /// What may be left of `incompatibility`; where going on did not make the residual smaller; and of a start that is exact.
+  static constexpr double compatible = 1e-3, nearly_compatible = 1e-2, exactly_compatible = 1e-5;
   /// The residual up to which an estimated error that is good enough ends a solve. Beyond it the error has to be small itself.
   static constexpr double largest_residual = 0.4;
   /// Part of the energy norm that the error may be for a small residual to count as a solution; more than 1e-3 where the residual
