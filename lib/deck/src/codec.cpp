@@ -117,6 +117,74 @@ nlohmann::ordered_json Codec<std::string>::schema(const Limits& limits)
   return result;
 }
 
+void for_each_entry(const YAML::Node& node, const std::string& path, Document& document,
+                    const std::function<void(const YAML::Node& entry, const std::string& at)>& read)
+{
+  if (node.IsNull()) return;
+  if (!node.IsSequence()) {
+    document.error(path, "expected a list, found " + found(node));
+    return;
+  }
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const auto at = path + "[" + std::to_string(i) + "]";
+    const YAML::Node entry = node[i];
+    document.locate(at, entry);
+    read(entry, at);
+  }
+}
+
+void for_each_named(const YAML::Node& node, const std::string& path, Document& document,
+                    const std::function<bool(const std::string& name, const YAML::Node& entry, const std::string& at)>& read)
+{
+  if (node.IsNull()) return;
+  if (!node.IsMap()) {
+    document.error(path, "expected a mapping of names, found " + found(node));
+    return;
+  }
+  for (const auto& entry : node) {
+    const auto name = entry.first.Scalar();
+    const auto at = path + "." + name;
+    document.locate(at, entry.first);
+    if (!read(name, entry.second, at)) document.error(at, "is given twice");
+  }
+}
+
+bool is_vector(const YAML::Node& node, std::size_t most, const std::string& path, Document& document)
+{
+  if (node.IsSequence() && node.size() >= 2 && node.size() <= most) return true;
+  document.error(path, "expected a list of 2 (plane models) or 3 entries, found " +
+                           (node.IsSequence() ? std::to_string(node.size()) + " entries" : found(node)));
+  return false;
+}
+
+YAML::Node list_of(const std::vector<YAML::Node>& entries, YAML::EmitterStyle::value style)
+{
+  YAML::Node node(YAML::NodeType::Sequence);
+  for (const auto& entry : entries) node.push_back(entry);
+  node.SetStyle(style);
+  return node;
+}
+
+nlohmann::ordered_json or_auto(nlohmann::ordered_json schema)
+{
+  return {{"anyOf", {{{"const", "auto"}}, std::move(schema)}}};
+}
+
+nlohmann::ordered_json vector_of(nlohmann::ordered_json schema, std::size_t most)
+{
+  return {{"type", "array"}, {"items", std::move(schema)}, {"minItems", 2}, {"maxItems", most}};
+}
+
+nlohmann::ordered_json list_of(nlohmann::ordered_json schema)
+{
+  return {{"type", "array"}, {"items", std::move(schema)}};
+}
+
+nlohmann::ordered_json mapping_of(nlohmann::ordered_json schema)
+{
+  return {{"type", "object"}, {"additionalProperties", std::move(schema)}};
+}
+
 void Codec<std::array<std::optional<double>, 3>>::read(Value& value, const YAML::Node& node, const std::string& path,
                                                        Document& document, const Limits& limits)
 {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -51,6 +52,21 @@ struct Codec<std::string> {
   static nlohmann::ordered_json schema(const Limits& limits);
 };
 
+/// What the templates below share, whatever they hold. The entries of a list (none of null), with their paths; complains about
+/// what is no list.
+void for_each_entry(const YAML::Node& node, const std::string& path, Document& document,
+                    const std::function<void(const YAML::Node& entry, const std::string& at)>& read);
+/// The entries of a mapping of names, likewise; `read` says whether the name was new.
+void for_each_named(const YAML::Node& node, const std::string& path, Document& document,
+                    const std::function<bool(const std::string& name, const YAML::Node& entry, const std::string& at)>& read);
+/// Of two or `most` entries; complains if it is not.
+bool is_vector(const YAML::Node& node, std::size_t most, const std::string& path, Document& document);
+YAML::Node list_of(const std::vector<YAML::Node>& entries, YAML::EmitterStyle::value style = YAML::EmitterStyle::Default);
+nlohmann::ordered_json or_auto(nlohmann::ordered_json schema);
+nlohmann::ordered_json vector_of(nlohmann::ordered_json schema, std::size_t most);
+nlohmann::ordered_json list_of(nlohmann::ordered_json schema);
+nlohmann::ordered_json mapping_of(nlohmann::ordered_json schema);
+
 /// An absent value is not written back.
 template <class V>
 struct Codec<std::optional<V>> {
@@ -80,10 +96,7 @@ struct Codec<OrAuto<V>> {
       Codec<V>::read(value.value.emplace(), node, path, document, limits);
   }
   static YAML::Node write(const OrAuto<V>& value) { return value.value ? Codec<V>::write(*value.value) : YAML::Node("auto"); }
-  static nlohmann::ordered_json schema(const Limits& limits)
-  {
-    return {{"anyOf", {{{"const", "auto"}}, Codec<V>::schema(limits)}}};
-  }
+  static nlohmann::ordered_json schema(const Limits& limits) { return or_auto(Codec<V>::schema(limits)); }
 };
 
 /// Vectors in space: two or three entries; what is not given stays as it is.
@@ -92,11 +105,7 @@ struct Codec<std::array<V, N>> {
   static void read(std::array<V, N>& value, const YAML::Node& node, const std::string& path, Document& document,
                    const Limits& limits)
   {
-    if (!node.IsSequence() || node.size() < 2 || node.size() > N) {
-      document.error(path, "expected a list of 2 (plane models) or 3 entries, found " +
-                               (node.IsSequence() ? std::to_string(node.size()) + " entries" : found(node)));
-      return;
-    }
+    if (!is_vector(node, N, path, document)) return;
     if (node.size() < N) {
       value[N - 1] = V{};
       document.note_pair(path);
@@ -106,15 +115,11 @@ struct Codec<std::array<V, N>> {
   }
   static YAML::Node write(const std::array<V, N>& value)
   {
-    YAML::Node node(YAML::NodeType::Sequence);
-    for (const auto& entry : value) node.push_back(Codec<V>::write(entry));
-    node.SetStyle(YAML::EmitterStyle::Flow);
-    return node;
+    std::vector<YAML::Node> entries;
+    for (const auto& entry : value) entries.push_back(Codec<V>::write(entry));
+    return list_of(entries, YAML::EmitterStyle::Flow);
   }
-  static nlohmann::ordered_json schema(const Limits& limits)
-  {
-    return {{"type", "array"}, {"items", Codec<V>::schema(limits)}, {"minItems", 2}, {"maxItems", N}};
-  }
+  static nlohmann::ordered_json schema(const Limits& limits) { return vector_of(Codec<V>::schema(limits), N); }
 };
 
 template <class V>
@@ -123,26 +128,19 @@ struct Codec<std::vector<V>> {
                    const Limits& limits)
   {
     value.clear();
-    if (node.IsNull()) return;
-    if (!node.IsSequence()) {
-      document.error(path, "expected a list, found " + found(node));
-      return;
-    }
-    for (std::size_t i = 0; i < node.size(); ++i) {
-      const auto at = path + "[" + std::to_string(i) + "]";
-      document.locate(at, node[i]);
-      V entry{};
-      Codec<V>::read(entry, node[i], at, document, limits);
-      value.push_back(std::move(entry));
-    }
+    for_each_entry(node, path, document, [&](const YAML::Node& entry, const std::string& at) {
+      V item{};
+      Codec<V>::read(item, entry, at, document, limits);
+      value.push_back(std::move(item));
+    });
   }
   static YAML::Node write(const std::vector<V>& value)
   {
-    YAML::Node node(YAML::NodeType::Sequence);
-    for (const auto& entry : value) node.push_back(Codec<V>::write(entry));
-    return node;
+    std::vector<YAML::Node> entries;
+    for (const auto& entry : value) entries.push_back(Codec<V>::write(entry));
+    return list_of(entries);
   }
-  static nlohmann::ordered_json schema(const Limits& limits) { return {{"type", "array"}, {"items", Codec<V>::schema(limits)}}; }
+  static nlohmann::ordered_json schema(const Limits& limits) { return list_of(Codec<V>::schema(limits)); }
 };
 
 /// Entries by name.
@@ -152,19 +150,11 @@ struct Codec<std::map<std::string, V>> {
                    const Limits& limits)
   {
     value.clear();
-    if (node.IsNull()) return;
-    if (!node.IsMap()) {
-      document.error(path, "expected a mapping of names, found " + found(node));
-      return;
-    }
-    for (const auto& entry : node) {
-      const auto name = entry.first.Scalar();
-      const auto at = path + "." + name;
-      document.locate(at, entry.first);
+    for_each_named(node, path, document, [&](const std::string& name, const YAML::Node& entry, const std::string& at) {
       V item{};
-      Codec<V>::read(item, entry.second, at, document, limits);
-      if (!value.emplace(name, std::move(item)).second) document.error(at, "is given twice");
-    }
+      Codec<V>::read(item, entry, at, document, limits);
+      return value.emplace(name, std::move(item)).second;
+    });
   }
   static YAML::Node write(const std::map<std::string, V>& value)
   {
@@ -172,10 +162,7 @@ struct Codec<std::map<std::string, V>> {
     for (const auto& [name, item] : value) node[name] = Codec<V>::write(item);
     return value.empty() ? YAML::Node() : node;
   }
-  static nlohmann::ordered_json schema(const Limits& limits)
-  {
-    return {{"type", "object"}, {"additionalProperties", Codec<V>::schema(limits)}};
-  }
+  static nlohmann::ordered_json schema(const Limits& limits) { return mapping_of(Codec<V>::schema(limits)); }
 };
 
 /// Components by axis, {x: 0, z: 1}; an axis that is not named has no value.
