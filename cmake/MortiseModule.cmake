@@ -24,9 +24,9 @@ if(MORTISE_SANITIZE)
 endif()
 
 # Headers of others that most files read, parsed once: Tpetra's alone took 7 of some 12 seconds a file. Two sets, so that a module without
-# distributed vectors still does not see Trilinos. Off with -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON, as in the presets debug and
-# sanitize: what compiles there names all that it includes.
-# The preset release also compiles the files of a target in batches (CMAKE_UNITY_BUILD), see docs/building.md.
+# distributed vectors still does not see Trilinos. Off with -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON, as in the preset debug: what
+# compiles there names all that it includes.
+# The presets release and sanitize also compile the files of a target in batches (CMAKE_UNITY_BUILD), see docs/building.md.
 function(mortise_headers name)
   cmake_parse_arguments(arg "" "" "LINKS;HEADERS" ${ARGN})
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
@@ -35,7 +35,8 @@ function(mortise_headers name)
   target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
 endfunction()
 
-set(common_headers <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <fmt/format.h> <mpi.h> <nlohmann/json.hpp> <yaml-cpp/yaml.h>
+set(common_headers <Eigen/Core> <Eigen/Geometry> <Eigen/LU> ${CMAKE_SOURCE_DIR}/lib/base/include/base/eigen_kernels.hpp
+    <fmt/format.h> <mpi.h> <nlohmann/json.hpp> <yaml-cpp/yaml.h>
     <algorithm> <array> <cmath> <functional> <map> <memory> <numeric> <optional> <string> <vector>)
 set(common_links MPI::MPI_CXX Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json yaml-cpp)
 mortise_headers(mortise_common_headers LINKS ${common_links} HEADERS ${common_headers})

@@ -1,9 +1,9 @@
 #include "bem/steklov_poincare.hpp"
 
-#include <Eigen/Cholesky>
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
 
+#include "base/dense.hpp"
 #include "base/error.hpp"
 #include "bem/boundary_operators.hpp"
 #include "bem/surface_stress.hpp"
@@ -58,16 +58,14 @@ BoundaryOperators operators(const PlanePanels& panels, const fem::Material& mate
 // V and K, with which linear fields are exact.
 void correct(const LinearFields& fields, const Eigen::MatrixXd& v, Eigen::MatrixXd& k)
 {
-  const auto gram = (fields.u.transpose() * fields.u).eval().ldlt();
-  k.noalias() += (v * fields.t - k * fields.u) * gram.solve(fields.u.transpose());
+  k.noalias() += (v * fields.t - k * fields.u) * dense::solve_symmetric(fields.u.transpose() * fields.u, fields.u.transpose());
 }
 
 // D likewise, after K: D U = M'T - K'T.
 template <int D>
 void correct(const LinearFields& fields, const PanelsIn<D>& panels, const Eigen::MatrixXd& k, Eigen::MatrixXd& d)
 {
-  const auto gram = (fields.u.transpose() * fields.u).eval().ldlt();
-  const Eigen::MatrixXd dual = gram.solve(fields.u.transpose());
+  const Eigen::MatrixXd dual = dense::solve_symmetric(fields.u.transpose() * fields.u, fields.u.transpose());
   Eigen::MatrixXd lacking = -k.transpose() * fields.t - d * fields.u;
   for (Eigen::Index c = 0; c < lacking.cols(); ++c) lacking.col(c) += nodal_forces(panels, fields.t.col(c));
   const Eigen::MatrixXd both = fields.u.transpose() * lacking;

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "base/dense.hpp"
 #include "bem/representation.hpp"
 #include "bem/surface_stress.hpp"
 
@@ -103,7 +104,7 @@ LinearStress StressRecovery<D>::at(Local node, const Eigen::VectorXd& u, const E
     a.block<D, D>(row, D * m) = (mu * hessian.trace() * Tensor::Identity() + (lambda + mu) * hessian) / young;
   }
 
-  const Eigen::VectorXd c = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(a).solve(b);
+  const Eigen::VectorXd c = dense::minimum_norm(a, b);
   LinearStress result{{}, Eigen::Matrix<double, 6, 3>::Zero()};
   const auto stress = [&](const typename Polynomial::Slopes& g) -> fem::Stress {
     Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -106,7 +108,7 @@ Point fitted(const std::vector<Point>& d, const Point& start)
       rows.col(c) /= scale[c];
       rows(count + c, c) = c < 2 ? held_slope : held_curvature;
     }
-    const Eigen::Matrix<double, 5, 1> found = rows.colPivHouseholderQr().solve(heights);
+    const Eigen::Matrix<double, 5, 1> found = dense::least_squares(rows, heights);
     const Eigen::VectorXd left = rows.topRows(count) * found - heights.head(count);
     if (left.norm() > most_left * heights.head(count).norm()) return start;
     const Eigen::Matrix<double, 5, 1> c = found.cwiseQuotient(scale);

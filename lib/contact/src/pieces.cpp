@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/dense.hpp"
 #include "covered_basis.hpp"
 
 namespace mortise::contact {
@@ -83,7 +84,7 @@ const Eigen::MatrixXd& multiplier_basis(mesh::CellType type)
 const Eigen::MatrixXd& control_values(mesh::CellType type)
 {
   static const auto inverses =
-      table([](mesh::CellType t) -> Eigen::MatrixXd { return make_basis(t).transpose().partialPivLu().inverse(); });
+      table([](mesh::CellType t) -> Eigen::MatrixXd { return dense::inverse(make_basis(t).transpose()); });
   return inverses[static_cast<std::size_t>(type)];
 }
 
@@ -207,15 +208,14 @@ bool keep_linear(const PieceStore::View& piece, const Few<Eigen::Index, 9>& keep
   const auto count = static_cast<Eigen::Index>(keep.size());
   Plane middle = Plane::Zero();
   for (const auto k : keep) middle += piece.plane.row(k).transpose() / static_cast<double>(count);
-  SmallMatrix a(3, count);
+  SmallMatrix a = SmallMatrix::Zero(3, count);
   for (Eigen::Index k = 0; k < count; ++k) a.col(k) << 1, piece.plane.row(keep[static_cast<std::size_t>(k)]).transpose() - middle;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double size = a.bottomRows(2).colwise().norm().maxCoeff();
   SmallMatrix shared = t;
   for (const auto d : drop) {
     Eigen::Vector3d x;
     x << 1, piece.plane.row(d).transpose() - middle;
-    const Eigen::VectorXd b = svd.solve(x);
+    const Eigen::VectorXd b = dense::minimum_norm(a, x);
     if (!((a * b - x).norm() < 1e-9 * (1 + size))) return false;
     shared.col(d) = b;
   }

@@ -1,10 +1,11 @@
 #include "quadrature.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <tuple>
+
+#include "base/dense.hpp"
 
 namespace mortise::contact {
 
@@ -20,12 +21,11 @@ Rule gauss(int n)
   // Golub and Welsch: eigenvalues of the Jacobi matrix.
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n), next(std::max(n - 1, 1));
   for (int k = 1; k < n; ++k) next[k - 1] = k / std::sqrt(4.0 * k * k - 1);
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
-  eigen.computeFromTridiagonal(diagonal, next.head(n - 1));
+  const auto eigen = dense::tridiagonal_eigenpairs(diagonal, next.head(n - 1));
   Rule rule;
   for (int k = 0; k < n; ++k) {
-    rule.at.push_back(0.5 * (1 + eigen.eigenvalues()[k]));
-    rule.weight.push_back(eigen.eigenvectors()(0, k) * eigen.eigenvectors()(0, k));
+    rule.at.push_back(0.5 * (1 + eigen.values[k]));
+    rule.weight.push_back(eigen.vectors(0, k) * eigen.vectors(0, k));
   }
   return rule;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/dense.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace mortise::contact {
@@ -107,7 +108,7 @@ FaceShape Side::shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, c
   for (int step = 0; step < 20; ++step) {
     functions.evaluate(place, value, &gradient);
     const Eigen::MatrixXd jacobian = (plane * gradient).topRows(d);
-    const Eigen::VectorXd change = jacobian.partialPivLu().solve((at - plane * value).head(d));
+    const Eigen::VectorXd change = dense::solve(jacobian, (at - plane * value).head(d));
     if (!(change.norm() < 1)) break;  // a face that hides behind itself; the facet's place must do
     place.head(d) += change;
     if (change.squaredNorm() < 1e-28) break;

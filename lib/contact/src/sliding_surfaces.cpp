@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "base/dense.hpp"
 #include "by_node.hpp"
 #include "fem/element.hpp"
 #include "mesh/shape_functions.hpp"
@@ -314,11 +315,10 @@ void set_speeds(const SlidingFaces& all, const std::vector<SlidingExtent>& exten
   comm.sum_in_place({reinterpret_cast<double*>(sums.data()), sums.size() * sizeof(Sums) / sizeof(double)});
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     auto& slide = surfaces[k];
-    const auto inverse = sums[k].gram.completeOrthogonalDecomposition();
     slide.whole = sums[k].whole / extents[k].area;
     slide.smooth = slide.whole;
     if (extents[k].faces >= enough_faces)
-      slide.smooth = sums[k].mixed.transpose() * inverse.solve(sums[k].mixed) / extents[k].area;
+      slide.smooth = sums[k].mixed.transpose() * dense::minimum_norm(sums[k].gram, sums[k].mixed) / extents[k].area;
     slide.speed = sums[k].speed / extents[k].area;
   }
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <array>
 
+#include "base/dense.hpp"
 #include "kernels.hpp"
 #include "mesh/shape_functions.hpp"
 #include "rules.hpp"
@@ -27,7 +28,7 @@ Eigen::MatrixXd extrapolation(mesh::CellType type, const std::vector<Integration
   }
   for (Eigen::Index i = 0; i < n; ++i) linear.evaluate(nodes[static_cast<std::size_t>(i)], at_nodes.col(i));
   const Eigen::MatrixXd weighted = at_points * weight.asDiagonal();
-  return at_nodes.transpose() * (weighted * at_points.transpose()).ldlt().solve(weighted);
+  return at_nodes.transpose() * dense::solve_symmetric(weighted * at_points.transpose(), weighted);
 }
 
 template <int n, int d>

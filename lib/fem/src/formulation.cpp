@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "base/dense.hpp"
+
 namespace mortise::fem {
 
 namespace {
@@ -74,12 +76,13 @@ Eigen::MatrixXd CellFormulation::enriched_stiffness(const CellGeometry& cell)
   const Eigen::Index n = element.nodes, d = dimension_;
   const Eigen::Map<const Eigen::MatrixXd> x(cell.coordinates().data(), n, d);
   const Eigen::MatrixXd centre = x.transpose() * element.centre_gradient;  // dx / dxi there
-  const Eigen::MatrixXd inverse = centre.inverse();
+  const Eigen::MatrixXd inverse = dense::inverse(centre);
+  const double determinant = dense::determinant(centre);
   enriched_.resize(element.points() * static_cast<std::size_t>((n + d) * d));
   for (std::size_t q = 0; q < element.points(); ++q) {
     Eigen::Map<Eigen::MatrixXd> all(enriched_.data() + q * static_cast<std::size_t>((n + d) * d), n + d, d);
     all.topRows(n) = cell.gradient(q);
-    const double ratio = centre.determinant() * element.weight[q] / cell.volumes()[q];
+    const double ratio = determinant * element.weight[q] / cell.volumes()[q];
     for (Eigen::Index k = 0; k < d; ++k) all.row(n + k) = -2 * element.point[q][k] * ratio * inverse.row(k);
   }
   Eigen::MatrixXd k((n + d) * d, (n + d) * d);
@@ -122,7 +125,7 @@ void CellFormulation::stiffness(const CellGeometry& cell, std::vector<double>& k
       const Eigen::Index modes = all.rows() - size;
       matrix = all.topLeftCorner(size, size) -
                all.topRightCorner(size, modes) *
-                   all.bottomRightCorner(modes, modes).ldlt().solve(Eigen::MatrixXd(all.bottomLeftCorner(modes, size)));
+                   dense::solve_symmetric(all.bottomRightCorner(modes, modes), all.bottomLeftCorner(modes, size));
       matrix = (0.5 * (matrix + matrix.transpose())).eval();
       return;
     }
@@ -144,8 +147,8 @@ const std::vector<Eigen::Matrix3d>& CellFormulation::gradients(const CellGeometr
   } else if (formulation_ == Formulation::incompatible) {
     const Eigen::MatrixXd all = enriched_stiffness(cell);
     const Eigen::Index modes = d * d;
-    const Eigen::VectorXd amplitudes =
-        -all.bottomRightCorner(modes, modes).ldlt().solve(all.bottomLeftCorner(modes, n * d) * displacement.reshaped());
+    const Eigen::VectorXd amplitudes = -dense::solve_symmetric(all.bottomRightCorner(modes, modes),
+                                                               all.bottomLeftCorner(modes, n * d) * displacement.reshaped());
     for (std::size_t q = 0; q < result_.size(); ++q) {
       const Eigen::Map<const Eigen::MatrixXd> gradient(enriched_.data() + q * static_cast<std::size_t>((n + d) * d), n + d, d);
       result_[q].topLeftCorner(d, d) += amplitudes.reshaped(d, d) * gradient.bottomRows(d);

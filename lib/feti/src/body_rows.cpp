@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/dense.hpp"
 #include "unit_motions.hpp"
 
 namespace mortise::feti {
@@ -71,7 +72,7 @@ void release(std::span<const Unknown> group, Local first, Bodies& bodies, Sparse
   nearest = Eigen::MatrixXd(SparseMatrix(parts.transpose() * row_values));
   comm.sum_in_place({nearest.data(), static_cast<std::size_t>(nearest.size())});
   comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
-  nearest = gram.ldlt().solve(nearest).eval();
+  nearest = dense::solve_symmetric(gram, nearest);
   row_values -= SparseMatrix(parts * SparseMatrix(nearest.sparseView(1.0, 1e-12)));
   for (Eigen::Index k = 0; k < count; ++k) {
     const double force = group[static_cast<std::size_t>(k)].force;

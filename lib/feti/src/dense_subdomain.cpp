@@ -1,11 +1,11 @@
 #include "feti/dense_subdomain.hpp"
 
-#include <Eigen/Cholesky>
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
 #include <algorithm>
 #include <numeric>
 
+#include "base/dense.hpp"
 #include "base/error.hpp"
 
 namespace mortise::feti {
@@ -46,7 +46,7 @@ class DenseInterface : public InterfaceStiffness {
     for (Eigen::Index i = 0; i < count; ++i) unit(inside_[static_cast<std::size_t>(i)], i) = 1;
     const Eigen::MatrixXd columns = subdomain.apply_to_columns(unit);
     const Eigen::MatrixXd own = columns(inside_, Eigen::all), coupling = columns(unknowns_, Eigen::all).transpose();
-    relaxed_ = own.llt().solve(coupling);
+    relaxed_ = dense::solve_positive(own, coupling);
   }
 
   Eigen::MatrixXd apply(const Eigen::MatrixXd& u) const override

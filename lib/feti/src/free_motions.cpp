@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.hpp"
 #include "body_rows.hpp"
 #include "sliding_modes.hpp"
 
@@ -27,11 +28,11 @@ std::vector<Eigen::VectorXd> unfelt(const Eigen::MatrixXd& rows, double toleranc
   double count = 0;
   for (Eigen::Index r = 0; r < rows.rows(); ++r) count += rows.row(r).squaredNorm() > 0;
   count = std::max(comm.sum(count), 1.0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const auto eigen = dense::symmetric_eigenpairs(gram);
   std::vector<Eigen::VectorXd> result;
   for (Eigen::Index k = 0; k < modes; ++k) {
-    if (eigen.eigenvalues()[k] > tolerance * tolerance * count) break;
-    result.emplace_back(eigen.eigenvectors().col(k));
+    if (eigen.values[k] > tolerance * tolerance * count) break;
+    result.emplace_back(eigen.vectors.col(k));
   }
   return result;
 }
@@ -56,7 +57,7 @@ void align_with_loads(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised
   if (basis.cols() == 0) return;
   const Eigen::VectorXd work = basis.transpose() * generalised;
   if (!(work.norm() > 0)) return;
-  Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(work).householderQ();
+  Eigen::MatrixXd q = dense::orthogonal_factor(work);
   if (q.col(0).dot(work) < 0) q.col(0) *= -1;
   basis *= q;
 }
@@ -134,7 +135,7 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clus
     normal.rightCols(1) += a.transpose() * clusters.own_coordinates(s, coordinates.segment(clusters.first(s), modes));
   }
   comm.sum_in_place({normal.data(), static_cast<std::size_t>(normal.size())});
-  const Eigen::VectorXd amplitudes = normal.leftCols(modes).ldlt().solve(normal.rightCols(1));
+  const Eigen::VectorXd amplitudes = dense::solve_symmetric(normal.leftCols(modes), normal.rightCols(1));
   return combine(body, frame, amplitudes, kinematics);
 }
 
@@ -259,10 +260,10 @@ void FreeMotionSearch::find_joint()
   comm_.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
   const double weight = std::max(gram.diagonal().maxCoeff(), 1.0);
   for (const auto& v : amplitudes_) gram += weight * v * v.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const auto eigen = dense::symmetric_eigenpairs(gram);
   Eigen::Index together = 0;
-  while (together < gram.cols() && eigen.eigenvalues()[together] < exactly * exactly * weight * 100) ++together;
-  Eigen::MatrixXd basis = eigen.eigenvectors().leftCols(together);
+  while (together < gram.cols() && eigen.values[together] < exactly * exactly * weight * 100) ++together;
+  Eigen::MatrixXd basis = eigen.vectors.leftCols(together);
   align_with_loads(basis, bodies_.generalised);
   for (const auto& v : basis.colwise()) {
     FreeMotion motion;

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "base/dense.hpp"
 #include "unit_motions.hpp"
 
 namespace mortise::feti {
@@ -17,10 +18,10 @@ Eigen::VectorXd unfelt_change(const SparseMatrix& rows, const Eigen::VectorXd& c
   const SparseMatrix felt = closed.asDiagonal() * rows;
   Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(felt.transpose() * felt));
   comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const auto eigen = dense::symmetric_eigenpairs(gram);
   const double least = nothing * nothing * std::max(gram.diagonal().maxCoeff(), 1.0);
-  const Eigen::Index neutral = (eigen.eigenvalues().array() < least).count();
-  const auto basis = eigen.eigenvectors().leftCols(neutral);
+  const Eigen::Index neutral = (eigen.values.array() < least).count();
+  const auto basis = eigen.vectors.leftCols(neutral);
   return -(basis * (basis.transpose() * now));
 }
 

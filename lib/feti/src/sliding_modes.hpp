@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/dense.hpp"
 #include "constraint/sliding_surface.hpp"
 #include "unit_motions.hpp"
 
@@ -56,10 +57,9 @@ class SlidingModes {
           normal += part.smooth / std::pow(part.tolerance(), 2);
           speed += part.speed;
         }
-      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * normal * basis,
-                                                                            basis.transpose() * speed * basis);
+      const auto eigen = dense::generalized_eigenpairs(basis.transpose() * normal * basis, basis.transpose() * speed * basis);
       for (Eigen::Index k = 0; k < basis.cols(); ++k) {
-        const Eigen::VectorXd v = basis * eigen.eigenvectors().col(k).normalized();
+        const Eigen::VectorXd v = basis * eigen.vectors.col(k).normalized();
         if (slides(v)) candidates.push_back(v);
       }
     }

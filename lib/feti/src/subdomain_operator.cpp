@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/dense.hpp"
 #include "base/submatrix.hpp"
 
 namespace mortise::feti {
@@ -49,8 +50,8 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& kernel, std::span<const Local> no
 double quality(const Eigen::MatrixXd& kernel, std::span<const Local> nodes, int dimension)
 {
   const Eigen::MatrixXd rows = rows_of(kernel, nodes, dimension);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(rows.transpose() * rows, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()[0] * static_cast<double>(kernel.rows()) / static_cast<double>(rows.rows());
+  const double least = dense::symmetric_eigenvalues(rows.transpose() * rows)[0];
+  return least * static_cast<double>(kernel.rows()) / static_cast<double>(rows.rows());
 }
 
 }  // namespace
@@ -98,9 +99,8 @@ std::vector<Local> fixing_nodes(std::span<const Point> points, const Eigen::Matr
   if (best_quality > 1e-6) return best;
   // The middles of the slices of a beam stand on its axis and do not keep it from turning about that. What spans most of the
   // motions does [Businger and Golub, Numer. Math. 7 (1965)].
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(kernel.transpose());
-  for (Eigen::Index i = 0; i < kernel.cols(); ++i)
-    best.push_back(static_cast<Local>(pivots.colsPermutation().indices()[i] / dimension));
+  const Eigen::VectorXi pivots = dense::pivoted_columns(kernel.transpose());
+  for (Eigen::Index i = 0; i < kernel.cols(); ++i) best.push_back(static_cast<Local>(pivots[i] / dimension));
   std::sort(best.begin(), best.end());
   best.erase(std::unique(best.begin(), best.end()), best.end());
   return quality(kernel, best, dimension) < 1e-6 ? all : best;  // so few nodes, or so flat, that only all of them will do
@@ -120,13 +120,13 @@ SparseMatrix fixing_term(const Eigen::VectorXd& diagonal, const Eigen::MatrixXd&
   const auto nodes = fixing_nodes(points, kernel, dimension);
   const Eigen::MatrixXd rows = rows_of(kernel, nodes, dimension);
   const double r = diagonal.mean();
-  const Eigen::MatrixXd dense = r * rows * (rows.transpose() * rows).ldlt().solve(rows.transpose());
+  const Eigen::MatrixXd term = r * rows * dense::solve_symmetric(rows.transpose() * rows, rows.transpose());
   std::vector<Eigen::Triplet<double>> triplets;
   const auto unknown = [&](Eigen::Index i) {
     return nodes[static_cast<std::size_t>(i / dimension)] * dimension + static_cast<int>(i % dimension);
   };
-  for (Eigen::Index i = 0; i < dense.rows(); ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) triplets.emplace_back(unknown(i), unknown(j), dense(i, j));
+  for (Eigen::Index i = 0; i < term.rows(); ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) triplets.emplace_back(unknown(i), unknown(j), term(i, j));
   SparseMatrix result(diagonal.size(), diagonal.size());
   result.setFromTriplets(triplets.begin(), triplets.end());
   return result;

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "base/dense.hpp"
+
 namespace mortise::feti {
 
 RigidMotion unit_motion(int body, const BodyFrame& frame, int index, fem::Kinematics kinematics)
@@ -47,7 +49,7 @@ Eigen::MatrixXd complement(const Eigen::MatrixXd& given)
 {
   const auto modes = given.rows();
   if (given.cols() == 0) return Eigen::MatrixXd::Identity(modes, modes);
-  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(given).householderQ();
+  const Eigen::MatrixXd q = dense::orthogonal_factor(given);
   return q.rightCols(modes - given.cols());
 }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/dense.hpp"
 #include "base/error.hpp"
 #include "blocks.hpp"
 #include "qp/face_newton.hpp"
@@ -199,7 +200,7 @@ TEST(DualProblem, SpringsAreStiffnessOfTheWhole)
       ASSERT_TRUE(solution.converged) << solution.projected_gradient;
       EXPECT_LT(hessian.count(), 60) << stiffness;
       const auto u = problem.displacement(solution.x, solution.nu);
-      const Eigen::VectorXd expected = k.ldlt().solve(f);
+      const Eigen::VectorXd expected = dense::solve_symmetric(k, f);
       for (std::size_t s = 0; s < u.size(); ++s)
         for (std::size_t n = 0; n < cube.decomposition.subdomains[s].mesh.node_count(); ++n)
           EXPECT_LT((u[s].segment<3>(static_cast<Eigen::Index>(3 * n)) -
@@ -249,7 +250,7 @@ TEST_P(Algorithms, SolutionIsThatOfTheAssembledSystem)
       f[i] = h.value;
     }
     for (const auto& h : whole.constraints.prescribed) f[3 * h.node + h.component] = h.value;
-    const Eigen::VectorXd expected = k.ldlt().solve(f);
+    const Eigen::VectorXd expected = dense::solve_symmetric(k, f);
     for (std::size_t s = 0; s < u.size(); ++s)
       for (std::size_t n = 0; n < cube.decomposition.subdomains[s].mesh.node_count(); ++n)
         EXPECT_LT((u[s].segment<3>(static_cast<Eigen::Index>(3 * n)) -

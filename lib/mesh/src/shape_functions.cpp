@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "base/dense.hpp"
+
 namespace mortise::mesh {
 
 namespace {
@@ -95,7 +97,7 @@ ShapeFunctions::ShapeFunctions(CellType type) : dimension_(dimension(type)), nod
   for (Eigen::Index m = 0; m < values.rows(); ++m)
     for (Eigen::Index i = 0; i < n; ++i)
       values(m, i) = monomial(exponents_[static_cast<std::size_t>(m)], nodes_[static_cast<std::size_t>(i)]);
-  coefficients_ = values.inverse();
+  coefficients_ = dense::inverse(values);
 }
 
 void ShapeFunctions::evaluate(const Eigen::Vector3d& at, Eigen::Ref<Eigen::VectorXd> value, Eigen::MatrixXd* gradient) const

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.hpp"
+
 namespace mortise::post {
 
 namespace {
@@ -50,8 +52,7 @@ Drift drift(const partition::Decomposition& decomposition, fem::Kinematics kinem
   feti::RigidMotion fastest;
   for (std::size_t b = 0; b < frames.size(); ++b) {
     const Normal normal = Eigen::Map<const Normal>(&sums[42 * b]);
-    const Eigen::Matrix<double, 6, 1> motion =
-        Eigen::MatrixXd(normal.leftCols<6>()).completeOrthogonalDecomposition().solve(normal.col(6));
+    const Eigen::Matrix<double, 6, 1> motion = dense::minimum_norm(normal.leftCols<6>(), normal.col(6));
     const double length = motion.head<3>().norm() + motion.tail<3>().norm();
     const double part = std::max(length - allowance, 0.0) / std::max(sizes[b], 1e-300);
     if (part <= result.sizes) continue;  // not a number goes on

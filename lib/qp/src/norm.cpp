@@ -1,7 +1,8 @@
 #include "qp/norm.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "base/dense.hpp"
 
 namespace mortise::qp {
 
@@ -46,10 +47,9 @@ double projected_norm(Hessian& a, const EqualityConstraint& equality, double acc
     diagonal[k] = v.dot(w);
     w.update(-diagonal[k], v, k > 0 ? -next[k - 1] : 0.0, previous, 1);
     next[k] = w.norm2();
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-    ritz.computeFromTridiagonal(diagonal.head(k + 1), next.head(k));
-    const double largest = ritz.eigenvalues()[k];
-    const double bound = next[k] * std::abs(ritz.eigenvectors()(k, k));
+    const auto ritz = dense::tridiagonal_eigenpairs(diagonal.head(k + 1), next.head(k));
+    const double largest = ritz.values[k];
+    const double bound = next[k] * std::abs(ritz.vectors(k, k));
     estimate = largest + bound;
     if (bound <= accuracy * largest) break;
     previous.assign(v);

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <set>
 
+#include "base/dense.hpp"
 #include "qp/condensed_newton.hpp"
 #include "qp/norm.hpp"
 #include "random_programme.hpp"
@@ -195,7 +195,7 @@ TEST(Solvers, WhereTheEquationsLeaveNothingFreeTheyHoldToRounding)
   const Vector b = local_part(programme.random(6, 1), map);
   EqualityConstraint equality(local_columns(g, *map), e, world());
   FeasibleSet set;
-  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues();
+  const Eigen::VectorXd eigenvalues = mortise::dense::symmetric_eigenvalues(dense);
   for (const auto* name : {"face_newton", "smalse"}) {
     Hessian hessian(a, 1000);
     const double norm = projected_norm(hessian, equality);

@@ -1,0 +1,28 @@
+// Products of dense matrices, compiled once: Eigen would compile its kernels, some thousand instructions each, into every file
+// that multiplies two matrices. Part of the precompiled headers; nothing else includes it, and without it all is the same but for
+// the compiler's time.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace Eigen::internal {
+
+using DoubleKernel = gebp_traits<double, double>;
+
+#define MORTISE_EIGEN_KERNELS(instance)                                                                                          \
+  instance struct gebp_kernel<double, double, Index, blas_data_mapper<double, Index, ColMajor, 0, 1>, DoubleKernel::mr,          \
+                              DoubleKernel::nr, false, false>;                                                                   \
+  instance struct gemm_pack_lhs<double, Index, const_blas_data_mapper<double, Index, ColMajor>, DoubleKernel::mr,                \
+                                DoubleKernel::LhsProgress, DoubleKernel::LhsPacket4Packing, ColMajor>;                           \
+  instance struct gemm_pack_lhs<double, Index, const_blas_data_mapper<double, Index, RowMajor>, DoubleKernel::mr,                \
+                                DoubleKernel::LhsProgress, DoubleKernel::LhsPacket4Packing, RowMajor>;                           \
+  instance struct gemm_pack_rhs<double, Index, const_blas_data_mapper<double, Index, ColMajor>, DoubleKernel::nr, ColMajor>;     \
+  instance struct gemm_pack_rhs<double, Index, const_blas_data_mapper<double, Index, RowMajor>, DoubleKernel::nr, RowMajor>;     \
+  instance struct general_matrix_vector_product<Index, double, const_blas_data_mapper<double, Index, ColMajor>, ColMajor, false, \
+                                                double, const_blas_data_mapper<double, Index, RowMajor>, false>;                 \
+  instance struct general_matrix_vector_product<Index, double, const_blas_data_mapper<double, Index, RowMajor>, RowMajor, false, \
+                                                double, const_blas_data_mapper<double, Index, ColMajor>, false>;
+
+MORTISE_EIGEN_KERNELS(extern template)
+
+}  // namespace Eigen::internal
