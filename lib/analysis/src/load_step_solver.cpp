@@ -192,7 +192,6 @@ LoadStepSolver::Norms LoadStepSolver::norms(std::span<const fem::Constitution> c
 
 StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer)
 {
-  const auto& comm = context_.comm;
   if (before) update(acts, *before);
   const auto scope = context_.timers.scope("solve");
   const auto constitution = assembly_.model().constitution(acts);
