@@ -8,249 +8,16 @@
 #include <tuple>
 
 #include "closed_surfaces.hpp"
+#include "conforming.hpp"
 #include "gmsh_file.hpp"
 #include "mesh/curved_surface.hpp"
 #include "mesh/topology.hpp"
+#include "orient.hpp"
 #include "raw_mesh.hpp"
 
 namespace mortise::mesh {
 
 namespace {
-
-// Six times the volume of the corner tetrahedra added up (2D: twice the area): the sign is the orientation.
-double orientation(CellType type, std::span<const Local> nodes, const std::vector<Point>& points)
-{
-  const auto p = [&](std::size_t i) { return points[static_cast<std::size_t>(nodes[i])]; };
-  if (dimension(type) == 2) {
-    double area = 0;
-    const auto corners = static_cast<std::size_t>(corner_count(type));
-    for (std::size_t i = 0; i < corners; ++i) {
-      const Point a = p(i) - p(0), b = p((i + 1) % corners) - p(0);
-      area += a[0] * b[1] - a[1] * b[0];
-    }
-    return area;
-  }
-  double volume = 0;  // divergence theorem over the faces, each fanned from its first node
-  for (const auto& face : faces(first_order(type)))
-    for (std::size_t i = 1; i + 1 < face.nodes.size(); ++i) {
-      const auto at = [&](std::size_t k) { return Point(p(static_cast<std::size_t>(face.nodes[k])) - p(0)); };
-      volume += at(0).dot(at(i).cross(at(i + 1)));
-    }
-  return volume;
-}
-
-// The corners of a cell turned inside out, as corners of the cell as it is.
-std::vector<int> reversed_corners(CellType first_order)
-{
-  using enum CellType;
-  switch (first_order) {
-    case tri3:
-      return {0, 2, 1};
-    case quad4:
-      return {0, 3, 2, 1};
-    case tet4:
-      return {0, 2, 1, 3};
-    case hex8:
-      return {4, 5, 6, 7, 0, 1, 2, 3};
-    case prism6:
-      return {3, 4, 5, 0, 1, 2};
-    default:  // line2
-      return {1, 0};
-  }
-}
-
-}  // namespace
-
-std::vector<Local> reversed(CellType type, std::span<const Local> nodes)
-{
-  const auto corner = reversed_corners(first_order(type));
-  std::vector<Local> result;
-  for (const int c : corner) result.push_back(nodes[static_cast<std::size_t>(c)]);
-  for (const auto& amid : middles(type)) {
-    std::vector<int> old;
-    for (const int c : amid) old.push_back(corner[static_cast<std::size_t>(c)]);
-    result.push_back(nodes[static_cast<std::size_t>(node_amid(type, old))]);
-  }
-  return result;
-}
-
-namespace {
-
-// Corners of a face that are neighbours: two nodes in one place, which are meant to be one.
-void require_edges(const RawMesh& raw, std::size_t cell, double size, const std::string& file)
-{
-  const auto nodes = raw.cells[cell];
-  for (const auto& face : faces(first_order(raw.cells.type[cell])))
-    for (std::size_t i = 0; i < face.nodes.size(); ++i) {
-      const auto at = [&](std::size_t k) {
-        return raw.points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(face.nodes[k % face.nodes.size()])])];
-      };
-      const Point x = at(i);
-      if ((at(i + 1) - x).stableNorm() > 1e-9 * size) continue;
-      fail(file,
-           fmt::format("element {} ({}) of body \"{}\" has two nodes in one place, ({:.6g}, {:.6g}, {:.6g}); let it name one of "
-                       "them twice (a wedge as a brick, a triangle as a quadrilateral) or merge them",
-                       raw.tag[cell], name(raw.cells.type[cell]), raw.volumes[static_cast<std::size_t>(raw.volume[cell])], x[0],
-                       x[1], x[2]));
-    }
-}
-
-// Of the model's dimension, not of a surface that stands for the body that it bounds.
-bool is_solid(CellType type, int dimension)
-{
-  return mesh::dimension(type) == dimension;
-}
-
-// Cells turned inside out are turned back; such without volume are an error.
-void orient(RawMesh& raw, const Options& options, int dimension)
-{
-  Cells right;
-  for (std::size_t c = 0; c < raw.cells.size(); ++c) {
-    const CellType type = raw.cells.type[c];
-    const auto nodes = raw.cells[c];
-    if (!is_solid(type, dimension)) {
-      right.add(type, nodes);
-      continue;
-    }
-    const double volume = orientation(type, nodes, raw.points);
-    Point low = raw.points[static_cast<std::size_t>(nodes[0])], high = low;
-    for (const Local n : nodes) {
-      low = low.cwiseMin(raw.points[static_cast<std::size_t>(n)]);
-      high = high.cwiseMax(raw.points[static_cast<std::size_t>(n)]);
-    }
-    require_edges(raw, c, (high - low).maxCoeff(), options.file);
-    if (std::abs(volume) <= 1e-12 * std::pow((high - low).maxCoeff(), dimension))
-      fail(options.file, fmt::format("element {} ({}) of body \"{}\" has no volume; improve the mesh there", raw.tag[c],
-                                     name(type), raw.volumes[static_cast<std::size_t>(raw.volume[c])]));
-    if (volume < 0)
-      right.add(type, reversed(type, nodes));
-    else
-      right.add(type, nodes);
-  }
-  raw.cells = std::move(right);
-}
-
-// The group of each volume and cell: the body of the deck.
-struct Groups {
-  std::vector<std::string> names;
-  std::vector<int> of_cell;
-  std::vector<int> label;  // cells hang together only if theirs agree
-};
-
-Groups group(const RawMesh& raw, const Options& options)
-{
-  Groups groups;
-  std::map<std::string, std::string> owner;  // volume -> body of several volumes
-  for (const auto& [body, volumes] : options.volumes)
-    for (const auto& volume : volumes) owner.emplace(volume, body);
-  std::vector<int> of_volume;
-  for (const auto& volume : raw.volumes) {
-    const auto found = owner.find(volume);
-    const auto& name = found == owner.end() ? volume : found->second;
-    const auto known = std::find(groups.names.begin(), groups.names.end(), name);
-    of_volume.push_back(static_cast<int>(known - groups.names.begin()));
-    if (known == groups.names.end()) groups.names.push_back(name);
-  }
-  const auto count = static_cast<int>(groups.names.size());
-  for (std::size_t c = 0; c < raw.cells.size(); ++c) {
-    const int own = of_volume[static_cast<std::size_t>(raw.volume[c])];
-    const bool united = options.volumes.contains(groups.names[static_cast<std::size_t>(own)]);
-    groups.of_cell.push_back(own);
-    groups.label.push_back(raw.solid.empty() || united ? own : count + raw.solid[c]);
-  }
-  return groups;
-}
-
-// Two cells of one body must meet with the same kind of face, and on its two sides.
-class FaceCheck {
- public:
-  FaceCheck(const std::string& file, const RawMesh& raw, const Groups& groups) : file_(file), raw_(raw), groups_(groups) {}
-
-  // A node in the middle that only one of them has would tear them.
-  void require_same_kind(const CellFace& a, const CellFace& b) const
-  {
-    if (type(a) == type(b)) return;
-    fail(file_,
-         fmt::format("in body \"{}\" a face is a {} of one cell and a {} of its neighbour; mesh the whole body with one order "
-                     "and one kind of elements (Mesh.SecondOrderIncomplete)",
-                     body(a), name(type(a)), name(type(b))));
-  }
-
-  // Cells that are right side out see a common face from its two sides; where they do not, one lies folded into the other.
-  void require_two_sides(const CellFace& a, const CellFace& b) const
-  {
-    auto reversed = ring(b);
-    std::reverse(reversed.begin() + (reversed.size() > 2 ? 1 : 0), reversed.end());
-    if (ring(a) != reversed) overlap(a, b);
-  }
-
-  [[noreturn]] void overlap(const CellFace& a, const CellFace& b) const
-  {
-    const auto& x = raw_.points[static_cast<std::size_t>(a.corners[0])];
-    fail(file_,
-         fmt::format("elements {} and {} of body \"{}\" lie on the same side of their common face near ({:.6g}, {:.6g}, {:.6g}): "
-                     "they overlap; a node there is out of place",
-                     raw_.tag[static_cast<std::size_t>(a.cell)], raw_.tag[static_cast<std::size_t>(b.cell)], body(a), x[0], x[1],
-                     x[2]));
-  }
-
-  int group(const CellFace& face) const { return groups_.label[static_cast<std::size_t>(face.cell)]; }
-
- private:
-  const Face& shape(const CellFace& face) const
-  {
-    return faces(raw_.cells.type[static_cast<std::size_t>(face.cell)])[static_cast<std::size_t>(face.face)];
-  }
-  CellType type(const CellFace& face) const { return shape(face).type; }
-  const std::string& body(const CellFace& face) const
-  {
-    return groups_.names[static_cast<std::size_t>(groups_.of_cell[static_cast<std::size_t>(face.cell)])];
-  }
-  // Corners in their order about the normal that points out of the cell, of a ring the one with the smallest number first.
-  std::vector<Local> ring(const CellFace& face) const
-  {
-    std::vector<Local> result;
-    for (int i = 0; i < corner_count(type(face)); ++i)
-      result.push_back(raw_.cells[static_cast<std::size_t>(face.cell)]
-                                 [static_cast<std::size_t>(shape(face).nodes[static_cast<std::size_t>(i)])]);
-    if (result.size() > 2) std::rotate(result.begin(), std::min_element(result.begin(), result.end()), result.end());
-    return result;
-  }
-
-  const std::string& file_;
-  const RawMesh& raw_;
-  const Groups& groups_;
-};
-
-// Those of the solids, and surfaces themselves; in the order of sorted_faces().
-std::vector<CellFace> faces_of_bodies(const Cells& cells, int dimension)
-{
-  auto all = sorted_faces(cells);
-  std::erase_if(all, [&](const CellFace& face) { return !is_solid(cells.type[static_cast<std::size_t>(face.cell)], dimension); });
-  const auto solid = all.size();
-  for (std::size_t c = 0; c < cells.size(); ++c)
-    if (!is_solid(cells.type[c], dimension))
-      all.push_back({face_key(cells[c].first(static_cast<std::size_t>(corner_count(cells.type[c])))), static_cast<Local>(c), 0});
-  if (all.size() > solid)
-    std::sort(all.begin(), all.end(),
-              [](const CellFace& a, const CellFace& b) { return std::tie(a.corners, a.cell) < std::tie(b.corners, b.cell); });
-  return all;
-}
-
-void require_conforming(const std::string& file, const RawMesh& raw, const Groups& groups, int dimension)
-{
-  auto all = sorted_faces(raw.cells);
-  std::erase_if(all,
-                [&](const CellFace& face) { return !is_solid(raw.cells.type[static_cast<std::size_t>(face.cell)], dimension); });
-  const FaceCheck check(file, raw, groups);
-  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-    if (all[i].corners != all[i + 1].corners || check.group(all[i]) != check.group(all[i + 1])) continue;
-    check.require_same_kind(all[i], all[i + 1]);
-    check.require_two_sides(all[i], all[i + 1]);
-    if (i + 2 < all.size() && all[i + 2].corners == all[i].corners && check.group(all[i + 2]) == check.group(all[i]))
-      check.overlap(all[i], all[i + 2]);
-  }
-}
 
 // Parts of one body that share nodes, but no face, part there.
 void warn_of_torn_bodies(const RawMesh& raw, const Groups& groups, const std::vector<int>& part, Assembly& assembly)
@@ -348,6 +115,21 @@ Assembly separate(const RawMesh& raw, const Groups& groups, const std::vector<in
   assembly.catalogue.node_count = static_cast<Global>(mesh.points.size());
   assembly.catalogue.cell_count = static_cast<Global>(mesh.cells.size());
   return assembly;
+}
+
+// Those of the solids, and surfaces themselves; in the order of sorted_faces().
+std::vector<CellFace> faces_of_bodies(const Cells& cells, int dimension)
+{
+  auto all = sorted_faces(cells);
+  std::erase_if(all, [&](const CellFace& face) { return !is_solid(cells.type[static_cast<std::size_t>(face.cell)], dimension); });
+  const auto solid = all.size();
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (!is_solid(cells.type[c], dimension))
+      all.push_back({face_key(cells[c].first(static_cast<std::size_t>(corner_count(cells.type[c])))), static_cast<Local>(c), 0});
+  if (all.size() > solid)
+    std::sort(all.begin(), all.end(),
+              [](const CellFace& a, const CellFace& b) { return std::tie(a.corners, a.cell) < std::tie(b.corners, b.cell); });
+  return all;
 }
 
 // Facets of the boundaries, found on the cells by the nodes of the file.

@@ -1,0 +1,118 @@
+#include "conforming.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "gmsh_file.hpp"
+#include "mesh/topology.hpp"
+#include "orient.hpp"
+
+namespace mortise::mesh {
+
+Groups group(const RawMesh& raw, const Options& options)
+{
+  Groups groups;
+  std::map<std::string, std::string> owner;  // volume -> body of several volumes
+  for (const auto& [body, volumes] : options.volumes)
+    for (const auto& volume : volumes) owner.emplace(volume, body);
+  std::vector<int> of_volume;
+  for (const auto& volume : raw.volumes) {
+    const auto found = owner.find(volume);
+    const auto& name = found == owner.end() ? volume : found->second;
+    const auto known = std::find(groups.names.begin(), groups.names.end(), name);
+    of_volume.push_back(static_cast<int>(known - groups.names.begin()));
+    if (known == groups.names.end()) groups.names.push_back(name);
+  }
+  const auto count = static_cast<int>(groups.names.size());
+  for (std::size_t c = 0; c < raw.cells.size(); ++c) {
+    const int own = of_volume[static_cast<std::size_t>(raw.volume[c])];
+    const bool united = options.volumes.contains(groups.names[static_cast<std::size_t>(own)]);
+    groups.of_cell.push_back(own);
+    groups.label.push_back(raw.solid.empty() || united ? own : count + raw.solid[c]);
+  }
+  return groups;
+}
+
+namespace {
+
+// Two cells of one body must meet with the same kind of face, and on its two sides.
+class FaceCheck {
+ public:
+  FaceCheck(const std::string& file, const RawMesh& raw, const Groups& groups) : file_(file), raw_(raw), groups_(groups) {}
+
+  // A node in the middle that only one of them has would tear them.
+  void require_same_kind(const CellFace& a, const CellFace& b) const
+  {
+    if (type(a) == type(b)) return;
+    fail(file_,
+         fmt::format("in body \"{}\" a face is a {} of one cell and a {} of its neighbour; mesh the whole body with one order "
+                     "and one kind of elements (Mesh.SecondOrderIncomplete)",
+                     body(a), name(type(a)), name(type(b))));
+  }
+
+  // Cells that are right side out see a common face from its two sides; where they do not, one lies folded into the other.
+  void require_two_sides(const CellFace& a, const CellFace& b) const
+  {
+    auto reversed = ring(b);
+    std::reverse(reversed.begin() + (reversed.size() > 2 ? 1 : 0), reversed.end());
+    if (ring(a) != reversed) overlap(a, b);
+  }
+
+  [[noreturn]] void overlap(const CellFace& a, const CellFace& b) const
+  {
+    const auto& x = raw_.points[static_cast<std::size_t>(a.corners[0])];
+    fail(file_,
+         fmt::format("elements {} and {} of body \"{}\" lie on the same side of their common face near ({:.6g}, {:.6g}, {:.6g}): "
+                     "they overlap; a node there is out of place",
+                     raw_.tag[static_cast<std::size_t>(a.cell)], raw_.tag[static_cast<std::size_t>(b.cell)], body(a), x[0], x[1],
+                     x[2]));
+  }
+
+  int group(const CellFace& face) const { return groups_.label[static_cast<std::size_t>(face.cell)]; }
+
+ private:
+  const Face& shape(const CellFace& face) const
+  {
+    return faces(raw_.cells.type[static_cast<std::size_t>(face.cell)])[static_cast<std::size_t>(face.face)];
+  }
+  CellType type(const CellFace& face) const { return shape(face).type; }
+  const std::string& body(const CellFace& face) const
+  {
+    return groups_.names[static_cast<std::size_t>(groups_.of_cell[static_cast<std::size_t>(face.cell)])];
+  }
+  // Corners in their order about the normal that points out of the cell, of a ring the one with the smallest number first.
+  std::vector<Local> ring(const CellFace& face) const
+  {
+    std::vector<Local> result;
+    for (int i = 0; i < corner_count(type(face)); ++i)
+      result.push_back(raw_.cells[static_cast<std::size_t>(face.cell)]
+                                 [static_cast<std::size_t>(shape(face).nodes[static_cast<std::size_t>(i)])]);
+    if (result.size() > 2) std::rotate(result.begin(), std::min_element(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  const std::string& file_;
+  const RawMesh& raw_;
+  const Groups& groups_;
+};
+
+}  // namespace
+
+void require_conforming(const std::string& file, const RawMesh& raw, const Groups& groups, int dimension)
+{
+  auto all = sorted_faces(raw.cells);
+  std::erase_if(all,
+                [&](const CellFace& face) { return !is_solid(raw.cells.type[static_cast<std::size_t>(face.cell)], dimension); });
+  const FaceCheck check(file, raw, groups);
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (all[i].corners != all[i + 1].corners || check.group(all[i]) != check.group(all[i + 1])) continue;
+    check.require_same_kind(all[i], all[i + 1]);
+    check.require_two_sides(all[i], all[i + 1]);
+    if (i + 2 < all.size() && all[i + 2].corners == all[i].corners && check.group(all[i + 2]) == check.group(all[i]))
+      check.overlap(all[i], all[i + 2]);
+  }
+}
+
+}  // namespace mortise::mesh

@@ -1,0 +1,24 @@
+// Which cells are to be one body, and whether they fit together there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "raw_mesh.hpp"
+
+namespace mortise::mesh {
+
+/// The group of each volume and cell: the body of the deck.
+struct Groups {
+  std::vector<std::string> names;
+  std::vector<int> of_cell;
+  std::vector<int> label;  ///< cells hang together only if theirs agree
+};
+
+Groups group(const RawMesh& raw, const Options& options);
+
+/// Throws Error(bad_input), which names the file and a place, where cells of one group that share a face see it as faces of
+/// different kinds, or lie on the same side of it. The cells are the right way round (orient.hpp).
+void require_conforming(const std::string& file, const RawMesh& raw, const Groups& groups, int dimension);
+
+}  // namespace mortise::mesh
