@@ -1,0 +1,130 @@
+// When face Newton ends: whether a point is what was asked for, and when there is no hope of one.
+#include <algorithm>
+#include <cmath>
+
+#include "face_newton_run.hpp"
+#include "qp/error_estimate.hpp"
+#include "rounding.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+constexpr int max_active_sets = 200;
+constexpr int patience = 20;                  // active sets without a better residual after which it gives up
+constexpr int update_patience = 10;           // the same where slip bounds move, for then there is another way
+constexpr int max_safeguards = 12;            // after which another algorithm will do better
+constexpr double at_rest = 0.05;              // of normal forces: change that is still to come
+constexpr double certain = 0.1;               // of the allowed error, at which their change does not matter
+constexpr double part_that_is_nothing = 0.1;  // of what rounding may make of an error
+constexpr double first_look = 0.1;            // part of the first error at which the allowed one is asked for
+
+}  // namespace
+
+// What residuals are relative to at least: the motions G'nu, which gaps are left by, have rounding. What moves far is not always
+// asked for by b: the body on soft springs is not.
+double FaceNewton::rounding_of_motions(const Run& run, const Projection& natural) const
+{
+  Vector motions(natural.argument, Teuchos::Copy);  // z - g / ||P A P|| - G'nu
+  motions.update(-1, run.state.z, 1 / norm_, run.state.g, 1);
+  return rounding_over(run.goal.allowed_error ? tolerances::finest : run.goal.residual) * motions.norm2() * norm_;
+}
+
+// The bound of the error at z. It costs as much as some products, so it is found where somebody asks for it alone: not as long as
+// a residual that is to come down to a number does so.
+void FaceNewton::find_error(Run& run, const Projection& natural)
+{
+  run.result.error =
+      error_bound(problem_, run.state.z, natural, norm_, preconditioner_) * (run.residual > 0 ? run.worst() / run.residual : 1.0);
+  preconditionings_ += preconditioner_ ? 1 : 0;
+}
+
+// Whether the primal solution at z fulfils its constraints, as far as the goal asks for that and rounding lets it.
+bool FaceNewton::is_compatible(const Run& run) const
+{
+  const auto& goal = run.goal;
+  if (!goal.incompatibility || run.worst() <= tolerances::rounding * run.size) return true;
+  if (run.result.error <= rounding_of_error(problem_, norm_)) return true;
+  // From a direct solution figures are cheap to come by: a step of A^-1 each.
+  const double enough = run.since_best > 0 ? Goal::nearly_compatible
+                        : goal.exact > 0   ? Goal::exactly_compatible
+                                           : Goal::compatible;
+  return goal.incompatibility(run.state.z, run.result.nu) <= enough;
+}
+
+// Whether radii that follow the solution have settled: an error that is small beside the mesh's may leave a joint beyond its
+// friction.
+bool FaceNewton::radii_settled(const Run& run) const
+{
+  constexpr double settled = 2e-3;
+  if (!run.slip_bound_update) return true;
+  double square = 0;
+  for (const auto& disc : problem_.set.discs())
+    if (std::isfinite(disc.radius)) square += disc.radius * disc.radius;
+  const double change = run.mismatch * step_length / norm_;
+  return change <= settled * std::sqrt(problem_.equality.communicator().sum(square));
+}
+
+// Whether the residual or the error at z is what the goal asks for.
+bool FaceNewton::is_solved(Run& run, const Projection& natural)
+{
+  const auto& goal = run.goal;
+  const auto& z = run.state.z;
+  const auto& result = run.result;
+  const double worst = run.worst();
+  const double to_come = run.contact.change_to_come(z, result.error);
+  // Bodies that only move, or are warm and free to expand, are not strained: b asks for motions, and x is rounding.
+  const double nothing = std::max(goal.negligible, part_that_is_nothing * rounding_of_error(problem_, norm_));
+  if (goal.allowed_error && result.error <= nothing && goal.energy_norm(z, result.nu) <= 10 * nothing) return true;
+  // Infinite while points stick whose bounds are still to come.
+  if (run.first_error == 0 && std::isfinite(result.error)) run.first_error = result.error;
+  const bool small = worst <= (goal.allowed_error ? tolerances::finest : goal.residual) * run.size;
+  bool solved = small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal,
+                                    worst <= tolerances::rounding * run.size);
+  run.doubtful = small && !solved;
+  if (goal.allowed_error && !solved && std::isfinite(result.error) &&
+      result.error <= (run.allowed < 0 ? first_look * run.first_error : run.allowed)) {
+    run.allowed = goal.allowed_error(z, result.nu);
+    solved = result.error <= (to_come <= at_rest ? 1 : certain) * run.allowed &&
+             (worst <= Goal::largest_residual * run.size || believable(result.error, 0, z, result.nu, goal));
+  }
+  if (!solved && goal.exact > 0 && std::isfinite(result.error))
+    solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
+  if (goal.allowed_error && solved && goal.contact_converged && preconditioner_ && worst > tolerances::rounding * run.size) {
+    Vector gap(z, Teuchos::Copy), change(z.getMap());
+    gap.update(-norm_, natural.point, norm_);
+    preconditioner_->fix({});
+    preconditioner_->apply(gap, change);
+    ++preconditionings_;
+    solved = goal.contact_converged(z, natural.argument, change);
+  }
+  if (solved && goal.allowed_error && (!radii_settled(run) || !is_compatible(run))) {
+    run.doubtful = true;
+    return false;
+  }
+  return solved;
+}
+
+// Whether products, active sets or patience have run out.
+bool FaceNewton::gives_up(Run& run) const
+{
+  const double worst = run.worst();
+  const bool better = worst < 0.9 * run.best || (run.doubtful && run.result.error < 0.9 * run.best_error);
+  run.since_best = better ? 0 : run.since_best + 1;
+  run.best = std::min(run.best, worst);
+  run.best_error = std::min(run.best_error, run.result.error);
+  if (run.since_best > 1) run.active_set_tolerance *= 0.1;  // perhaps it is these that matter
+  return problem_.hessian.exhausted() || run.result.outer_iterations >= max_active_sets ||
+         run.since_best >= (run.slip_bound_update ? update_patience : patience) || run.result.safeguards > max_safeguards;
+}
+
+// The residual to come down to on the next active set, if inner_reduction does not end it before.
+double FaceNewton::residual_to_reach(const Run& run) const
+{
+  if (run.doubtful) return inner_reduction * run.worst();
+  if (!run.goal.allowed_error) return (unconstrained_ ? 0.5 : 0.1) * run.goal.residual * run.size;
+  if (run.allowed > 0) return 0.3 * run.worst() * std::min(1.0, run.allowed / run.result.error);
+  return unconstrained_ ? inner_reduction * run.worst() : 0;
+}
+
+}  // namespace mortise::qp
