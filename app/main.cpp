@@ -12,6 +12,7 @@
 #include "analysis/probes.hpp"
 #include "analysis/restart.hpp"
 #include "deck_file.hpp"
+#include "load_steps.hpp"
 #include "model/resolution.hpp"
 #include "partition/decompose.hpp"
 #include "partition/skins.hpp"
@@ -29,7 +30,7 @@ std::optional<ExitStatus> solve_load_steps(const model::Model& model, const post
 {
   const auto states = model::load_states(model.deck(), model.contacts());
   auto rows = analysis::make_rows(model, states.front(), {}, context);
-  report.rows(model, rows, probes, states.size(), approach);
+  report.rows(model, rows, probes, approach);
   const auto copies = model.congruent();
   const auto memory = analysis::foresee_memory(model, copies, context.comm);
   report.memory(model, rows, memory);
@@ -40,23 +41,24 @@ std::optional<ExitStatus> solve_load_steps(const model::Model& model, const post
   report.assembly(assembly, copies);
   approach = analysis::with_patience(approach, assembly, rows.constraints, context.comm);
   analysis::LoadStepSolver solver(assembly, std::move(rows), approach, context);
+  Report::LoadSteps steps(report, assembly, states.size(), approach);
   std::optional<analysis::StepState> state;
   for (const auto& acts : states) {
-    report.begin(acts);
+    steps.begin(acts);
     try {
       const auto* before = restart.find(approach, acts.time);
       state =
-          before ? solver.take_up(acts, std::move(state), *before) : solver.solve(acts, std::move(state), report.observer(acts));
-      if (report.gave_up(solver, *state, approach)) return {};
+          before ? solver.take_up(acts, std::move(state), *before) : solver.solve(acts, std::move(state), steps.observer(acts));
+      if (steps.gave_up(solver, *state)) return {};
       auto results = analysis::evaluate(assembly, solver, *state, probes, context);
-      report.write(solver, *state, probes, std::move(results), approach);
-      if (acts.time < states.back().time) restart.keep(report.state(), approach, solver, *state);
+      steps.write(solver, *state, probes, std::move(results));
+      if (acts.time < states.back().time) restart.keep(steps.state(), approach, solver, *state);
     } catch (const Error& error) {
-      report.fail(error, approach);
+      steps.fail(error);
     }
-    if (!report.goes_on()) break;
+    if (!steps.goes_on()) break;
   }
-  const auto status = report.end();
+  const auto status = steps.end();
   if (status == ExitStatus::solved) restart.remove();
   return status;
 }

@@ -1,0 +1,57 @@
+// What a run tells of its load steps, and what it leaves behind.
+#pragma once
+
+#include "analysis/load_step_solver.hpp"
+#include "output/field_files.hpp"
+#include "output/probe_files.hpp"
+#include "report.hpp"
+
+namespace mortise {
+
+/// The load steps of one approach, in the order of the functions below. All are collective. Refers to its arguments. Neither
+/// copies nor moves.
+class Report::LoadSteps {
+ public:
+  /// `states`: how many equilibria there are to be.
+  LoadSteps(Report& report, const analysis::Assembly& assembly, std::size_t states, const analysis::Approach& approach);
+  LoadSteps(const LoadSteps&) = delete;
+  LoadSteps& operator=(const LoadSteps&) = delete;
+
+  void begin(const model::LoadState& acts);
+  friction::Observer observer(const model::LoadState& acts);
+  /// The solver has come to an end with this state. True if it gave up.
+  bool gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state);
+  /// The files of a state, which has been evaluated.
+  void write(const analysis::LoadStepSolver& solver, const analysis::StepState& state, const post::Probes& probes,
+             post::Results results);
+  /// A load step failed: leaves the results of those before, and throws the error, which names the load step then.
+  [[noreturn]] void fail(const Error& error);
+  /// The place of the present state, from 1.
+  std::size_t state() const { return index_; }
+  /// Whether another load step is to be solved after the one that was written.
+  bool goes_on();
+
+  /// The last lines, and what the run comes to.
+  ExitStatus end();
+
+ private:
+  bool is_due(bool converged) const;
+  void write_summary(bool finished);
+
+  Report& run_;
+  const model::Deck& deck_;
+  const Context& context_;
+  const analysis::Assembly& assembly_;
+  const analysis::Approach& approach_;
+  const std::size_t states_;
+  std::size_t index_ = 0;  // of the present state, from 1
+  int increment_ = 0;      // of the present step, from 1
+  double first_state_began_ = 0;
+  model::LoadState acts_;
+  output::FieldFiles files_;
+  output::ProbeFiles probe_files_;
+  io::Summary summary_;    // of the states that are written; without a version if there is none
+  post::Results results_;  // of the last of them
+};
+
+}  // namespace mortise
