@@ -35,9 +35,10 @@ class LoadStepSolver {
   /// friction counts slip from there. Throws Error(no_equilibrium). Collective.
   StepState solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer);
 
-  /// The same without solving: what a run before has found.
+  /// The same without solving: what a run before has found. Collective.
   StepState take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record);
 
+  /// That of the last state; another one once rows change.
   const feti::DualProblem& problem() const { return *problem_; }
   /// The energy norm that is nothing beside the states before: rounding and tolerances leave as much of a state without a load.
   double negligible() const { return 1e-8 * largest_norm_; }

@@ -18,12 +18,14 @@ struct PanelsIn {
   std::vector<Point> normal;                  ///< unit, outward
   std::vector<double> area;                   ///< of lines the length
 
+  /// Panels, and nodes.
   Eigen::Index size() const { return static_cast<Eigen::Index>(corners.size()); }
   Eigen::Index node_count() const { return static_cast<Eigen::Index>(points.size()); }
   const Point& corner(std::size_t panel, int k) const
   {
     return points[static_cast<std::size_t>(corners[panel][static_cast<std::size_t>(k)])];
   }
+  /// The mean of its corners.
   Point middle(std::size_t panel) const
   {
     Point sum = corner(panel, 0);

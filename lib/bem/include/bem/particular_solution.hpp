@@ -21,6 +21,7 @@ class ParticularSolution {
   ParticularSolution(const fem::Constitution& constitution, const Point& centre,
                      fem::Kinematics kinematics = fem::Kinematics::solid);
 
+  /// Neither forces a volume nor a free expansion.
   bool is_zero() const { return expansion_ == 0 && force_ == 0; }
   Point displacement(const Point& x) const;
   /// Without that which the free expansion would need: that has none. In a plane model as in_plane()'s material has it in plane

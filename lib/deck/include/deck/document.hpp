@@ -18,6 +18,7 @@ class Document {
   /// be placed (all of these at once).
   Document(const std::string& text, std::string file, const std::vector<std::string>& settings);
 
+  /// The deck as one mapping, settings included; the name that messages begin with.
   const YAML::Node& root() const { return root_; }
   const std::string& file() const { return file_; }
 
@@ -27,6 +28,7 @@ class Document {
   void error(const std::string& path, const std::string& message);
   /// Throws Error(bad_input) with all errors, in the order of lines, if there are any.
   void check() const;
+  /// Complaints so far.
   std::size_t error_count() const { return errors_.size(); }
   /// Remembers a vector that was given by two entries, as plane models may, for whoever knows the dimension.
   void note_pair(const std::string& path) { pairs_.insert(path); }

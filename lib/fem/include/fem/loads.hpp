@@ -51,6 +51,7 @@ struct Moments {
   Point normal = Point::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
 };
+/// On this rank alone: sums over the ranks are up to the caller.
 Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
 
 /// An integration point of a boundary's facet: the facet's nodes, their shape functions there, and the area that the point stands

@@ -64,7 +64,9 @@ class DualProblem {
   qp::FeasibleSet& set() { return set_; }
   const qp::FeasibleSet& set() const { return set_; }
   const std::vector<NodeRows>& node_rows() const { return node_rows_; }  ///< one for each contact node of this rank
+  /// What the rows of B came from, in mesh numbering.
   const constraint::Constraints& constraints() const { return constraints_; }
+  /// f of each subdomain.
   const std::vector<Eigen::VectorXd>& load() const { return load_; }
   /// The sum of the sizes of the loads at the nodes of each body. Collective.
   std::vector<double> loads_of_bodies() const;

@@ -17,6 +17,7 @@ struct RigidMotion {
   Point translation = Point::Zero();
   Point rotation = Point::Zero();
 
+  /// v(x).
   Point at(const Point& x) const { return translation + rotation.cross(x - centre); }
 };
 

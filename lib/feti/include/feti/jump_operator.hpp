@@ -73,6 +73,7 @@ class JumpOperator {
     std::vector<Local> unknown;
     std::vector<double> coefficient;
   };
+  /// Of each subdomain of this rank.
   const std::vector<Block>& blocks() const { return blocks_; }
   Teuchos::RCP<const Map> touched_rows() const { return overlap_; }  ///< the overlapping map
   const Import& import() const { return *import_; }  ///< from rows() to the rows that this rank's subdomains take part in

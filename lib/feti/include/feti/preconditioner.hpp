@@ -35,6 +35,7 @@ class Preconditioner : public qp::ActiveSetPreconditioner {
   /// Computes B D^-1 B' on the contact rows, which it takes for the identity until then. Collective.
   void invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension);
 
+  /// As ActiveSetPreconditioner has it: the inverse of B D^-1 B' is that of the contact rows that stay free. Collective.
   void fix(std::span<const Local> fixed) override;
   /// Twice the strain energy of displacements that close the gaps r: those of D^-1 B' C r at the interfaces, and inside what is
   /// nearly of least energy. Collective.

@@ -30,6 +30,7 @@ class CellField {
     std::size_t cell;
     double size;  ///< of that cell, its diagonal
   };
+  /// Of all cells.
   Nearest nearest(const Point& x) const;
 
  private:

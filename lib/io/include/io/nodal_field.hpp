@@ -29,6 +29,7 @@ class NodalField {
   struct Content;
 
   std::size_t size() const;  ///< of nodes or points
+  /// Of the field, and of the file that it is read from.
   const std::string& name() const;
   const std::string& path() const;
 

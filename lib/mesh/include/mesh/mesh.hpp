@@ -56,6 +56,7 @@ struct Mesh {
   std::vector<int> cell_volume;
   Facets facets;
 
+  /// Of this piece.
   std::size_t node_count() const { return points.size(); }
 };
 

@@ -15,6 +15,7 @@ class ShapeFunctions {
  public:
   explicit ShapeFunctions(CellType type);
 
+  /// n, one for each node.
   int count() const { return static_cast<int>(coefficients_.rows()); }
   const std::vector<Eigen::Vector3d>& nodes() const { return nodes_; }  ///< reference coordinates
   /// `value`, n entries, and `gradient`, n x dimension, at a point; the latter may be null.

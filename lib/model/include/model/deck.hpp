@@ -68,6 +68,7 @@ struct BoundaryName {
   std::string boundary;
   std::string body;  ///< empty: all bodies
 };
+/// Of any name; whether there is such a boundary is not looked at.
 BoundaryName parse_boundary(const std::string& name);
 
 /// The contacts of a deck. On a mesh an entry with wild cards, or `auto`, stands for many.

@@ -12,6 +12,7 @@ namespace mortise::output {
 io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const Communicator& comm);
 /// Those that a summary.json tells; zeros where it does not.
 io::Summary sizes_told(const std::string& json);
+/// Unknowns, subdomains, clusters and dimension of the kernels; the rest of `to` stays.
 void copy_sizes(const io::Summary& from, io::Summary& to);
 
 /// One equilibrium; nothing of the program's version, of time, memory and communication. Collective.

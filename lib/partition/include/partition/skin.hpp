@@ -18,6 +18,7 @@ struct FaceOfCell {
   mesh::CellType type;
   std::vector<Local> nodes;
 };
+/// `face`: its place among the cell's faces, mesh::faces().
 FaceOfCell face_of(const Subdomain& subdomain, Local cell, int face);
 
 }  // namespace mortise::partition

@@ -39,7 +39,8 @@ class EqualityConstraint {
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_->solve(r); }
   /// x = P x; returns (G G')^-1 G x of the x that came in. Collective.
   Eigen::VectorXd project(Vector& x) const;
-  /// ||Q x|| for an x with G x = r: the norm of the residual r in which rows of different length count alike.
+  /// ||Q x|| for an x with G x = r, which is the same on every rank: the norm of the residual r in which rows of different length
+  /// count alike.
   double norm(const Eigen::VectorXd& r) const;
 
  private:
