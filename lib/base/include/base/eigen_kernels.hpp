@@ -1,10 +1,11 @@
 // Products of dense matrices, compiled once: Eigen would compile its kernels, some thousand instructions each, into every file
 // that multiplies two matrices. Part of the precompiled headers; nothing else includes it, and without it all is the same but for
-// the compiler's time.
+// the compiler's time. The kernels are internal to Eigen 3.4: for other versions there is nothing here.
 #pragma once
 
 #include <Eigen/Core>
 
+#if EIGEN_VERSION_AT_LEAST(3, 4, 0) && !EIGEN_VERSION_AT_LEAST(3, 4, 90)
 namespace Eigen::internal {
 
 using DoubleKernel = gebp_traits<double, double>;
@@ -26,3 +27,4 @@ using DoubleKernel = gebp_traits<double, double>;
 MORTISE_EIGEN_KERNELS(extern template)
 
 }  // namespace Eigen::internal
+#endif
