@@ -23,10 +23,12 @@ def control(kind):
 
 
 class Side:
-    """The nodes of a boundary, the matrix to control values, the area that each carries, its faces."""
+    """The nodes of a boundary, the matrix to control values, the area that each carries, its faces; `counts`: which of these."""
 
-    def __init__(self, problem, name):
+    def __init__(self, problem, name, counts=None):
         self.name, self.kinds = name, problem.faces[name]
+        if counts is not None:
+            self.kinds = {kind: faces[counts(faces)] for kind, faces in self.kinds.items()}
         self.nodes = np.unique(np.concatenate([f.ravel() for f in self.kinds.values()]))
         self.points = problem.points[self.nodes]
         local = {node: i for i, node in enumerate(self.nodes)}
@@ -73,8 +75,27 @@ def tangents(normals):
     return [first, np.cross(normals, first)]
 
 
+def search_distance(contact, side, problem):
+    """Farther than this from each other sides never meet, and Tresca's bound, which holds across gaps, ends."""
+    longest = max(np.linalg.norm(problem.points[a] - problem.points[b], axis=1).max() for faces in side.kinds.values()
+                  for a in faces.T for b in faces.T)
+    return contact.get("search_distance", 0) or max(0.1 * np.linalg.norm(np.ptp(side.points, axis=0)), longest)
+
+
 def obstacle_rows(problem, contact, side):
-    """Nodes against a plane or a circle; the direction points from the obstacle to the body."""
+    """Nodes against a plane or a circle; the direction points from the obstacle to the body. Faces count if all their nodes are near."""
+    normals, gap = obstacle_directions(contact, side)
+    near = np.zeros(len(problem.points), bool)
+    near[side.nodes] = np.abs(gap) <= search_distance(contact, side, problem)
+    if not any(near[faces].all(axis=1).any() for faces in side.kinds.values()):
+        raise Skip("an obstacle out of reach")
+    if not near[side.nodes].all():
+        side = Side(problem, side.name, lambda faces: near[faces].all(axis=1))
+        normals, gap = obstacle_directions(contact, side)
+    return make_rows(problem, contact, side, normals, gap, [(side.control, side.nodes)])
+
+
+def obstacle_directions(contact, side):
     (shape, keys), = contact["primary"].items()
     if shape == "plane":
         normal = np.array(keys["normal"]) / np.linalg.norm(keys["normal"])
@@ -84,7 +105,7 @@ def obstacle_rows(problem, contact, side):
         across[:, 2:] = 0
         distance = np.linalg.norm(across, axis=1)
         normals, gap = across / distance[:, None], distance - keys["radius"]
-    return make_rows(problem, contact, side, normals, gap, [(side.control, side.nodes)])
+    return normals, gap
 
 
 def make_rows(problem, contact, side, normals, gap, terms, fixed=None):
