@@ -12,6 +12,9 @@ namespace mortise::contact {
 
 namespace {
 
+// By how much n + m has to change over the facets round a node: flat sides, where it is rounding, are nowhere nearest, and what
+// less leaves between nodes is 1e-7 of a facet.
+constexpr double flat = 1e-6;
 // Of the size of the facets round a node: shorter steps are none, and those that start longer lead elsewhere.
 constexpr double least_step = 1e-6, longest_step = 1.0;
 // Of the sum of both sides' curvatures: what less of it is left between them is that of meshes.
@@ -199,15 +202,15 @@ class Search {
     return inverse_of(0.5 * (change + change.transpose()), first, second, here.curvature);
   }
 
-  static std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix2d& change, const Point& first, const Point& second,
-                                                   double curvature)
+  std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix2d& change, const Point& first, const Point& second,
+                                            double curvature) const
   {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(change);
     Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
     bool any = false;
     for (Eigen::Index i = 0; i < 2; ++i) {
       const double value = eigen.eigenvalues()[i];
-      if (!(value > parallel * curvature) || !(value > 0)) continue;
+      if (!(value > parallel * curvature) || !(value * size_ > flat)) continue;
       const Point direction = eigen.eigenvectors()(0, i) * first + eigen.eigenvectors()(1, i) * second;
       inverse += direction * direction.transpose() / value;
       any = true;

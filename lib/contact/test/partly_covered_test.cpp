@@ -1,6 +1,7 @@
 // Faces that cross the border of the other side: where their multipliers act, what gaps and directions they see.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "surfaces.hpp"
@@ -170,6 +171,70 @@ TEST(PartlyCovered, DirectionsAreThoseOfTheFlatterSide)
                        surface({8, 2, -2, 2, 0, 1, false, false, primary_ids}, curved, comm)),
             1e-7);
 }
+
+// The side with nodes in the middle of its edges (and faces), and turned about the origin.
+mesh::Surface second_order(const mesh::Surface& side, mesh::CellType type, const Eigen::Matrix3d& rotation, Global first_id)
+{
+  mesh::Surface result = side;
+  result.faces = {};
+  std::map<Global, Local> middles;
+  const auto middle = [&](std::span<const Local> ends) {
+    Point at = Point::Zero();
+    Global least = side.node_id[static_cast<std::size_t>(ends[0])] - first_id, most = least;
+    for (const Local n : ends) {
+      at += side.points[static_cast<std::size_t>(n)] / static_cast<double>(ends.size());
+      least = std::min(least, side.node_id[static_cast<std::size_t>(n)] - first_id);
+      most = std::max(most, side.node_id[static_cast<std::size_t>(n)] - first_id);
+    }
+    const Global id = first_id + (ends.size() == 2 ? 1000 : 20000) + 100 * least + most;
+    const auto [found, added] = middles.try_emplace(id, static_cast<Local>(result.points.size()));
+    if (added) result.points.push_back(at), result.node_id.push_back(id);
+    return found->second;
+  };
+  for (std::size_t f = 0; f < side.faces.size(); ++f) {
+    const std::vector<Local> corners(side.faces[f].begin(), side.faces[f].end());
+    auto nodes = corners;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      nodes.push_back(middle(std::vector{corners[k], corners[(k + 1) % corners.size()]}));
+    if (type == mesh::CellType::quad9) nodes.push_back(middle(corners));
+    result.faces.add(type, nodes);
+  }
+  for (auto& x : result.points) x = rotation * x;
+  return result;
+}
+
+class Flat : public testing::TestWithParam<mesh::CellType> {};
+
+// Rounding of coordinates decides about nothing: the rows of flat faces are those of the same faces turned in space.
+TEST_P(Flat, FacesTurnedInSpaceHaveTheSameRows)
+{
+  const Communicator comm;
+  const bool triangles = GetParam() == mesh::CellType::tri6;
+  const Grid own{4, 3, 0, 4, 0, 3, true, triangles}, other{3, 2, 0, 4, 0, 3, false, false, primary_ids};
+  std::map<Global, Gathered::Row> before;
+  for (const double degrees : {0.0, 15.0, 20.0, 40.0, 70.0, 123.0}) {
+    const Eigen::Matrix3d rotation =
+        Eigen::AngleAxisd(degrees * std::acos(-1.0) / 180, Point(1, 1, degrees == 15 ? 0 : 0.3).normalized()).toRotationMatrix();
+    const auto pair =
+        make_pair(second_order(surface(own, flat, comm), GetParam(), rotation, 0),
+                  second_order(surface(other, flat, comm), mesh::CellType::quad8, rotation, primary_ids), Law::frictionless);
+    const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows;
+    double area = 0;
+    for (const auto& row : rows) {
+      area += row.area;
+      EXPECT_EQ(row.bound, 0);
+      EXPECT_NEAR(row.weight, 1, 1e-12);
+      const auto [at, first] = before.try_emplace(row.node, row);
+      EXPECT_EQ(first, degrees == 0);
+      EXPECT_NEAR(row.area, at->second.area, 1e-12) << degrees << " degrees, node " << row.node;
+      EXPECT_LT((row.normal - rotation * Point(0, 0, 1)).norm(), 1e-12);
+    }
+    EXPECT_EQ(rows.size(), before.size());
+    EXPECT_NEAR(area, 12, 1e-12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Faces, Flat, testing::Values(mesh::CellType::tri6, mesh::CellType::quad8, mesh::CellType::quad9));
 
 }  // namespace
 }  // namespace mortise::contact
