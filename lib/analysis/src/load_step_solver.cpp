@@ -99,15 +99,16 @@ std::vector<constraint::SlidingSurface> sliding_surfaces_of(const Rows& rows, co
 // Facets of the mesh stop what slides along itself once friction is used up: a solution, but no equilibrium of the bodies meant.
 // Throws Error(no_equilibrium). Collective.
 void refuse_support_of_facets(const feti::DualProblem& problem, const Assembly& assembly, const Rows& rows,
-                              const friction::Result& found)
+                              const friction::Result& found, const std::vector<Eigen::VectorXd>& displacement)
 {
   constexpr double inexact = 2e-3;  // of what friction holds
   if (!found.converged) return;     // bounds of an unfinished solution may be much too small
   const auto bounds = friction::slip_bounds(problem, model::friction_laws(assembly.model().contacts()), &found.solution.x);
   const auto& comm = problem.communicator();
   if (!comm.any(!bounds.empty())) return;
-  const auto moved = feti::held_by_facets(problem, assembly.decomposition(), assembly.deck().kinematics,
-                                          sliding_surfaces_of(rows, assembly.model(), comm), found.solution.x, bounds, inexact);
+  const auto moved =
+      feti::held_by_facets(problem, assembly.decomposition(), assembly.deck().kinematics,
+                           sliding_surfaces_of(rows, assembly.model(), comm), found.solution.x, displacement, bounds, inexact);
   if (moved)
     throw Error(ExitStatus::no_equilibrium,
                 "no equilibrium: " + *moved + ". Support it, or look at the direction of the loads and at the friction");
@@ -215,9 +216,9 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   };
   auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
   if (found.gave_up) return {rows_, std::move(found), {}, {}};
-  refuse_support_of_facets(*problem_, assembly_, *rows_, found);
   found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, unfelt_force * largest_force_);
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
+  refuse_support_of_facets(*problem_, assembly_, *rows_, found, displacement);
   auto shortenings = problem_->shortenings(found.solution.nu);
   return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};
 }

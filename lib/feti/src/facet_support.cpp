@@ -9,6 +9,7 @@
 
 #include "body_rows.hpp"
 #include "feti/coarse_problem.hpp"
+#include "unit_motions.hpp"
 
 namespace mortise::feti {
 
@@ -24,7 +25,7 @@ struct Search {
   const Bodies& bodies;
   const BodyRows& rows;
   std::span<const constraint::SlidingSurface> sliding_surfaces;
-  Eigen::VectorXd force;  // of each row of this rank
+  Eigen::VectorXd force, slid;  // of each row of this rank: its force, and the jump since the state before
   std::span<const double> bounds;
   double slack;
 
@@ -46,9 +47,10 @@ BodyRows without_friction(const Search& search, const std::vector<bool>& slips)
   return result;
 }
 
-// What friction holds at most along a motion, and what all normals of a contact feel of it alike.
+// What friction holds at most along a motion, the work of normal forces on it, and that of what all normals of a contact feel of
+// it alike.
 struct Felt {
-  double friction = 0, alike = 0;
+  double friction = 0, normal = 0, alike = 0;
   bool facets = false;  // the rest is no more than what facets may feel
 };
 
@@ -60,7 +62,7 @@ Felt feel(const Search& search, const Eigen::VectorXd& amplitudes, double sagitt
   double last = -1;
   for (const auto& node : contacts.nodes) last = std::max(last, static_cast<double>(node.contact));
   const auto count = static_cast<std::size_t>(problem.communicator().max(last) + 1);
-  constexpr std::size_t sums_each = 5;  // friction; area, area * n.v, area * (n.v)^2, normal force
+  constexpr std::size_t sums_each = 6;  // friction; area, area * n.v, area * (n.v)^2; normal force, times n.v
   std::vector<double> sums(count * sums_each, 0.0);
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     if (contacts.bonded[i]) continue;
@@ -74,6 +76,7 @@ Felt feel(const Search& search, const Eigen::VectorXd& amplitudes, double sagitt
     sum[2] += area * normal;
     sum[3] += area * normal * normal;
     sum[4] += search.force[rows.normal];
+    sum[5] += search.force[rows.normal] * normal;
   }
   problem.communicator().sum_in_place(sums);
   Felt result;
@@ -81,6 +84,7 @@ Felt feel(const Search& search, const Eigen::VectorXd& amplitudes, double sagitt
   for (std::size_t c = 0; c < count; ++c) {
     const double* sum = &sums[c * sums_each];
     result.friction += sum[0];
+    result.normal += sum[5];
     if (!(sum[1] > 0)) continue;
     const double mean = sum[2] / sum[1];
     result.alike += mean * sum[4];
@@ -90,33 +94,130 @@ Felt feel(const Search& search, const Eigen::VectorXd& amplitudes, double sagitt
   return result;
 }
 
-// The first of the motions of `units` that friction does not hold.
+// The motion in the space of `basis`, columns of amplitudes, that comes nearest to what contact nodes slid, weighted with what
+// friction holds there.
+Eigen::VectorXd slid_along(const Search& search, const Eigen::MatrixXd& basis)
+{
+  const auto& problem = search.problem;
+  const Eigen::MatrixXd felt = search.rows.values * basis;
+  const auto count = basis.cols();
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(count, count + 1);
+  for (const auto& rows : problem.node_rows()) {
+    if (rows.disc < 0) continue;
+    const double bound = problem.jump().force(rows.normal, search.bounds[static_cast<std::size_t>(rows.disc)]);
+    const auto there = felt.middleRows(rows.normal + 1 - search.first(), rows.tangents);
+    sums.leftCols(count) += bound * there.transpose() * there;
+    sums.col(count) += bound * there.transpose() * search.slid.segment(rows.normal + 1, rows.tangents);
+  }
+  problem.communicator().sum_in_place({sums.data(), static_cast<std::size_t>(sums.size())});
+  return basis * sums.leftCols(count).completeOrthogonalDecomposition().solve(sums.col(count));
+}
+
+// Whether every contact node that presses and feels the motion slid along it.
+bool all_slid(const Search& search, const Eigen::VectorXd& amplitudes)
+{
+  constexpr double presses = 1e-3, feels = 0.1, most_of_it = 0.5;
+  const auto& problem = search.problem;
+  const Eigen::VectorXd felt = search.rows.values * amplitudes;
+  struct Node {
+    double bound, speed, slid;
+  };
+  std::vector<Node> nodes;
+  double hardest = 0, fastest = 0;
+  for (const auto& rows : problem.node_rows()) {
+    if (rows.disc < 0) continue;
+    const auto there = felt.segment(rows.normal + 1 - search.first(), rows.tangents);
+    nodes.push_back({problem.jump().force(rows.normal, search.bounds[static_cast<std::size_t>(rows.disc)]), there.norm(),
+                     there.dot(search.slid.segment(rows.normal + 1, rows.tangents))});
+    hardest = std::max(hardest, nodes.back().bound);
+    fastest = std::max(fastest, nodes.back().speed);
+  }
+  const auto& comm = problem.communicator();
+  hardest = comm.max(hardest), fastest = comm.max(fastest);
+  return hardest > 0 && fastest > 0 && !comm.any(std::any_of(nodes.begin(), nodes.end(), [&](const Node& node) {
+    return node.bound > presses * hardest && node.speed > feels * fastest && node.slid < most_of_it * node.speed * node.speed;
+  }));
+}
+
+constexpr double of_forces = 1e-3;  // what facets make of a weight may work on a motion
+
+// The motions of bodies that move as one, and the loads on them.
+struct Unit {
+  std::vector<FreeMotion> motions;
+  Eigen::MatrixXd amplitudes;  // a column for each motion
+  double forces = 0, size = 0;
+  double sagitta = 0;
+};
+
+Unit unit_of(const Search& search, const BodyRows& rows, const std::vector<int>& members)
+{
+  const auto& bodies = search.bodies;
+  Unit unit{motions_of_unit(bodies, rows, search.problem.constraints().contacts, members, search.sliding_surfaces,
+                            search.problem.communicator()),
+            {}};
+  unit.amplitudes = Eigen::MatrixXd::Zero(bodies.generalised.size(), static_cast<Eigen::Index>(unit.motions.size()));
+  for (std::size_t k = 0; k < unit.motions.size(); ++k) {
+    for (const auto& part : unit.motions[k].motions)
+      unit.amplitudes.col(static_cast<Eigen::Index>(k)).segment(part.body * bodies.modes, bodies.modes) =
+          amplitudes_of(part, bodies.frames[static_cast<std::size_t>(part.body)], bodies.kinematics);
+    unit.sagitta = std::max(unit.sagitta, unit.motions[k].sagitta);
+  }
+  for (const int body : members) {
+    unit.forces += bodies.force[body];
+    unit.size = std::max(unit.size, bodies.frames[static_cast<std::size_t>(body)].radius);
+  }
+  return unit;
+}
+
+std::string name(const Search& search, const RigidMotion& motion)
+{
+  return fmt::format("body \"{}\" {}", search.catalogue[static_cast<std::size_t>(motion.body)].name,
+                     describe(motion, search.bodies.frames[static_cast<std::size_t>(motion.body)].radius));
+}
+
+// The first of the motions of a unit that the bounds of friction do not hold.
+std::optional<std::string> more_than_friction(const Search& search, const Unit& unit)
+{
+  for (std::size_t k = 0; k < unit.motions.size(); ++k) {
+    Eigen::VectorXd amplitudes = unit.amplitudes.col(static_cast<Eigen::Index>(k));
+    double drive = search.bodies.generalised.dot(amplitudes);
+    if (std::abs(drive) <= of_forces * unit.forces) continue;
+    if (drive < 0) amplitudes *= -1, drive *= -1;
+    const Felt felt = feel(search, amplitudes, unit.motions[k].sagitta);
+    const double missing = drive - felt.alike - felt.friction;
+    if (!felt.facets || missing <= std::max(search.slack * felt.friction, of_forces * unit.forces)) continue;
+    return name(search, unit.motions[k].motions.front()) +
+           fmt::format("; friction holds {:.3g} % of what drives it, and facets of the mesh are no support",
+                       100 * felt.friction / drive);
+  }
+  return {};
+}
+
+// A motion along which all that rubs slid by the unit's size, and on which pressure does no work, as it does in a taper. Friction
+// does not grow with the way: where it held in the end, the tilts of facets, were they of rounding alone, have wedged the
+// surfaces together.
+std::optional<std::string> slid_away(const Search& search, const Unit& unit)
+{
+  constexpr double of_drive = 5e-3;
+  if (unit.motions.empty()) return {};
+  const Eigen::VectorXd amplitudes = slid_along(search, unit.amplitudes);
+  const double way = amplitudes.norm(), drive = search.bodies.generalised.dot(amplitudes);
+  if (way <= unit.size || drive <= of_forces * unit.forces * way || !all_slid(search, amplitudes)) return {};
+  if (feel(search, amplitudes / way, unit.sagitta).normal > of_drive * drive / way) return {};
+  const auto body = static_cast<int>(unit.motions.front().motions.front().body);
+  const auto& bodies = search.bodies;
+  return name(search, combine(body, bodies.frames[static_cast<std::size_t>(body)],
+                              amplitudes.segment(body * bodies.modes, bodies.modes) / way, bodies.kinematics)) +
+         ", past its own size; friction alone resists, and the mesh, which is no support";
+}
+
 std::optional<std::string> beyond_friction(const Search& search, const BodyRows& rows, const std::vector<std::vector<int>>& units)
 {
-  constexpr double of_forces = 1e-3;  // what facets make of a weight may work on a motion
-  const auto& bodies = search.bodies;
-  for (const auto& unit : units)
-    for (const auto& motion : motions_of_unit(bodies, rows, search.problem.constraints().contacts, unit, search.sliding_surfaces,
-                                              search.problem.communicator())) {
-      Eigen::VectorXd amplitudes = Eigen::VectorXd::Zero(bodies.generalised.size());
-      double forces = 0;
-      for (const auto& part : motion.motions) {
-        const auto& frame = bodies.frames[static_cast<std::size_t>(part.body)];
-        amplitudes.segment(part.body * bodies.modes, bodies.modes) = amplitudes_of(part, frame, bodies.kinematics);
-        forces += bodies.force[part.body];
-      }
-      double drive = bodies.generalised.dot(amplitudes);
-      if (std::abs(drive) <= of_forces * forces) continue;
-      if (drive < 0) amplitudes *= -1, drive *= -1;
-      const Felt felt = feel(search, amplitudes, motion.sagitta);
-      const double missing = drive - felt.alike - felt.friction;
-      if (!felt.facets || missing <= std::max(search.slack * felt.friction, of_forces * forces)) continue;
-      const auto& part = motion.motions.front();
-      return fmt::format("body \"{}\" {}", search.catalogue[static_cast<std::size_t>(part.body)].name,
-                         describe(part, bodies.frames[static_cast<std::size_t>(part.body)].radius)) +
-             fmt::format("; friction holds {:.3g} % of what drives it, and facets of the mesh are no support",
-                         100 * felt.friction / drive);
-    }
+  for (const auto& members : units) {
+    const Unit unit = unit_of(search, rows, members);
+    if (auto found = more_than_friction(search, unit)) return found;
+    if (auto found = slid_away(search, unit)) return found;
+  }
   return {};
 }
 
@@ -125,7 +226,8 @@ std::optional<std::string> beyond_friction(const Search& search, const BodyRows&
 std::optional<std::string> held_by_facets(const DualProblem& problem, const partition::Decomposition& decomposition,
                                           fem::Kinematics kinematics,
                                           std::span<const constraint::SlidingSurface> sliding_surfaces, const Vector& lambda,
-                                          std::span<const double> bounds, double slack)
+                                          const std::vector<Eigen::VectorXd>& displacement, std::span<const double> bounds,
+                                          double slack)
 {
   constexpr double at_bound = 1 - 1e-3;
   const auto& comm = problem.communicator();
@@ -135,8 +237,12 @@ std::optional<std::string> held_by_facets(const DualProblem& problem, const part
   const SparseMatrix g = coarse_rows(problem.jump(), problem.clusters(), comm);
   const BodyRows rows = body_rows(problem.jump(), bodies, g, problem.constraints(),
                                   unknowns(problem.constraints(), problem.jump(), problem.dimension()), comm);
-  const Search search{problem,          decomposition.catalogue.bodies, bodies, rows,
-                      sliding_surfaces, problem.forces(lambda),         bounds, slack};
+  Eigen::VectorXd slid = problem.jumps(displacement);
+  for (std::size_t r = 0; r < contacts.rows.bound.size(); ++r)
+    slid[problem.jump().ranges().contacts + static_cast<Local>(r)] -= contacts.rows.bound[r];
+  const Search search{
+      problem, decomposition.catalogue.bodies, bodies, rows, sliding_surfaces, problem.forces(lambda), std::move(slid), bounds,
+      slack};
 
   std::vector<bool> rubs(contacts.nodes.size()), slips(contacts.nodes.size()), joins = contacts.bonded;
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {

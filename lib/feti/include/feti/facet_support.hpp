@@ -18,11 +18,14 @@ namespace mortise::feti {
 /// e.v the work of the loads, t_i the tangential rows of a contact node, r_i the bound of its force. Where normals of the mesh do
 /// work on v, a solution may exceed this: the ring turns until facets stop it. Looked for are such motions of each body, of
 /// those that bonds join, and of those that nodes join which stick; what all normals of a contact feel alike (a taper) is no
-/// facet. `lambda`: a solution; `bounds`: r_i of each disc of problem.set(), as multipliers; `slack`: of the right side, what
+/// facet. Nor is it an equilibrium where all that rubs slid along such a motion by more than the bodies' size (a ball in its cup,
+/// which turns until tilts of 1e-6 have wedged it): there friction holds by the forces of facets. `lambda`, `displacement`: a
+/// solution; `bounds`: r_i of each disc of problem.set(), as multipliers; `slack`: of the right side, what
 /// counts as inexact. Returns `body "ring" rotates about ..`, and how much of the load friction holds, or nothing. Collective.
 std::optional<std::string> held_by_facets(const DualProblem& problem, const partition::Decomposition& decomposition,
                                           fem::Kinematics kinematics,
                                           std::span<const constraint::SlidingSurface> sliding_surfaces, const Vector& lambda,
-                                          std::span<const double> bounds, double slack);
+                                          const std::vector<Eigen::VectorXd>& displacement, std::span<const double> bounds,
+                                          double slack);
 
 }  // namespace mortise::feti
