@@ -127,6 +127,7 @@ void Rounding::take(const Rounding& other)
   force = std::max(force, other.force);
   energy = std::max(energy, other.energy);
   length = std::max(length, other.length);
+  moved = std::max(moved, other.moved);
 }
 
 Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<Eigen::VectorXd>& load,
@@ -149,9 +150,8 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
   const double nothing = part_of_size * size;
   stiffest = comm.max(stiffest);
   return {std::max(part_of_stiffness_in_forces * sums[0], stiffest * nothing),
-          std::max({part_of_stiffness * sums[1], part_of_displacement * part_of_displacement * sums[2],
-                    0.5 * stiffest * nothing * nothing}),
-          std::max(part_of_overlap * comm.max(longest), nothing), part_of_overlap * sums[2]};
+          std::max(part_of_displacement * part_of_displacement * sums[2], 0.5 * stiffest * nothing * nothing),
+          std::max(part_of_overlap * comm.max(longest), nothing), part_of_overlap * sums[2], part_of_stiffness * sums[1]};
 }
 
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,

@@ -31,14 +31,24 @@ double prescribed(const constraint::Constraints& constraints, const Communicator
   return comm.max(prescribed) + comm.max(gap);
 }
 
+// Twice an energy below which nothing is strained: rounding is not the error of anything. Where bodies moved the solver's error
+// says what is nothing: they may be strained by next to nothing of the way that supports take them, and that well.
+double nothing_of_errors(const Rounding& rounding, double error)
+{
+  constexpr double rounding_of_motion = 1e-8;  // of Rounding::moved
+  const double unstrained = std::pow(100 * error, 2);
+  const double moved = std::isfinite(unstrained) ? std::min(rounding.moved, unstrained) : rounding.moved;
+  return std::max({rounding.energy, moved, rounding_of_motion * rounding.moved});
+}
+
 // Relative errors of the mesh and of the solver; `stored`: twice what springs store.
 void estimate_errors(const friction::Result& solved, const Rounding& rounding, double stored, const Communicator& comm,
                      Results& results)
 {
   const auto& stress = results.stress;
   results.algebraic_error = solved.solution.error;
-  // Where nothing is strained, rounding is not the error of anything.
-  const double squared_norm = std::max(2 * stress.strain_energy + stress.squared_error, rounding.energy);
+  const double squared_norm =
+      std::max(2 * stress.strain_energy + stress.squared_error, nothing_of_errors(rounding, solved.solution.error));
   if (!(squared_norm > 0)) return;  // a state at rest is exact
   results.algebraic_error /= std::sqrt(std::max(squared_norm, strained * stored));
   results.mesh_error = {std::sqrt(stress.squared_error / squared_norm), largest_of_ranks(stress.worst_cell, comm),
@@ -84,7 +94,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   residuals.equilibrium = problem.imbalance(displacement, lambda, rounding.force);
   const double length = std::max(results.max_displacement, rounding.length);
   residuals.penetration = length > 0 ? results.contact.penetration / length : results.contact.penetration;
-  const double energy = std::max({results.stress.strain_energy, rounding.energy, rounding.work});
+  const double energy = std::max({results.stress.strain_energy, rounding.energy, rounding.moved, rounding.work});
   residuals.complementarity = energy > 0 ? results.contact.work_of_gaps / (2 * energy) : results.contact.work_of_gaps;
 
   Evidence evidence;

@@ -56,9 +56,10 @@ struct Balance {
 };
 
 /// What rounding, and a solver whose measure are the loads, may leave where nothing is strained: of forces and of energies; and
-/// of the overlaps that loads press with which go straight into what holds them, and their work.
+/// of the overlaps that loads press with which go straight into what holds them, and their work. `moved`: of energies as well,
+/// where a solver's errors are measured by displacements, as those of a lifted body; they grow with rigid motions.
 struct Rounding {
-  double force = 0, energy = 0, length = 0, work = 0;
+  double force = 0, energy = 0, length = 0, work = 0, moved = 0;
   /// What is rounding here or there; but for the work, which a state of smaller loads has to fit to.
   void take(const Rounding& other);
 };
