@@ -16,16 +16,16 @@ ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std
   ContactNodeState state;
   state.contact = point.contact;
   state.node = point.node;
-  state.area = point.area;
+  state.area = point.weight * point.area;
   state.cover = point.cover;
   state.normal = point.normal;
-  state.force = multipliers[0];
-  state.force_on_secondary = -point.weight * multipliers[0] * point.normal;
-  state.gap = bound - jumps[0];
+  state.force = point.weight * multipliers[0];
+  state.force_on_secondary = -state.force * point.normal;
+  state.gap = (bound - jumps[0]) / point.weight;
   double tangential = 0;
   for (std::size_t t = 0; t < point.tangents.size(); ++t) {
     state.force_on_secondary -= point.weight * multipliers[t + 1] * point.tangents[t];
-    state.slip += jumps[t + 1] * point.tangents[t];
+    state.slip += jumps[t + 1] / point.weight * point.tangents[t];
     tangential = std::hypot(tangential, multipliers[t + 1]);
   }
   if (bonded)

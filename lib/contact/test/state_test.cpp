@@ -55,6 +55,24 @@ TEST(State, SumsAndStatus)
   EXPECT_EQ(sums[0].slip, comm.size());
 }
 
+// A row that stands for neighbours without one sees more than the jump of the surfaces; what is told is the surfaces' own, and
+// the normal force is that of the force vector.
+TEST(State, IsThatOfTheSurfacesWhateverTheRowWeighs)
+{
+  constraint::ContactNode point{0, 7, 0.5, Point(0, 0, 1), {Point(1, 0, 0), Point(0, 1, 0)}, 0};
+  const std::vector<double> multipliers{10, 3, 0};
+  const auto plain = state_of(point, false, multipliers, std::vector<double>{0.1, 0.2, 0.0}, 0.4, 4.0, 0);
+  point.weight = 1.25;
+  const auto heavy = state_of(point, false, multipliers, std::vector<double>{0.125, 0.25, 0.0}, 0.5, 4.0, 0);
+  EXPECT_NEAR(heavy.force, 12.5, 1e-14);
+  EXPECT_NEAR(heavy.force, -heavy.force_on_secondary.dot(point.normal), 1e-14);
+  EXPECT_NEAR(heavy.area, 0.625, 1e-15);
+  EXPECT_NEAR(heavy.force / heavy.area, plain.force / plain.area, 1e-13);
+  EXPECT_NEAR(heavy.gap, plain.gap, 1e-15);
+  EXPECT_LT((heavy.slip - plain.slip).norm(), 1e-15);
+  EXPECT_EQ(heavy.status, plain.status);
+}
+
 // Two faces in a row; the last two nodes are hardly covered and each give half of their force and area to the two before them.
 // Points stand on the ranks in turn, faces wherever they are.
 TEST(State, NarrowPointsGiveWhatPressesOnThemToTheirNeighbours)

@@ -45,8 +45,8 @@ ContactResults contact_results(const feti::DualProblem& problem, const Vector& l
         contact::state_of(point, contacts.bonded[i], multipliers, row_jumps, bound[point.row], problem.slip_bound(i),
                           nothing * largest[static_cast<std::size_t>(point.contact)]));
     if (contacts.bonded[i]) continue;
-    results.penetration = std::max(results.penetration, -state.gap);
-    results.work_of_gaps += std::abs(state.gap * multipliers[0]);
+    results.penetration = std::max(results.penetration, -state.gap * std::min(point.weight, 1.0));
+    results.work_of_gaps += std::abs(state.gap * state.force);
   }
   results.penetration = comm.max(results.penetration);
   results.work_of_gaps = comm.sum(results.work_of_gaps);

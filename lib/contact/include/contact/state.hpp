@@ -14,10 +14,10 @@ enum class Status : int { open = 0, stick = 1, slip = 2 };
 struct ContactNodeState {
   int contact = 0;
   Global node = 0;
-  double area = 0;
+  double area = 0;                           ///< what it bears: of constant pressures the forces are these times the area
   double cover = 1;                          ///< ContactNode::cover
   Point normal = Point::Zero();              ///< ContactNode::normal
-  double force = 0;                          ///< normal multiplier, >= 0 when pressing (bonded: any sign)
+  double force = 0;                          ///< the normal part of force_on_secondary, >= 0 when pressing (bonded: any sign)
   Point force_on_secondary = Point::Zero();  ///< all multipliers of the point, as the secondary side feels them
   double gap = 0;                            ///< >= 0 up to the solver's tolerance
   Point slip = Point::Zero();                ///< tangential jump, secondary minus primary side
@@ -25,7 +25,8 @@ struct ContactNodeState {
 };
 
 /// One point: `multipliers` are forces (normal, then tangents); `jumps` are row . u (without bounds) in the same order, `bound`
-/// that of the normal row; `slip_bound` the slip bound as a force (infinite: sticks; 0: frictionless). A point counts as open
+/// that of the normal row; `slip_bound` the slip bound as a force (infinite: sticks; 0: frictionless). A row whose neighbours on
+/// the same face have none sees ContactNode::weight times the jump of the surfaces; the state is theirs. A point counts as open
 /// while its pressure is at most `nothing`, what the solver's tolerance leaves of zero.
 ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std::span<const double> multipliers,
                           std::span<const double> jumps, double bound, double slip_bound, double nothing);
