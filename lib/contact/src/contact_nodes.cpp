@@ -1,0 +1,103 @@
+#include "contact_nodes.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace mortise::contact {
+
+namespace {
+
+// Less than this part of a facet is covered by chance.
+constexpr double least_piece = 0.01;
+
+// Where functions with half of a piece's cover would be dropped, as opposite a foot smaller than the faces it stands on, they
+// stay: so does the border of the contact.
+void keep_small_pieces(const Side& secondary, CutFaces& faces, const std::vector<char>& allowed, std::vector<char>& keep)
+{
+  std::vector<std::size_t> more;
+  for (const std::size_t f : faces.round())
+    for (const std::size_t i : faces.pieces(f)) {
+      const auto piece = faces.piece(i);
+      if (piece.point_facet.empty()) continue;
+      const double facets = piece.facet < 0 ? static_cast<double>(secondary.facets_of(f)) : 1;
+      if (piece.covered.sum() < least_piece / facets * piece.whole.sum()) continue;
+      double kept = 0;  // of the cover
+      for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
+        if (keep[faces.place_of(f, piece, k)]) kept += piece.covered[k];
+      if (kept > 0.5 * piece.covered.sum()) continue;
+      for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
+        if (const auto p = faces.place_of(f, piece, k); allowed[p] && piece.covered[k] > 0) more.push_back(p);
+    }
+  for (const std::size_t p : more) keep[p] = 1;
+}
+
+// Marks the surface nodes of faces at which `holds` of all of them.
+template <class Holds>
+std::vector<char> at_all_nodes_of_a_face(const CutFaces& faces, std::size_t count, const Holds& holds)
+{
+  std::vector<char> result(count, 0);
+  for (const std::size_t f : faces.round()) {
+    const auto surface_nodes = faces.surface_nodes_of(f);
+    if (std::all_of(surface_nodes.begin(), surface_nodes.end(), [&](Local p) { return holds(static_cast<std::size_t>(p)); }))
+      for (const Local p : surface_nodes) result[static_cast<std::size_t>(p)] = 1;
+  }
+  return result;
+}
+
+// The areas round each surface node: covered, and all. In the order of the faces, whatever the ranks.
+std::vector<double> sum_areas(CutFaces& faces, std::vector<double>& covered)
+{
+  std::vector<double> whole(covered.size(), 0.0);
+  for (const std::size_t f : faces.round())
+    for (const std::size_t i : faces.pieces(f)) {
+      const auto piece = faces.piece(i);
+      for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
+        covered[faces.place_of(f, piece, k)] += piece.covered[k];
+        whole[faces.place_of(f, piece, k)] += piece.whole[k];
+      }
+    }
+  return whole;
+}
+
+}  // namespace
+
+ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
+                                  const SupportedNodes& supports, std::span<const char> seams_end, bool bonded, int dimension)
+{
+  const auto count = surface_nodes.all.size();
+  ContactNodes nodes;
+  nodes.covered.assign(count, 0.0);
+  const auto whole = sum_areas(faces, nodes.covered);
+  nodes.directions.reserve(count);
+  for (const auto& surface_node : surface_nodes.all) {
+    const Global node = secondary.node_id[static_cast<std::size_t>(surface_node.node)];
+    const std::array<bool, 3> prescribed{supports.find(node, 0) != nullptr, supports.find(node, 1) != nullptr,
+                                         supports.find(node, 2) != nullptr};
+    nodes.directions.push_back(directions(surface_node.normal, prescribed, supports.skew_supports(node), dimension));
+  }
+  nodes.held_through = at_all_nodes_of_a_face(
+      faces, count, [&](std::size_t p) { return nodes.directions[p].tangents.size() + 1 < static_cast<std::size_t>(dimension); });
+  // Surface nodes prescribed along their normal keep their rows in a contact: the primary side alone feels them (rows that it
+  // does not feel either, as of an obstacle, are dropped). If their neighbours took over their share, these would see what moves
+  // along a curved surface there as an overlap. In a bond they would hold the primary side to the mean of what it meets, and
+  // leave their share to the others of the face, as those at a seam's end do; where a face has no others, as on a surface that a
+  // support moves as a whole, they stay.
+  const auto left_out = [&](std::size_t p) { return !nodes.directions[p].free_normal || seams_end[p]; };
+  nodes.stranded = at_all_nodes_of_a_face(faces, count, left_out);
+  std::vector<char> allowed(count, 0);
+  nodes.cover.assign(count, 0);
+  nodes.kept.assign(count, 0);
+  nodes.freed.assign(count, 0);
+  for (std::size_t p = 0; p < count; ++p) {
+    nodes.freed[p] = (nodes.stranded[p] || !bonded) && !nodes.directions[p].free_normal;
+    allowed[p] = !left_out(p) || nodes.stranded[p] || nodes.freed[p];
+    if (nodes.freed[p])  // what moves decides about the tangents
+      nodes.directions[p] = directions(surface_nodes.all[p].normal, {false, false, false}, {}, dimension);
+    nodes.cover[p] = whole[p] > 0 ? std::min(nodes.covered[p] / whole[p], 1.0) : 0.0;
+    nodes.kept[p] = allowed[p] && nodes.cover[p] > least_cover;
+  }
+  keep_small_pieces(secondary, faces, allowed, nodes.kept);
+  return nodes;
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,83 @@
+#include "contact_points.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace mortise::contact {
+
+std::pair<Point, Point> ContactPoints::at(std::size_t p)
+{
+  const SurfaceNode& surface_node = nodes_.all[p];
+  const Point& node = secondary_.points[static_cast<std::size_t>(surface_node.node)];
+  if (const auto place = nearest_place(p)) return point_at(*place);
+  Point shift = Point::Zero(), tilt = Point::Zero();
+  double d = 0;
+  for (const auto& [face, i, k] : faces_.at(p)) {
+    const auto piece = faces_.piece(i);
+    d += piece.covered[k];
+    if (piece.point_facet.empty() || piece.covered[k] == 0) continue;
+    const auto facet = static_cast<std::size_t>(piece.point_facet[static_cast<std::size_t>(k)]);
+    for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c) {
+      const double part = piece.covered[k] * piece.points(k, static_cast<Eigen::Index>(c));
+      shift += part * (secondary_.points[static_cast<std::size_t>(secondary_.facets[facet][c])] - node);
+      tilt += part * (nodes_.normal(secondary_, facet, c) - surface_node.normal);
+    }
+  }
+  return {node + shift / d, (surface_node.normal + tilt / d).normalized()};
+}
+
+std::pair<Point, Point> ContactPoints::point_at(const Rays::FacetPoint& place) const
+{
+  const auto corners = secondary_.facets[place.facet];
+  Point at = Point::Zero(), normal = Point::Zero();
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    at += place.shape[static_cast<Eigen::Index>(c)] * secondary_.points[static_cast<std::size_t>(corners[c])];
+    normal += place.shape[static_cast<Eigen::Index>(c)] * nodes_.normal(secondary_, place.facet, c);
+  }
+  return {at, normal.normalized()};
+}
+
+double ContactPoints::gap(std::size_t p, const Point& direction, double mean, const Rays::GapOf& gap_of)
+{
+  if (const auto place = nearest_place(p))
+    if (const double gap = rays_.gap(p, *place, direction, gap_of); std::isfinite(gap)) return gap;
+  std::optional<double> first;  // the mean is taken of what others differ from it: of equals it is exact
+  double sum = 0, d = 0, at_node = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [face, i, k] : faces_.at(p)) {
+    const auto piece = faces_.piece(i);
+    const double part = piece.covered[k];
+    if (part == 0) continue;
+    double gap = at_node;
+    if (!piece.point_facet.empty()) {
+      const auto facet = static_cast<std::size_t>(piece.point_facet[static_cast<std::size_t>(k)]);
+      gap = rays_.gap(p, {facet, piece.points.row(k).transpose()}, direction, gap_of);
+    } else if (std::isnan(gap)) {
+      gap = at_node = rays_.gap(p, direction, gap_of);
+    }
+    if (!first) first = gap;
+    d += part;
+    sum += part * (gap - *first);
+  }
+  if (!first || !std::isfinite(*first) || !std::isfinite(sum)) return mean;
+  return *first + sum / d;
+}
+
+// Where nearest_points() put a surface node, in the facet that it lies in: in the others round the node their smooth surface is
+// continued beyond their border.
+std::optional<Rays::FacetPoint> ContactPoints::nearest_place(std::size_t p)
+{
+  constexpr double rounding = 1e-9;
+  if (!moved(p)) return {};
+  for (const auto& [face, i, k] : faces_.at(p)) {
+    const auto piece = faces_.piece(i);
+    if (piece.facet < 0 || piece.point_facet.empty() || piece.point_facet[static_cast<std::size_t>(k)] < 0) continue;
+    const auto facet = static_cast<std::size_t>(piece.facet);
+    const Eigen::Vector4d shape = shape_beside(secondary_, facet, static_cast<std::size_t>(k), nearest_[p].shift);
+    const auto corners = static_cast<Eigen::Index>(secondary_.facets[facet].size());
+    if (shape.head(corners).minCoeff() >= -rounding && (piece.points.row(k).transpose() - shape).norm() < rounding)
+      return Rays::FacetPoint{facet, shape};
+  }
+  return {};
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,47 @@
+// Where the multipliers of a contact act, and the gap there.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cut_faces.hpp"
+#include "nearest_points.hpp"
+#include "opposite.hpp"
+
+namespace mortise::contact {
+
+class ContactPoints {
+ public:
+  /// All of which must outlive it; `faces` sorted by nodes before it is asked. `nearest`: see nearest_points(); or none.
+  ContactPoints(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces, const Rays& rays,
+                const std::vector<NearestPoint>& nearest)
+      : secondary_(secondary), nodes_(surface_nodes), faces_(faces), rays_(rays), nearest_(nearest)
+  {
+  }
+
+  /// The point of a surface node's multiplier and the secondary side's normal there: at the node, unless it was moved to where
+  /// the other side comes nearest, or into what is covered.
+  std::pair<Point, Point> at(std::size_t surface_node);
+
+  /// The gap between the smooth surfaces at the point itself, along the direction of contact. Its mean over the dual basis, which
+  /// has negative parts, would see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch;
+  /// that `mean` is left for points that look past the border of the primary side.
+  /// `gap_of`: what the contact starts with where a line meets something.
+  double gap(std::size_t surface_node, const Point& direction, double mean, const Rays::GapOf& gap_of = {});
+
+  /// Whether nearest_points() moved it.
+  bool moved(std::size_t surface_node) const { return !nearest_.empty() && nearest_[surface_node].moved(); }
+
+ private:
+  std::pair<Point, Point> point_at(const Rays::FacetPoint& place) const;
+  std::optional<Rays::FacetPoint> nearest_place(std::size_t surface_node);
+
+  const Side& secondary_;
+  const SurfaceNodes& nodes_;
+  CutFaces& faces_;
+  const Rays& rays_;
+  const std::vector<NearestPoint>& nearest_;
+};
+
+}  // namespace mortise::contact

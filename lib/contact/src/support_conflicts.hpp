@@ -1,0 +1,41 @@
+// What supports that hold both sides of a contact push into each other, or tear out of a bond.
+#pragma once
+
+#include <span>
+
+#include "contact/options.hpp"
+#include "opposite.hpp"
+#include "rows.hpp"
+
+namespace mortise::contact {
+
+class SupportConflicts {
+ public:
+  /// All of which must outlive it. `dimension`: 2 or 3.
+  SupportConflicts(const Side& primary, RowWriter& writer, int dimension)
+      : primary_(primary), writer_(writer), dimension_(dimension)
+  {
+  }
+
+  /// A surface node where supports prescribe both sides: the row sum_k value_k / d u(node_k), `stranded` if its faces have no
+  /// surface node that supports leave free.
+  void note_crossing(std::span<const Term> terms, double d, const Point& normal, double gap, const Directions& directions,
+                     bool stranded);
+  /// A place of a bond along directions in which supports prescribe both sides.
+  void note_tear(std::span<const Term> terms, double d, const Point& normal);
+  /// A place of a bond, a secondary node, that has no multiplier since supports hold it: all that they say there of both sides,
+  /// if they hold these along a direction.
+  void note_held_tear(Local node, const Point& normal, const Opposite& opposite);
+
+  /// Throws Error(bad_input) if, on any rank, supports alone push the two sides into each other, or those of a bond apart, by
+  /// more than rounding of `reach`. Collective.
+  void refuse(const Options& options, double reach, const Communicator& comm) const;
+
+ private:
+  const Side& primary_;
+  RowWriter& writer_;
+  int dimension_;
+  double crossing_ = 0, tear_ = 0;
+};
+
+}  // namespace mortise::contact
