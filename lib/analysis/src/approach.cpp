@@ -14,7 +14,7 @@ namespace mortise::analysis {
 
 namespace {
 
-constexpr int products_of_check = 250;      // that a direct solution is one, or a start that A^-1 leads on from
+constexpr int products_of_check = 600;      // that a direct solution is one, or a start that A^-1 leads on from
 constexpr int products_on_large_ones = 80;  // on subdomains that are so many times as large as usual
 constexpr int large = 4;
 
