@@ -8,24 +8,32 @@
 #include "base/dense.hpp"
 #include "base/error.hpp"
 
+// BLAS by its name: Teuchos' interface leaves this one out.
+extern "C" void dsymv_(const char* triangle, const int* n, const double* alpha, const double* a, const int* leading,
+                       const double* x, const int* step_x, const double* beta, double* y, const int* step_y);
+
 namespace mortise::feti {
 
 namespace {
 
 constexpr Eigen::Index most_columns = 64;
+constexpr int most_alone = 3;
 
-// y = A x, A symmetric with leading dimension n, one triangle of which is read.
-void multiply(Teuchos::EUplo triangle, const double* a, const Eigen::MatrixXd& x, Eigen::MatrixXd& y)
+// y = A x, A symmetric with leading dimension n, one triangle of which is read. For few columns it is read once for each, at the
+// rate of memory: OpenBLAS' dsymm first copies it, which takes as long as four of these
+// (lib/feti/test/direct_solver_benchmark.cpp).
+void multiply(char triangle, const double* a, const Eigen::MatrixXd& x, Eigen::MatrixXd& y)
 {
   const auto n = static_cast<int>(x.rows()), columns = static_cast<int>(x.cols());
   y.resize(n, columns);
-  const Eigen::Map<const Eigen::MatrixXd> matrix(a, n, n);
-  if (columns > 1)
-    Teuchos::BLAS<int, double>().SYMM(Teuchos::LEFT_SIDE, triangle, n, columns, 1.0, a, n, x.data(), n, 0.0, y.data(), n);
-  else if (triangle == Teuchos::LOWER_TRI)
-    y.col(0).noalias() = matrix.selfadjointView<Eigen::Lower>() * x.col(0);
+  const double one = 1, zero = 0;
+  const int step = 1;
+  if (columns <= most_alone)
+    for (Eigen::Index c = 0; c < columns; ++c)
+      dsymv_(&triangle, &n, &one, a, &n, x.col(c).data(), &step, &zero, y.col(c).data(), &step);
   else
-    y.col(0).noalias() = matrix.selfadjointView<Eigen::Upper>() * x.col(0);
+    Teuchos::BLAS<int, double>().SYMM(Teuchos::LEFT_SIDE, triangle == 'L' ? Teuchos::LOWER_TRI : Teuchos::UPPER_TRI, n, columns,
+                                      one, a, n, x.data(), n, zero, y.data(), n);
 }
 
 // On some unknowns of a dense subdomain: K_bb, or, where W = K_ii^-1 K_ib is given, K_bb - K_bi W.
@@ -97,7 +105,7 @@ void DenseSubdomain::apply_inverse(std::span<double* const> columns) const
     x.resize(size(), static_cast<Eigen::Index>(count));
     for (std::size_t c = 0; c < count; ++c)
       x.col(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::VectorXd>(columns[first + c], size());
-    multiply(Teuchos::UPPER_TRI, matrices_.col(1).data(), x, y);
+    multiply('U', matrices_.col(1).data(), x, y);
     for (std::size_t c = 0; c < count; ++c)
       Eigen::Map<Eigen::VectorXd>(columns[first + c], size()) = y.col(static_cast<Eigen::Index>(c));
   }
@@ -106,7 +114,7 @@ void DenseSubdomain::apply_inverse(std::span<double* const> columns) const
 Eigen::MatrixXd DenseSubdomain::apply_to_columns(const Eigen::MatrixXd& u) const
 {
   Eigen::MatrixXd result;
-  multiply(Teuchos::LOWER_TRI, matrices_.data(), u, result);
+  multiply('L', matrices_.data(), u, result);
   return result;
 }
 

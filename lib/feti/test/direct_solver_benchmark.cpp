@@ -12,17 +12,24 @@
 //
 // in per cent of FaceNewton::solve: less than 0.1 for cantilever_3d (the first row of regression/tables, n = 3), 0.3 for
 // roller_bearing.
+//
+//     direct_solver_benchmark dense NODES COLUMNS SOLUTIONS
+//
+// What products with nine dense subdomains cost, which together do not fit in a cache, beside reading what they read: half of a
+// matrix.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <Tpetra_Core.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <limits>
 #include <string>
 
 #include "fem/stiffness.hpp"
+#include "feti/dense_subdomain.hpp"
 #include "feti/direct_solver.hpp"
 #include "mesh/blocks.hpp"
 
@@ -62,6 +69,33 @@ double seconds_of(const Eigen::MatrixXd& b, int solutions, const std::function<v
   return (cpu_seconds() - start) / solutions;
 }
 
+int compare_dense(int nodes, int columns, int solutions)
+{
+  constexpr int count = 9;
+  const int unknowns = 3 * nodes;
+  std::vector<Point> points;
+  for (int i = 0; i < nodes; ++i) points.push_back(Point::Random());
+  const Eigen::MatrixXd k = Eigen::MatrixXd::Identity(unknowns, unknowns);
+  const Eigen::MatrixXd kernel = Eigen::Matrix3d::Identity().replicate(nodes, 1) / std::sqrt(nodes);
+  std::vector<DenseSubdomain> subdomains;
+  for (int i = 0; i < count; ++i) subdomains.emplace_back(k, kernel, points, 3);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(unknowns, columns);
+  const auto half = static_cast<Eigen::Index>(unknowns) * unknowns / 2;
+  const std::vector<Eigen::VectorXd> numbers(count, Eigen::VectorXd::Ones(half));
+  double least = std::numeric_limits<double>::infinity(), least_read = least, sum = 0;
+  for (int pair = 0; pair < 5; ++pair) {
+    least_read = std::min(least_read, seconds_of(b, solutions, [&](auto) {
+                            for (const auto& n : numbers) sum += n.sum();
+                          }));
+    least = std::min(least, seconds_of(b, solutions, [&](auto x) {
+                       for (const auto& s : subdomains) s.apply_inverse(x);
+                     }));
+  }
+  fmt::print("{} dense subdomains of {} unknowns, {} columns: {:.2f} ms, reading {:.2f} ms: {:.2f} times\n", count, unknowns,
+             columns, 1e3 * least, 1e3 * least_read, least / least_read);
+  return sum > 0 ? 0 : 1;
+}
+
 }  // namespace
 }  // namespace mortise::feti
 
@@ -70,6 +104,8 @@ int main(int argc, char** argv)
   using namespace mortise;
   if (argc < 4) return 1;
   const Tpetra::ScopeGuard tpetra(&argc, &argv);
+  if (argv[1] == std::string("dense"))
+    return argc < 5 ? 1 : feti::compare_dense(std::atoi(argv[2]), std::atoi(argv[3]), std::atoi(argv[4]));
   const int cells = std::atoi(argv[1]), count = std::atoi(argv[2]), solutions = std::atoi(argv[3]);
   const std::string name = argc > 4 ? argv[4] : "cholmod";
   const auto k = feti::stiffness_of_cube(cells);
