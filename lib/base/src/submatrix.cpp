@@ -1,5 +1,7 @@
 #include "base/submatrix.hpp"
 
+#include <algorithm>
+
 namespace mortise {
 
 namespace {
@@ -8,6 +10,43 @@ std::vector<int> places(const std::vector<int>& list, Eigen::Index size)
 {
   std::vector<int> result(static_cast<std::size_t>(size), -1);
   for (std::size_t i = 0; i < list.size(); ++i) result[static_cast<std::size_t>(list[i])] = static_cast<int>(i);
+  return result;
+}
+
+// The columns of a block share one list of rows, so that what they add to a row goes there once.
+template <int Block>
+Eigen::VectorXd product_by_blocks(const SparseMatrix& lower, const Eigen::VectorXd& u)
+{
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(u.size());
+  const double* const x = u.data();
+  double* const y = result.data();
+  for (int first = 0; first < lower.cols(); first += Block) {
+    const int* start = lower.outerIndexPtr() + first;
+    const double* value[Block];
+    double own[Block], sum[Block] = {};
+    for (int k = 0; k < Block; ++k) {
+      value[k] = lower.valuePtr() + start[k];
+      own[k] = x[first + k];
+    }
+    for (int k = 0; k < Block; ++k) {
+      sum[k] += *value[k]++ * own[k];
+      for (int r = k + 1; r < Block; ++r, ++value[k]) {
+        sum[k] += *value[k] * own[r];
+        sum[r] += *value[k] * own[k];
+      }
+    }
+    const int* const rows = lower.innerIndexPtr() + start[0] + Block;
+    const int count = start[1] - start[0] - Block;
+    for (int i = 0; i < count; ++i) {
+      double added = y[rows[i]];
+      for (int k = 0; k < Block; ++k) {
+        added += value[k][i] * own[k];
+        sum[k] += value[k][i] * x[rows[i]];
+      }
+      y[rows[i]] = added;
+    }
+    for (int k = 0; k < Block; ++k) y[first + k] += sum[k];
+  }
   return result;
 }
 
@@ -29,6 +68,29 @@ SparseMatrix submatrix(const SparseMatrix& lower, const std::vector<int>& rows, 
   SparseMatrix result(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
   result.setFromTriplets(triplets.begin(), triplets.end());
   return result;
+}
+
+bool has_column_blocks(const SparseMatrix& lower, int block)
+{
+  if (!lower.isCompressed() || lower.cols() % block != 0) return false;
+  for (int first = 0; first < lower.cols(); first += block) {
+    const int* const start = lower.outerIndexPtr() + first;
+    const int* const rows = lower.innerIndexPtr() + start[0];
+    const int* const end = lower.innerIndexPtr() + start[1];
+    if (end - rows < block) return false;
+    for (int r = 0; r < block; ++r)
+      if (rows[r] != first + r) return false;
+    for (int k = 1; k < block; ++k)
+      if (!std::equal(rows + k, end, lower.innerIndexPtr() + start[k], lower.innerIndexPtr() + start[k + 1])) return false;
+  }
+  return true;
+}
+
+Eigen::VectorXd symmetric_product(const SparseMatrix& lower, int block, const Eigen::VectorXd& u)
+{
+  if (block == 2) return product_by_blocks<2>(lower, u);
+  if (block == 3) return product_by_blocks<3>(lower, u);
+  return lower.selfadjointView<Eigen::Lower>() * u;
 }
 
 }  // namespace mortise

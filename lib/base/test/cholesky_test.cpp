@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/submatrix.hpp"
+
 namespace mortise {
 namespace {
 
@@ -88,6 +90,31 @@ TEST(Cholesky, TellsAnIndefiniteMatrixAndRecovers)
   const Eigen::VectorXd expected = Eigen::VectorXd::Random(100);
   const Eigen::VectorXd b = a.selfadjointView<Eigen::Lower>() * expected;
   EXPECT_LT((factor.solve(b) - expected).norm(), 1e-11 * expected.norm());
+}
+
+// Against the dense matrix: nodes of 2 and 3 unknowns, some of them alone, and matrices whose columns differ.
+TEST(SymmetricProduct, IsThatOfTheDenseMatrix)
+{
+  for (const int block : {1, 2, 3, 4})
+    for (const int nodes : {1, 2, 17}) {
+      const Eigen::MatrixXd linked =
+          (Eigen::MatrixXd::Random(nodes, nodes).array() < -0.3).cast<double>() + Eigen::MatrixXd::Identity(nodes, nodes).array();
+      const int n = nodes * block;
+      Eigen::MatrixXd a = Eigen::MatrixXd::Random(n, n).array() + 2;
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+          if (linked(i / block, j / block) == 0) a(i, j) = 0;
+      SparseMatrix lower = Eigen::MatrixXd(a.triangularView<Eigen::Lower>()).sparseView();
+      const Eigen::MatrixXd dense = a.selfadjointView<Eigen::Lower>();
+      const Eigen::VectorXd u = Eigen::VectorXd::Random(n);
+      ASSERT_TRUE(has_column_blocks(lower, block));
+      EXPECT_LT((symmetric_product(lower, block, u) - dense * u).norm(), 1e-14 * n * dense.norm());
+      if (block > 1) {
+        lower.coeffRef(n - 1, 0) = 0;
+        lower.prune(1e-3);
+        EXPECT_EQ(has_column_blocks(lower, block), a(n - 1, 0) == 0);
+      }
+    }
 }
 
 }  // namespace

@@ -152,6 +152,7 @@ bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Ei
   if (!loaded.empty()) throw_driven(loaded);
   constraints_ = std::move(constraints);
   load_ = std::move(load);
+  last_.reset();
   jump_->update_rhs(constraints_.prescribed, constraints_.skew_supports, constraints_.contacts, constraints_.mean_motions);
   make_rhs();
   return true;
@@ -241,9 +242,14 @@ double DualProblem::slip_bound(std::size_t point) const
 std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const
 {
   const auto& clusters = system_.clusters;
-  auto u = jump_->apply_transpose(lambda);
-  for (std::size_t s = 0; s < u.size(); ++s) u[s] = load_[s] - u[s];
-  clusters.apply_inverse(u);
+  const auto values = view(lambda);
+  if (comm_.any(!last_ || last_->lambda != values)) {
+    auto elastic = jump_->apply_transpose(lambda);
+    for (std::size_t s = 0; s < elastic.size(); ++s) elastic[s] = load_[s] - elastic[s];
+    clusters.apply_inverse(elastic);
+    last_.emplace(Elastic{values, std::move(elastic)});
+  }
+  auto u = last_->displacement;
   for (std::size_t s = 0; s < u.size(); ++s) u[s] -= clusters.motion(s, nu.segment(clusters.first(s), clusters.modes()));
   return u;
 }

@@ -176,8 +176,14 @@ ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, s
     : kernel_(std::move(kernel)), dimension_(dimension)
 {
   stiffness_.swap(lower);
+  column_block_ = has_column_blocks(stiffness_, dimension) ? dimension : 1;
   fixing_ = fixing_term(diagonal(), kernel_, points, dimension);
   solver_ = std::make_unique<DirectSolver>(factorization, stiffness_ + fixing_, dimension);
+}
+
+Eigen::VectorXd ElasticSubdomain::apply(const Eigen::VectorXd& u) const
+{
+  return symmetric_product(stiffness_, column_block_, u);
 }
 
 // The columns of the lower triangle begin with it; Eigen would search for it in each.

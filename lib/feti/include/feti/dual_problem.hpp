@@ -130,6 +130,12 @@ class DualProblem {
   qp::FeasibleSet set_;
   std::vector<NodeRows> node_rows_;
   std::vector<FreeMotion> gauged_;
+  // K^+ (f - B'lambda) of the last lambda that was asked for: an error, a norm and how far displacements fit ask in turn.
+  struct Elastic {
+    Eigen::VectorXd lambda;
+    std::vector<Eigen::VectorXd> displacement;
+  };
+  mutable std::optional<Elastic> last_;
 };
 
 }  // namespace mortise::feti

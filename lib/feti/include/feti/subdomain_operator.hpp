@@ -76,7 +76,7 @@ class ElasticSubdomain : public SubdomainOperator {
   int size() const override { return static_cast<int>(stiffness_.cols()); }
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
   void apply_inverse(std::span<double* const> columns) const override { solver_->solve(columns); }
-  Eigen::VectorXd apply(const Eigen::VectorXd& u) const override { return stiffness_.selfadjointView<Eigen::Lower>() * u; }
+  Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
   SparseMatrix regularised() const override { return stiffness_ + fixing_; }
   Eigen::VectorXd diagonal() const override;
   std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
@@ -90,6 +90,7 @@ class ElasticSubdomain : public SubdomainOperator {
   SparseMatrix fixing_;  // r N, lower triangle
   Eigen::MatrixXd kernel_;
   int dimension_;
+  int column_block_;  // of the stiffness: the dimension, or 1 where columns of a node differ
   std::unique_ptr<DirectSolver> solver_;
 };
 
