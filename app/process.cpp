@@ -38,6 +38,8 @@ void be_alone()
     if (std::getenv(launched)) return;
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+  // Nor does it look for graphics cards, which brings the libraries of X11 and OpenCL.
+  setenv("HWLOC_PLUGINS_BLACKLIST", "hwloc_gl.so,hwloc_opencl.so,hwloc_pci.so,hwloc_xml_libxml.so", 0);
 }
 
 // Run before the libraries set themselves up, which takes a while, may fail for lack of memory, and opens files.
