@@ -71,7 +71,7 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
     approach.patience = products_of_check;
   else if (approach.algorithm == "auto") {
     approach.patience = patience_with_products(effort(), comm);
-    if (approach.kind == Approach::Kind::as_asked && approach.patience.value_or(INT_MAX) > products_on_large_ones &&
+    if (approach.kind == Approach::Kind::as_asked && approach.patience.value_or(INT_MAX).products > products_on_large_ones &&
         has_large_subdomains(assembly, comm)) {
       approach.patience = products_on_large_ones;
       approach.next = Approach::Kind::smaller_subdomains;
@@ -108,7 +108,7 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
   const auto& cut = approach.smaller ? smaller : as_cut;
   if (approach.kind != Kind::products_to_the_end) {
     if (approach.kind != Kind::direct_instead)
-      log.line("  {} products with F, and no end near: a direct solution, with every body whole, costs as much", approach.spent);
+      log.line("  {} products with F, and no end near: a direct solution instead, with every body whole", approach.spent);
     approach = {Kind::direct_instead, "direct", {}, approach.spent, Kind::direct_instead, approach.smaller};
     const char* why = "does not converge, or rounding spoils it";
     try {

@@ -23,6 +23,7 @@ constexpr double shortest = 15;         // products that are tried in any case
 constexpr double a_second = 8;          // products more for each second that a direct solution takes,
 constexpr double a_moment = 60;         // where these are less,
 constexpr double longest = 100;         // up to so many
+constexpr double part_of_rest = 0.125;  // of what a direct solution takes that an end of products in sight may
 constexpr double part_of_memory = 0.5;  // of what is available
 constexpr Global most_multipliers = 12000;
 
@@ -81,13 +82,14 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
   return effort;
 }
 
-std::optional<int> patience_with_products(const DirectEffort& effort, const Communicator& comm)
+std::optional<qp::Patience> patience_with_products(const DirectEffort& effort, const Communicator& comm)
 {
   const double room = -comm.max(-part_of_memory * available_memory());
   if (!(effort.bytes < room) || effort.multipliers > most_multipliers) return {};
   const double most =
       effort.seconds < a_moment ? std::min(shortest + a_second * effort.seconds, longest) : std::numeric_limits<int>::max();
-  return static_cast<int>(std::clamp(effort.products, shortest, most));
+  return qp::Patience(static_cast<int>(std::clamp(effort.products, shortest, most)),
+                      static_cast<int>(std::min(part_of_rest * effort.products, longest)));
 }
 
 void require_room_for_direct(const DirectEffort& effort, const Communicator& comm)

@@ -59,7 +59,7 @@ struct Solver::Run {
 };
 
 Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver,
-               std::optional<int> patience)
+               std::optional<qp::Patience> patience)
     : problem_(problem),
       laws_(std::move(laws)),
       options_(options),

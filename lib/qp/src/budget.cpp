@@ -26,7 +26,7 @@ Budget::Budget(Hessian& hessian, std::optional<int> given, bool steady) : hessia
   start({});
 }
 
-void Budget::start(std::optional<int> patience, double goal)
+void Budget::start(std::optional<Patience> patience, double goal)
 {
   goal_ = goal;
   first_.reset();
@@ -62,7 +62,7 @@ void Budget::note(const Progress& progress, std::optional<long long> changes, do
   // The pace is that of late: a residual may fall at first, and stand later.
   const int spent = hessian_.count() - begin_;
   if (patience_ && first_ && spent >= look && spent - first_->first >= of_late) {
-    if (foreseen() > *patience_) patience_ = spent;
+    if (foreseen() > patience_->products + patience_->near) patience_ = spent;
     first_ = {spent, least_};
   }
   set_limit();
@@ -79,9 +79,10 @@ double Budget::foreseen() const
 void Budget::set_limit()
 {
   int limit = end_;
-  if (patience_)
-    limit = std::min({limit, begin_ + *patience_, std::max(begin_, better_) + look});
-  else if (!given_ && !steady_)
+  if (patience_) {
+    const bool is_near = foreseen() <= hessian_.count() - begin_ + patience_->near;
+    limit = std::min({limit, begin_ + patience_->products + (is_near ? patience_->near : 0), std::max(begin_, better_) + look});
+  } else if (!given_ && !steady_)
     limit = std::min(limit, better_ + stretch);
   hessian_.set_limit(limit);
 }

@@ -122,6 +122,26 @@ TEST(Budget, ASteadyAlgorithmGoesToItsEndAndPatienceEndsSooner)
   EXPECT_TRUE(patient.left());
 }
 
+TEST(Budget, WaitsForAnEndInSight)
+{
+  for (const double pace : {0.9, 0.1}) {  // of the residual in ten products: from 1 to 1e-4 in 870, and in 40
+    Products products;
+    Budget budget(products.hessian, {}, false);
+    budget.start(Patience(30, 35), 1e-4);
+    double residual = 1;
+    for (int i = 0; i < 3; ++i) {
+      budget.note(at(residual), {}, 1);
+      products.take(10);
+      residual *= pace;
+    }
+    EXPECT_EQ(products.hessian.exhausted(), pace > 0.5);
+    products.take(34);
+    EXPECT_EQ(products.hessian.exhausted(), pace > 0.5);
+    products.take(1);
+    EXPECT_TRUE(products.hessian.exhausted());
+  }
+}
+
 // Something else is ready that is worth 2,000 products.
 TEST(Budget, GivesUpWhereTheEndIsFurtherThanItsPatienceReaches)
 {

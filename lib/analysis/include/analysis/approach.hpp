@@ -11,6 +11,7 @@
 #include "constraint/constraints.hpp"
 #include "model/deck.hpp"
 #include "partition/decomposition.hpp"
+#include "qp/budget.hpp"
 
 namespace mortise::analysis {
 
@@ -23,11 +24,11 @@ struct Approach {
     direct_instead,      ///< every body whole, and F as a matrix
     products_to_the_end  ///< face Newton, after a direct solution that did not settle
   } kind = Kind::as_asked;
-  std::string algorithm;             ///< as solver.algorithm of the deck
-  std::optional<int> patience{};     ///< products after which a load step gives up, see friction::Result::gave_up
-  int spent = 0;                     ///< products so far, which count
-  Kind next = Kind::direct_instead;  ///< what is tried after giving up
-  bool smaller = false;              ///< large subdomains have been cut into small pieces
+  std::string algorithm;                   ///< as solver.algorithm of the deck
+  std::optional<qp::Patience> patience{};  ///< when a load step gives up, see friction::Result::gave_up
+  int spent = 0;                           ///< products so far, which count
+  Kind next = Kind::direct_instead;        ///< what is tried after giving up
+  bool smaller = false;                    ///< large subdomains have been cut into small pieces
 };
 
 /// The approach with its patience: with `auto` as many products as a direct solution is worth, or, where subdomains are several

@@ -5,6 +5,7 @@
 
 #include "feti/dual_problem.hpp"
 #include "partition/decomposition.hpp"
+#include "qp/budget.hpp"
 
 namespace mortise::analysis {
 
@@ -21,7 +22,7 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
                               const constraint::Constraints& constraints, const Communicator& comm);
 
 /// Products with F after which a direct solution is worth more than going on; none where it is out of reach.
-std::optional<int> patience_with_products(const DirectEffort& effort, const Communicator& comm);
+std::optional<qp::Patience> patience_with_products(const DirectEffort& effort, const Communicator& comm);
 
 /// Throws Error(machine) if a machine has no room for a direct solution. Collective.
 void require_room_for_direct(const DirectEffort& effort, const Communicator& comm);

@@ -53,10 +53,10 @@ class StateRecord;
 /// A sequence of load steps on one dual problem, which may get other right-hand sides between them: recycled directions stay.
 class Solver {
  public:
-  /// The problem outlives it. laws[c] is that of contact c. `patience`: products after which each solve gives up; it then also
+  /// The problem outlives it. laws[c] is that of contact c. `patience`: when each solve gives up; it then also
   /// gives up where its algorithm makes no more progress. Collective.
   Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver,
-         std::optional<int> patience = {});
+         std::optional<qp::Patience> patience = {});
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
@@ -87,7 +87,7 @@ class Solver {
   std::vector<Law> laws_;
   Options options_;
   std::optional<double> tolerance_;  // of the residual; without one the error decides
-  std::optional<int> patience_;
+  std::optional<qp::Patience> patience_;
   qp::Hessian hessian_;
   qp::Budget budget_;
   std::unique_ptr<StateRecord> states_;

@@ -10,6 +10,13 @@
 
 namespace mortise::qp {
 
+/// How many products a solve that something else is ready to take over may take: `products`, and up to `near` more while, at the
+/// pace of its residuals, no more than that are left.
+struct Patience {
+  int products, near = 0;
+  Patience(int count, int count_near = 0) : products(count), near(count_near) {}
+};
+
 /// A number that is given, for all solves together; else each solve goes on as long as something becomes better by 30 %: the
 /// residual, the bound of the error in the energy norm, by how much slip bounds change; or fewer points change their state in a
 /// step than ever. It sets the limit of the Hessian that it watches. Of random decks that ended well by products alone the worst
@@ -26,8 +33,8 @@ class Budget {
   /// `given`: the number. `steady`: for an algorithm whose residual may rise for long, where nothing but `most` ends it.
   Budget(Hessian& hessian, std::optional<int> given, bool steady);
 
-  /// Before a solve to the residual `goal`, that gives up after `patience` products if there is one.
-  void start(std::optional<int> patience, double goal = 1e-4);
+  /// Before a solve to the residual `goal`, that gives up when its `patience` ends if there is one.
+  void start(std::optional<Patience> patience, double goal = 1e-4);
   /// Another algorithm takes over: its residuals begin anew.
   void change_algorithm();
   /// After a step; `changes`: points whose state changed, if that was an outer step. The arguments are the same on all ranks.
@@ -45,7 +52,8 @@ class Budget {
   double foreseen() const;
 
   Hessian& hessian_;
-  std::optional<int> given_, patience_;
+  std::optional<int> given_;
+  std::optional<Patience> patience_;
   bool steady_;
   int begin_ = 0, end_ = 0, better_ = 0;  // counts of products: at the start, the last one allowed, where something became better
   struct Best {
