@@ -41,8 +41,9 @@ void add(const Point& x, const Point& y, const Point& nx, const Point& ny, doubl
 }  // namespace
 
 // In Sauter and Schwab's coordinates a corner of each panel is (0, 0), the common ones come first, then (1, 0), then (1, 1).
-// Points of the two panels, for xi = 1, where a pair of panels has `free` coordinates eta in which integrands are smooth
-// functions; in xi, and in the etas before the free ones, they are polynomials for which two points are exact.
+// Points of the two panels, for xi = 1, where a pair of panels has etas from number `free` on in which integrands are smooth
+// functions. With xi and with the first of the other etas x - y only grows in proportion, and phi is linear, so that these
+// integrals are known: kernels are evaluated where they are 1, phi of the double layers at means.
 struct PairQuadrature::Touching {
   struct At {
     double first, second;
@@ -100,27 +101,37 @@ struct PairQuadrature::Touching {
 
   std::size_t points_of_a_part() const
   {
-    std::size_t result = 2;
-    for (std::size_t k = 0; k < 3; ++k) result *= k < free ? 2 : static_cast<std::size_t>(points);
+    std::size_t result = 1;
+    for (std::size_t k = free; k < 3; ++k) result *= static_cast<std::size_t>(points);
     return result;
   }
 
-  double distance(Map map, Etas e) const
+  Region region(Map map, Etas e, double others) const
   {
-    for (std::size_t k = 0; k < free; ++k) e[k] = 1;
-    const Region r = map(e);
+    for (std::size_t k = 0; k < free; ++k) e[k] = others;
+    return map(e);
+  }
+
+  double distance(Map map, const Etas& e) const
+  {
+    const Region r = region(map, e, 1);
     return (at(px, r.x) - at(py, r.y)).norm();
   }
 
-  void put(const At& a, const At& b, double weight) const
+  // Integral of xi phi over xi, a the place for xi = 1, over what xi and eta make of 1 / r.
+  Weights means(const At& a, const std::array<int, 3>& order) const
   {
-    const Weights wx{1 - a.first, a.first - a.second, a.second}, wy{1 - b.first, b.first - b.second, b.second};
-    Weights at_x{}, at_y{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      at_x[static_cast<std::size_t>(of_x[k])] = wx[k];
-      at_y[static_cast<std::size_t>(of_y[k])] = wy[k];
-    }
-    add(at(px, a), at(py, b), nx, ny, 4 * weight, at_x, at_y, sum);
+    const Weights values{0.5 + 1 - a.first, a.first - a.second, a.second};
+    Weights result{};
+    for (std::size_t k = 0; k < 3; ++k) result[static_cast<std::size_t>(order[k])] = values[k] / 3 / of_single();
+    return result;
+  }
+  // Integral of xi^2, and of eta.
+  double of_single() const { return free == 0 ? 1.0 / 3 : 1.0 / 6; }
+
+  void put(const At& a, const At& b, const At& mean_a, const At& mean_b, double weight) const
+  {
+    add(at(px, a), at(py, b), nx, ny, 4 * of_single() * weight, means(mean_a, of_x), means(mean_b, of_y), sum);
   }
 
   // Over the free etas from low to low + size: the one along which the distance of the points varies most, or `none` if it varies
@@ -182,18 +193,17 @@ struct PairQuadrature::Touching {
   void integrate(const Box& box) const
   {
     const auto& [map, low, size] = box;
-    const auto &fine = gauss(points), &exact = gauss(2);
-    const auto rule = [&](std::size_t k) -> const std::vector<Node>& { return k < free ? exact : fine; };
-    for (const auto& [s, w0] : rule(0))
-      for (const auto& [t, w1] : rule(1))
-        for (const auto& [u, w2] : rule(2)) {
-          const Region r = map({low[0] + s * size[0], low[1] + t * size[1], low[2] + u * size[2]});
-          for (const auto& [xi, w3] : exact) {
-            const double weight = w0 * w1 * w2 * w3 * size[0] * size[1] * size[2] * xi * xi * xi * r.weight;
-            const At a{xi * r.x.first, xi * r.x.second}, b{xi * r.y.first, xi * r.y.second};
-            put(a, b, weight);
-            if (mirrored) put(b, a, weight);
-          }
+    static const std::vector<Node> known{{1, 1}};
+    const auto rule = [&](std::size_t k) -> const std::vector<Node>& { return k < free ? known : gauss(points); };
+    const auto &first = rule(0), &second = rule(1), &third = rule(2);
+    for (const auto& [s, w0] : first)
+      for (const auto& [t, w1] : second)
+        for (const auto& [u, w2] : third) {
+          const Etas e{low[0] + s * size[0], low[1] + t * size[1], low[2] + u * size[2]};
+          const Region r = map(e), mean = region(map, e, 0.5);
+          const double weight = w0 * w1 * w2 * size[0] * size[1] * size[2] * r.weight;
+          put(r.x, r.y, mean.x, mean.y, weight);
+          if (mirrored) put(r.y, r.x, mean.y, mean.x, weight);
         }
   }
 };
