@@ -212,7 +212,7 @@ TEST_P(Flat, FacesTurnedInSpaceHaveTheSameRows)
   const bool triangles = GetParam() == mesh::CellType::tri6;
   const Grid own{4, 3, 0, 4, 0, 3, true, triangles}, other{3, 2, 0, 4, 0, 3, false, false, primary_ids};
   std::map<Global, Gathered::Row> before;
-  for (const double degrees : {0.0, 15.0, 20.0, 40.0, 70.0, 123.0}) {
+  for (const double degrees : {0.0, 15.0, 40.0, 70.0}) {
     const Eigen::Matrix3d rotation =
         Eigen::AngleAxisd(degrees * std::acos(-1.0) / 180, Point(1, 1, degrees == 15 ? 0 : 0.3).normalized()).toRotationMatrix();
     const auto pair =
