@@ -24,6 +24,7 @@ constexpr double a_second = 8;          // products more for each second that a 
 constexpr double a_moment = 60;         // where these are less,
 constexpr double longest = 100;         // up to so many
 constexpr double part_of_rest = 0.125;  // of what a direct solution takes that an end of products in sight may,
+constexpr double most_of_rest = 40;     // products at most,
 constexpr double at_once = 0.1;         // if it takes so many seconds
 constexpr double part_of_memory = 0.5;  // of what is available
 constexpr Global most_multipliers = 12000;
@@ -89,7 +90,7 @@ std::optional<qp::Patience> patience_with_products(const DirectEffort& effort, c
   if (!(effort.bytes < room) || effort.multipliers > most_multipliers) return {};
   const double most =
       effort.seconds < a_moment ? std::min(shortest + a_second * effort.seconds, longest) : std::numeric_limits<int>::max();
-  const double near = effort.seconds < at_once ? 0 : std::min(part_of_rest * effort.products, longest);
+  const double near = effort.seconds < at_once ? 0 : std::min(part_of_rest * effort.products, most_of_rest);
   return qp::Patience(static_cast<int>(std::clamp(effort.products, shortest, most)), static_cast<int>(near));
 }
 
