@@ -170,8 +170,8 @@ void describe(deck::Description<Options>& d)
         "for a "
         "press fit.");
   d.key("search_distance", &Options::search_distance,
-        "Surfaces farther apart than this never meet, and Tresca's bound, which holds across gaps, ends there; 0 chooses a tenth of "
-        "the smaller side's extent, or the longest face if that is longer.")
+        "Surfaces farther apart than this never meet, and Tresca's bound, which holds across gaps, ends there; 0 chooses a tenth "
+        "of the smaller side's extent, or the longest face if that is longer.")
       .at_least(0);
   d.key("preload", &Options::preload,
         "{force: tension} or {shortening: length} of a bolt that is cut into two bodies, bonded here: bonded contacts alone.");
