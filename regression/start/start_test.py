@@ -137,6 +137,14 @@ class Schema(unittest.TestCase):
             self.assertEqual([path], [at for at, _ in found], contacts)
             self.assertIn(word, found[0][1])
 
+    def test_what_a_run_writes_fits(self):
+        validator = jsonschema.Draft202012Validator(json.loads(explain.SCHEMA.read_text()))
+        for name in ("stack", "coupling_bending"):
+            with tempfile.TemporaryDirectory() as directory:
+                subprocess.run([MORTISE, ROOT / "regression" / "cases" / f"{name}.yaml", "--output", directory], check=True, capture_output=True)
+                written = yaml.load((pathlib.Path(directory) / "deck.yaml").read_text(), Yaml12)
+            self.assertEqual([(e.json_path, e.message) for e in validator.iter_errors(written)], [], name)
+
     def test_a_wrong_key_names_the_nearest(self):
         with self.assertRaisesRegex(LookupError, 'did you mean "contacts"'):
             explain.find(json.loads(explain.SCHEMA.read_text()), "contact")

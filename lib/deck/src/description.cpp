@@ -45,7 +45,9 @@ YAML::Node AnyDescription::write(const void* value, const void* initial) const
   for (const auto* key : all_) {
     const auto written = key->write_any(value);
     if (!written.IsDefined() || written.IsNull()) continue;
-    if (key->is_hidden && YAML::Dump(written) == YAML::Dump(key->write_any(initial))) continue;
+    // An empty list is no value, but a key that is there: rules about which keys go together would take it for one.
+    const bool is_nothing = key->is_hidden || (written.IsSequence() && written.size() == 0);
+    if (is_nothing && YAML::Dump(written) == YAML::Dump(key->write_any(initial))) continue;
     node[key->name] = written;
   }
   return node;
