@@ -1,6 +1,7 @@
 #include "qp/condensed_newton.hpp"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <utility>
 
@@ -10,7 +11,8 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr int max_guesses = 15;             // at one softness,
+constexpr int max_guesses = 15;             // at one softness, and so many
+constexpr int max_last_guesses = 60;        // once it is none: forces that hardly count settle late;
 constexpr int look_back = 4;                // the first ones no more if in so many of them changes have not become half as many,
 constexpr double few_changes = 0.02;        // of all constraints, or so few,
 constexpr double handful = 8;               // or so few in all
@@ -21,7 +23,8 @@ constexpr double settled_residual = 1e-10;  // residual over x
 constexpr double flutter = 1e-12;           // the same below which guesses differ by rounding
 constexpr double stalled = 0.5;             // of the residual before: what rounding has left of it,
 constexpr double rounded_residual = 1e-6;   // over x, which is no more than this, or than so many times
-constexpr double roundings = 1e4;           // what rounding makes of W x
+constexpr double roundings = 1e4;           // what rounding makes of W x,
+constexpr int idle = 8;                     // and so many guesses have not brought fewer changes
 constexpr double softest = 0.1;             // of what a point gives way together with all others
 constexpr double hardest = 1e-4;            // softness that is as good as none
 constexpr double stride = 0.1;              // from one softness to the next
@@ -122,8 +125,10 @@ bool CondensedNewton::iterate(CondensedProgramme& programme, ConstraintStates& s
   std::vector<int> turns(states.kind.size(), 0), history;
   const double few = std::max(few_changes * static_cast<double>(states.closed.size() + states.kind.size()), handful);
   const bool first = point.steps == 0;
+  const int guesses = first || programme.softness() > 0 ? max_guesses : max_last_guesses;
+  int fewest = INT_MAX, fewest_at = 0;
   double before = 0;
-  for (int step = 0; step < max_guesses; ++step) {
+  for (int step = 0; step < guesses; ++step) {
     stop_if_requested();
     programme.solve(states, point.x, point.nu);
     ++point.steps;
@@ -131,10 +136,12 @@ bool CondensedNewton::iterate(CondensedProgramme& programme, ConstraintStates& s
     auto next = programme.states(point.x, point.nu);
     const int changes = compare(states, next, turns);
     states = std::move(next);
+    if (changes < fewest) fewest = changes, fewest_at = step;
     const bool stands = residual > stalled * before, rounded = stands && residual <= roundings * programme.rounding(point.x);
     const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
     // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
-    if (step > 0 && small && (changes == 0 || residual <= flutter * size || rounded)) return true;
+    const bool turns_on_rounding = residual <= flutter * size || (rounded && step - fewest_at >= idle);
+    if (step > 0 && small && (changes == 0 || turns_on_rounding)) return true;
     if (changes == 0 && residual <= settled_residual * size) return true;
     history.push_back(changes);
     if (first && step >= look_back && changes > few && 2 * changes > history[history.size() - 1 - look_back])

@@ -57,6 +57,7 @@ class CondensedProgramme {
 
   /// Steps of unknowns become the inverse of their compliance, so softened, too.
   void soften(double softness);
+  double softness() const { return softness_; }
   /// Everything closed and sticking.
   ConstraintStates all_closed() const;
   /// Those of x - step s, s what is felt at x and nu.
