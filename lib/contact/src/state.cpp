@@ -62,6 +62,8 @@ constexpr double narrow = 0.35;
 
 // Of the largest pressure: less counts as open, whatever the solver's tolerance leaves.
 constexpr double open_part = 1e-4;
+// Of the largest pressure on a face: a node with less enters its mean by degrees.
+constexpr double entered_part = 0.05;
 // A face belongs to the points at its nodes whose normals enclose less than some 40 degrees with its own: beyond a kink are
 // others.
 constexpr double one_side = 0.75;
@@ -255,7 +257,8 @@ void divide_by_areas(std::vector<NodeState>& nodes, std::span<const Pair> pairs,
 }
 
 // The mean over the faces at each pressed node of the means of their pressed nodes: a contact one cell wide keeps its pressure,
-// and the border of a contact stays where it is. At a kink the larger one of its sides. `states`: of the nodes of the surface.
+// and the border of a contact stays where it is. A node that begins to press enters by degrees, so that the mean does not jump as
+// a load grows. At a kink the larger one of its sides. `states`: of the nodes of the surface.
 // Collective.
 std::vector<double> averaged_over_faces(const mesh::Surface& surface, int contact, const std::vector<NodeState>& states,
                                         const std::vector<double>& pressure, const Communicator& comm)
@@ -274,16 +277,20 @@ std::vector<double> averaged_over_faces(const mesh::Surface& surface, int contac
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     const auto corners = corners_of(surface, f);
     const Point normal = corners.normal();
-    double sum = 0;
+    double highest = 0, sum = 0, count = 0;
     pressed.clear();
     for (const Local n : surface.faces[f])
       if (const auto* state = point_of(states, contact, surface.node_id[static_cast<std::size_t>(n)], normal);
           state && state->force > least) {
-        sum += state->force;
+        highest = std::max(highest, state->force);
         pressed.push_back(state);
       }
     if (pressed.empty()) continue;
-    const auto count = static_cast<double>(pressed.size());
+    for (const auto* state : pressed) {
+      const double share = std::min(1.0, state->force / (entered_part * highest));
+      sum += share * state->force;
+      count += share;
+    }
     const double size = corners.area() * count / static_cast<double>(surface.faces[f].size());
     for (const auto* state : pressed) mine.push_back({state->node, state->side, size * sum / count, size});
   }
