@@ -193,7 +193,7 @@ void describe(deck::Description<AutoOptions>& d)
       "Finds all pairs of bodies whose outer faces face each other, named or not, and makes a contact body/body "
       "(secondary/primary; "
       "body/body.1, ... if they meet in several patches) of each. Pairs of bodies that another entry names are left to it. The "
-      "secondary side is the softer one where the materials differ tenfold, else the finer one, else the flatter one.");
+      "secondary side is the softer one where the materials differ fourfold, else the finer one, else the flatter one.");
   d.custom(
        "auto", "true.",
        [](AutoOptions& options, const YAML::Node& node, const std::string& path, deck::Document& document,

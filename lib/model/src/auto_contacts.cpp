@@ -72,7 +72,7 @@ std::vector<bool> unnamed_bodies(const mesh::Surface& skin, const std::set<conta
 }
 
 // Of Young's modulus: from here on the softer side is secondary, whichever has the smaller faces; see post::scattered_contacts().
-constexpr double stiffer = 10;
+constexpr double stiffer = 4;
 
 double modulus_of(const Deck& deck, const std::vector<mesh::Body>& bodies, int body)
 {

@@ -147,7 +147,7 @@ struct Pressed {
 std::vector<Warning> scattered_contacts(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
                                         const std::vector<double>& softest, const Communicator& comm)
 {
-  constexpr double stiffer = 10, finer = 1.2, twice = 2, least = 8;
+  constexpr double stiffer = 4, finer = 1.2, twice = 2, least = 8;
   std::vector<Pressed> mine(pairs.size());
   std::vector<Found> peaks(pairs.size());
   for (std::size_t c = 0; c < pairs.size(); ++c) {
