@@ -13,7 +13,7 @@ struct DirectEffort {
   Global multipliers = 0;  ///< dual unknowns with bodies taken whole, but for those that are eliminated
   double products = 0;     ///< how many products with F on the present decomposition take as long
   double seconds = 0;      ///< roughly, on one core
-  double bytes = 0;        ///< of memory, on the rank that needs most
+  double bytes = 0;        ///< of memory, at most, on the rank that needs most
 };
 
 /// What a direct solution costs, from the sizes of the present factors and the laws of nested dissection; nothing is factorized
