@@ -61,6 +61,7 @@ class LoadStepSolver {
               const std::vector<Eigen::VectorXd>& displacement) const;
   std::unique_ptr<feti::DualProblem> make_problem(std::vector<Eigen::VectorXd> load) const;
   void make_solver();
+  void note_sizes(const StepState& state);
   void update(const model::LoadState& acts, StepState& from);
 
   const Assembly& assembly_;
