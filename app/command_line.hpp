@@ -17,7 +17,7 @@ struct CommandLine {
   bool schema = false;                ///< print the JSON schema of a deck and stop
 };
 
-/// The parsed command line, or a text to print and an exit status: 0 for --help and --version, 1 for mistakes.
+/// The command line or, without one, a text to print and an exit status: 0 for --help and --version, 1 for mistakes.
 struct Parsed {
   std::optional<CommandLine> command_line;
   std::string text;

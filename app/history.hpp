@@ -16,10 +16,12 @@ class History {
   /// Refers to its arguments.
   History(const qp::Options& options, const Context& context) : options_(options), context_(context) {}
 
-  /// Ends the run here if a signal asked for that. Collective.
+  /// Adds a row, or moves the line, for what a solver reports: `step`, `change` as of friction::Observer. Throws
+  /// Error(interrupted) if a signal asked the run to end. Collective.
   void note(const model::LoadState& state, int step, double change, const qp::Progress& p);
-  /// The rows of a run that is resumed: those of the states before the first one that is solved here stay.
+  /// Takes over the text of the history of a run that is resumed: the rows of states before the first one that is solved here.
   void take_up(const std::string& text);
+  /// The whole of history.csv.
   std::string text() const;
 
  private:

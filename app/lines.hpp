@@ -22,14 +22,15 @@ void print_copies(const std::vector<partition::CopyOf>& copies, const partition:
 void print_state(const model::LoadState& state, std::size_t index, std::size_t count, double seconds_left, Log& log);
 /// After a load step that is not the last.
 void print_step(const io::Summary& summary, Log& log);
-/// At the end.
+/// After the last load step: forces, stresses, contacts, residuals.
 void print_results(const post::Results& results, const io::Summary& summary, Log& log);
 /// A line for each probe; nothing without.
 void print_probes(const io::StateSummary& summary, Log& log);
-/// Of the rank that sends most; nothing where there is one rank, or nothing was counted.
+/// What the rank that sends most has sent; nothing on one rank, or where the build does not count.
 void print_communication(const io::Summary& summary, Log& log);
+/// Seconds of each stage over the ranks.
 void print_times(const std::vector<Timers::Spread>& spreads, Log& log);
-/// The last lines.
+/// The last lines of a run: all warnings.
 void print_warnings(const analysis::Warnings& warnings, Log& log);
 
 }  // namespace mortise

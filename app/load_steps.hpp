@@ -17,7 +17,9 @@ class Report::LoadSteps {
   LoadSteps(const LoadSteps&) = delete;
   LoadSteps& operator=(const LoadSteps&) = delete;
 
+  /// The next state is about to be solved.
   void begin(const model::LoadState& acts);
+  /// Writes the solver's progress to the history and on the terminal.
   friction::Observer observer(const model::LoadState& acts);
   /// The solver has come to an end with this state. True if it gave up.
   bool gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state);

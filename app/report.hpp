@@ -31,6 +31,7 @@ class Report {
 
   /// --check: nothing is solved or written.
   bool only_checks() const { return command_line_.check; }
+  /// --check lists bodies and boundaries.
   void mesh(const partition::Decomposition& decomposition);
   /// Removes what an earlier run left in the output directory.
   void resolution(const model::Resolution& resolved);

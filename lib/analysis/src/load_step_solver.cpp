@@ -22,7 +22,8 @@ constexpr double smallest_part = 1e-6, largest_part = 0.05;
 // Of the norm with what springs store, below which bodies that hang on them are not strained.
 constexpr double strained = 1e-3;
 
-// Of the forces of all states before: below it there is none, and what a state's forces have at least to be in balance with.
+// Of the largest force of the states before: a smaller one counts as none, and balances of forces are relative to so much at
+// least.
 constexpr double unfelt_force = 1e-8, part_to_balance = 1e-3;
 
 // Multipliers of one problem as a start for another one of the same assembly, where other components are prescribed.
@@ -136,7 +137,23 @@ void LoadStepSolver::make_solver()
                   approach_.patience);
 }
 
-// The problem for what acts now, in place if its rows stay, and `from`, the state before, as a start for it.
+// Takes note of how large forces, energies and rounding are in a state, which the next ones are measured by. Collective.
+void LoadStepSolver::note_sizes(const StepState& state)
+{
+  const auto& comm = context_.comm;
+  const auto constitution = assembly_.model().constitution(rows_->acts);
+  largest_norm_ = std::max(largest_norm_, norms(constitution, state.solved.solution.x, state.displacement).whole);
+  const auto sizes = post::body_sizes(assembly_.decomposition(), assembly_.deck().kinematics, comm);
+  rounding_before_.take(post::rounding(state.displacement, problem_->load(), assembly_.system().nodal_stiffness,
+                                       problem_->dimension(), *std::max_element(sizes.begin(), sizes.end()), comm));
+  double square = 0;
+  for (const auto& f : problem_->jump().apply_transpose(state.solved.solution.x)) square += f.squaredNorm();
+  largest_force_ = std::max(largest_force_, std::sqrt(comm.sum(square)));
+  rounding_before_.force = std::max(rounding_before_.force, part_to_balance * largest_force_);
+}
+
+// Makes the problem that of the state `acts`, in place if its rows stay, and turns `from`, the state before, into a start for it.
+// Collective.
 void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
 {
   const auto& comm = context_.comm;
@@ -147,16 +164,7 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
     load = assembly_.loads(acts, comm);
   }
   const auto scope = context_.timers.scope("solve");
-  const auto constitution = model.constitution(rows_->acts);
-  largest_norm_ = std::max(largest_norm_, norms(constitution, from.solved.solution.x, from.displacement).whole);
-  const auto& bodies = assembly_.decomposition();
-  const auto sizes = post::body_sizes(bodies, assembly_.deck().kinematics, comm);
-  rounding_before_.take(post::rounding(from.displacement, problem_->load(), assembly_.system().nodal_stiffness,
-                                       problem_->dimension(), *std::max_element(sizes.begin(), sizes.end()), comm));
-  double square = 0;
-  for (const auto& f : problem_->jump().apply_transpose(from.solved.solution.x)) square += f.squaredNorm();
-  largest_force_ = std::max(largest_force_, std::sqrt(comm.sum(square)));
-  rounding_before_.force = std::max(rounding_before_.force, part_to_balance * largest_force_);
+  note_sizes(from);
   Rows rows = *from.rows;
   const Eigen::VectorXd jumps = problem_->jumps(from.displacement);
   const auto& ranges = problem_->jump().ranges();
@@ -200,16 +208,19 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
     const auto estimating = context_.timers.scope("error estimate");
     return norms(constitution, lambda, problem_->displacement(lambda, nu));
   };
-  const friction::Accuracy accuracy{[&](const Vector& lambda, const Eigen::VectorXd& nu) {
-                                      const auto [error, size, whole] = norms_at(lambda, nu);
-                                      return std::clamp(algebraic_part * error, smallest_part * whole, largest_part * size);
-                                    },
-                                    [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
-                                    [&](const Vector& lambda, const Eigen::VectorXd& nu) {
-                                      return post::incompatibility(*problem_, assembly_.decomposition(), assembly_.interface(),
-                                                                   problem_->displacement(lambda, nu), nu);
-                                    },
-                                    negligible()};
+  const friction::Accuracy accuracy{
+      .allowed_error =
+          [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+            const auto [error, size, whole] = norms_at(lambda, nu);
+            return std::clamp(algebraic_part * error, smallest_part * whole, largest_part * size);
+          },
+      .energy_norm = [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
+      .incompatibility =
+          [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+            return post::incompatibility(*problem_, assembly_.decomposition(), assembly_.interface(),
+                                         problem_->displacement(lambda, nu), nu);
+          },
+      .negligible = negligible()};
   const auto count_on = [&](int step, double change, qp::Progress progress) {
     progress.applications += before_;
     observer(step, change, progress);

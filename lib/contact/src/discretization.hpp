@@ -16,16 +16,16 @@ namespace mortise::contact {
 /// One contact, as a discretization sees it. Refers to its parts, which outlive it.
 struct TwoSides {
   const Side& secondary;
-  const SurfaceNodes& places;
+  const SurfaceNodes& surface_nodes;
   const Side& primary;
   const SurfaceNodes& primary_nodes;
   const Tree& tree;                          ///< of the primary facets
   CutFaces& faces;                           ///< of the secondary side
-  Rays& rays;                                ///< from the places
+  Rays& rays;                                ///< from the surface nodes
   bool obstacle;                             ///< the primary side is rigid and has no faces
   double reach;                              ///< what lies farther away does not count
   bool mesh_gaps;                            ///< the contact starts with the gaps of the meshes
-  const std::vector<NearestPoint>& nearest;  ///< of each place, or none
+  const std::vector<NearestPoint>& nearest;  ///< of each surface node, or none
 };
 
 class Discretization {
@@ -35,13 +35,13 @@ class Discretization {
 
   /// Adds the next face of faces.round() in pieces, with their integrals over what meets the other side.
   virtual void add_face(std::size_t face) = 0;
-  /// Turns the integrals of all pieces into functions of the places that are `kept`; those of the others become 0.
+  /// Turns the integrals of all pieces into functions of the surface nodes that are `kept`; those of the others become 0.
   virtual void make_functions(std::span<const char> kept) = 0;
-  /// Adds what one function, once made, adds to the row of its place.
+  /// Adds what one function, once made, adds to the row of its surface node.
   virtual void add_terms(const CutFaces::Function& function, std::vector<Term>& terms) = 0;
   /// Its integral of how far both surfaces bulge out of their facets: what the mean gap of the facets is too large by.
   virtual double rise(const CutFaces::Function& /*function*/) { return 0; }
-  /// Whether a bonded seam leaves out the places where it ends at a contact.
+  /// Whether a bonded seam leaves out the surface nodes where it ends at a contact.
   virtual bool seams_end_at_contacts() const { return true; }
 
  protected:

@@ -1,3 +1,6 @@
+// discretize() works out one contact after the other. Its Builder integrates the secondary faces over what lies opposite, chooses
+// the surface nodes that carry multipliers, and writes the rows of each. Bonded contacts come last: a seam has no multipliers
+// where it ends at another contact.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -38,16 +41,16 @@ Tree tree_of_facets(const Side& side)
 constexpr double rounding_of_gap = 1e-12, rounding_of_coordinates = 1e-15;
 
 // A node that has rows of a contact that is not bonded.
-struct PressedNode {
+struct UnbondedNode {
   Global node;
 };
 
 // One contact on its way from faces to rows: those of the nodes that are this rank's.
 class Builder {
  public:
-  // `pressed_nodes`: nodes of share.secondary that have rows of contacts that are not bonded.
+  // `unbonded_nodes`: those of share.secondary, ascending. All arguments outlive it. Collective.
   Builder(const Options& options, const Share& share, double reach, int index, const SupportDirectory& supports,
-          const std::vector<PressedNode>& pressed_nodes, const CurvedFaces& curved, fem::Kinematics kinematics,
+          const std::vector<UnbondedNode>& unbonded_nodes, const CurvedFaces& curved, fem::Kinematics kinematics,
           const Communicator& comm)
       : options_(options),
         index_(index),
@@ -57,7 +60,7 @@ class Builder {
         share_(share),
         secondary_(share.secondary),
         primary_(share.primary),
-        pressed_nodes_(pressed_nodes),
+        unbonded_nodes_(unbonded_nodes),
         nodes_(find_surface_nodes(secondary_)),
         primary_nodes_(find_surface_nodes(primary_)),
         faces_(secondary_, nodes_, share.own),
@@ -103,6 +106,7 @@ class Builder {
     return widest;
   }
 
+  // All of its work: afterwards the others tell what it found.
   void add_rows(constraint::Contacts& contacts)
   {
     for (const std::size_t f : faces_.round()) discretization_->add_face(f);
@@ -127,9 +131,9 @@ class Builder {
   {
     std::vector<char> result(nodes_.all.size(), 0);
     for (std::size_t p = 0; p < result.size() && discretization_->seams_end_at_contacts(); ++p)
-      result[p] = std::binary_search(pressed_nodes_.begin(), pressed_nodes_.end(),
-                                     PressedNode{secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)]},
-                                     [](const PressedNode& a, const PressedNode& b) { return a.node < b.node; });
+      result[p] = std::binary_search(unbonded_nodes_.begin(), unbonded_nodes_.end(),
+                                     UnbondedNode{secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)]},
+                                     [](const UnbondedNode& a, const UnbondedNode& b) { return a.node < b.node; });
     return result;
   }
 
@@ -174,6 +178,7 @@ class Builder {
     one_part_->take(met, terms_);
   }
 
+  // The contact node of a surface node and its rows; `d`, `rise`: integrals of its functions and of what surfaces bulge.
   void add_point(std::size_t p, double d, double rise, constraint::Contacts& contacts)
   {
     const SurfaceNode& surface_node = nodes_.all[p];
@@ -310,7 +315,7 @@ class Builder {
   bool axisymmetric_;
   const Share& share_;
   const Side &secondary_, &primary_;
-  const std::vector<PressedNode>& pressed_nodes_;
+  const std::vector<UnbondedNode>& unbonded_nodes_;
   SurfaceNodes nodes_, primary_nodes_;
   CutFaces faces_;  // once dual, those near have their share of the rows
   Tree tree_;       // of the primary facets
@@ -339,16 +344,16 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
   constraint::Contacts contacts;
   const auto sizes = measure(pairs, comm);
   const SupportDirectory directory(prescribed, skew_supports, comm);
-  std::vector<PressedNode> pressed_nodes;  // this rank's nodes by number, not by place; see by_node()
+  std::vector<UnbondedNode> unbonded_nodes;  // this rank's nodes by number, not by place; see by_node()
   const CurvedFaces curved(curved_faces, comm);
   if (initial_gaps) initial_gaps->assign(pairs.size(), {});
   const auto add = [&](std::size_t c) {
     const auto& options = pairs[c].options;
     const Share share = share_out(pairs[c], sizes[c], kinematics, comm);
-    std::vector<PressedNode> crossed;
-    if (options.law == Law::bonded && comm.any(!pressed_nodes.empty()))
-      crossed = answer(pressed_nodes, ask(share.secondary.node_id, comm), comm);
-    Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, crossed, curved, kinematics, comm);
+    std::vector<UnbondedNode> at_seam;
+    if (options.law == Law::bonded && comm.any(!unbonded_nodes.empty()))
+      at_seam = answer(unbonded_nodes, ask(share.secondary.node_id, comm), comm);
+    Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, at_seam, curved, kinematics, comm);
     builder.set_touching(touching_gap(sizes[c].extent, sizes[c].secondary_face));
     builder.add_rows(contacts);
     if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
@@ -360,8 +365,8 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (!is_bonded(pairs[c])) add(c);
   if (std::none_of(pairs.begin(), pairs.end(), is_bonded)) return contacts;
-  for (const auto& point : contacts.nodes) pressed_nodes.push_back({point.node});
-  pressed_nodes = by_node<PressedNode>(pressed_nodes, comm);
+  for (const auto& point : contacts.nodes) unbonded_nodes.push_back({point.node});
+  unbonded_nodes = by_node<UnbondedNode>(unbonded_nodes, comm);
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (is_bonded(pairs[c])) add(c);
   return contacts;

@@ -73,7 +73,7 @@ std::pair<Point, Point> principal_tangents(const std::vector<Point>& d, const Po
     const Eigen::Vector2d at(v.dot(any), v.dot(other));
     spread += at * at.transpose() / v.squaredNorm();
   }
-  const Eigen::Vector2d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
+  const Eigen::Vector2d axis = dense::plane_eigenpairs(spread).vectors.col(1);
   return {axis[0] * any + axis[1] * other, axis[0] * other - axis[1] * any};
 }
 

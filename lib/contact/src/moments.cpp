@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -55,9 +57,9 @@ Spread::Spread(std::span<const Term> terms, double d, const Side& side, const Ei
   }
   const Eigen::Vector2d mean = place_ * size_ / size_.sum();
   place_.colwise() -= mean;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(place_ * size_.asDiagonal() * place_.transpose() / size_.sum());
-  directions_ = spread.eigenvectors();
-  lengths_ = spread.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const auto spread = dense::plane_eigenpairs(place_ * size_.asDiagonal() * place_.transpose() / size_.sum());
+  directions_ = spread.vectors;
+  lengths_ = spread.values.cwiseMax(0).cwiseSqrt();
 }
 
 Eigen::VectorXd Spread::least(const Eigen::Vector2d& moment) const

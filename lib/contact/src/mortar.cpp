@@ -11,7 +11,8 @@ class Mortar : public Discretization {
  public:
   explicit Mortar(const TwoSides& sides)
       : Discretization(sides),
-        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_nodes, sides.tree, sides.reach, sides.nearest)
+        integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.reach,
+                    sides.nearest)
   {
   }
 
@@ -21,8 +22,9 @@ class Mortar : public Discretization {
     const bool in_facets = sides_.mesh_gaps && sides_.rays.nearest_within(face);
     if (!sides_.obstacle) return faces.add(face, integrator_.integrate(face, in_facets));
     faces.add(face, integrator_.integrate_whole(face, in_facets));
-    const auto places = faces.surface_nodes_of(face);
-    if (!std::all_of(places.begin(), places.end(), [&](Local p) { return sides_.rays.meets(static_cast<std::size_t>(p)); }))
+    const auto surface_nodes = faces.surface_nodes_of(face);
+    if (!std::all_of(surface_nodes.begin(), surface_nodes.end(),
+                     [&](Local p) { return sides_.rays.meets(static_cast<std::size_t>(p)); }))
       for (const std::size_t i : faces.pieces(face)) faces.piece(i).covered.setZero();
   }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/dense.hpp"
 #include "opposite.hpp"
 
 namespace mortise::contact {
@@ -205,13 +206,13 @@ class Search {
   std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix2d& change, const Point& first, const Point& second,
                                             double curvature) const
   {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(change);
+    const auto eigen = dense::plane_eigenpairs(change);
     Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
     bool any = false;
     for (Eigen::Index i = 0; i < 2; ++i) {
-      const double value = eigen.eigenvalues()[i];
+      const double value = eigen.values[i];
       if (!(value > parallel * curvature) || !(value * size_ > flat)) continue;
-      const Point direction = eigen.eigenvectors()(0, i) * first + eigen.eigenvectors()(1, i) * second;
+      const Point direction = eigen.vectors(0, i) * first + eigen.vectors(1, i) * second;
       inverse += direction * direction.transpose() / value;
       any = true;
     }

@@ -9,7 +9,7 @@ class NodeToSegment : public Discretization {
  public:
   explicit NodeToSegment(const TwoSides& sides)
       : Discretization(sides),
-        integrator_(sides.secondary, sides.places, sides.primary, sides.primary_nodes, sides.tree, sides.reach, none_)
+        integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.reach, none_)
   {
   }
 
@@ -18,13 +18,13 @@ class NodeToSegment : public Discretization {
   {
     auto& faces = sides_.faces;
     faces.add(face, integrator_.integrate_whole(face, sides_.mesh_gaps && sides_.rays.nearest_within(face)));
-    const auto places = faces.surface_nodes_of(face);
+    const auto surface_nodes = faces.surface_nodes_of(face);
     for (const std::size_t i : faces.pieces(face)) {
       const auto piece = faces.piece(i);
       auto covered = piece.covered;
       for (Eigen::Index k = 0; k < covered.size(); ++k)
         each_seen(face, piece, k, [&](std::size_t node, double) {
-          if (!sides_.rays.meets(static_cast<std::size_t>(places[node]))) covered[k] = 0;
+          if (!sides_.rays.meets(static_cast<std::size_t>(surface_nodes[node]))) covered[k] = 0;
         });
     }
   }
@@ -35,7 +35,7 @@ class NodeToSegment : public Discretization {
   void add_terms(const CutFaces::Function& function, std::vector<Term>& terms) override
   {
     const Side &secondary = sides_.secondary, &primary = sides_.primary;
-    const auto places = sides_.faces.surface_nodes_of(function.face);
+    const auto surface_nodes = sides_.faces.surface_nodes_of(function.face);
     const auto nodes = secondary.faces[function.face];
     const auto piece = sides_.faces.piece(function.piece);
     each_seen(function.face, piece, function.k, [&](std::size_t node, double part) {
@@ -43,7 +43,7 @@ class NodeToSegment : public Discretization {
       if (weight == 0) return;
       terms.push_back({nodes[node], false, weight});
       if (sides_.obstacle) return;
-      const Opposite& opposite = sides_.rays.meet(static_cast<std::size_t>(places[node]));
+      const Opposite& opposite = sides_.rays.meet(static_cast<std::size_t>(surface_nodes[node]));
       const auto other = primary.faces[static_cast<std::size_t>(primary.face_of[opposite.facet])];
       const FaceShape shape = primary.shape_in_face(opposite.facet, opposite.hit.shape, opposite.hit.frame, Plane::Zero());
       for (std::size_t j = 0; j < other.size(); ++j)

@@ -15,7 +15,7 @@ bool near_body(int face, int other, const Ground& ground)
   const auto& lengths = ground.lengths;
   const auto& [faces, largest, tree] = ground.of_body.at(other);
   const int body = skin.body[at(face)];
-  const auto near = tree.candidate(grown(skin.box[at(face)], lengths.margin(skin.size[at(face)], body, largest, other)));
+  const auto near = tree.candidates(grown(skin.box[at(face)], lengths.margin(skin.size[at(face)], body, largest, other)));
   return std::any_of(near.begin(), near.end(), [&](int i) {
     const int f = faces[at(i)];
     return grown(skin.box[at(face)], lengths.margin(skin.size[at(face)], body, skin.size[at(f)], other))

@@ -208,15 +208,14 @@ bool keep_linear(const PieceStore::View& piece, const Few<Eigen::Index, 9>& keep
   const auto count = static_cast<Eigen::Index>(keep.size());
   Plane middle = Plane::Zero();
   for (const auto k : keep) middle += piece.plane.row(k).transpose() / static_cast<double>(count);
-  SmallMatrix a(3, count);
+  Eigen::MatrixXd a(3, count);
   for (Eigen::Index k = 0; k < count; ++k) a.col(k) << 1, piece.plane.row(keep[static_cast<std::size_t>(k)]).transpose() - middle;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double size = a.bottomRows(2).colwise().norm().maxCoeff();
   SmallMatrix shared = t;
   for (const auto d : drop) {
     Eigen::Vector3d x;
     x << 1, piece.plane.row(d).transpose() - middle;
-    const Eigen::VectorXd b = svd.solve(x);
+    const Eigen::VectorXd b = dense::minimum_norm(a, x);
     if (!((a * b - x).norm() < 1e-9 * (1 + size))) return false;
     shared.col(d) = b;
   }

@@ -104,7 +104,7 @@ Side deliver(const mesh::Surface& surface, const std::vector<Box>& boxes, const 
   std::vector<std::vector<std::size_t>> chosen(ranks);
   std::vector<int> met;
   for (std::size_t f = 0; f < boxes.size(); ++f) {
-    parts.candidate(grown(boxes[f], distance), met);
+    parts.candidates(grown(boxes[f], distance), met);
     for (const int part : met) {
       auto& faces_of = chosen[static_cast<std::size_t>(shares.owner[static_cast<std::size_t>(part)])];
       if (faces_of.empty() || faces_of.back() != f) faces_of.push_back(f);

@@ -11,7 +11,7 @@
 namespace mortise::contact {
 
 ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std::span<const double> multipliers,
-                          std::span<const double> jumps, double bound, double slip_bound, double nothing)
+                          std::span<const double> jumps, double bound, double slip_bound, double negligible_pressure)
 {
   ContactNodeState state;
   state.contact = point.contact;
@@ -30,7 +30,7 @@ ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std
   }
   if (bonded)
     state.status = Status::stick;
-  else if (state.force > nothing * point.area)
+  else if (state.force > negligible_pressure * point.area)
     state.status = slip_bound > 0 && tangential < slip_bound * (1 - 1e-6) ? Status::stick : Status::slip;
   return state;
 }

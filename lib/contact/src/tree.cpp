@@ -80,17 +80,17 @@ void Tree::walk(const Meets& meets, const Visit& visit) const
   }
 }
 
-void Tree::candidate(const Box& box, std::vector<int>& found) const
+void Tree::candidates(const Box& box, std::vector<int>& found) const
 {
   found.clear();
   walk([&](const Box& other) { return other.intersects(box); }, [&](int i) { return found.push_back(i), true; });
   std::sort(found.begin(), found.end());
 }
 
-std::vector<int> Tree::candidate(const Box& box) const
+std::vector<int> Tree::candidates(const Box& box) const
 {
   std::vector<int> found;
-  candidate(box, found);
+  candidates(box, found);
   return found;
 }
 

@@ -15,13 +15,14 @@ class Tree {
  public:
   explicit Tree(std::vector<Box> boxes);
   /// Indices of all boxes that meet `box`, ascending.
-  std::vector<int> candidate(const Box& box) const;
+  std::vector<int> candidates(const Box& box) const;
   /// Whether any box meets `box`.
   bool meets(const Box& box) const;
   /// Indices of those that meet what `box` sweeps when it moves by -direction to +direction.
   std::vector<int> swept(const Box& box, const Point& direction) const;
-  void swept(const Box& box, const Point& direction, std::vector<int>& found) const;  ///< the same, into `found`
-  void candidate(const Box& box, std::vector<int>& found) const;
+  // The same, into `found`.
+  void candidates(const Box& box, std::vector<int>& found) const;
+  void swept(const Box& box, const Point& direction, std::vector<int>& found) const;
 
  private:
   struct Branch {

@@ -254,7 +254,7 @@ std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, con
   return u;
 }
 
-Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double nothing) const
+Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double negligible_force) const
 {
   constexpr double no_force = 1e-9;   // of the largest contact force: the next node may just touch
   constexpr Eigen::Index most = 600;  // amplitudes: more would take seconds
@@ -275,7 +275,7 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   const Eigen::VectorXd force = forces(lambda), jump = jumps(u);
   double largest = 0;
   for (const auto& rows : node_rows_) largest = std::max(largest, std::abs(force[rows.normal]));
-  const double least = std::max(no_force * comm_.max(largest), nothing);
+  const double least = std::max(no_force * comm_.max(largest), negligible_force);
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     const auto& rows = node_rows_[i];
     if (contacts.bonded[i] || force[rows.normal] > least) continue;
@@ -337,7 +337,7 @@ std::vector<double> DualProblem::loads_of_bodies() const
   return loads;
 }
 
-double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double nothing) const
+double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double negligible_force) const
 {
   const auto forces = jump_->apply_transpose(lambda);
   std::vector<Eigen::VectorXd> given;
@@ -352,7 +352,7 @@ double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vecto
       size += std::pow(1e-6 * k * u[s][i], 2);
     }
   }
-  size = std::max(comm_.sum(size), nothing * nothing);
+  size = std::max(comm_.sum(size), negligible_force * negligible_force);
   return size > 0 ? std::sqrt(comm_.sum(residual) / size) : 0;
 }
 

@@ -32,7 +32,7 @@ double largest_radius(const FeasibleSet& set, const Communicator& comm)
 void factorize(CoarseMatrix& matrix, const std::vector<DowndateBlock>& downdates)
 {
   for (double regularisation = 1e-13; !matrix.factorize(downdates, regularisation); regularisation *= 100)
-    if (regularisation > 1e-3) throw Error(ExitStatus::not_converged, "the coarse matrix of a face cannot be factorized");
+    if (regularisation > 1e-3) throw Error(ExitStatus::not_converged, "the coarse matrix of an active set cannot be factorized");
 }
 
 }  // namespace

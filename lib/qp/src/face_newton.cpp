@@ -49,29 +49,62 @@ FaceNewton::FaceNewton(const Problem& problem, ActiveSetPreconditioner* precondi
   kept_ = static_cast<std::size_t>(std::max(room, least_kept));
 }
 
-// Where the next projection begins if bounds follow the solution: y less a step along its gradient that is long where the active
-// set says what x is and short where x is free. What y takes out of Omega is made up for by forces at all points of a subdomain,
-// as if they were nearer by as much over the length of the step: the longer it is, the fewer points without force are caught.
-// Along free unknowns it would only carry on what conjugate residuals have left.
-Vector FaceNewton::long_gradient_step(const ActiveSet& active_set, const State& state) const
+// The loop; its steps follow in their order. When it ends is in face_newton_goal.cpp, how y is found on an active set in
+// active_set_descent.cpp.
+Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const SlipBoundUpdate* slip_bound_update,
+                           const Observer& observer)
 {
-  const double step = step_length / norm_;
-  Vector reaction(state.gy, Teuchos::Copy);
-  const Vector residual = active_set.reduce(reaction);
-  Vector beyond(state.y, Teuchos::Copy);
-  beyond.update(-longer_step * step, reaction, (longer_step - 1) * step, residual, 1);
-  // Slip that goes back sticks first: nobody crosses the disc to slip in the opposite direction.
-  const auto from = view(std::as_const(state.y));
-  auto to = view(beyond);
-  for (const auto& disc : problem_.set.discs()) {
-    if (!(disc.coefficient > 0)) continue;
-    const Eigen::Vector2d start = from_centre(disc, from), way = from_centre(disc, to) - start;
-    const double part = -start.dot(way) / std::max(way.squaredNorm(), std::numeric_limits<double>::min());
-    const Eigen::Vector2d nearest = start + part * way;
-    if (part <= 0 || part >= 1 || nearest.norm() >= disc.coefficient * std::max(from[disc.normal], 0.0)) continue;
-    for (int k = 0; k < disc.size(); ++k) to[disc.index[static_cast<std::size_t>(k)]] -= (1 - part) * way[k];
+  const auto map = problem_.hessian.map();
+  const auto infeasible = [](Solution result, const Projection& projection) {
+    result.feasible = false;
+    result.empty = projection.empty;
+    result.nu = projection.nu;
+    return result;
+  };
+  const Projection feasible = projector_(start ? start->x : Vector(map));
+  Solution result(feasible.point, Vector(map), feasible.nu);
+  if (!feasible.found) return infeasible(std::move(result), feasible);
+  preconditionings_ = 0;
+  find_norm(start, observer);
+
+  Run run{start, goal, slip_bound_update, observer, std::move(result), State(map), ContactForces(problem_)};
+  const double size = relative_size(problem_, goal.allowed_error ? tolerances::finest : goal.residual);
+  if (size != 0) run.size = size;
+  run.active_set_tolerance = slip_bound_update ? first_active_set_tolerance_updated : first_active_set_tolerance;
+  if (start && start->nu.size() == problem_.equality.size()) run.nu = start->nu * (step_length / norm_);
+  auto& [z, g, y, gy] = run.state;
+  z.assign(feasible.point);
+  evaluate(z, g);
+  run.energy = energy_of(z, g);
+  y.assign(z);
+  gy.assign(g);
+  while (true) {
+    Trial trial = project_step(run);
+    if (!trial.next.found)
+      return infeasible(std::move(run.result), trial.next);  // bounds leave no point, for a start there was one
+    evaluate(trial);
+    improve_soft_start(run, trial);
+    safeguard(run, trial);
+    const Projection natural = accept(run, trial);
+    report(run, "outer", true);
+    run.result.converged = is_solved(run, natural);
+    if (run.result.converged || gives_up(run)) {
+      if (std::isnan(run.result.error)) find_error(run, natural);
+      return solution_of(std::move(run));
+    }
+    minimise(run, trial);
   }
-  return beyond;
+}
+
+// ||P A P||, from an earlier solve if there was one.
+void FaceNewton::find_norm(const std::optional<Solution>& start, const Observer& observer)
+{
+  if (norm_ != 0) return;
+  norm_ =
+      start && start->hessian_norm > 0 ? start->hessian_norm : projected_norm(problem_.hessian, problem_.equality, norm_accuracy);
+  if (observer) observer({"norm", 0, problem_.hessian.count()});
+  if (norm_ == 0) norm_ = 1;
+  measure_discs();
 }
 
 // How stiff the point of each disc is alone, against which the curvatures of slip directions are measured: one over the diagonal
@@ -105,6 +138,47 @@ void FaceNewton::measure_discs()
       }
   }
   for (std::size_t d = 0; d < discs.size(); ++d) disc_stiffness_[d] = company / std::max(sums[d], 1 / norm_);
+}
+
+// Projects a step from y, which follows the gradient there or, where bounds follow the solution, is `beyond`. Those bounds are
+// updated on the way, and taken back where they leave no feasible point; if that does not help either, none is found.
+FaceNewton::Trial FaceNewton::project_step(Run& run)
+{
+  const double step = step_length / norm_;
+  Vector to(run.state.y, Teuchos::Copy);
+  if (run.beyond)
+    to.assign(*run.beyond);
+  else
+    to.update(-step, run.state.gy, 1);
+  const auto* bounds = run.slip_bound_update;
+  const bool follow = bounds && !run.first();
+  if (follow) bounds->update(run.state.y, true);
+  Projection next = projector_(to, run.nu);
+  // The normal forces that the projection changes change the bounds once more.
+  for (int pass = 0; follow && next.found && pass < max_updates; ++pass) {
+    bounds->update(next.point, true);
+    next = projector_(to, next.nu);
+  }
+  for (int retreat = 0; bounds && !next.found && retreat < max_retreats; ++retreat) {
+    bounds->retreat();
+    next = projector_(to, run.nu);
+  }
+  return {std::move(next), step, Vector(run.state.y.getMap())};
+}
+
+// A first step along which the curvature is small says that there is a better start: the step is taken again from there.
+void FaceNewton::improve_soft_start(Run& run, Trial& trial)
+{
+  auto& [z, g, y, gy] = run.state;
+  if (run.start || unconstrained_ || !run.first()) return;
+  if (!soft_between(z, g, trial.next.point, trial.gradient) || !improve_start(run.state, trial.energy)) return;
+  run.energy = energy_of(z, g);
+  Vector to(z, Teuchos::Copy);
+  to.update(-trial.step, g, 1);
+  if (Projection onward = projector_(to); onward.found) {
+    trial.next = std::move(onward);
+    evaluate(trial);
+  }
 }
 
 // Whether the curvature of A from a to b, where A x - b is ga and gb, is far below ||P A P||.
@@ -143,72 +217,6 @@ bool FaceNewton::improve_start(State& state, double energy)
   y.assign(z);
   gy.assign(g);
   return found;
-}
-
-void FaceNewton::evaluate(const Vector& x, Vector& gradient) const
-{
-  problem_.hessian.apply(x, gradient);
-  gradient.update(-1, problem_.linear, 1);
-}
-
-double FaceNewton::energy_of(const Vector& x, const Vector& gradient) const
-{
-  return 0.5 * (x.dot(gradient) - x.dot(problem_.linear));
-}
-
-void FaceNewton::report(const Run& run, const char* what, bool outer) const
-{
-  if (run.observer)
-    run.observer({what, run.result.outer_iterations, problem_.hessian.count(), run.residual / run.size, run.mismatch / run.size,
-                  0, run.active, preconditionings_, run.energy, run.result.error, outer ? &run.state.z : nullptr,
-                  run.allowed > 0 ? run.allowed : std::numeric_limits<double>::quiet_NaN()});
-}
-
-// Projects a step from y, which follows the gradient there or, where bounds follow the solution, is `beyond`. Those bounds are
-// updated on the way, and taken back where they leave no feasible point; if that does not help either, none is found.
-FaceNewton::Trial FaceNewton::project_step(Run& run)
-{
-  const double step = step_length / norm_;
-  Vector to(run.state.y, Teuchos::Copy);
-  if (run.beyond)
-    to.assign(*run.beyond);
-  else
-    to.update(-step, run.state.gy, 1);
-  const auto* bounds = run.slip_bound_update;
-  const bool follow = bounds && !run.first();
-  if (follow) bounds->update(run.state.y, true);
-  Projection next = projector_(to, run.nu);
-  // The normal forces that the projection changes change the bounds once more.
-  for (int pass = 0; follow && next.found && pass < max_updates; ++pass) {
-    bounds->update(next.point, true);
-    next = projector_(to, next.nu);
-  }
-  for (int retreat = 0; bounds && !next.found && retreat < max_retreats; ++retreat) {
-    bounds->retreat();
-    next = projector_(to, run.nu);
-  }
-  return {std::move(next), step, Vector(run.state.y.getMap())};
-}
-
-void FaceNewton::evaluate(Trial& trial) const
-{
-  evaluate(trial.next.point, trial.gradient);
-  trial.energy = energy_of(trial.next.point, trial.gradient);
-}
-
-// A first step along which the curvature is small says that there is a better start: the step is taken again from there.
-void FaceNewton::improve_soft_start(Run& run, Trial& trial)
-{
-  auto& [z, g, y, gy] = run.state;
-  if (run.start || unconstrained_ || !run.first()) return;
-  if (!soft_between(z, g, trial.next.point, trial.gradient) || !improve_start(run.state, trial.energy)) return;
-  run.energy = energy_of(z, g);
-  Vector to(z, Teuchos::Copy);
-  to.update(-trial.step, g, 1);
-  if (Projection onward = projector_(to); onward.found) {
-    trial.next = std::move(onward);
-    evaluate(trial);
-  }
 }
 
 // Where the active set was picked badly the minimiser on it is far away: goes back towards z until the function falls.
@@ -278,15 +286,29 @@ void FaceNewton::minimise(Run& run, const Trial& trial)
   }
 }
 
-// ||P A P||, from an earlier solve if there was one.
-void FaceNewton::find_norm(const std::optional<Solution>& start, const Observer& observer)
+// Where the next projection begins if bounds follow the solution: y less a step along its gradient that is long where the active
+// set says what x is and short where x is free. What y takes out of Omega is made up for by forces at all points of a subdomain,
+// as if they were nearer by as much over the length of the step: the longer it is, the fewer points without force are caught.
+// Along free unknowns it would only carry on what conjugate residuals have left.
+Vector FaceNewton::long_gradient_step(const ActiveSet& active_set, const State& state) const
 {
-  if (norm_ != 0) return;
-  norm_ =
-      start && start->hessian_norm > 0 ? start->hessian_norm : projected_norm(problem_.hessian, problem_.equality, norm_accuracy);
-  if (observer) observer({"norm", 0, problem_.hessian.count()});
-  if (norm_ == 0) norm_ = 1;
-  measure_discs();
+  const double step = step_length / norm_;
+  Vector reaction(state.gy, Teuchos::Copy);
+  const Vector residual = active_set.reduce(reaction);
+  Vector beyond(state.y, Teuchos::Copy);
+  beyond.update(-longer_step * step, reaction, (longer_step - 1) * step, residual, 1);
+  // Slip that goes back sticks first: nobody crosses the disc to slip in the opposite direction.
+  const auto from = view(std::as_const(state.y));
+  auto to = view(beyond);
+  for (const auto& disc : problem_.set.discs()) {
+    if (!(disc.coefficient > 0)) continue;
+    const Eigen::Vector2d start = from_centre(disc, from), way = from_centre(disc, to) - start;
+    const double part = -start.dot(way) / std::max(way.squaredNorm(), std::numeric_limits<double>::min());
+    const Eigen::Vector2d nearest = start + part * way;
+    if (part <= 0 || part >= 1 || nearest.norm() >= disc.coefficient * std::max(from[disc.normal], 0.0)) continue;
+    for (int k = 0; k < disc.size(); ++k) to[disc.index[static_cast<std::size_t>(k)]] -= (1 - part) * way[k];
+  }
+  return beyond;
 }
 
 // What the last point of a run is as a solution.
@@ -305,49 +327,31 @@ Solution FaceNewton::solution_of(Run run) const
   return std::move(result);
 }
 
-Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const SlipBoundUpdate* slip_bound_update,
-                           const Observer& observer)
+// A x - b. One product.
+void FaceNewton::evaluate(const Vector& x, Vector& gradient) const
 {
-  const auto map = problem_.hessian.map();
-  const auto infeasible = [](Solution result, const Projection& projection) {
-    result.feasible = false;
-    result.empty = projection.empty;
-    result.nu = projection.nu;
-    return result;
-  };
-  const Projection feasible = projector_(start ? start->x : Vector(map));
-  Solution result(feasible.point, Vector(map), feasible.nu);
-  if (!feasible.found) return infeasible(std::move(result), feasible);
-  preconditionings_ = 0;
-  find_norm(start, observer);
+  problem_.hessian.apply(x, gradient);
+  gradient.update(-1, problem_.linear, 1);
+}
 
-  Run run{start, goal, slip_bound_update, observer, std::move(result), State(map), ContactForces(problem_)};
-  const double size = relative_size(problem_, goal.allowed_error ? tolerances::finest : goal.residual);
-  if (size != 0) run.size = size;
-  run.active_set_tolerance = slip_bound_update ? first_active_set_tolerance_updated : first_active_set_tolerance;
-  if (start && start->nu.size() == problem_.equality.size()) run.nu = start->nu * (step_length / norm_);
-  auto& [z, g, y, gy] = run.state;
-  z.assign(feasible.point);
-  evaluate(z, g);
-  run.energy = energy_of(z, g);
-  y.assign(z);
-  gy.assign(g);
-  while (true) {
-    Trial trial = project_step(run);
-    if (!trial.next.found)
-      return infeasible(std::move(run.result), trial.next);  // bounds leave no point, for a start there was one
-    evaluate(trial);
-    improve_soft_start(run, trial);
-    safeguard(run, trial);
-    const Projection natural = accept(run, trial);
-    report(run, "outer", true);
-    run.result.converged = is_solved(run, natural);
-    if (run.result.converged || gives_up(run)) {
-      if (std::isnan(run.result.error)) find_error(run, natural);
-      return solution_of(std::move(run));
-    }
-    minimise(run, trial);
-  }
+void FaceNewton::evaluate(Trial& trial) const
+{
+  evaluate(trial.next.point, trial.gradient);
+  trial.energy = energy_of(trial.next.point, trial.gradient);
+}
+
+// 1/2 x'A x - b'x, from the gradient at x.
+double FaceNewton::energy_of(const Vector& x, const Vector& gradient) const
+{
+  return 0.5 * (x.dot(gradient) - x.dot(problem_.linear));
+}
+
+void FaceNewton::report(const Run& run, const char* what, bool outer) const
+{
+  if (run.observer)
+    run.observer({what, run.result.outer_iterations, problem_.hessian.count(), run.residual / run.size, run.mismatch / run.size,
+                  0, run.active, preconditionings_, run.energy, run.result.error, outer ? &run.state.z : nullptr,
+                  run.allowed > 0 ? run.allowed : std::numeric_limits<double>::quiet_NaN()});
 }
 
 }  // namespace mortise::qp

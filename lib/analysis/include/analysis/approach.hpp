@@ -1,5 +1,5 @@
-// Products with F, or a direct solution: how a deck's quadratic programmes are gone about, and what is tried where that finds no
-// end.
+// How a deck's quadratic programmes are solved, by products with F or by a direct solution, and what is tried where one of these
+// finds no end.
 #pragma once
 
 #include <functional>
@@ -17,38 +17,41 @@ namespace mortise::analysis {
 
 class Assembly;
 
+/// One way to solve all load steps, on a decomposition of its own.
 struct Approach {
   enum class Kind {
     as_asked,            ///< what the deck says
     smaller_subdomains,  ///< the same with large subdomains cut into small pieces
     direct_instead,      ///< every body whole, and F as a matrix
-    products_to_the_end  ///< face Newton, after a direct solution that did not settle
+    products_to_the_end  ///< face Newton without patience, after a direct solution that failed
   } kind = Kind::as_asked;
   std::string algorithm;                   ///< as solver.algorithm of the deck
   std::optional<qp::Patience> patience{};  ///< when a load step gives up, see friction::Result::gave_up
-  int spent = 0;                           ///< products so far, which count
+  int spent = 0;                           ///< products with F so far, those of earlier approaches included
   Kind next = Kind::direct_instead;        ///< what is tried after giving up
   bool smaller = false;                    ///< large subdomains have been cut into small pieces
 };
 
-/// The approach with its patience: with `auto` as many products as a direct solution is worth, or, where subdomains are several
-/// times as large as usual, smaller ones. Throws Error(machine) if the deck asks for a direct solution and there is no room for
-/// it. Collective.
+/// The approach with its patience: with `auto` as many products as a direct solution costs, or few where subdomains are several
+/// times as large as usual and smaller ones are to be tried next. Throws Error(machine) if the deck asks for a direct solution
+/// and there is no room for it, Error(bad_input) if a body of boundary elements is cut, which a direct solution wants whole.
+/// Collective.
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
                        const Communicator& comm);
 
-/// Whether an error of this approach leads to the next one instead of ending the run: what a direct solution may fall on where
-/// products with F do not, rounding and memory.
+/// Whether an error of this approach leads to the next one instead of ending the run: rounding and lack of memory may spoil a
+/// direct solution, and not products with F.
 bool is_tried_again(const Approach& approach, const Error& error);
 
-/// All load steps by one approach on one decomposition; nothing if it gave up. Adds to approach.spent what it spent, also where
-/// it throws.
+/// Solves all load steps by one approach on one decomposition; nothing if it gave up. Adds the products that it takes to
+/// approach.spent, also where it throws. Collective.
 using Attempt = std::function<std::optional<ExitStatus>(const partition::Decomposition&, Approach&)>;
 
-/// What the deck asks for on the decomposition `as_cut`. Where products with F find no end, large subdomains are cut into small
-/// pieces, since the coarse problem of many small ones knows how slender bodies bend; then bodies are taken whole and
-/// solved directly; where rounding (cells a thousand times as long as thick) or memory spoils that, the first way is gone to its
-/// end. `resumed`: the one that an earlier run came to, which is the first then. Collective.
+/// Tries one approach after the other until one does not give up. First what the deck asks for on the decomposition `as_cut`.
+/// Where products with F find no end, large subdomains are cut into small pieces, since the coarse problem of many small ones
+/// knows how slender bodies bend; then bodies are taken whole and solved directly; where rounding (cells a thousand times as long
+/// as thick) or memory spoils that, products with F go on to their limit. `resumed`: the approach that an earlier run came to,
+/// with which this one begins. Throws what the last attempt throws. Collective.
 ExitStatus try_approaches(const model::Deck& deck, const partition::Decomposition& as_cut, const Attempt& attempt,
                           const Context& context, const std::optional<Approach>& resumed = {});
 

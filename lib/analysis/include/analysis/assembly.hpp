@@ -27,7 +27,7 @@ class Assembly {
   const feti::SubdomainSystem& system() const { return system_; }
   /// For each subdomain of this rank the first one that it is a copy of.
   const std::vector<partition::CopyOf>& copies() const { return copies_; }
-  /// Nodal forces of every subdomain. Collective.
+  /// f of each subdomain of this rank: its nodal forces, unknown dimension * node + component. Collective.
   std::vector<Eigen::VectorXd> loads(const model::LoadState& state, const Communicator& comm) const;
 
  private:

@@ -10,21 +10,21 @@
 namespace mortise::analysis {
 
 struct DirectEffort {
-  Global multipliers = 0;  ///< with bodies taken whole, but for what is eliminated
-  double products = 0;     ///< with F on the present decomposition, that take as long
-  double seconds = 0;      ///< about, on one core of today
-  double bytes = 0;        ///< of memory, on the rank that has most
+  Global multipliers = 0;  ///< dual unknowns with bodies taken whole, but for those that are eliminated
+  double products = 0;     ///< how many products with F on the present decomposition take as long
+  double seconds = 0;      ///< roughly, on one core
+  double bytes = 0;        ///< of memory, at most, on the rank that needs most
 };
 
-/// From the factors that there are and the laws of nested dissection; nothing is factorized for it. The same on every rank and,
-/// but for rounding, for every number of ranks. Collective.
+/// What a direct solution costs, from the sizes of the present factors and the laws of nested dissection; nothing is factorized
+/// for it. The same on every rank and, but for rounding, for every number of ranks. Collective.
 DirectEffort effort_of_direct(const partition::Decomposition& decomposition, const feti::SubdomainSystem& system,
                               const constraint::Constraints& constraints, const Communicator& comm);
 
-/// Products with F after which a direct solution is worth more than going on; none where it is out of reach.
+/// The products with F after which a direct solution is worth more than going on; nothing where it is out of reach. Collective.
 std::optional<qp::Patience> patience_with_products(const DirectEffort& effort, const Communicator& comm);
 
-/// Throws Error(machine) if a machine has no room for a direct solution. Collective.
+/// Throws Error(machine) on all ranks if any machine has no room for a direct solution. Collective.
 void require_room_for_direct(const DirectEffort& effort, const Communicator& comm);
 
 }  // namespace mortise::analysis

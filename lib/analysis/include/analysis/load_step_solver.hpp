@@ -1,4 +1,4 @@
-// One equilibrium after the other on one assembly. Multipliers, slip, and what was learnt about F go from each to the next.
+// One equilibrium after the other on one assembly. Multipliers, slip and recycled directions go from each to the next.
 #pragma once
 
 #include <memory>
@@ -13,40 +13,42 @@
 
 namespace mortise::analysis {
 
-/// An equilibrium. A value: the next load step starts from it.
+/// A solved load state, from which the next one starts. A value.
 struct StepState {
   std::shared_ptr<const Rows> rows;
   friction::Result solved;
   std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
-  std::vector<double> shortenings;            ///< of the preloaded contacts
+  std::vector<double> shortenings;            ///< of the preloaded contacts, lengths
 };
 
 /// Heavy: neither copies nor moves.
 class LoadStepSolver {
  public:
-  /// The dual problem of `first`. The assembly and the approach outlive it: approach.spent has its products once it is gone.
-  /// Throws Error(no_equilibrium), naming the body and its motion, if loads drive a body that nothing holds. Collective.
+  /// Makes the dual problem of the rows `first`. The assembly and the approach outlive it; its destructor brings approach.spent
+  /// up to date. Throws Error(no_equilibrium), naming the body and its motion, if loads drive a body that nothing holds.
+  /// Collective.
   LoadStepSolver(const Assembly& assembly, Rows first, Approach& approach, const Context& context);
   ~LoadStepSolver() { approach_.spent = applications(); }
   LoadStepSolver(const LoadStepSolver&) = delete;
   LoadStepSolver& operator=(const LoadStepSolver&) = delete;
 
-  /// Finds an equilibrium: that of the constructor's rows first, then of others, each from what the call before returned;
-  /// friction counts slip from there. Throws Error(no_equilibrium). Collective.
+  /// Finds the equilibrium of the state `acts`: first that of the constructor's rows, with nothing for `before`; then one state
+  /// after the other, each with what the call before returned, from which friction counts slip. Throws Error(no_equilibrium).
+  /// Collective.
   StepState solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer);
 
-  /// The same without solving: what a run before has found. Collective.
+  /// The same without solving: takes the solution from the record of an earlier run. Throws as solution_of(). Collective.
   StepState take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record);
 
-  /// That of the last state; another one once rows change.
+  /// The dual problem of the last state; replaced by another one when rows change.
   const feti::DualProblem& problem() const { return *problem_; }
-  /// The energy norm that is nothing beside the states before: rounding and tolerances leave as much of a state without a load.
+  /// An energy norm that counts as none beside the states before, see qp::Goal::negligible.
   double negligible() const { return 1e-8 * largest_norm_; }
-  /// What counts as rounding in the states before.
+  /// What counts as rounding in the states before this one.
   const post::Rounding& rounding_before() const { return rounding_before_; }
-  /// Products of the approaches before.
+  /// Products with F of the earlier approaches.
   int spent_before() const { return spent_before_; }
-  /// Products of all load steps and of the approaches before, also of a load step that threw.
+  /// Products with F of all load steps and of the earlier approaches, also of a load step that threw.
   int applications() const { return before_ + (solver_ ? solver_->applications() : 0); }
 
  private:
@@ -59,6 +61,7 @@ class LoadStepSolver {
               const std::vector<Eigen::VectorXd>& displacement) const;
   std::unique_ptr<feti::DualProblem> make_problem(std::vector<Eigen::VectorXd> load) const;
   void make_solver();
+  void note_sizes(const StepState& state);
   void update(const model::LoadState& acts, StepState& from);
 
   const Assembly& assembly_;
@@ -74,8 +77,8 @@ class LoadStepSolver {
   double largest_norm_ = 0;   // energy norm, springs included, of all states before
 };
 
-/// What there is to know of a state that solver.solve() returned last, also inside bodies where `probes` are. Throws
-/// Error(no_equilibrium) if it is none. Collective.
+/// All results of the state that solver.solve() or take_up() returned last, also inside bodies where `probes` are. Throws
+/// Error(no_equilibrium) if the verdict says that it is no equilibrium. Collective.
 post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,
                        const Context& context);
 

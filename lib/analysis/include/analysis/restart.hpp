@@ -1,6 +1,5 @@
-// Runs that go on where an earlier one was ended. Each load state leaves what its equilibrium is made of, multipliers and
-// amplitudes of rigid motions; whatever else there is to know of it, friction's memory and all results, follows from them as it
-// did then.
+// Runs that go on where an earlier one was ended. Each load state leaves a record of its multipliers, slip bounds and amplitudes
+// of rigid motions; slip and all results follow from these as they did in the earlier run.
 #pragma once
 
 #include <map>
@@ -16,28 +15,28 @@ namespace mortise::analysis {
 class LoadStepSolver;
 struct StepState;
 
-/// What a state leaves. The same on every rank.
+/// The record of a load state. The same on every rank.
 struct Record {
-  double time = 0;  ///< of the state
-  Approach approach;
-  std::string file;            ///< has the vectors
+  double time = 0;             ///< of the state
+  Approach approach;           ///< by which it was solved
+  std::string file;            ///< holds the vectors
   std::vector<double> counts;  ///< figures of friction::Result and qp::Solution, see restart.cpp
 };
 
-/// The records of a directory, restart.1.h5 and so on: those of the run at hand, and those of one before, if it is resumed.
+/// The records in a directory, restart.1.h5 and so on: those that this run keeps, and those of an earlier one that it resumes.
 class Restart {
  public:
-  /// In the deck's output directory. Throws Error(bad_input) if there is nothing to resume, or it is of another deck or another
-  /// number of ranks. Collective.
+  /// Those in the deck's output directory, read if the run is to `resume`. Throws Error(bad_input) if there is nothing to resume,
+  /// or it is of another deck or another number of ranks. Collective.
   Restart(const model::Deck& deck, bool resume, const Communicator& comm);
 
-  /// How the run before went about it, if it is resumed.
+  /// The approach of the earlier run, if it is resumed.
   std::optional<Approach> approach() const;
-  /// What it left of the state at this time; null if nothing.
+  /// Its record of the state at this time by this approach; null if there is none.
   const Record* find(const Approach& approach, double time) const;
-  /// Writes that of a state, the `index`-th, from 1. Throws Error(machine). Collective.
+  /// Writes the record of a state, the `index`-th, from 1. Throws Error(machine). Collective.
   void keep(std::size_t index, const Approach& approach, const LoadStepSolver& solver, const StepState& state) const;
-  /// The run has come to its end: removes all records. Never throws. Collective.
+  /// Removes all records, for a run that has come to its end: rank 0 does so, the others return. Never throws.
   void remove() const;
 
  private:
@@ -48,8 +47,8 @@ class Restart {
   std::vector<Record> records_;
 };
 
-/// The solution that a record tells of, for the problem that it comes from; puts the radii into the problem's set. Throws
-/// Error(bad_input) if it is another problem, of a mesh or of temperatures that were changed, say. Collective.
+/// The solution that a record holds; sets the radii of the problem's discs to those of the record. Throws Error(bad_input) if the
+/// record is of another problem, as that of a mesh that has changed. Collective.
 friction::Result solution_of(const Record& record, feti::DualProblem& problem);
 
 }  // namespace mortise::analysis

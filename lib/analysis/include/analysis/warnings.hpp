@@ -8,16 +8,16 @@
 
 namespace mortise::analysis {
 
-/// Of several states the worst of each kind and place stays.
+/// All warnings found so far; of several states the worst of each kind and place.
 class Warnings {
  public:
-  /// Without printing.
+  /// Adds one without printing it.
   void add(Warning warning);
   void add(std::vector<Warning> more)
   {
     for (auto& warning : more) add(std::move(warning));
   }
-  /// Prints it as well, as it is found: for a run that may not come to its last lines.
+  /// Adds it and prints it at once, for a run that may not come to its last lines.
   void report(Warning warning, Log& log);
   /// In the order in which they were found first.
   const std::vector<Warning>& all() const { return all_; }

@@ -42,7 +42,7 @@ class Cholesky {
 
   /// Rows of A.
   int size() const;
-  /// Bytes that the factor takes, foreseen by the analysis.
+  /// Bytes that the factor takes, known from the analysis on.
   std::size_t factor_bytes() const;
 
  private:

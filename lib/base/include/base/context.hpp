@@ -7,6 +7,7 @@
 
 namespace mortise {
 
+/// Refers to its parts, which outlive it.
 struct Context {
   const Communicator& comm;
   Log& log;

@@ -1,6 +1,6 @@
 // Dense linear algebra of matrices whose sizes are known at run time, compiled once: each of Eigen's decompositions takes seconds
-// of the compiler's time in every file that names it. Fixed sizes, and matrices that are factorized once for many solves, are for
-// Eigen itself.
+// of the compiler's time in every file that names it. Fixed sizes but 2 x 2, and matrices that are factorized once for many
+// solves, are for Eigen itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,6 +36,13 @@ struct Eigenpairs {
 /// Of a symmetric matrix, whose lower triangle is read.
 Eigenpairs symmetric_eigenpairs(const Eigen::MatrixXd& a);
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
+struct PlaneEigenpairs {
+  Eigen::Vector2d values;   ///< ascending
+  Eigen::Matrix2d vectors;  ///< columns in the same order, orthonormal
+};
+/// Of a symmetric 2 x 2 matrix.
+PlaneEigenpairs plane_eigenpairs(const Eigen::Matrix2d& a);
+
 /// A v = lambda B v of a symmetric A and a symmetric positive definite B, lower triangles; the vectors V with V'B V = 1.
 Eigenpairs generalized_eigenpairs(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 /// Of the symmetric tridiagonal matrix with these n values on its diagonal and these n - 1 beside it.

@@ -22,8 +22,10 @@ enum class ExitStatus {
 /// An error with a message that tells the user what to mend.
 class Error : public std::runtime_error {
  public:
-  /// memory: there was not enough, and what takes less may still do
-  enum class Cause { other, memory };
+  enum class Cause {
+    other,
+    memory  ///< there was not enough: an approach that takes less may succeed
+  };
   Error(ExitStatus status, const std::string& message, Cause cause = Cause::other)
       : std::runtime_error(message), status_(status), cause_(cause)
   {

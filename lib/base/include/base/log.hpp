@@ -18,7 +18,7 @@ class Log {
   Log& operator=(const Log&) = delete;
   ~Log() { end_progress(); }
 
-  /// A line of its own. Formats as fmt does. Rank 0 alone writes, others may call it.
+  /// Writes a line of its own, formatted as by fmt. Rank 0 alone writes, others may call it.
   template <class... Args>
   void line(fmt::format_string<Args...> format, Args&&... args)
   {
@@ -38,7 +38,7 @@ class Log {
   {
     if (out_ && progress_due()) write_progress(fmt::format(format, std::forward<Args>(args)...));
   }
-  /// The moving line stays as it is; what follows begins on a new one.
+  /// Leaves the moving line as it is; what follows begins on a new one.
   void end_progress();
 
  private:

@@ -41,12 +41,12 @@ class Timers {
 
   /// Seconds of a stage on this rank so far, scopes still open excluded; 0 for a stage that never ran.
   double seconds(const std::string& stage) const;
-  /// The same of what this rank sent.
+  /// What this rank sent in a stage so far, scopes still open excluded.
   Traffic traffic(const std::string& stage) const;
 
   struct Spread {
     std::string stage;
-    double min, mean, max;
+    double min, mean, max;  ///< seconds, over the ranks
   };
   /// Every stage over all ranks; the stages must be the same everywhere. Collective.
   std::vector<Spread> spread(const Communicator& comm) const;

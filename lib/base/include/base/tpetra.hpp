@@ -1,5 +1,5 @@
 // Distributed vectors and operators: Tpetra, with its four template parameters fixed once.
-// Costly to compile: only the modules that hold distributed vectors (qp, feti, friction) include it.
+// Costly to compile: only modules that work with distributed vectors (qp, feti and those that use them) include it.
 #pragma once
 
 #include <Teuchos_RCP.hpp>
@@ -21,10 +21,10 @@ using MultiVector = Tpetra::MultiVector<Scalar, Local, Global, Node>;
 using Vector = Tpetra::Vector<Scalar, Local, Global, Node>;
 using Operator = Tpetra::Operator<Scalar, Local, Global, Node>;
 
-/// The Teuchos face of a communicator, for constructors of Tpetra maps.
+/// A communicator as Teuchos has it, for constructors of Tpetra maps. Collective.
 Teuchos::RCP<const Teuchos::Comm<int>> teuchos(const Communicator& comm);
 
-/// The entries of `x` on this rank, read only / writable.
+/// The entries of `x` on this rank, read only and writable. Refers to x.
 inline Eigen::Map<const Eigen::VectorXd> view(const Vector& x)
 {
   const auto data = x.getData();

@@ -11,8 +11,8 @@ struct Traffic {
   long long messages = 0;     ///< point to point, sent
   long long bytes = 0;        ///< in them
   long long collectives = 0;  ///< calls
-  long long collective_bytes =
-      0;  ///< in them: of each the larger of what the rank hands in and what it gets, whatever MPI makes of it
+  /// In these calls: of each the larger of what the rank hands in and what it gets, whatever MPI makes of it.
+  long long collective_bytes = 0;
 
   Traffic& operator+=(const Traffic& other);
   Traffic& operator-=(const Traffic& other);
@@ -22,7 +22,7 @@ inline Traffic operator-(Traffic a, const Traffic& b)
   return a -= b;
 }
 
-/// Since the start of the program.
+/// What this rank has sent since the start of the program.
 Traffic traffic();
 
 }  // namespace mortise

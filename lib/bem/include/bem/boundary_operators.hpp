@@ -39,7 +39,7 @@ struct LayerIntegrals {
   Eigen::MatrixXd kelvin;        ///< 3 m x 3 m, U; unknown 3 * panel + component
   Eigen::MatrixXd double_layer;  ///< m x n, n_y . d / (4 pi r^3), linear in y
 };
-/// `accuracy` of the quadrature, relative to the entries of neighbours.
+/// `accuracy`: of the quadrature, relative to the entries of neighbours.
 LayerIntegrals integrate_layers(const Panels& panels, const fem::Material& material, double accuracy);
 
 /// Which operators are made: V and K give tractions, D forces as well.
@@ -50,6 +50,7 @@ struct BoundaryOperators {
   Eigen::MatrixXd k;  ///< M / 2 + K, 3 m x 3 n
   Eigen::MatrixXd d;  ///< D, 3 n x 3 n; empty if not made
 };
+/// In space; `accuracy` as above.
 BoundaryOperators boundary_operators(const Panels& panels, const fem::Material& material, double accuracy,
                                      Operators which = Operators::all);
 
@@ -59,7 +60,7 @@ BoundaryOperators boundary_operators(const PlanePanels& panels, const fem::Mater
 /// The unit of -ln r in a plane: four times the size of the surface.
 double unit_of_length(const PlanePanels& panels);
 
-/// Nodal forces of tractions that are constant on each panel: M't, D n.
+/// Nodal forces M't, D n, of tractions t, D m, that are constant on each panel.
 template <int D>
 Eigen::VectorXd nodal_forces(const PanelsIn<D>& panels, const Eigen::VectorXd& t);
 

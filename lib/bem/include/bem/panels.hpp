@@ -18,9 +18,8 @@ struct PanelsIn {
   std::vector<Point> normal;                  ///< unit, outward
   std::vector<double> area;                   ///< of lines the length
 
-  /// Panels, and nodes.
-  Eigen::Index size() const { return static_cast<Eigen::Index>(corners.size()); }
-  Eigen::Index node_count() const { return static_cast<Eigen::Index>(points.size()); }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(corners.size()); }       ///< m, panels
+  Eigen::Index node_count() const { return static_cast<Eigen::Index>(points.size()); }  ///< n, nodes
   const Point& corner(std::size_t panel, int k) const
   {
     return points[static_cast<std::size_t>(corners[panel][static_cast<std::size_t>(k)])];
@@ -52,7 +51,8 @@ Panels make_panels(std::vector<Point> points, std::vector<std::array<Local, 3>> 
 /// the normals point inward.
 PlanePanels make_panels(std::vector<Point> points, std::vector<std::array<Local, 2>> corners);
 
-/// The skin that `mesh` consists of: cells of type tri3, or line2 in a plane.
+/// The panels of a skin (partition::Subdomain::skin): the cells of `mesh`, of type tri3, or line2 in a plane. Throws as the
+/// above.
 template <int D = 3>
 PanelsIn<D> make_panels(const mesh::Mesh& mesh);
 template <>

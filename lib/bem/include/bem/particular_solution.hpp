@@ -14,26 +14,26 @@
 
 namespace mortise::bem {
 
+/// Vectors at nodes and on panels are as of PanelsIn: n nodes, m panels, D components.
 class ParticularSolution {
  public:
-  /// Zero at `centre`. Of one material; forces a volume are its density times the acceleration, in a plane model the part of it
-  /// that lies in the plane.
+  /// Zero at `centre`. For a single material; the force per volume is its density times the acceleration, in a plane model the
+  /// part of that which lies in the plane.
   ParticularSolution(const fem::Constitution& constitution, const Point& centre,
                      fem::Kinematics kinematics = fem::Kinematics::solid);
 
-  /// Neither forces a volume nor a free expansion.
+  /// Whether there is neither a force per volume nor an expansion.
   bool is_zero() const { return expansion_ == 0 && force_ == 0; }
   Point displacement(const Point& x) const;
-  /// Without that which the free expansion would need: that has none. In a plane model as in_plane()'s material has it in plane
-  /// strain.
+  /// Of the force alone, since what expands freely has no stress. In a plane model that of in_plane()'s material in plane strain.
   fem::Stress stress(const Point& x) const;
-  /// At the nodes, D n.
+  /// u_p at the nodes, D n.
   template <int D>
   Eigen::VectorXd displacement(const PanelsIn<D>& panels) const;
-  /// The part of the force alone, which strains the body elastically.
+  /// Its part from the force, which strains the body elastically, at the nodes, D n.
   template <int D>
   Eigen::VectorXd displacement_of_force(const PanelsIn<D>& panels) const;
-  /// Means over the panels, D m.
+  /// t_p, means over the panels, D m.
   template <int D>
   Eigen::VectorXd traction(const PanelsIn<D>& panels) const;
   /// Integral of t_p phi, D n.

@@ -52,7 +52,7 @@ class Representation<3> {
   /// panel.
   Representation(const Panels& panels, const fem::Material& material, double accuracy = 1e-5);
 
-  /// Of a point anywhere; work grows with the number of panels.
+  /// Where any point lies; work grows with the number of panels.
   Location locate(const Point& x) const;
 
   /// At points inside or on the surface, of displacements u (3 n) and tractions t (3 m). A linear u with its t is exact. On the
@@ -107,7 +107,7 @@ class Representation<2> {
   /// Keeps a reference to `panels`.
   Representation(const PlanePanels& panels, const fem::Material& material);
 
-  /// Of a point anywhere; work grows with the number of panels.
+  /// Where any point lies; work grows with the number of panels.
   Location locate(const Point& x) const;
 
   /// As in space, of u (2 n) and t (2 m), for points of the plane z = 0; the stress across the plane is that of plane strain. For

@@ -15,7 +15,8 @@
 
 namespace mortise::bem {
 
-/// Of the quadrature in space, as far as fields are not linear; lines have closed forms.
+/// Accuracy of the quadrature in space, for fields that are not linear, relative to the entries of neighbours; lines have closed
+/// forms.
 inline constexpr double usual_accuracy = 1e-4;
 
 /// S, D n x D n, symmetric, unknown D * node + component. Takes about 50 m n numbers for a moment in space, 24 m n in a plane (m

@@ -31,7 +31,7 @@ class StressRecovery {
   /// Keeps a reference to `panels`.
   StressRecovery(const PanelsIn<D>& panels, const fem::Material& material);
 
-  /// Of displacements u (D n) and tractions t (D m).
+  /// The stress round a node, of displacements u (D n) and tractions t (D m).
   LinearStress at(Local node, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const;
 
  private:

@@ -19,7 +19,7 @@ namespace mortise::bem {
 /// XX YY ZZ XY YZ XZ of a symmetric tensor.
 fem::Stress components(const Eigen::Matrix3d& tensor);
 
-/// sigma n.
+/// The traction sigma n.
 Point traction(const fem::Stress& stress, const Point& normal);
 
 /// Stress tensor of the gradient d u_i / d x_j.
@@ -30,7 +30,7 @@ template <int D>
 Eigen::Matrix3d panel_gradient(const PanelsIn<D>& panels, const fem::Material& material, std::size_t panel,
                                const Eigen::VectorXd& u, const Eigen::VectorXd& t);
 
-/// On each panel, m x 6. Of first order in the size of the panels.
+/// The stress on each panel, m x 6, XX YY ZZ XY YZ XZ. Of first order in the size of the panels.
 template <int D>
 Eigen::MatrixXd panel_stresses(const PanelsIn<D>& panels, const fem::Material& material, const Eigen::VectorXd& u,
                                const Eigen::VectorXd& t);

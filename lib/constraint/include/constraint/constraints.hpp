@@ -19,14 +19,14 @@
 
 namespace mortise::constraint {
 
-/// Rows in compressed storage.
+/// Rows sum c_k u(node_k, component_k), in compressed storage.
 struct Rows {
   std::vector<std::size_t> offset{0};
   std::vector<Entry> entries;
   std::vector<double> bound;  ///< g of each row
 
-  /// Rows; the entries of the i-th one.
-  std::size_t size() const { return bound.size(); }
+  std::size_t size() const { return bound.size(); }  ///< number of rows
+  /// The entries of the i-th row.
   std::span<const Entry> operator[](std::size_t i) const
   {
     return std::span(entries).subspan(offset[i], offset[i + 1] - offset[i]);
@@ -44,13 +44,11 @@ struct PrescribedDof {
   Global node;
   int component;
   double value;
-  int support;                 ///< index into the deck's supports, for messages and reactions
-  std::array<double, 3> at{};  ///< the node's place, for moments
-  /// Of a rigid coupling: which one, whether its motion moves this component by something unknown besides `value`, and the node's
-  /// place from its point.
-  int coupling = -1;
-  bool unknown = false;
-  std::array<double, 3> arm{};
+  int support;                  ///< index into the deck's supports, for messages and reactions
+  std::array<double, 3> at{};   ///< the node's place, for moments
+  int coupling = -1;            ///< the rigid coupling that prescribes it, or -1
+  bool unknown = false;         ///< an unknown motion of that coupling moves this component besides `value`
+  std::array<double, 3> arm{};  ///< from the coupling's point to the node
 };
 
 /// A node is prescribed at `value` along a direction that is no axis: orthogonal to the components that are prescribed there and
@@ -58,7 +56,7 @@ struct PrescribedDof {
 struct SkewSupport {
   Global node;
   std::array<double, 3> direction;  ///< unit
-  double value;
+  double value;                     ///< a length
   /// Its force, a multiplier times `direction`, comes from these supports, each along its own normal or axis: the multiplier
   /// times `part`. The sum of the parts is `direction`.
   struct Share {
@@ -91,7 +89,7 @@ struct ContactNode {
   std::vector<Point> tangents;  ///< 0, 1 (2D, or one direction is prescribed) or 2 unit vectors, orthogonal to the normal
   std::size_t row;              ///< its normal row in Contacts::rows; its tangential rows follow, then the next node's normal row
   double weight = 1;  ///< sum of the row's coefficients on the secondary side, above 1 where it stands in for dropped nodes
-  double gap = 0;     ///< that the normal row starts with, interference deducted, before any support moves
+  double gap = 0;     ///< bound of the normal row, a length: interference deducted, before any support moves
   Point at = Point::Zero();  ///< its place in the mesh: the node, or where the node was moved to at the primary side's border
   double cover = 1;          ///< part of its surroundings that lies opposite the primary side
 };
@@ -126,8 +124,8 @@ struct Contacts {
 struct Preload {
   int contact = -1;             ///< index into the deck's contacts
   std::string name = {};        ///< of the contact, for messages
-  std::optional<double> force;  ///< tension of the bolt, > 0 (plane models: a thickness; axisymmetric: of the whole turn)
-  double shortening = 0;        ///< where no force is given
+  std::optional<double> force;  ///< tension of the bolt, > 0 (plane models: per thickness; axisymmetric: of the whole turn)
+  double shortening = 0;        ///< a length, where no force is given
 };
 
 /// A preloaded contact. Its two sides jump by s n, n the mean normal out of the secondary body, as if a slice of thickness s were
@@ -149,7 +147,7 @@ struct Coupling {
   std::string name;
   bool rigid = false;
   Point point = Point::Zero();
-  std::array<std::optional<double>, 6> motion;  ///< what supports prescribe of it
+  std::array<std::optional<double>, 6> motion;  ///< what supports prescribe of it: lengths, then radians
   std::array<double, 6> load{};                 ///< force and moment at the point
   double arm = 1;                               ///< how far the boundary is from the point, root mean square
 };

@@ -1,11 +1,11 @@
-// Boundaries coupled to a point, through which they are loaded and held. The point moves by U and turns by the small angles T
-// about itself; x is a node, p the point.
+// Boundaries coupled to a point, through which they are loaded and held. The point p moves by U and rotates by the small angles T
+// about itself; x is a node of the boundary.
 //
-//   rigid          every node follows: u(x) = U + T x (x - p). What is not prescribed of U and T is unknown, and balances the
-//   load. distributing   the point follows: U and T are the mean motion of the boundary by area. A force and a moment are spread
-//   over it as
-//                  the traction F / A + (I^-1 M) x (x - c), c its centre and I its second moment of area about c; it stays
-//                  flexible.
+// Rigid: every node follows, u(x) = U + T x (x - p). What is not prescribed of U and T is unknown, and balances the load.
+//
+// Distributing: the point follows, U and T are the mean motion of the boundary by area. A force F and a moment M are spread over
+// the boundary as the traction F / A + (I^-1 M) x (x - c), A its area, c its centre and I its second moment of area about c; the
+// boundary stays flexible.
 #pragma once
 
 #include <map>
@@ -24,8 +24,8 @@ namespace mortise::constraint {
 /// One entry of the deck's section `couplings`.
 struct CouplingOptions {
   std::string boundary;
-  std::array<double, 3> point{0, 0, 0};
-  std::string kind = "distributing";  ///< or "rigid"
+  std::array<double, 3> point{0, 0, 0};  ///< p
+  std::string kind = "distributing";     ///< or "rigid"
 };
 
 /// The keywords.
@@ -50,7 +50,7 @@ struct UnknownMotion {
   std::vector<Row> rows;  ///< those of this rank
 };
 
-/// All of them, the same on every rank but for their rows.
+/// All unknown motions, the same on every rank but for `rows`, which are those of this rank.
 std::vector<UnknownMotion> unknown_motions(const Constraints& constraints, int dimension);
 
 /// Throws Error(bad_input) where a mean motion is prescribed otherwise than supports that hold all of its nodes have it, or than
@@ -58,7 +58,7 @@ std::vector<UnknownMotion> unknown_motions(const Constraints& constraints, int d
 void require_consistent(std::span<const MeanMotion> motions, std::span<const PrescribedDof> prescribed,
                         std::span<const Coupling> couplings, const Communicator& comm);
 
-/// Whether the same components of the same couplings are prescribed.
+/// Whether both prescribe the same components of the same couplings.
 bool same_unknowns(std::span<const Coupling> a, std::span<const Coupling> b);
 
 }  // namespace mortise::constraint

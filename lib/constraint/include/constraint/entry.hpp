@@ -5,9 +5,10 @@
 
 namespace mortise::constraint {
 
+/// The term coefficient * u(node, component).
 struct Entry {
   Global node;
-  int component;
+  int component;  ///< 0, 1, 2
   double coefficient;
 };
 

@@ -11,7 +11,7 @@
 
 namespace mortise::constraint {
 
-/// A node that supports[support] prescribes at `value` along the unit vector `direction`.
+/// A node that supports[support] prescribes at `value`, a length, along the unit vector `direction`.
 struct NodeDirection {
   Global node;
   int support;
@@ -27,18 +27,19 @@ struct NodeDirection {
 std::vector<NodeDirection> node_normals(std::span<const Support> supports, std::span<const mesh::Surface> surfaces,
                                         const Communicator& comm);
 
-/// The same along the local axes of those supports that have some; `nodes[i]` as for dirichlet_rows(). A node on the axis of
-/// cylindrical ones, which is nearer to it than `rounding`, is held across the axis where the radial displacement is given, which
-/// must be 0 there: throws Error(bad_input). Collective.
+/// The same along the local axes of those supports that have some; `nodes[i]` as for dirichlet_rows(). A node that is nearer to
+/// the axis of cylindrical ones than `rounding`, a length, is held across the axis where the radial displacement is given. That
+/// must be 0 there: throws Error(bad_input) if it is not. Collective.
 std::vector<NodeDirection> axes_directions(std::span<const Support> supports, std::span<const SupportNodes> nodes, int dimension,
                                            double rounding, const Communicator& comm);
 
-/// Those that are parallel to an axis of the model, as prescribed components for dirichlet_rows(); the others stay.
+/// Takes those that are parallel to an axis of the model out of `directions` and returns them as prescribed components, for
+/// dirichlet_rows().
 std::vector<PrescribedDof> take_axis_aligned(std::vector<NodeDirection>& directions);
 
-/// What `directions`, ascending by node, hold besides the components `prescribed` of the same nodes, both on this rank:
-/// orthonormal directions. Throws Error(bad_input) that names both boundaries where they prescribe different displacements.
-/// Collective.
+/// What `directions`, ascending by node, hold besides the components `prescribed` of the same nodes, both of this rank's nodes
+/// (node % ranks): rows along orthonormal directions. Throws Error(bad_input) that names both boundaries where they prescribe
+/// different displacements. Collective.
 std::vector<SkewSupport> skew_support_rows(std::span<const Support> supports, std::span<const NodeDirection> directions,
                                            std::span<const PrescribedDof> prescribed, const Communicator& comm);
 

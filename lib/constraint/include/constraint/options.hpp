@@ -24,7 +24,7 @@ struct SupportOptions {
   bool cylindrical = false;                                  ///< components are called radial, tangential, axial
   std::vector<deck::Place> points = {};                      ///< instead of a boundary: the nodes at these places
   std::string body = {};                                     ///< of `points`, where several bodies have nodes there
-  /// Instead of displacements: springs to the ground, force a length at points, force a length and area on a boundary.
+  /// Instead of displacements: springs to the ground, force per length at points, force per length and area on a boundary.
   struct Stiffness {
     std::array<std::optional<double>, 3> along = {};  ///< x, y, z
     std::optional<double> normal = {}, tangential = {};

@@ -7,8 +7,8 @@
 
 namespace mortise::constraint {
 
-/// One side of a contact on one body. A rigid motion is (t, w): the velocity is t + w x (x - centre) / length. Matrices are
-/// quadratic forms in (t, w), mean values over the faces:
+/// One side of a contact on one body, with normal n. A rigid motion is (t, w): the velocity is v = t + w x (x - centre) / length.
+/// Forms are quadratic in (t, w), mean values over the faces.
 struct SlidingSurface {
   using Form = Eigen::Matrix<double, 6, 6>;
   int contact = 0;  ///< index into the deck's contacts
@@ -19,7 +19,7 @@ struct SlidingSurface {
   Form whole = Form::Zero();   ///< of (n . v)^2
   Form smooth = Form::Zero();  ///< of the square of what n . v has in common with quadratic polynomials; of few faces the whole
   Form speed = Form::Zero();   ///< of |v|^2
-  double tilt = 0;             ///< of the squared angle between a face and the mean of the faces at its nodes, but for kinks
+  double tilt = 0;  ///< mean square of the angle (radians) between a face and the mean of those at its nodes, kinks apart
 };
 
 }  // namespace mortise::constraint

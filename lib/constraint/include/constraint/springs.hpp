@@ -30,7 +30,7 @@ struct SpringRow {
 /// All springs of an assembly.
 struct Springs {
   std::vector<SpringRow> rows;   ///< of all ranks, the same on every one
-  SparseMatrix stiffness;        ///< A, both triangles: force a length
+  SparseMatrix stiffness;        ///< A, both triangles: force per length
   std::vector<std::size_t> own;  ///< those of `rows` that stand on this rank
 };
 
@@ -38,7 +38,7 @@ struct Springs {
 struct SpringOptions {
   std::vector<deck::Place> points;
   std::vector<std::string> bodies;  ///< none, or that of each point
-  double stiffness = 0;
+  double stiffness = 0;             ///< force per length
 };
 
 /// The keywords.

@@ -35,9 +35,9 @@ struct SupportNodes {
 
 /// Every prescribed pair (node, component) once over all ranks, on rank node % ranks, ascending. `nodes[i]` are the nodes of this
 /// rank on the boundary of `supports[i]`; copies of a node on several ranks and nodes on several boundaries are fine. Supports
-/// with local axes are left to normals.hpp. Where supports overlap they must agree: throws Error(bad_input) that names both if
-/// they prescribe different values, or one whose formula is no number at a node. `aligned`:
-/// components that stand on this rank and are prescribed besides (see take_axis_aligned(), coupled_rows()). Collective.
+/// with local axes are left to normals.hpp. `aligned`: components that stand on this rank and are prescribed besides (see
+/// take_axis_aligned(), coupled_rows()). Where supports overlap they must agree: throws Error(bad_input) that names both if they
+/// prescribe different values, or one whose formula is no number at a node. Collective.
 std::vector<PrescribedDof> dirichlet_rows(std::span<const Support> supports, std::span<const SupportNodes> nodes, int dimension,
                                           const Communicator& comm, std::span<const PrescribedDof> aligned = {});
 

@@ -1,5 +1,5 @@
-// Fits: the gap that a contact starts with. Meshes know it only to their own error, which on curved surfaces is as large as many
-// a fit; the deck or the geometry may know better.
+// Fits: the gap that a contact starts with. Meshes have it only to their own error, which on curved surfaces is as large as many
+// a fit; the deck or the geometry may have it exactly. Gaps are lengths, negative where the sides overlap.
 #pragma once
 
 #include <array>
@@ -30,41 +30,42 @@ struct CurvedFace {
   double radius = 0, slope = 0;
 };
 
-/// Up to this gap surfaces count as touching: 1e-4 of the extent of the smaller side, and 1e-3 of the largest secondary face.
+/// Up to this gap surfaces count as touching: the smaller of 1e-4 of the `extent` of the smaller side and 1e-3 of the largest
+/// secondary `face`.
 double touching_gap(double extent, double face);
-/// Part of that above which an overlap is no rounding.
+/// Part of touching_gap() above which an overlap is no rounding.
 inline constexpr double overlapping = 0.01;
 
-/// What a contact starts with at its points, before any interference and before anything moves. Of bonded ones what the meshes
-/// leave between the two sides.
+/// What a contact starts with at its contact nodes, before any interference and before anything moves. Of bonded ones what the
+/// meshes leave between the two sides.
 struct InitialGap {
-  double smallest = std::numeric_limits<double>::infinity();  ///< negative: an overlap; infinite: there are no points
+  double smallest = std::numeric_limits<double>::infinity();  ///< negative: an overlap; infinite: there are no nodes
   std::array<double, 3> at{0, 0, 0};                          ///< where that is
   double largest = -std::numeric_limits<double>::infinity();
   double touching = 0;        ///< see touching_gap()
-  double touching_area = 0;   ///< of the points that touch or overlap
-  double area = 0;            ///< of all points
+  double touching_area = 0;   ///< of the nodes that touch or overlap
+  double area = 0;            ///< of all nodes
   double on_one_surface = 0;  ///< area where the geometry says that both faces are one surface
-  /// What the meshes say, smallest and largest, if something else was taken.
+  /// The smallest and the largest gap of the meshes where another one is taken.
   double least_in_mesh = std::numeric_limits<double>::infinity(), largest_in_mesh = -least_in_mesh;
 
   /// In length units; 0 where nothing overlaps.
   double largest_overlap() const { return smallest < 0 ? -smallest : 0; }
-  /// By more than rounding.
+  /// Whether there is an overlap by more than rounding.
   bool overlaps() const { return -smallest > overlapping * touching; }
 };
 
-/// The gap of a point where the meshes say `mesh_gap`: options.clearance, or 0 for what options.adjust allows, or 0 where both
-/// faces are one surface.
+/// The gap of a contact node where that of the meshes is `mesh_gap`: options.clearance if it is given, else 0 up to
+/// options.adjust if that is, else 0 where both faces are parts of one surface of the geometry; `mesh_gap` otherwise.
 double starting_gap(const Options& options, double mesh_gap, bool one_surface);
 
 /// Whether the geometry is asked at all: the deck says nothing else.
 bool asks_geometry(const Options& options);
 
-/// Takes note of a point.
+/// Adds a contact node to `all`.
 void note_gap(InitialGap& all, double gap, double mesh_gap, bool one_surface, double area, const Point& at);
 
-/// The same over all ranks. Collective.
+/// The initial gap over the nodes of all ranks. Collective.
 InitialGap over_ranks(InitialGap mine, const Communicator& comm);
 
 }  // namespace mortise::contact

@@ -1,4 +1,4 @@
-// Mortar contact with dual multipliers: from two surfaces to rows, and from multipliers back to tractions.
+// From two surfaces to the rows of a contact: by mortar with dual multipliers, or the discretization that the deck names.
 //
 // The multiplier space is biorthogonal to the secondary side's shape functions, integral psi_i phi_j = delta_ij integral phi_j
 // [Wohlmuth, SIAM J. Numer. Anal. 38 (2000); Popp, Gitterle, Gee, Wall, IJNME 83 (2010)], integrated segment by segment, so that
@@ -29,15 +29,18 @@ struct Pair {
   std::shared_ptr<const mesh::Surface> primary;
 };
 
-/// For each pair how far apart its two sides may lie to meet: the deck's search_distance, or a tenth of the extent of the smaller
-/// side, but at least the size of a face. Collective.
+/// For each pair how far apart its two sides may lie to meet, a length: the deck's search_distance, or a tenth of the extent of
+/// the smaller side, but at least the size of a face. Collective.
 std::vector<double> search_distances(std::span<const Pair> pairs, const Communicator& comm);
 
 /// The contact rows of all pairs; contact c of ContactNode is pairs[c]. Rows stand on any rank, each once; they do not depend on
-/// the number of ranks, to the last bit. `prescribed` and `skew_supports` are the supports of this rank. Frictionless pairs have
-/// normal rows only. Throws Error(bad_input) if the cuts of a sector do not lie on each other. In axisymmetry areas and forces
-/// are those of the whole turn. `curved_faces`: those of this rank whose geometry is known; `initial_gaps`: takes that of each
-/// pair. Collective.
+/// the number of ranks, to the last bit. Frictionless pairs have normal rows only. In axisymmetry areas and forces are those of
+/// the whole turn.
+///
+/// `prescribed`, `skew_supports`: the supports of this rank. `curved_faces`: the faces of this rank whose geometry is known.
+/// `initial_gaps`, unless null, gets the initial gap of each pair, the same on every rank. Throws Error(bad_input) if the cuts of
+/// a sector do not lie on each other, or if supports alone push the sides of a contact into each other or those of a bond apart.
+/// Collective.
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::PrescribedDof> prescribed,
                                 fem::Kinematics kinematics, const Communicator& comm,
                                 std::span<const constraint::SkewSupport> skew_supports = {},

@@ -16,7 +16,7 @@ struct Obstacle {
   Point point = Point::Zero();       ///< on the plane or the axis; the centre
   Point direction = Point::UnitY();  ///< unit: normal of the plane, out of the obstacle; axis of the cylinder
   double radius = 0;
-  bool inside = false;  ///< bodies are in the hollow of a cylinder or a sphere
+  bool inside = false;  ///< bodies are inside a hollow cylinder or sphere
 };
 
 /// The point of the surface that is closest to a given one.
@@ -38,8 +38,8 @@ nlohmann::ordered_json obstacle_schema();
 /// "plane", "cylinder" or "sphere".
 std::string shape_name(const Obstacle& obstacle);
 
-/// What of it does not fit models of this kind: a message, or "". In planes cylinders have the axis z; in axisymmetry obstacles
-/// are bodies of revolution about y.
+/// Why an obstacle does not fit models of this kind: a message, or "". In plane models cylinders have the axis z; in axisymmetry
+/// obstacles are bodies of revolution about y.
 std::string misfit(const Obstacle& obstacle, fem::Kinematics kinematics);
 
 }  // namespace mortise::contact

@@ -15,8 +15,8 @@ enum class Law { frictionless, tresca, coulomb, bonded };
 
 /// How a bonded contact draws its two sides together; exactly one is given.
 struct PreloadOptions {
-  std::optional<double> force;       ///< tension of the bolt, > 0
-  std::optional<double> shortening;  ///< of the bolt, at the cut
+  std::optional<double> force;       ///< tension of the bolt, > 0 (plane models: per thickness; axisymmetric: of the whole turn)
+  std::optional<double> shortening;  ///< of the bolt at its pretension section, a length
 };
 
 struct Options {
@@ -25,9 +25,9 @@ struct Options {
   std::string primary;    ///< empty for an obstacle
   std::optional<Obstacle> obstacle;
   Law law = Law::frictionless;
-  double friction = 0;                    ///< tresca: slip bound as a traction; coulomb: coefficient
+  double friction = 0;                    ///< tresca: slip bound, a force per area; coulomb: coefficient
   std::string discretization = "mortar";  ///< or "node_to_segment"
-  double interference = 0;                ///< added overlap; negative opens a gap
+  double interference = 0;                ///< added overlap, a length; negative opens a gap
   std::optional<double> adjust = {};      ///< gaps and overlaps of the meshes up to this count as zero; 0: as they are
   std::optional<double> clearance = {};   ///< the gap everywhere, whatever the meshes say, >= 0; interference comes on top
   double search_distance = 0;  ///< surfaces farther apart than this never meet; 0: a tenth of the smaller side's extent
@@ -36,7 +36,7 @@ struct Options {
   bool automatic = false;                            ///< stands for all pairs of bodies that face each other: pairing.hpp
 };
 
-/// The deck's entry {auto: true}: what all contacts have in common that are found.
+/// The deck's entry {auto: true}: what all contacts that are found have in common.
 struct AutoOptions {
   Options contact;
 };

@@ -13,9 +13,9 @@
 
 namespace mortise::contact {
 
-/// For each contact that is not bonded or cyclic and each body on each of its sides, from the faces that its rows push on (all
-/// faces where supports hold every node of them). Ordered by contact, side (primary first) and body; the same on every rank.
-/// Collective.
+/// A SlidingSurface for each contact that is neither bonded nor cyclic and each body on each of its sides, from the faces that
+/// its rows push on (all faces where supports hold every node of them). Ordered by contact, side (primary first) and body; the
+/// same on every rank. Collective.
 std::vector<constraint::SlidingSurface> sliding_surfaces(std::span<const Pair> pairs, const constraint::Contacts& contacts,
                                                          fem::Kinematics kinematics, const Communicator& comm);
 

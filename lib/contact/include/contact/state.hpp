@@ -14,47 +14,49 @@ enum class Status : int { open = 0, stick = 1, slip = 2 };
 struct ContactNodeState {
   int contact = 0;
   Global node = 0;
-  double area = 0;                           ///< what it bears: of constant pressures the forces are these times the area
+  double area = 0;                           ///< force over pressure: a constant pressure p has the force p * area
   double cover = 1;                          ///< ContactNode::cover
   Point normal = Point::Zero();              ///< ContactNode::normal
   double force = 0;                          ///< the normal part of force_on_secondary, >= 0 when pressing (bonded: any sign)
-  Point force_on_secondary = Point::Zero();  ///< all multipliers of the point, as the secondary side feels them
-  double gap = 0;                            ///< >= 0 up to the solver's tolerance
-  Point slip = Point::Zero();                ///< tangential jump, secondary minus primary side
+  Point force_on_secondary = Point::Zero();  ///< of all its multipliers
+  double gap = 0;                            ///< a length, >= 0 up to the solver's tolerance
+  Point slip = Point::Zero();                ///< tangential jump, secondary minus primary side, a length
   Status status = Status::open;
 };
 
-/// One point: `multipliers` are forces (normal, then tangents); `jumps` are row . u (without bounds) in the same order, `bound`
-/// that of the normal row; `slip_bound` the slip bound as a force (infinite: sticks; 0: frictionless). A row whose neighbours on
-/// the same face have none sees ContactNode::weight times the jump of the surfaces; the state is theirs. A point counts as open
-/// while its pressure is at most `nothing`, what the solver's tolerance leaves of zero.
+/// The state of a contact node. `multipliers`: forces, normal, then tangential. `jumps`: row . u in the same order, of tangential
+/// rows without what moving supports and pretension sections contribute. `bound`: of the normal row. `slip_bound`: a force
+/// (infinite: sticks; 0: frictionless). A row whose neighbours on the same face have none sees ContactNode::weight times the jump
+/// of the surfaces; the state is that of the surfaces. The node is open while its pressure is at most `negligible_pressure`, what
+/// the solver's tolerance leaves of zero.
 ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std::span<const double> multipliers,
-                          std::span<const double> jumps, double bound, double slip_bound, double nothing);
+                          std::span<const double> jumps, double bound, double slip_bound, double negligible_pressure);
 
 /// Totals of one contact, over all ranks.
 struct Resultant {
-  Point force = Point::Zero();  ///< on the secondary side
-  double area = 0;              ///< of the points that are closed
-  long long open = 0, stick = 0, slip = 0;
-  double sizes = 0;  ///< the sum of the sizes of the forces at the points
+  Point force = Point::Zero();              ///< on the secondary side
+  double area = 0;                          ///< of the nodes that are closed
+  long long open = 0, stick = 0, slip = 0;  ///< nodes of each status
+  double sizes = 0;                         ///< the sum of |force| over the nodes
 };
-/// Collective.
+/// Of each of so many `contacts`, from this rank's nodes. Collective.
 std::vector<Resultant> resultants(std::span<const ContactNodeState> points, std::size_t contacts, const Communicator& comm);
 
-/// Nodal fields on this rank's secondary surface of one contact; where points share a node at a kink, those of the one with the
-/// largest pressure. A node whose surroundings the primary side hardly covers bears what presses on a strip much narrower than a
-/// face: its force and area count with those of its neighbours, whose mean it shows.
+/// Nodal fields on this rank's secondary surface of one contact: pressures and tractions are forces per area, gaps and slips
+/// lengths. Where contact nodes share a node at a kink, the fields are those of the one with the largest pressure. A node whose
+/// surroundings the primary side hardly covers bears what presses on a strip much narrower than a face: its force and area count
+/// with those of its neighbours, whose mean it shows.
 struct SurfaceState {
   std::vector<double> pressure, gap;
-  /// The pressure averaged over the faces at each node, by their areas, where it presses; at a kink over those on one side of it.
-  /// That of single nodes scatters by some per cent on unstructured meshes, being the least smooth of all results; the average
-  /// loses as much only where it bends within a face.
+  /// The pressure averaged over the faces at each closed node, by their areas; at a kink over those on one side of it. The
+  /// pressure of single nodes scatters by some per cent on unstructured meshes; the average loses as much only where the pressure
+  /// bends within a face.
   std::vector<double> recovered_pressure;
   std::vector<Point> traction, slip;
-  std::vector<int> status;
-  std::vector<char> near;  ///< whether the node lies near enough to the other side to have a state; else the numbers are 0
+  std::vector<int> status;  ///< as Status
+  std::vector<char> near;   ///< whether the node lies near enough to the other side to have a state; else the numbers are 0
 };
-/// One for each surface. Collective.
+/// One for each pair. Collective.
 std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,
                                          const Communicator& comm);
 

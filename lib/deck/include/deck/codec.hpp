@@ -19,11 +19,13 @@ namespace mortise::deck {
 struct Limits {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  bool strictly_above = false, strictly_below = false;
-  std::vector<std::string> names;   ///< allowed strings; empty: all
-  std::vector<std::string> future;  ///< strings that are refused as not available yet
+  bool strictly_above = false, strictly_below = false;  ///< the limits themselves are not allowed
+  std::vector<std::string> names;                       ///< allowed strings; empty: all
+  std::vector<std::string> future;                      ///< strings that are refused as not available yet
 };
 
+/// read() sets `value` from a node of the deck, or leaves an error about `path` in the document; write() gives the node that
+/// reads back to the value, null for what need not be written; schema() is its JSON schema.
 template <class V>
 struct Codec;
 
@@ -52,15 +54,17 @@ struct Codec<std::string> {
   static nlohmann::ordered_json schema(const Limits& limits);
 };
 
-/// What the templates below share, whatever they hold. The entries of a list (none of null), with their paths; complains about
-/// what is no list.
+// What the templates below share, whatever they hold.
+
+/// Calls `read` for the entries of a list (none of null), with their paths. An error if it is no list.
 void for_each_entry(const YAML::Node& node, const std::string& path, Document& document,
                     const std::function<void(const YAML::Node& entry, const std::string& at)>& read);
-/// The entries of a mapping of names, likewise; `read` says whether the name was new.
+/// The same for the entries of a mapping of names; `read` returns whether the name was new.
 void for_each_named(const YAML::Node& node, const std::string& path, Document& document,
                     const std::function<bool(const std::string& name, const YAML::Node& entry, const std::string& at)>& read);
-/// Of two or `most` entries; complains if it is not.
+/// Whether it is a list of two or `most` entries; an error if it is not.
 bool is_vector(const YAML::Node& node, std::size_t most, const std::string& path, Document& document);
+/// The node of a list, and schemas made of that of an entry.
 YAML::Node list_of(const std::vector<YAML::Node>& entries, YAML::EmitterStyle::value style = YAML::EmitterStyle::Default);
 nlohmann::ordered_json or_auto(nlohmann::ordered_json schema);
 nlohmann::ordered_json vector_of(nlohmann::ordered_json schema, std::size_t most);

@@ -24,7 +24,7 @@ struct AnyKey {
   std::string name, help;
   Limits limits;
   bool is_required = false;
-  bool is_hidden = false;  ///< not written back while it has its initial value
+  bool is_hidden = false;  ///< a key that is not written back while it has its initial value
   std::function<void(void*, const YAML::Node&, const std::string& path, Document&, const Limits&)> read_any;
   std::function<YAML::Node(const void*)> write_any;
   std::function<nlohmann::ordered_json(const Limits&)> schema;
@@ -40,12 +40,15 @@ class Key : public AnyKey {
   }
   YAML::Node write(const T& value) const { return write_any(&value); }
 
+  /// It must be given.
   Key& required() { return is_required = true, *this; }
   Key& hidden() { return is_hidden = true, *this; }
+  /// Limits of a number, or of each entry of a list.
   Key& positive() { return limits.lower = 0, limits.strictly_above = true, *this; }
   Key& at_least(double value) { return limits.lower = value, limits.strictly_above = false, *this; }
   Key& above(double value) { return limits.lower = value, limits.strictly_above = true, *this; }
   Key& below(double value) { return limits.upper = value, limits.strictly_below = true, *this; }
+  /// The strings that it may be.
   Key& one_of(std::vector<std::string> names) { return limits.names = std::move(names), *this; }
   /// Names that a later version will know.
   Key& not_yet(std::vector<std::string> names) { return limits.future = std::move(names), *this; }
@@ -54,6 +57,7 @@ class Key : public AnyKey {
 /// What descriptions of all types share, compiled once: every struct of a deck would have functions of its own, of some 20 kB.
 class AnyDescription {
  public:
+  /// What the section or entry is for: a paragraph of the manual.
   void help(std::string text) { help_ = std::move(text); }
   /// A keyword that the format knows and this version cannot do.
   void unavailable(const std::string& name) { unavailable_.push_back(name); }
@@ -67,9 +71,9 @@ class AnyDescription {
 
   const std::vector<std::string>& unavailable() const { return unavailable_; }
 
-  /// Reads a mapping into the struct at `value`, of the type described; whether without an error.
+  /// Reads a mapping into the struct at `value`, of the type described. Returns whether there was no error.
   bool read(void* value, const YAML::Node& node, const std::string& path, Document& document) const;
-  /// The mapping of the struct at `value`; `initial` has what nothing was given for.
+  /// The mapping of the struct at `value`; `initial`: one with all initial values.
   YAML::Node write(const void* value, const void* initial) const;
   nlohmann::ordered_json schema(const void* initial) const;
 
@@ -141,6 +145,7 @@ const Description<T>& description()
 /// What a key is without being given, as JSON: scalars and lists of them; null for what is absent, empty or a mapping.
 nlohmann::ordered_json default_value(const YAML::Node& written);
 
+/// "path.key", or "key" at the top.
 std::string join(const std::string& path, const std::string& key);
 
 /// Structs with a description.

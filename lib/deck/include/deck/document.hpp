@@ -18,20 +18,21 @@ class Document {
   /// be placed (all of these at once).
   Document(const std::string& text, std::string file, const std::vector<std::string>& settings);
 
-  /// The deck as one mapping, settings included; the name that messages begin with.
-  const YAML::Node& root() const { return root_; }
-  const std::string& file() const { return file_; }
+  const YAML::Node& root() const { return root_; }   ///< the deck as one mapping, settings included
+  const std::string& file() const { return file_; }  ///< the name that messages begin with
 
-  /// Remembers where `path` stands.
+  /// Remembers the line of `node` as that of `path`, for error().
   void locate(const std::string& path, const YAML::Node& node);
   /// Adds "file:line: path: message"; the line of the nearest enclosing path that is known.
   void error(const std::string& path, const std::string& message);
   /// Throws Error(bad_input) with all errors, in the order of lines, if there are any.
   void check() const;
-  /// Complaints so far.
+  /// Errors so far.
   std::size_t error_count() const { return errors_.size(); }
-  /// Remembers a vector that was given by two entries, as plane models may, for whoever knows the dimension.
+  /// Remembers that the vector at `path` has two entries, as plane models may have; whether this one may is checked once the
+  /// dimension is known.
   void note_pair(const std::string& path) { pairs_.insert(path); }
+  /// The paths of note_pair().
   const std::set<std::string>& pairs() const { return pairs_; }
 
  private:

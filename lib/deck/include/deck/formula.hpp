@@ -18,12 +18,12 @@ class Formula {
   /// Throws std::invalid_argument that says what is wrong and where.
   explicit Formula(const std::string& text);
 
-  /// May be infinite or no number, as 1 / x at 0.
+  /// The value at a place and a time. May be infinite or no number, as 1 / x at 0.
   double operator()(const Point& x, double time) const;
-  /// The same times `factor`, at `time` whatever time it is asked for.
+  /// This formula times `factor` at `time`, whatever time the result is called with.
   Formula at(double factor, double time) const;
   bool is_constant() const { return parser_ == nullptr; }
-  /// That of a number.
+  /// The value of one that is_constant().
   double constant() const { return factor_ * constant_; }
   /// As it was written; "" for a number.
   const std::string& text() const;

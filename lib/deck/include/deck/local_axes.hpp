@@ -1,4 +1,4 @@
-// Axes that are not those of the model: cylindrical about an axis, or turned.
+// Axes that are not those of the model: cylindrical about an axis, or rotated.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,8 +14,8 @@ namespace mortise::deck {
 struct AxesOptions {
   std::optional<std::array<double, 3>> axis;  ///< cylindrical, about this direction through `point`
   std::array<double, 3> point{0, 0, 0};
-  std::optional<std::array<double, 3>> x,
-      y;  ///< turned: directions of the first axis and, after what it has along x, of the second
+  std::optional<std::array<double, 3>> x;  ///< rotated: the direction of the first axis
+  std::optional<std::array<double, 3>> y;  ///< and, less its part along x, of the second one
 };
 
 /// The keywords.
@@ -26,17 +26,18 @@ class LocalAxes {
  public:
   /// Those of the model.
   LocalAxes() : cylindrical_(false), point_(Point::Zero()), axes_(Eigen::Matrix3d::Identity()) {}
-  /// `planar`: in the plane z = 0, a turned `x` alone gives both axes.
+  /// `planar`: in the plane z = 0, where a rotated `x` alone gives both axes.
   LocalAxes(const AxesOptions& options, bool planar);
 
-  /// Rows: radial (away from the axis), tangential, axial; or x, y, z. None where the axis is as near as `rounding`.
+  /// The axes at a place, in rows: radial (away from the axis), tangential, axial; or x, y, z. None where the axis is nearer than
+  /// `rounding`, a length.
   std::optional<Eigen::Matrix3d> at(const Point& place, double rounding = 0) const;
   /// The same, and on the axis with some radial direction, one for all places there.
   Eigen::Matrix3d everywhere(const Point& place) const;
   bool cylindrical() const { return cylindrical_; }
-  /// Those of a body that was moved by x -> rotation x + translation.
+  /// The axes of a body after the motion x -> rotation x + translation.
   LocalAxes moved(const Eigen::Matrix3d& rotation, const Point& translation) const;
-  /// Whether both are the same to 1e-9; axes of cylindrical ones, to that part of `size`.
+  /// Whether both are the same to 1e-9, and the places of cylindrical axes to 1e-9 of `size`.
   bool coincides(const LocalAxes& other, double size) const;
   bool operator==(const LocalAxes& other) const
   {

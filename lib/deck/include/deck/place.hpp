@@ -9,6 +9,7 @@
 
 namespace mortise::deck {
 
+/// One or many nodes.
 struct Place {
   std::string name;            ///< of nodes in the mesh: a physical curve or point, an *NSET; empty: coordinates
   std::array<double, 3> at{};  ///< if it has no name

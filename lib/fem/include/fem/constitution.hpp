@@ -11,8 +11,8 @@ namespace mortise::fem {
 struct Constitution {
   Materials materials;
   Formulation formulation = Formulation::standard;
-  Temperature temperature_change = {};
-  Point acceleration = Point::Zero();
+  Temperature temperature_change = {};  ///< degrees
+  Point acceleration = Point::Zero();   ///< the body force is density times this
 };
 
 }  // namespace mortise::fem

@@ -26,12 +26,12 @@ struct Element {
   /// are then useless.
   void (*gradients_in_space)(const Element& element, const double* x, double* gradients, double* volumes) = nullptr;
 
-  /// K of one cell, (d n) x (d n), unknown d * node + component, from what gradients_in_space() found:
-  /// block ij is the sum over the points of volume * (lambda g_i g_j' + mu g_j g_i' + mu (g_i . g_j) I).
+  /// K of one cell, (d n) x (d n), unknown d * node + component, from the results of gradients_in_space(): block ij is the sum
+  /// over the points of volume * (lambda g_i g_j' + mu g_j g_i' + mu (g_i . g_j) I).
   void (*stiffness)(const Element& element, const double* gradients, const double* volumes, double lambda, double mu,
                     double* k) = nullptr;
 
-  Eigen::MatrixXd centre_gradient;  ///< n x d at the origin of the reference cell
+  Eigen::MatrixXd centre_gradient;  ///< n x d, at the origin of the reference cell, by the reference coordinates
   /// As `stiffness`, for gradients of n nodes and d modes, (n + d) x d. Null for cells without incompatible modes.
   void (*stiffness_with_modes)(const Element& element, const double* gradients, const double* volumes, double lambda, double mu,
                                double* k) = nullptr;
@@ -39,8 +39,8 @@ struct Element {
   std::size_t points() const { return weight.size(); }
 };
 
-/// In axisymmetry tri3 has three points: with the one that a constant strain needs, a displacement u_r / r that vanishes there
-/// would have no energy.
+/// The tables of a type of cell or face, made once and shared. In axisymmetry tri3 has three points: with the one that a constant
+/// strain needs, a displacement u_r / r that vanishes there would have no energy.
 const Element& element(mesh::CellType type, Kinematics kinematics = Kinematics::solid);
 
 }  // namespace mortise::fem

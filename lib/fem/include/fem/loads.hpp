@@ -1,5 +1,5 @@
-// Consistent nodal loads. Each function adds to f, unknown d * node + component of the piece; see
-// Kinematics for the thickness.
+// Consistent nodal loads. Each function adds to the nodal forces f, unknown d * node + component of the piece; see Kinematics for
+// the thickness. None communicates: sums over the ranks are up to the caller.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,11 +19,11 @@ double area(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
 using ScalarField = std::function<double(const Point&)>;
 using VectorField = std::function<Point(const Point&)>;
 
-/// f_i += integral of -p n N_i over the boundary: pressure pushes into the body.
+/// f_i += integral of -p n N_i over the boundary: a positive pressure, force per area, pushes into the body.
 void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const ScalarField& pressure, Eigen::VectorXd& f);
 void add_pressure(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, double pressure, Eigen::VectorXd& f);
 
-/// f_i += integral of t N_i over the boundary.
+/// f_i += integral of t N_i over the boundary, t a force per area.
 void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const VectorField& traction, Eigen::VectorXd& f);
 void add_traction(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& traction, Eigen::VectorXd& f);
 
@@ -44,23 +44,24 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double dens
 void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
                    const Temperature& temperature_change, Eigen::VectorXd& f);
 
-/// Of the facets of a boundary in this piece: area (as area()), integrals of x, of x x' and of the outward normal.
+/// Integrals over the facets of a boundary in this piece.
 struct Moments {
-  double area = 0;
-  Point first = Point::Zero();
-  Point normal = Point::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  double area = 0;                                   ///< as area()
+  Point first = Point::Zero();                       ///< of x
+  Point normal = Point::Zero();                      ///< of the outward normal
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  ///< of x x'
 };
-/// On this rank alone: sums over the ranks are up to the caller.
+/// Of one boundary.
 Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
 
 /// An integration point of a boundary's facet: the facet's nodes, their shape functions there, and the area that the point stands
 /// for times the outward normal.
 using BoundaryVisitor = std::function<void(std::span<const Local> nodes, const Eigen::VectorXd& shape, const Point& area)>;
-/// Visits rules that integrate products of two shape functions exactly on plane facets.
+/// Visits the integration points of all facets of a boundary, of rules that are exact for products of two shape functions on
+/// plane facets.
 void for_each_point_of_boundary(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const BoundaryVisitor& visit);
 
-/// Column n of the result: the integrals of N_n and of N_n x over the boundary, of each node of the piece, 4 x nodes.
+/// 4 x nodes of the piece: column n has the integrals of N_n and of N_n x over the boundary.
 Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
 
 }  // namespace mortise::fem

@@ -18,8 +18,9 @@ class Materials {
   {
   }
 
+  /// How many there are; operator[] has them.
   std::size_t count() const { return materials_.size(); }
-  /// Place of the cell's material among all.
+  /// Which of them a cell is of.
   std::size_t index(std::size_t cell) const { return of_cell_.empty() ? 0 : static_cast<std::size_t>(of_cell_[cell]); }
   const Material& operator[](std::size_t index) const { return materials_[index]; }
 

@@ -21,18 +21,18 @@ namespace mortise::fem {
 /// poisson_ij / E_i.
 struct Orthotropy {
   std::array<double, 3> young_modulus{}, poisson_ratio{}, shear_modulus{};  ///< E: 1, 2, 3; the others: 12, 13, 23
-  std::optional<std::array<double, 3>> thermal_expansion;                   ///< strain a degree; none: that of the material
+  std::optional<std::array<double, 3>> thermal_expansion;                   ///< strain per degree; none: that of the material
   std::string axes;                                                         ///< directions by name; none: those of the model
 };
-/// Strains 11, 22, 33 by stresses 11, 22, 33.
+/// 3 x 3, one over stress: the strains 11, 22, 33 are this times the stresses 11, 22, 33.
 Eigen::Matrix3d flexibility(const Orthotropy& m);
 
 /// Linear elasticity, isotropic unless it is orthotropic. Stresses in the unit of Young's modulus.
 struct Material {
   double young_modulus = 0;      ///< > 0; of an orthotropic one 0, see modulus()
   double poisson_ratio = 0;      ///< in (-1, 0.5)
-  double density = 0;            ///< mass a volume; needed by accelerations only
-  double thermal_expansion = 0;  ///< strain a degree
+  double density = 0;            ///< mass per volume; needed by accelerations only
+  double thermal_expansion = 0;  ///< strain per degree
   std::optional<Orthotropy> orthotropic = {};
   std::shared_ptr<const deck::LocalAxes> directions = {};  ///< what orthotropic->axes names; none: the axes of the model
 
@@ -54,7 +54,7 @@ double thickness(Kinematics kinematics, double x);
 /// See formulation.hpp.
 enum class Formulation { standard, bbar, incompatible };
 
-/// Whether there is a formulation for a cell.
+/// Whether a formulation exists for cells of this type.
 bool applies(Formulation formulation, mesh::CellType type);
 
 /// How a body is discretised: in its cells, or on its surface alone (module bem).
@@ -70,10 +70,10 @@ struct BodyOptions {
   Formulation formulation = Formulation::standard;  ///< of finite elements
 };
 
-/// A body turns about an axis: in planes one along z, in axisymmetry that of revolution, y.
+/// The load of a body that turns about an axis: in plane models one along z, in axisymmetry that of revolution, y.
 struct Centrifugal {
   std::array<double, 3> axis{0, 0, 1}, point{0, 0, 0};
-  double speed = 0;  ///< angle a time, in radians
+  double speed = 0;  ///< angle per time, in radians
 };
 
 /// The acceleration that keeps x from its circle: speed^2 (x - its place on the axis).
@@ -99,15 +99,15 @@ struct TemperatureChange {
 struct LoadOptions {
   std::string boundary;
   std::string body;
-  std::optional<deck::Formula> pressure;                 ///< force an area, positive into the body
-  std::optional<std::array<deck::Formula, 3>> traction;  ///< force an area
-  std::optional<std::array<double, 3>> force;            ///< resultant, spread evenly over the boundary (plane: a thickness)
+  std::optional<deck::Formula> pressure;                 ///< force per area, positive into the body
+  std::optional<std::array<deck::Formula, 3>> traction;  ///< force per area
+  std::optional<std::array<double, 3>> force;            ///< resultant, spread evenly over the boundary (plane: per thickness)
   std::optional<std::array<double, 3>> acceleration;     ///< body force is density times this
   std::optional<Centrifugal> centrifugal = {};  ///< body force is density times speed squared times the distance from the axis
   std::optional<TemperatureChange> temperature_change = {};  ///< several on one body add
   std::string name = {};                                     ///< default: the boundary, the body or the coupling
   std::string coupling = {};                                 ///< its point takes `force` and `moment`
-  std::optional<std::array<double, 3>> moment = {};          ///< about the point; in a plane z alone, a thickness
+  std::optional<std::array<double, 3>> moment = {};          ///< about the point; in a plane z alone, per thickness
   std::string axes = {};                                     ///< name of local axes of a traction or a force
   std::vector<deck::Place> points = {};                      ///< instead of a boundary: the nodes that share `force`
 };

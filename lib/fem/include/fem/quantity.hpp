@@ -1,4 +1,4 @@
-// What a result is at a point, told by one number, under the names that decks and tables give it.
+// Results at a point as single numbers, under the names that decks and tables give them.
 #pragma once
 
 #include <optional>
@@ -25,18 +25,19 @@ enum class Quantity {
   sxz
 };
 
-/// In the order of the above.
+/// The names of all quantities, in the order of the above.
 const std::vector<std::string>& quantity_names();
-/// Nothing if there is none of that name.
+/// The quantity of that name; nothing if there is none.
 std::optional<Quantity> quantity(const std::string& name);
 
 /// The eigenvalues of the stress tensor, the largest first.
 Eigen::Vector3d principal_stresses(const Stress& stress);
 
-/// The stress along other axes: unit vectors, in rows.
+/// The components of a stress along other axes, unit vectors in the rows of `axes`.
 Stress along(const Eigen::Matrix3d& axes, const Stress& stress);
 
-/// Of displacement and stress at a point; of principal stresses the largest or the smallest. Not for pressures.
+/// The value of a quantity for this displacement and this stress; of principal stresses the largest or, if `smallest`, the
+/// smallest. Not for pressures.
 double value(Quantity quantity, bool smallest, const Point& displacement, const Stress& stress);
 
 }  // namespace mortise::fem

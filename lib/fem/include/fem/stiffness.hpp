@@ -14,7 +14,7 @@ namespace mortise::fem {
 struct Lame {
   double lambda, mu;
 };
-/// Both in the unit of Young's modulus.
+/// Lame's constants, in the unit of Young's modulus.
 Lame lame(const Material& material, Kinematics kinematics);
 
 /// Lower triangle of K, K_ij = integral of lambda div v_i div v_j + 2 mu e(v_i):e(v_j), full integration, lambda and mu

@@ -7,7 +7,7 @@
 
 namespace mortise::fem {
 
-/// Degrees: a number, and what varies in space besides it.
+/// A change of temperature in degrees: the sum of a number and of what varies in space.
 struct Temperature {
   Temperature(double degrees = 0) : uniform(degrees) {}  // NOLINT: a number is a temperature
 

@@ -27,35 +27,36 @@ namespace mortise::feti {
 /// not copy. One thread at a time.
 class Clusters {
  public:
+  /// No subdomains.
   Clusters();
-  /// nodal_stiffness[s][n]: by which averages are weighted. Throws Error(machine) if a cluster cannot be factorized.
+  /// `subdomains`: in the order of Decomposition::subdomains, whose clusters these are. nodal_stiffness[s][n]: the weights of
+  /// averages. Throws Error(machine) if a cluster cannot be factorized.
   Clusters(const partition::Decomposition& decomposition, const partition::Interface& interface, Subdomains subdomains,
            const std::vector<std::vector<double>>& nodal_stiffness, fem::Kinematics kinematics);
   Clusters(Clusters&&) noexcept;
   Clusters& operator=(Clusters&&) noexcept;
   ~Clusters();
 
-  /// In the order of Decomposition::subdomains.
+  /// Of this rank, in the order of Decomposition::subdomains, which s counts below.
   const Subdomains& subdomains() const { return subdomains_; }
-  /// Dimension of the kernel of every cluster, and of the kernels of all clusters of all ranks.
-  int modes() const { return modes_; }
-  int kernel_dimension() const { return kernel_dimension_; }
+  int modes() const { return modes_; }                        ///< dimension of the kernel of each cluster
+  int kernel_dimension() const { return kernel_dimension_; }  ///< sum of these over the clusters of all ranks
   /// Where the kernel of the s-th subdomain's cluster stands among all: coordinates first(s) .. first(s)+modes()-1.
   int first(std::size_t s) const { return first_[s]; }
   /// The orthonormal kernel of the s-th subdomain's cluster on this subdomain, its size x modes().
   Eigen::MatrixXd kernel(std::size_t s) const;
-  /// kernel(s)' v, and kernel(s) c.
+  /// kernel(s)' v and kernel(s) c, for v over the unknowns of the s-th subdomain and c of size modes().
   Eigen::VectorXd coordinates(std::size_t s, const Eigen::VectorXd& v) const;
   Eigen::VectorXd motion(std::size_t s, const Eigen::VectorXd& c) const;
   /// The same motion in the coordinates of the subdomain's own kernel.
   Eigen::VectorXd own_coordinates(std::size_t s, const Eigen::VectorXd& c) const;
 
-  /// How many clusters of this rank share the factors of no other before them, those of one subdomain left out.
+  /// How many clusters of several subdomains of this rank have factors of their own; the others share these.
   std::size_t kinds() const { return groups_.size(); }
 
-  /// v <- K_c^+ v, symmetric, with K_c K_c^+ f = f for forces f that do not move a cluster.
+  /// v[s] of each subdomain becomes K_c^+ v, K_c^+ symmetric, with K_c K_c^+ f = f for forces f that do not move a cluster.
   void apply_inverse(std::vector<Eigen::VectorXd>& v) const;
-  /// B0' mu of every subdomain: the forces inside the clusters while f acts.
+  /// B0' mu of each subdomain: the forces inside the clusters under the forces f.
   std::vector<Eigen::VectorXd> inner_forces(const std::vector<Eigen::VectorXd>& f) const;
 
  private:

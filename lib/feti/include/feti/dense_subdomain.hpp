@@ -5,12 +5,12 @@
 
 namespace mortise::feti {
 
-/// K^+ as that of ElasticSubdomain, as a matrix. It and K share n (n + 1) numbers, so that a product reads half of a dense
-/// matrix.
+/// K^+ = (K + r N)^-1 as ElasticSubdomain has it, stored as a matrix: K and K^+ share n (n + 1) numbers, and a product reads half
+/// of a dense matrix.
 class DenseSubdomain : public SubdomainOperator {
  public:
-  /// `matrix`: K, symmetric; only its lower triangle is read. `kernel`: orthonormal rigid motions. Throws Error(bad_input) if K
-  /// with its motions held is not positive definite.
+  /// `matrix`: K, symmetric; only its lower triangle is read. `kernel`: orthonormal rigid motions. Throws Error(bad_input) if
+  /// K + r N is not positive definite.
   DenseSubdomain(const Eigen::MatrixXd& matrix, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension);
   /// Bytes that such a subdomain keeps.
   static std::size_t foreseen_bytes(std::size_t unknowns) { return sizeof(double) * unknowns * (unknowns + 1); }

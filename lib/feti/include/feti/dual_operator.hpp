@@ -1,4 +1,4 @@
-// F = B K^+ B', the dual operator, plus C on the rows of springs: one product solves once on every cluster.
+// The dual operator F = B K^+ B', plus C = A^-1 on the rows of springs: one product solves once on every cluster.
 #pragma once
 
 #include <memory>

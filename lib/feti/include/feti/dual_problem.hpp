@@ -49,26 +49,27 @@ class DualProblem {
               std::span<const constraint::SlidingSurface> sliding_surfaces = {});
   DualProblem(const DualProblem&) = delete;
   DualProblem& operator=(const DualProblem&) = delete;
-  /// d, e and c anew, for the same rows with other bounds and for other loads; everything else stays. Returns false, and changes
-  /// nothing, if a motion that was gauged is driven by loads now and facets resist it: then a problem has to be built anew.
+  /// New d, e and c: the same rows with other bounds, and other loads; everything else stays. Returns false, and changes nothing,
+  /// if the new loads drive a gauged motion that facets resist: then a new problem has to be built.
   /// Throws Error(no_equilibrium) as the constructor does. Collective.
   bool update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load);
 
-  /// B; F, dual unknowns x dual unknowns; d, one entry for each row of B; G and e; Omega. All distributed as jump().rows().
-  const JumpOperator& jump() const { return *jump_; }
-  const Operator& hessian() const { return *hessian_; }
+  // The quadratic programme; vectors and operators are distributed as jump().rows().
+  const JumpOperator& jump() const { return *jump_; }                    ///< B
+  const Operator& hessian() const { return *hessian_; }                  ///< F
+  const Vector& linear() const { return *linear_; }                      ///< d
+  const qp::EqualityConstraint& equality() const { return *equality_; }  ///< G and e
+  qp::FeasibleSet& set() { return set_; }                                ///< Omega
+  const qp::FeasibleSet& set() const { return set_; }
   qp::ActiveSetPreconditioner* preconditioner() const { return preconditioner_.get(); }  ///< null if the options want none
   const ElasticRows* springs() const { return springs_.get(); }                          ///< null if there are none
-  const Vector& linear() const { return *linear_; }
-  const qp::EqualityConstraint& equality() const { return *equality_; }
-  qp::FeasibleSet& set() { return set_; }
-  const qp::FeasibleSet& set() const { return set_; }
   const std::vector<NodeRows>& node_rows() const { return node_rows_; }  ///< one for each contact node of this rank
-  /// What the rows of B came from, in mesh numbering.
+
+  /// What the rows of B come from, in mesh numbering.
   const constraint::Constraints& constraints() const { return constraints_; }
   /// f of each subdomain.
   const std::vector<Eigen::VectorXd>& load() const { return load_; }
-  /// The sum of the sizes of the loads at the nodes of each body. Collective.
+  /// Of each body the sum of |nodal force| over its nodes. Collective.
   std::vector<double> loads_of_bodies() const;
   int dimension() const { return decomposition_.catalogue.dimension; }
   const Clusters& clusters() const { return system_.clusters; }
@@ -76,35 +77,38 @@ class DualProblem {
   /// Rows of B, and the sum of the kernels' dimensions, over all ranks.
   Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
   int kernel_dimension() const { return system_.clusters.kernel_dimension(); }
-  /// The least-norm multipliers that balance the forces on pretension sections and points of rigid couplings and move no body,
-  /// and have nothing to do with linear(): what else drives the problem. Null if there is no such unknown.
+  /// The multipliers of least norm that balance the forces of the unknowns (see Unknown) and move no body. They drive the problem
+  /// beside linear(), see qp::Problem::driven. Null if there are no such unknowns.
   const Vector* balancing_multipliers() const { return balancing_multipliers_.get(); }
   /// The shortening of each of constraints().pretension_sections, given or found.
   std::vector<double> shortenings(const Eigen::VectorXd& nu) const;
 
-  /// The force of each owned row: what it does to the bodies, for multipliers `lambda` of the scaled rows.
+  /// The force of each owned row in physical units, from the multipliers of the scaled rows of B.
   Eigen::VectorXd forces(const Vector& lambda) const;
-  /// The other way.
+  /// The multipliers of the scaled rows from the forces of the owned rows.
   Vector multipliers(const Eigen::VectorXd& forces) const;
   /// row . u of each owned row as it was given, a length. Collective.
   Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
-  /// The force that bounds the tangential one of a contact node, where it is closed: 0 without friction, infinite if it sticks.
+  /// The bound of the tangential force of the contact node constraints().contacts.nodes[point]: 0 without friction, infinite
+  /// where it sticks.
   double slip_bound(std::size_t point) const;
 
-  /// u of every subdomain. Collective.
+  /// u of each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;
   /// nu of the least displacements among those that lambda leaves: bodies are moved back along rigid motions that no row with a
   /// force feels, as far as gaps let them. A roller that rests on one node of a flat side may roll until the next one touches.
-  /// Contact forces below `nothing` are none. Collective.
-  Eigen::VectorXd least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double nothing = 0) const;
+  /// Contact forces below `negligible_force` count as none. Collective.
+  Eigen::VectorXd least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double negligible_force = 0) const;
   /// "body "roller.3" moves along (0, 1, 0)": the largest rigid motion in a direction `nu` along which multipliers are unbounded.
   /// Collective.
   std::string unbounded_rigid_mode(const Eigen::VectorXd& nu) const;
-  /// What the gauges of motions hold against that nothing resists but facets: the sum of their forces on the bodies. Collective.
+  /// The sum of the forces of gauges on the bodies, where a gauge holds a free motion against the push of facets. Collective.
   Point gauge_force(const Vector& lambda) const;
-  /// ||K u + B'lambda + B0'mu - f|| / (||f|| + ||B'lambda||) over all subdomains, B0'mu the forces inside clusters;
-  /// forces below `nothing` are none. Collective.
-  double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double nothing = 0) const;
+  /// ||K u + B'lambda + B0'mu - f|| over all subdomains, B0'mu the forces inside clusters, relative to (||f||^2 + ||B'lambda||^2
+  /// +
+  /// ||1e-6 D u||^2)^1/2, D the nodal stiffness (what rounding makes of a rigid motion is no force), or to `negligible_force` if
+  /// that is larger. Collective.
+  double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double negligible_force = 0) const;
 
  private:
   void gauge_rigid_modes(const partition::NodeDirectory& directory, const partition::Interface& interface,

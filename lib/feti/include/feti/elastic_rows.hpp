@@ -1,7 +1,7 @@
-// What springs add to the dual operator: F + C on their rows, C = A^-1 with the stiffness A of all springs
-// (constraint/springs.hpp), scaled as the rows of B are; and to its approximate inverse. A row is scaled so that w + (1 - w) = 1
-// is what A alone and D^-1 make of the diagonal; M + W A W, W the weights w, is then near (F + C)^-1 for soft springs and for
-// stiff ones: it is the energy of a jump of which the springs take the part w.
+// What springs add to the dual operator and to its approximate inverse. On their rows F becomes F + C, C = A^-1 with the
+// stiffness A of all springs (constraint/springs.hpp), scaled as the rows of B are. Rows are scaled so that the diagonal of B
+// D^-1 B' + C is 1, of which the springs have the part w. M + W C^-1 W, W = diag(w), is then near (F + C)^-1 for soft springs and
+// for stiff ones: it is the energy of a jump of which the springs take the part w.
 #pragma once
 
 #include <optional>
@@ -12,23 +12,25 @@
 
 namespace mortise::feti {
 
-/// Every rank has the matrices whole and solves with them by itself, as with those of the coarse problem. Refers to `comm`.
+/// Every rank has the matrices whole and solves with them by itself, as with those of the coarse problem. x and y are over the
+/// rows of B. Refers to `comm`.
 class ElasticRows {
  public:
-  /// `springs`, whose own rows are those from jump.ranges().springs on. Throws Error(machine) when memory runs out. Collective.
+  /// The own rows of `springs` are those of `jump` from ranges().springs on. Throws Error(bad_input) if A is not positive
+  /// definite to rounding, Error(machine) when memory runs out. Collective.
   ElasticRows(const constraint::Springs& springs, const JumpOperator& jump, const Communicator& comm);
 
   /// y += alpha C x. Collective.
   void add_compliance(double alpha, const Vector& x, Vector& y) const;
   /// y += alpha W C^-1 W x. Collective.
   void add_stiffness(double alpha, const Vector& x, Vector& y) const;
-  /// x'C x, twice what the springs store under the forces x. Collective.
+  /// x'C x, twice the energy that the springs store under the multipliers x. Collective.
   double stored(const Vector& x) const;
   /// x'W C^-1 W x. Collective.
   double energy(const Vector& x) const;
-  /// C, dense.
+  /// C, dense: rows of all springs squared. The same on every rank.
   Eigen::MatrixXd compliance() const;
-  /// What each rank has for its own rows, whole on every one; x over the owned rows of B. Collective.
+  /// The entries of x at the rows of springs, x over the owned rows of B, whole on every rank. Collective.
   Eigen::VectorXd gather(const Eigen::Ref<const Eigen::VectorXd>& x) const;
 
  private:
@@ -39,7 +41,7 @@ class ElasticRows {
   std::vector<std::size_t> own_;
   SparseMatrix stiffness_;
   std::optional<Cholesky> factor_;
-  Eigen::VectorXd scale_, weight_;  // of each spring row: that of B; w over that
+  Eigen::VectorXd scale_, weight_;  // of each spring row: that of B; w over the scale
 };
 
 }  // namespace mortise::feti

@@ -8,8 +8,8 @@ namespace mortise::feti {
 
 class DirichletElimination;
 
-/// Rows of supports along axes that are not worth an elimination. It costs figures where F is large beside what balanced forces
-/// do, as that of a thin plate is: products with F, to which a solution is shown, have the rounding of another factor.
+/// So many rows of supports along axes are not worth an elimination. It costs figures where F is large beside what balanced
+/// forces do, as on a thin plate: the products with F that show a solution to be one have the rounding of another factor.
 constexpr Global few_supports = 2000;
 
 /// F and G on rank 0 over the rows that are left when supports along axes are eliminated; of use where these are some thousand.
@@ -24,20 +24,19 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   ~ExplicitProblem() override;
 
   struct Result {
-    Vector x;
-    Eigen::VectorXd nu;
-    bool converged = false;
-    int steps = 0;
+    Vector x;                ///< lambda, over the rows of B
+    Eigen::VectorXd nu;      ///< the same on every rank
+    bool converged = false;  ///< exact to rounding; else the last guess
+    int steps = 0;           ///< linear problems solved
   };
-  /// The solution with the loads, bounds and given slip bounds that the problem has by now, exact to rounding if `converged`.
-  /// Collective.
+  /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Collective.
   Result solve() const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
   /// y = alpha F^-1 x + beta y. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
-  void fix(std::span<const Local>) override {}  // of all x there are the bound holds the more
+  void fix(std::span<const Local>) override {}  // energy() is a bound over all x, and so over those with zeros
 
  private:
   qp::FeasibleSet whole_set() const;

@@ -1,4 +1,4 @@
-// What friction alone would have to hold, and does not: facets of the mesh stop a surface that slides along itself.
+// Loads that friction alone would have to hold and cannot: in the solution facets of the mesh hold them.
 #pragma once
 
 #include <optional>
@@ -16,12 +16,14 @@ namespace mortise::feti {
 ///     e.v <= sum_i r_i |t_i v|    for every rigid motion v that lets surfaces slide along themselves,
 ///
 /// e.v the work of the loads, t_i the tangential rows of a contact node, r_i the bound of its force. Where normals of the mesh do
-/// work on v, a solution may exceed this: the ring turns until facets stop it. Looked for are such motions of each body, of
-/// those that bonds join, and of those that nodes join which stick; what all normals of a contact feel alike (a taper) is no
-/// facet. Nor is it an equilibrium where all that rubs slid along such a motion by more than the bodies' size (a ball in its cup,
-/// which turns until tilts of 1e-6 have wedged it): there friction holds by the forces of facets. `lambda`, `displacement`: a
-/// solution; `bounds`: r_i of each disc of problem.set(), as multipliers; `slack`: of the right side, what
-/// counts as inexact. Returns `body "ring" rotates about ..`, and how much of the load friction holds, or nothing. Collective.
+/// work on v, a solution may exceed this: the ring turns until facets stop it. Such motions are looked for of each body, of
+/// bodies that bonds join, and of bodies that sticking nodes join; what all normals of a contact feel alike (a taper) is no
+/// facet. It is no equilibrium either where all that rubs slid along such a motion by more than the bodies' size (a ball in its
+/// cup, which turns until tilts of 1e-6 have wedged it): there friction holds by the forces of facets.
+///
+/// `lambda`, `displacement`: a solution; `bounds`: r_i of each disc of problem.set(), as multipliers; `slack`: part of the right
+/// side that counts as inexact. Returns `body "ring" rotates about ..` and how much of the load friction holds, or nothing where
+/// friction holds all. Collective.
 std::optional<std::string> held_by_facets(const DualProblem& problem, const partition::Decomposition& decomposition,
                                           fem::Kinematics kinematics,
                                           std::span<const constraint::SlidingSurface> sliding_surfaces, const Vector& lambda,

@@ -34,7 +34,7 @@ struct BodyFrame {
 /// One for each body of the catalogue. Collective.
 std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition, const Communicator& comm);
 
-/// Part of `coordinates` (kernels of all clusters) that is a rigid motion of the body, by least squares. Collective.
+/// The rigid motion of the body that is nearest, by least squares, to `coordinates` (of the kernels of all clusters). Collective.
 RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
                        const BodyFrame& frame, int body, const Eigen::VectorXd& coordinates, const Communicator& comm);
 
@@ -42,13 +42,12 @@ RigidMotion rigid_part(const partition::Decomposition& decomposition, const Clus
 struct FreeMotion {
   std::vector<RigidMotion> motions;
   double resistance = 0;  ///< the largest |row . v| over all rows, 0 for a motion that is exactly free
-  /// Surfaces in contact slide along themselves: rows feel nothing of it but the facets of the mesh, and `felt` is the root mean
-  /// square of what is left without them.
+  /// Surfaces in contact slide along themselves: rows feel nothing of it but the facets of the mesh.
   bool sliding = false;
-  /// If surfaces slide along themselves, whether rows feel facets or not: the height of a facet's arc over the radius, root mean
+  /// If surfaces slide along themselves, whether rows feel facets or not: the height of a facet's arc over its radius, root mean
   /// square.
   double sagitta = 0;
-  double work = 0;  ///< of loads and preloads on it, relative to the sum of the nodal forces and preloads on its bodies
+  double work = 0;  ///< of loads and preloads on it, over the sum of |nodal forces| and preloads on its bodies
 };
 
 /// Finds them from the support and contact rows of `jump` (G of coarse_rows): body by body, with all other bodies at rest, where
@@ -61,7 +60,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
                                           std::span<const constraint::SlidingSurface> sliding_surfaces,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
 
-/// FreeMotion::work of other loads. Collective.
+/// FreeMotion::work of other loads, without preloads. Collective.
 double work(const FreeMotion& motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,
             const Communicator& comm);
 

@@ -27,8 +27,9 @@ struct SubdomainRow {
 /// Heavy: moves, does not copy.
 class JumpOperator {
  public:
-  /// `prescribed`, `skew_supports`, `mean_motions`, `springs` and `contacts`: this rank's rows. Owned rows are numbered on each
-  /// rank: gluing, Dirichlet (skew ones after the others, then mean motions), springs, contacts, extra. Collective.
+  /// `prescribed`, `skew_supports`, `mean_motions`, `springs` and `contacts`: this rank's rows; `extra`: the same rows on all
+  /// ranks. Owned rows are numbered on each rank: gluing, Dirichlet (prescribed components, skew supports, mean motions),
+  /// springs, contacts, extra. Collective.
   JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
                std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
@@ -49,14 +50,14 @@ class JumpOperator {
   double force(Local row, double multiplier) const { return scale_[row] * multiplier; }
   double multiplier(Local row, double force) const { return force / scale_[row]; }
   double scaled(Local row, double given) const { return scale_[row] * given; }
-  /// Of all owned rows.
+  /// force() and multiplier() of all owned rows.
   Eigen::VectorXd forces(const Vector& lambda) const { return view(lambda).cwiseProduct(scale_); }
   Vector multipliers(const Eigen::VectorXd& forces) const;
   /// B u as jumps of the rows as they were given, in lengths. Collective.
   Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
   /// c, scaled, of the owned rows: B u = c, B u <= c.
   const Eigen::VectorXd& bound() const { return bound_; }
-  /// c anew, of the same rows with other bounds.
+  /// New c: the same rows with other bounds.
   void update_rhs(std::span<const constraint::PrescribedDof> prescribed, std::span<const constraint::SkewSupport> skew_supports,
                   const constraint::Contacts& contacts, std::span<const constraint::MeanMotion> mean_motions = {});
 
@@ -75,17 +76,18 @@ class JumpOperator {
   };
   /// Of each subdomain of this rank.
   const std::vector<Block>& blocks() const { return blocks_; }
-  Teuchos::RCP<const Map> touched_rows() const { return overlap_; }  ///< the overlapping map
-  const Import& import() const { return *import_; }  ///< from rows() to the rows that this rank's subdomains take part in
+  /// The overlapping map: the rows that this rank's subdomains take part in, whoever owns them.
+  Teuchos::RCP<const Map> touched_rows() const { return overlap_; }
+  const Import& import() const { return *import_; }  ///< from rows() to touched_rows()
 
-  /// Dense parts of columns of a matrix over the dual space: column r of `values` (those beyond `row` do not count) belongs to
-  /// `row`[r], a local index of the overlapping map, and starts at `first` there.
+  /// Dense parts of columns of a matrix over the dual space: column r of `values`, r < row.size(), is the part of column row[r],
+  /// a local index of the overlapping map, from the matrix' row `first` on.
   struct Columns {
     int first = 0;
     std::vector<Local> row;
     Eigen::MatrixXd values;
   };
-  /// Brings them to where their row of B is owned. No two parts overlap. Returns `height` x owned rows. Collective.
+  /// The matrix of these parts, no two of which overlap: `height` x owned rows. Collective.
   SparseMatrix gather_columns(const std::vector<Columns>& parts, int height, const Communicator& comm) const;
 
  private:

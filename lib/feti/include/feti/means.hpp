@@ -1,4 +1,4 @@
-// What a dual problem offers to the solvers of lib/qp beside itself.
+// What the solvers of lib/qp may use of a dual problem besides products with F.
 #pragma once
 
 #include "feti/dual_problem.hpp"
@@ -6,7 +6,8 @@
 
 namespace mortise::feti {
 
-/// Its preconditioner, and F and G as matrices for a solver that asks for them. `problem` and `budget` outlive it.
+/// The preconditioner of `problem`, and F and G as matrices (ExplicitProblem) for a solver that asks for them, which is then
+/// collective. `problem` and `budget` outlive the result.
 qp::Means means_of(const DualProblem& problem, qp::Budget& budget);
 
 }  // namespace mortise::feti

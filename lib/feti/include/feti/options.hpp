@@ -8,7 +8,7 @@
 namespace mortise::feti {
 
 struct Options {
-  std::string factorization = "cholmod";  ///< cholmod | cholmod_plain | klu2
+  std::string factorization = "cholmod";  ///< see DirectSolver: cholmod | cholmod_plain | klu2
   std::string preconditioner = "lumped";  ///< none | lumped | dirichlet, of face Newton
 };
 

@@ -27,12 +27,13 @@ class ContactGram;
 class Preconditioner : public qp::ActiveSetPreconditioner {
  public:
   enum class Kind { lumped, dirichlet };
-  /// nodal_stiffness[s][n]: D. `factorization`: of K_ii, one of direct_solvers(). Throws as DirectSolver.
+  /// nodal_stiffness[s][n]: D. `factorization`: of K_ii, by a solver of DirectSolver's. `springs`: null if there are none. Throws
+  /// as DirectSolver.
   Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
                  const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization, Timers& timers,
                  const Communicator& comm, const ElasticRows* springs = nullptr);
   ~Preconditioner() override;
-  /// Computes B D^-1 B' on the contact rows, which it takes for the identity until then. Collective.
+  /// Computes B D^-1 B' on the contact rows; without this C is the identity. Collective.
   void invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension);
 
   /// As ActiveSetPreconditioner has it: the inverse of B D^-1 B' is that of the contact rows that stay free. Collective.

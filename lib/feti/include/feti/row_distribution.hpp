@@ -16,7 +16,7 @@ std::vector<constraint::PrescribedDof> distribute_rows(std::span<const constrain
                                                        const partition::Decomposition& decomposition,
                                                        const partition::NodeDirectory& directory, const Communicator& comm);
 
-/// The same with normals: ascending by node, those of a node in the order that they had. Collective.
+/// The same of skew supports: ascending by node, those of a node in the order that they had. Collective.
 std::vector<constraint::SkewSupport> distribute_rows(std::span<const constraint::SkewSupport> skew_supports,
                                                      const partition::Decomposition& decomposition,
                                                      const partition::NodeDirectory& directory, const Communicator& comm);
@@ -26,7 +26,7 @@ std::vector<constraint::SkewSupport> distribute_rows(std::span<const constraint:
 constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const partition::Decomposition& decomposition,
                                      const partition::NodeDirectory& directory, const Communicator& comm);
 
-/// The places in `rows`, which every rank has, of those that stand here: on the rank of their first node. Collective.
+/// The places in `rows`, which every rank has, of the rows that stand on this rank, that of their first node. Collective.
 std::vector<std::size_t> rows_here(std::span<const constraint::SpringRow> rows, const partition::Decomposition& decomposition,
                                    const partition::NodeDirectory& directory, const Communicator& comm);
 

@@ -18,7 +18,7 @@ namespace mortise::feti {
 class InterfaceStiffness {
  public:
   virtual ~InterfaceStiffness() = default;
-  /// Forces of displacements u of those unknowns: (unknowns) x columns.
+  /// The forces of displacements u, both of those unknowns: unknowns x columns.
   virtual Eigen::MatrixXd apply(const Eigen::MatrixXd& u) const = 0;
 };
 
@@ -30,7 +30,7 @@ class SubdomainOperator {
   virtual int size() const = 0;
   /// R, size() x dim Ker K, orthonormal columns.
   virtual const Eigen::MatrixXd& kernel() const = 0;
-  /// columns[c] <- K^+ columns[c] with a generalised inverse: K K^+ b = b for every b in Im K.
+  /// columns[c], of size(), becomes K^+ columns[c] with a generalised inverse: K K^+ b = b for every b in Im K.
   virtual void apply_inverse(std::span<double* const> columns) const = 0;
   /// K u.
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
@@ -39,7 +39,8 @@ class SubdomainOperator {
   /// Of K; of a rotated copy, that of its original.
   virtual Eigen::VectorXd diagonal() const = 0;
   /// On the unknowns b (ascending, whole nodes): K_bb, or, if `condensed`, its Schur complement K_bb - K_bi K_ii^-1 K_ib, with
-  /// K_ii factorized by one of direct_solvers(). Refers to this. Of a rotated copy, that of its original. Throws as DirectSolver.
+  /// K_ii factorized by the DirectSolver of that name. Refers to this. Of a rotated copy, that of its original. Throws as
+  /// DirectSolver.
   virtual std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
                                                                         const std::string& factorization) const = 0;
   /// Bytes of its own factor; 0 for a rotated copy, which uses that of its original.
@@ -47,7 +48,7 @@ class SubdomainOperator {
 
   /// What a rotated copy is a copy of: K = T K_original T', T a rotation of every node. Itself for others.
   virtual const SubdomainOperator& original() const { return *this; }
-  /// T' v and T v in place; nothing where there is no T.
+  /// v becomes T' v, and T v; it stays where there is no T.
   virtual void rotate_back(Eigen::VectorXd&) const {}
   virtual void rotate(Eigen::VectorXd&) const {}
 };
@@ -55,7 +56,7 @@ class SubdomainOperator {
 /// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Copies by translation have the same one.
 using Subdomains = std::vector<std::shared_ptr<const SubdomainOperator>>;
 
-/// This rank's subdomains, by what they are copies of.
+/// The places of this rank's subdomains, by what they are copies of.
 std::map<const SubdomainOperator*, std::vector<std::size_t>> by_original(const Subdomains& subdomains);
 
 /// v_s = K_s^+ v_s for every subdomain. Vectors of the same original go through its factor together.
@@ -69,7 +70,7 @@ class ElasticSubdomain : public SubdomainOperator {
   /// DirectSolver.
   ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
                    const std::string& factorization);
-  /// What the factor of such a subdomain will take, from the analysis of its pattern alone.
+  /// Bytes that the factor of such a subdomain will take, from the analysis of its pattern alone.
   static std::size_t foreseen_factor_bytes(const SparseMatrix& lower, const Eigen::MatrixXd& kernel,
                                            std::span<const Point> points, int dimension);
 
@@ -98,6 +99,7 @@ class ElasticSubdomain : public SubdomainOperator {
 /// are rotated again.
 class RotatedSubdomain : public SubdomainOperator {
  public:
+  /// `rotation`: points of the copy = rotation * points of the original + a translation.
   RotatedSubdomain(std::shared_ptr<const SubdomainOperator> original, const Eigen::Matrix3d& rotation, int dimension);
 
   int size() const override { return original_->size(); }
@@ -122,7 +124,7 @@ class RotatedSubdomain : public SubdomainOperator {
   Eigen::MatrixXd kernel_;
 };
 
-/// A few nodes, spread over the subdomain, whose rows of the kernel have full column rank with a good condition.
+/// A few local nodes, spread over the subdomain, whose rows of the kernel have full column rank with a good condition.
 std::vector<Local> fixing_nodes(std::span<const Point> points, const Eigen::MatrixXd& kernel, int dimension);
 
 /// r N of ElasticSubdomain, its lower triangle, from the diagonal of K.

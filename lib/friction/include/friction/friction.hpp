@@ -22,29 +22,31 @@
 
 namespace mortise::friction {
 
+/// The multipliers of one load step, and what it took to find them.
 struct Result {
   qp::Solution solution;
   int steps = 1;      ///< Tresca problems solved
   double change = 0;  ///< relative, of the slip bounds in the last step
   bool converged = false;
-  std::string limit = {};  ///< the key of the deck that ended it before, if one did, and a remark
-  bool gave_up = false;    ///< patience ended, and it might go on
-  int applications = 0;    ///< of this load step
-  int preconditionings = 0;
+  std::string limit = {};                 ///< the key of the deck that ended it early, if one did, and a remark
+  bool gave_up = false;                   ///< patience ended first: another approach is to go on
+  int applications = 0;                   ///< products with F, of this load step
+  int preconditionings = 0;               ///< of this load step
   int outer_iterations = 0;               ///< of all Tresca problems
-  std::vector<Undecided> undecided = {};  ///< what the stop left open
-  std::vector<Stuck> stuck = {};          ///< where it is stuck, if it did not converge
+  std::vector<Undecided> undecided = {};  ///< points whose state is not known
+  std::vector<Stuck> stuck = {};          ///< where it made no progress, if it did not converge
 };
 
-/// One line of progress: the Tresca step, the change of the bounds before it, and where the solver stands.
+/// One line of progress: the number of the Tresca problem, the relative change of the slip bounds before it, and where the solver
+/// stands.
 using Observer = std::function<void(int step, double change, const qp::Progress&)>;
 
-/// What errors are measured by, both at the multipliers lambda and nu and in the energy norm, see qp::Goal. Collective.
+/// What errors are compared with, at the multipliers lambda and nu: the functions of qp::Goal with the same names. Collective.
 struct Accuracy {
   using Measure = std::function<double(const Vector& lambda, const Eigen::VectorXd& nu)>;
-  Measure allowed_error;         ///< the algebraic error that is good enough
-  Measure energy_norm;           ///< that of the displacements
-  Measure incompatibility = {};  ///< what displacements leave open, over the largest of them
+  Measure allowed_error;         ///< the algebraic error that is good enough, in the energy norm
+  Measure energy_norm;           ///< of the displacements
+  Measure incompatibility = {};  ///< how far displacements of subdomains do not fit together, over the largest of them
   double negligible = 0;         ///< see qp::Goal
 };
 
@@ -53,8 +55,8 @@ class StateRecord;
 /// A sequence of load steps on one dual problem, which may get other right-hand sides between them: recycled directions stay.
 class Solver {
  public:
-  /// The problem outlives it. laws[c] is that of contact c. `patience`: when each solve gives up; it then also
-  /// gives up where its algorithm makes no more progress. Collective.
+  /// The problem outlives it. laws[c]: of contact c. `patience`: when each solve gives up in favour of another approach; with
+  /// one, a solve also gives up where its algorithm makes no more progress. Collective.
   Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver,
          std::optional<qp::Patience> patience = {});
   ~Solver();
@@ -65,7 +67,7 @@ class Solver {
   /// `start`, the solution of the step before, if there is one. Throws Error(no_equilibrium) that names the body that moves and
   /// how. Collective.
   Result solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer);
-  /// Of all solves, also of one that threw.
+  /// Products with F of all solves, also of one that threw.
   int applications() const { return hessian_.count(); }
 
  private:

@@ -13,11 +13,11 @@ struct Law {
   double value = 0;  ///< tresca: traction; coulomb: coefficient
 };
 
-/// Radii of the discs in the scaled unknowns of `problem`, from the multipliers `lambda`; without lambda Coulomb points stick.
-/// laws[c] is that of contact c.
+/// The radius of each disc of problem.set(), in its scaled unknowns, from the multipliers `lambda`; without lambda Coulomb points
+/// stick, with an infinite radius. laws[c]: of contact c.
 std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda);
 
-/// The coefficient of each disc of `problem` under Coulomb's law; 0 under others.
+/// The coefficient of each disc of problem.set() under Coulomb's law, see qp::Disc; 0 under others.
 std::vector<double> coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws);
 
 /// ||next - now|| / ||next|| of slip bounds over all ranks, those that are infinite in either left out; `least` is the size below

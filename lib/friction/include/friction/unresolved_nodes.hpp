@@ -1,4 +1,5 @@
-// What a solve leaves open: points of which it is not known whether they press or slip, and points at which it got stuck.
+// What a solve leaves open: contact nodes of which it is not known whether they press or slip, and those at which it made no
+// progress. Both are called points.
 #pragma once
 
 #include <string>
@@ -8,11 +9,11 @@
 
 namespace mortise::friction {
 
-/// Of one contact, where not everything is decided.
+/// The points of one contact whose state is not known.
 struct Undecided {
   struct Band {
     long long points = 0;
-    int cells = 0;  ///< between decided points on both sides, at the widest place
+    int cells = 0;  ///< how wide the band is at its widest place, from decided points to decided points
   };
   int contact = 0;     ///< index into the deck's contacts
   Band rim;            ///< of points that may be open or closed
@@ -25,7 +26,7 @@ struct Stuck {
   long long points = 0;
   std::string states;           ///< that they took in turns: "open/closed" or "stick/slip"; "at rest": only their forces vary
   Point place = Point::Zero();  ///< of the worst of them
-  int turns = 0, of = 0;        ///< how often its state changed over the last so many steps
+  int turns = 0, of = 0;        ///< its state changed `turns` times over the last `of` steps
 };
 
 }  // namespace mortise::friction

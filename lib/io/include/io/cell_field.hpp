@@ -30,7 +30,7 @@ class CellField {
     std::size_t cell;
     double size;  ///< of that cell, its diagonal
   };
-  /// Of all cells.
+  /// The value at the place of all cells that is nearest to x.
   Nearest nearest(const Point& x) const;
 
  private:

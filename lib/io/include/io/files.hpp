@@ -14,7 +14,7 @@ std::string temporary_name(const std::string& path);
 /// the temporary file, if anything fails. Not collective.
 void write_whole(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
-/// write_whole() of a text.
+/// Writes a text by write_whole(). Not collective.
 void write_text(const std::string& path, const std::string& text);
 
 /// What is in a file; "" if it cannot be read. Not collective.

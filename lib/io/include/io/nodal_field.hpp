@@ -28,10 +28,9 @@ class NodalField {
 
   struct Content;
 
-  std::size_t size() const;  ///< of nodes or points
-  /// Of the field, and of the file that it is read from.
-  const std::string& name() const;
-  const std::string& path() const;
+  std::size_t size() const;         ///< how many nodes or points the file has
+  const std::string& name() const;  ///< of the field
+  const std::string& path() const;  ///< of the file
 
  private:
   struct Source;

@@ -14,12 +14,12 @@ struct Section {
   std::vector<Local> cell;  ///< of each triangle: the one that it is cut out of; 0 in what a surface encloses
 };
 
-/// Where the height is zero between the nodes of cells in space; `height`: of each node, zeros count as above. Cells of second
-/// order are cut as the linear ones between all of their nodes.
+/// The section of cells in space where `height`, given at each node and linear between nodes, is zero; nodes with height zero
+/// count as above. Cells of second order are cut as linear cells between all of their nodes.
 Section cut(const std::vector<Point>& points, const mesh::Cells& cells, const std::vector<double>& height);
 
-/// What closed surfaces of triangles enclose of the plane where the height is zero; `normal` of the plane, unit. Neighbours need
-/// not have their corners in common: bands between the heights of corners across one direction of the plane.
+/// The part of the plane where the height is zero that closed surfaces of triangles enclose; `normal`: of the plane, unit. Its
+/// triangles fill bands between corners across one direction of the plane, so that neighbours need not have corners in common.
 Section enclosed(const std::vector<Point>& points, const mesh::Cells& triangles, const std::vector<double>& height,
                  const Point& normal);
 

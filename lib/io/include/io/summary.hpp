@@ -1,4 +1,5 @@
-// summary.json: what a run found and what it cost. Its fields are a promise to other programs.
+// summary.json: what a run found and what it cost. Its fields are a promise to other programs. Quantities are in the deck's
+// units.
 #pragma once
 
 #include <array>

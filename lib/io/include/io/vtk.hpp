@@ -18,11 +18,12 @@ struct Field {
   bool integer = false;
 };
 
+/// This rank's part of a mesh with its fields.
 struct Piece {
   std::vector<Point> points;
   mesh::Cells cells;
   std::vector<Field> point_fields, cell_fields;  ///< the same names on every rank
-  /// What stands in the field data: an array's name and its entries.
+  /// Arrays of strings in the file's field data: the name of each and its entries.
   std::vector<std::pair<std::string, std::vector<std::string>>> words = {};
 };
 
@@ -38,7 +39,7 @@ struct Series {
   std::string name;
   std::vector<std::pair<double, std::string>> frames;
 };
-/// The same for one state of many: `series.name`.1_0.vtu ... and a .pvd of all that were written so far. Collective.
+/// The same for one state of many: `series.name`.1_0.vtu ... and a .pvd of all states so far, this one included. Collective.
 void write_vtk(const std::string& directory, Series& series, double time, const Piece& piece, const Communicator& comm);
 
 /// A part of the model with a name, which can be hidden: "bodies", "ring".

@@ -8,8 +8,8 @@
 
 namespace mortise::mesh {
 
-/// The names of the blocks in alphabetical order, each a body; block "lower" has the boundaries lower.xmin, lower.xmax, ..
-/// lower.zmax.
+/// The catalogue of options.blocks: each block is a body, in alphabetical order; block "lower" has the boundaries lower.xmin,
+/// lower.xmax, .. lower.zmax.
 Catalogue block_catalogue(const Options& options, int dimension);
 
 /// The cells with indices first .. last - 1 an axis of the `block`-th block (in 2D the third entries are 0 and 1). Numbers and
@@ -21,7 +21,7 @@ Mesh generate(const Options& options, int dimension, int block, std::array<int, 
 struct First {
   Global node = 0, cell = 0;
 };
-/// Those of the `block`-th block; of the block after the last they are the totals.
+/// The first numbers of the `block`-th block; for the block after the last the totals.
 First first_numbers(const Options& options, int dimension, int block);
 
 /// Grid cells an axis of the `block`-th block; the third is 1 in 2D.

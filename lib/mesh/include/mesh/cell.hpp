@@ -39,8 +39,8 @@ struct Face {
   std::vector<int> nodes;
 };
 
-int dimension(CellType type);          ///< 1 for lines, 2 for triangles and quadrilaterals, 3
-int node_count(CellType type);         ///< nodes a cell
+int dimension(CellType type);          ///< 1 of lines, 2 of triangles and quadrilaterals, else 3
+int node_count(CellType type);         ///< nodes of a cell
 int corner_count(CellType type);       ///< nodes of the first-order cell of that shape
 CellType first_order(CellType type);   ///< hex8 for hex27
 std::string_view name(CellType type);  ///< "hex8", as the deck spells it
@@ -60,8 +60,8 @@ struct Cells {
   std::vector<Local> offset{0};
   std::vector<Local> nodes;
 
-  /// Cells; the nodes of the i-th one.
-  std::size_t size() const { return type.size(); }
+  std::size_t size() const { return type.size(); }  ///< number of cells
+  /// The nodes of the i-th cell.
   std::span<const Local> operator[](std::size_t i) const
   {
     return {nodes.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};

@@ -12,12 +12,12 @@
 
 namespace mortise::mesh {
 
-/// A cone, cylinders included, or a sphere.
+/// A cone, cylinders included, or a sphere (plane models: a circle).
 struct CurvedSurface {
   Point point = Point::Zero();  ///< on the axis, amid the face; of a sphere its centre
   Point axis = Point::Zero();   ///< unit; zero: a sphere
   double radius = 0;            ///< at `point`, > 0
-  double slope = 0;             ///< of the radius along the axis
+  double slope = 0;             ///< of the radius along the axis; 0: a cylinder
 
   /// How far x is from it, positive outside; of a cone across its axis.
   double distance(const Point& x) const;
@@ -25,12 +25,12 @@ struct CurvedSurface {
 
 /// Whether both are one surface, to 1e-6 of the smaller radius.
 bool same(const CurvedSurface& a, const CurvedSurface& b);
-/// After a rigid motion.
+/// The surface after a rigid motion.
 CurvedSurface moved(const CurvedSurface& surface, const Motion& motion);
-/// After coordinates are multiplied by a factor > 0.
+/// The surface after its coordinates are multiplied by a factor > 0.
 CurvedSurface scaled(const CurvedSurface& surface, double factor);
 
-/// The name of a boundary that says so, to the last bit; and back, if a name is one.
+/// The name of the boundary that carries a surface, to the last bit; and the surface of such a name, nothing for other names.
 std::string name_of(const CurvedSurface& surface);
 std::optional<CurvedSurface> curved_surface(const std::string& name);
 

@@ -16,16 +16,16 @@ struct Extent {
   double shortest_edge = 0;
 };
 
-/// Of each body of the mesh; of each block.
+/// The extent of each body of a mesh, `bodies` in all; of each block.
 std::vector<Extent> extents(const Mesh& mesh, std::size_t bodies);
 std::vector<Extent> block_extents(const Options& options, int dimension);
 
-/// Sizes of a model that are computed with: products of several volumes stay in the range of numbers.
+/// The sizes that a model may have, so that products of several volumes stay in the range of doubles.
 inline constexpr double smallest_size = 1e-30, largest_size = 1e30;
 
 /// Throws Error(bad_input) if a body of the assembly has coordinates that are no finite numbers, is too large or too small, or
-/// lies so far from the origin that rounding moves its nodes by more than a millionth of an edge. `source`, the file or
-/// "mesh.blocks", stands in front of the message.
+/// lies so far from the origin that rounding moves its nodes by more than a millionth of an edge. `of_parts`: of each body of the
+/// parts, before it is moved; `source`, the file or "mesh.blocks", stands in front of the message.
 void require_resolved(const Layout& layout, const std::vector<Extent>& of_parts, const std::string& source);
 
 /// Throws Error(machine) if there are more cells than can be numbered, or they do not fit into this machine's memory: the blocks

@@ -42,13 +42,13 @@ struct InstanceOptions {
 /// The motion of every copy: entry by entry; in each, power by power of M, all of `of`.
 std::vector<Motion> motions(const std::vector<InstanceOptions>& instances);
 
-/// How many these are; a number without bounds, to be asked before they are made.
+/// How many copies these are, which may be more than an integer holds: to be asked before motions().
 double count_of(const std::vector<InstanceOptions>& instances);
 
-/// Most copies of one part.
+/// At most so many copies of one part.
 inline constexpr int most_instances = 10000;
 
-/// The first two of the motions that are the same, to 1e-9 of the translations.
+/// The indices of the first two motions that are the same, to 1e-9 of the translations; nothing if all differ.
 std::optional<std::pair<std::size_t, std::size_t>> coinciding(const std::vector<Motion>& motions);
 
 /// The keywords.
@@ -79,7 +79,7 @@ Layout lay_out(Catalogue parts, const std::map<std::string, std::vector<Motion>>
                const std::vector<Global>& first_node, const std::vector<Global>& first_cell,
                const std::set<std::pair<int, int>>& on_part);
 
-/// A piece of a part as a piece of the assembly's body number `body`.
+/// A piece of a part, moved and numbered as a piece of the assembly's body number `body`.
 Mesh instantiate(Mesh piece, const PartInstance& instance, int body);
 
 }  // namespace mortise::mesh

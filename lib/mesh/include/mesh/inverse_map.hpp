@@ -7,13 +7,14 @@
 
 namespace mortise::mesh {
 
+/// A place of a cell.
 struct CellPlace {
-  Eigen::Vector3d reference;  ///< in the reference cell
-  double distance;            ///< of the place that has these coordinates from the one that was asked for
+  Eigen::Vector3d reference;  ///< its coordinates in the reference cell
+  double distance;            ///< from it to the place that is looked for
 };
 
-/// The place x of a cell with these nodes, by Newton's method: distance 0 to rounding if x lies in the cell. If it does not, some
-/// place of the cell's surface that is close to x where x is close to the cell.
+/// Looks for x in a cell with these nodes, by Newton's method: distance 0 to rounding if x lies in the cell. If it does not, some
+/// place of the cell's surface, which is close to x where x is close to the cell.
 CellPlace find_in_cell(CellType type, std::span<const Point> nodes, const Point& x);
 
 }  // namespace mortise::mesh

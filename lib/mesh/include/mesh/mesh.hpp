@@ -41,11 +41,12 @@ struct Catalogue {
 
 /// Faces on named boundaries. A face that lies on two boundaries stands here twice.
 struct Facets {
-  Cells cells;                ///< line2, or tri3 and quad4, oriented so that the normal points out of the body
+  Cells cells;                ///< lines, or triangles and quadrilaterals, oriented so that the normal points out of the body
   std::vector<Local> parent;  ///< the cell of the Mesh that it is a face of, or that it is (see Body)
   std::vector<int> boundary;  ///< index into Catalogue::boundaries
 };
 
+/// A whole assembly, a body, or any piece of one. Plain data.
 struct Mesh {
   std::vector<Global> node_id;  ///< global number of each local node, unique over all bodies; ascending
   std::vector<Point> points;    ///< coordinates of each local node

@@ -15,13 +15,13 @@ struct CellFace {
   int face = 0;
 };
 
-/// The sorted corners of a face of up to four.
+/// CellFace::corners of a face with these corners, at most four.
 std::array<Local, 4> face_key(std::span<const Local> corners);
 
 /// All faces of all cells, ordered by corners and then by cell, so that faces shared by two cells stand side by side.
 std::vector<CellFace> sorted_faces(const Cells& cells);
 
-/// Those of sorted_faces() that belong to one cell.
+/// Those of sorted_faces() that belong to one cell alone: the border.
 std::vector<CellFace> border_faces(const Cells& cells);
 
 /// For each cell the cells that share a face with it, ascending, in compressed rows.
@@ -33,7 +33,7 @@ struct Neighbours {
     return {cells.data() + offset[i], static_cast<std::size_t>(offset[i + 1] - offset[i])};
   }
 };
-/// Of all cells of one mesh; the graph that partitions are cut from.
+/// The neighbours of all cells of one mesh: the graph that partitions are cut from.
 Neighbours face_neighbours(const Cells& cells);
 
 /// Connected parts of the graph, where cells are connected only if `label` agrees: the part of each cell, numbered in the order

@@ -16,8 +16,8 @@ namespace mortise::model {
 std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& contacts, deck::Document& document,
                                                     partition::Decomposition& decomposition, const Context& context);
 
-/// Lists what was found, or warns if there is nothing; no line if the deck has no such entry. A run lists the first ones, --check
-/// `all`. Collective.
+/// Lists the candidates found, the first ones or `all`, or warns if there are none; prints nothing if the deck has no such entry.
+/// Collective.
 void print_contact_candidates(const std::vector<contact::ContactCandidate>& candidates, const Deck& deck,
                               const Contacts& contacts, const partition::Decomposition& decomposition, bool all,
                               const Context& context);

@@ -59,7 +59,7 @@ Deck read_deck(deck::Document& document, const std::string& output);
 /// For each body of the catalogue whether its entry says `method: boundary_elements`.
 std::vector<bool> bodies_of_boundary_elements(const Deck& deck, const mesh::Catalogue& catalogue);
 
-/// An entry of the deck's section `axes`.
+/// The local axes of an entry of the deck's section `axes`, which must be there.
 deck::LocalAxes local_axes(const Deck& deck, const std::string& name);
 
 /// A boundary by its name in the deck: `boundary`, or `body:boundary` for the part of it that lies on one body, instance or
@@ -68,7 +68,7 @@ struct BoundaryName {
   std::string boundary;
   std::string body;  ///< empty: all bodies
 };
-/// Of any name; whether there is such a boundary is not looked at.
+/// The parts of a name; whether there is such a boundary is not looked at.
 BoundaryName parse_boundary(const std::string& name);
 
 /// The contacts of a deck. On a mesh an entry with wild cards, or `auto`, stands for many.
@@ -81,7 +81,7 @@ struct Contacts {
   /// Where a contact stands in the deck, for messages.
   std::string path(std::size_t contact) const { return "contacts[" + std::to_string(entry[contact]) + "]"; }
 };
-/// Each entry as one contact.
+/// The contacts before names are resolved on a mesh: each entry as one contact.
 Contacts as_written(const Deck& deck);
 
 /// Checks that contacts have names and faces of their own. Errors go to the document.

@@ -18,11 +18,12 @@ std::vector<std::string> material_names(const fem::BodyOptions& body);
 
 /// The law of each contact.
 std::vector<friction::Law> friction_laws(const Contacts& contacts);
-/// Of the preloaded contacts. Those that are locked are prescribed at `shortenings`, one for each, of the state before.
+/// The preload of each preloaded contact in a state. Locked ones keep their length: they are prescribed at `shortenings`, of the
+/// state before, one for each.
 std::vector<constraint::Preload> preloads(const Contacts& contacts, const LoadState& state,
                                           const std::vector<double>& shortenings);
 
-/// What files say of temperatures, by the number of the load.
+/// The fields of temperature that loads read from files, by the number of the load.
 using Temperatures = std::map<std::size_t, std::shared_ptr<const io::NodalField>>;
 
 /// The deck on this rank's subdomains. Refers to its arguments, and does not change.
@@ -38,7 +39,7 @@ class Model {
   const partition::Decomposition& decomposition() const { return decomposition_; }
   const Temperatures& temperatures() const { return temperatures_; }
 
-  /// Of each cell, in the same order in every subdomain of a body.
+  /// The materials of a subdomain, in the same order in every subdomain of a body.
   fem::Materials materials(const partition::Subdomain& subdomain) const;
   /// The largest number of materials in one body.
   std::size_t most_materials() const;
@@ -51,9 +52,10 @@ class Model {
   std::vector<partition::CopyOf> congruent() const;
   /// Stiffness of a subdomain: its lower triangle. Errors name the body.
   SparseMatrix stiffness(const partition::Subdomain& subdomain) const;
-  /// Of a subdomain of boundary elements: its Steklov-Poincare operator. Errors name the body.
+  /// The Steklov-Poincare operator of a subdomain of boundary elements. Errors name the body.
   Eigen::MatrixXd steklov_poincare(const partition::Subdomain& subdomain) const;
-  /// Consistent loads of every subdomain; of boundary elements those on the surface alone. Collective.
+  /// The consistent nodal loads of every subdomain; of boundary elements those on the surface alone. Throws Error(bad_input) if a
+  /// formula is no number somewhere, or a loaded boundary has no area. Collective.
   std::vector<Eigen::VectorXd> loads(const LoadState& state, const Communicator& comm) const;
   /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways. Those that do not act hold nothing.
   /// Each coupling stands for one more, of its name, without displacements.
@@ -61,7 +63,7 @@ class Model {
   /// Nodes of this rank on the boundary, or at the places, of each of `supports`, which are supports(). Collective.
   std::vector<constraint::SupportNodes> support_nodes(std::span<const constraint::Support> supports,
                                                       const Communicator& comm) const;
-  /// How near to an axis is on it. Collective.
+  /// The distance from an axis, a length, below which a node counts as lying on it. Collective.
   double rounding(const Communicator& comm) const;
   /// The boundaries of those of supports() that hold along normals, this rank's faces; the others are empty.
   std::vector<mesh::Surface> support_surfaces() const;
@@ -69,13 +71,12 @@ class Model {
   std::vector<mesh::Surface> surfaces_held_along_normals(const LoadState& state) const;
   /// For each body whether one of the deck's supports lies on it. Collective.
   std::vector<bool> supported(const Communicator& comm) const;
-  /// A boundary by its name in the deck: its area, its centre, and the smallest Young's modulus of its bodies.
   struct Facts {
     double area = 0;
     Point centre = Point::Zero();
-    double young_modulus = 0;
+    double young_modulus = 0;  ///< the smallest of its bodies
   };
-  /// Collective.
+  /// Of a boundary, by its name in the deck. Collective.
   Facts facts(const std::string& boundary, const Communicator& comm) const;
   /// The deck's couplings by name, with what loads and supports make of them. Collective.
   std::vector<constraint::Coupling> couplings(const LoadState& state, const Communicator& comm) const;
@@ -86,8 +87,8 @@ class Model {
                                                    const Communicator& comm) const;
   /// The foundations of supports that act, and the springs between points. The same on every rank. Collective.
   constraint::Springs springs(const LoadState& state, const Communicator& comm) const;
-  /// How the points of all couplings move, U and T: the mean motion of the boundary. `displacement`: of each subdomain.
-  /// Collective.
+  /// The motion of each coupling's point, U and then T in radians: the mean motion of its boundary. `displacement`: of each
+  /// subdomain. Collective.
   std::vector<std::array<double, 6>> motions_of_points(const std::vector<Eigen::VectorXd>& displacement,
                                                        const Communicator& comm) const;
   /// The number of the first coupling among supports().

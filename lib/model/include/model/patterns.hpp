@@ -14,7 +14,7 @@ namespace mortise::model {
 bool is_pattern(const std::string& name);
 /// Whether `text` is `pattern` with some text for every `*`.
 bool matches(const std::string& pattern, const std::string& text);
-/// What stands for the only `*` of the pattern, if `text` matches it.
+/// The text that the only `*` of the pattern stands for, if `text` matches it.
 std::optional<std::string> wildcard_text(const std::string& pattern, const std::string& text);
 
 /// Whether a body is meant by a name: its own, that of its instance or of its group, or a pattern that one of these matches.

@@ -16,10 +16,10 @@ struct Contacts;
 /// 1, but formulas that hold t rise by themselves.
 struct StepOptions {
   std::string name;  ///< default: its number
-  std::map<std::string, double>
-      scale;                         ///< factor of a load, a support's displacement, a contact's interference or preload, by name
+  /// The factor of a load, a support's displacement, a contact's interference or preload, by name.
+  std::map<std::string, double> scale;
   std::vector<std::string> off, on;  ///< loads and supports that cease to act, or act again
-  int increments = 1;                ///< equilibria on the way; factors change linearly
+  int increments = 1;                ///< so many equilibria, between which factors change linearly
 };
 
 /// The keywords.
@@ -28,11 +28,11 @@ void describe(deck::Description<StepOptions>& d);
 /// Checks that the steps name loads, supports and contacts that exist. Errors go to the document.
 void check_steps(const Deck& deck, deck::Document& document);
 
-/// One equilibrium to be found: what acts, by the deck's lists.
+/// One equilibrium to be found: what acts, in the order of the deck's lists.
 struct LoadState {
   std::string step;                            ///< name of its step; empty if the deck has none
   double time = 1;                             ///< steps done so far; 0.5 half way through the first
-  std::vector<double> load, support, contact;  ///< factors; 0 for a load that is off
+  std::vector<double> load, support, contact;  ///< factors of each; 0 for a load that is off
   std::vector<bool> acting;                    ///< of each support: whether it acts
   std::vector<bool> locked;                    ///< of each contact: a preloaded bolt keeps the length it has
 };

@@ -5,10 +5,12 @@
 
 namespace mortise::output {
 
-/// Whether the deck asks for them; where it leaves that open, if they are few and small enough.
+/// Whether blocks.pvd is to be written: as the deck says or, where it leaves that open, if blocks are few and small. `contacts`:
+/// how many there are.
 bool wants_blocks(const model::Deck& deck, const mesh::Catalogue& catalogue, std::size_t contacts);
 
-/// Bodies, contacts, and the boundaries that supports, loads and couplings name, once each. `sides`: see contact_sides().
+/// Blocks of bodies, of contacts, and of the boundaries that supports, loads and couplings name, once each. `sides`: as of
+/// contact_sides().
 std::vector<io::Block> named_blocks(const model::Deck& deck, const partition::Decomposition& decomposition,
                                     const std::vector<contact::Pair>& pairs, const post::Results& results, const Volume& volume,
                                     const io::Piece& sides);

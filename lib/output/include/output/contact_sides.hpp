@@ -8,8 +8,8 @@
 
 namespace mortise::output {
 
-/// Of all contacts the faces with a node that lies near enough to the other side to have a state; nodes of these that lie farther
-/// show the largest gap of the faces round them.
+/// The faces of all contacts with a node that lies near enough to the other side to have a state; other nodes of these faces show
+/// the largest gap of the faces round them.
 io::Piece contact_sides(std::span<const contact::Pair> pairs, std::span<const contact::SurfaceState> states);
 
 }  // namespace mortise::output

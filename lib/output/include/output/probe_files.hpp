@@ -11,13 +11,13 @@
 
 namespace mortise::output {
 
-/// Of one state: each probe, in the order of names. Collective.
+/// What the probes found in one state, in the order of their names. Collective.
 std::vector<io::StateSummary::Probe> probe_summaries(const model::Deck& deck, const mesh::Catalogue& catalogue,
                                                      const post::Probes& probes, const post::Results& results,
                                                      const Communicator& comm);
 
 /// probes.csv, with a row for each state, and probe.NAME.csv of each path, with a row for each of its points in each state. Where
-/// two bodies meet a path has a row for either; where none is, one without values.
+/// two bodies meet a path has a row for either; outside all bodies it has one without values.
 class ProbeFiles {
  public:
   /// Refers to the deck.

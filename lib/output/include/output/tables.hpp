@@ -8,7 +8,7 @@
 
 namespace mortise::output {
 
-/// `nodes/..`: each node from its lowest copy. `displacement`: of each subdomain.
+/// `nodes/..`: each node from its copy in the lowest subdomain. `displacement`: of each subdomain.
 std::vector<io::Table> node_tables(const partition::Decomposition& decomposition, const partition::Interface& interface,
                                    const std::vector<Eigen::VectorXd>& displacement, const post::Results& results);
 
@@ -19,7 +19,7 @@ std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition
 /// `contact/points`: rows by contact and node, whatever ranks they come from. Collective.
 io::Table contact_table(const std::vector<contact::ContactNodeState>& nodes, const Communicator& comm);
 
-/// `dual/multipliers`.
+/// `dual/multipliers`, of the scaled rows of B.
 io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambda);
 
 /// `interior/..` of nodes inside boundary elements, which have the numbers after all others, and `points/..` of the deck's

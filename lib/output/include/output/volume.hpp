@@ -28,11 +28,11 @@ struct NodeValues {
   std::vector<Eigen::MatrixXd> of_subdomain;
 };
 
-/// Of a cell among those that are shown, among the materials of Volume; bodies of boundary elements have one.
+/// The material, counted as in Volume, of the cell `cell` of this rank's subdomain `s`; bodies of boundary elements have one.
 std::size_t material_of(const partition::Subdomain& subdomain, const post::Results& results, std::size_t s, std::size_t cell);
 
-/// With the fields that the deck asks for and those of `more`; of boundary elements the cells inside, if they were asked for.
-/// `displacement`: of each subdomain.
+/// The subdomains with the fields that the deck asks for and those of `more`; of boundary elements the cells inside, if they are
+/// asked for. `displacement`: of each subdomain.
 Volume make_volume(const model::Deck& deck, const partition::Decomposition& decomposition,
                    const std::vector<Eigen::VectorXd>& displacement, const post::Results& results,
                    const std::vector<NodeValues>& more);

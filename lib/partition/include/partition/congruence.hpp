@@ -10,9 +10,9 @@
 
 namespace mortise::partition {
 
-/// Points of the copy = rotation * points of the original + a translation.
+/// What a subdomain is a copy of: points of the copy = rotation * points of the original + a translation.
 struct CopyOf {
-  std::size_t original;                     ///< itself, if there is none before it
+  std::size_t original;                     ///< index of this rank's subdomain; its own if it is a copy of none before it
   std::optional<Eigen::Matrix3d> rotation;  ///< none for a translation alone
 };
 
@@ -21,8 +21,9 @@ struct CopyOf {
 enum class Motions { rigid, along_y };
 
 /// For each subdomain of this rank the first one of this rank with the same cells (in the same local numbering), the same points
-/// up to one of the `motions`, to 1e-10 of its size, and the same `kind` (one number a subdomain: whatever else must agree, such
-/// as the material). `alike`: whether what has directions agrees as well, for an original, a copy and how that is turned.
+/// up to one of the `motions`, to 1e-10 of its size, and the same `kind` (one number per subdomain for whatever else must agree,
+/// such as the material). `alike`, if given: whether what has directions agrees as well, for an original, a copy and its
+/// rotation.
 using Alike = std::function<bool(const Subdomain& original, const Subdomain& copy, const Eigen::Matrix3d& rotation)>;
 std::vector<CopyOf> congruent(const std::vector<Subdomain>& subdomains, const std::vector<int>& kind,
                               Motions motions = Motions::rigid, const Alike& alike = {});

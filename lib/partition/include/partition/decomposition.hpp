@@ -8,6 +8,7 @@
 
 namespace mortise::partition {
 
+/// A piece of one body on one rank.
 struct Subdomain {
   Global id = 0;    ///< over all ranks and bodies
   int body = 0;     ///< index into Catalogue::bodies
@@ -20,6 +21,7 @@ struct Subdomain {
   mesh::Mesh inside = {};
 };
 
+/// This rank's part of an assembly cut into subdomains.
 struct Decomposition {
   mesh::Catalogue catalogue;
   std::vector<Subdomain> subdomains;  ///< of this rank, ascending ids
@@ -28,9 +30,8 @@ struct Decomposition {
   /// cluster_count() + 1. Without clusters each subdomain is one of its own.
   std::vector<Global> clusters;
 
-  /// Over all ranks.
-  Global subdomain_count() const { return first.back(); }
-  Global cluster_count() const { return static_cast<Global>(clusters.size()) - 1; }
+  Global subdomain_count() const { return first.back(); }                            ///< over all ranks
+  Global cluster_count() const { return static_cast<Global>(clusters.size()) - 1; }  ///< over all ranks
   /// Whether some cluster has several subdomains.
   bool clustered() const { return cluster_count() < subdomain_count(); }
   /// The rank that owns a subdomain.

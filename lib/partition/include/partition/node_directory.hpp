@@ -52,7 +52,7 @@ struct Interface {
   std::vector<std::vector<Local>> nodes;     ///< for each local subdomain, ascending
   std::vector<NodeDirectory::Found> copies;  ///< for each local subdomain, for each of its `nodes`
 };
-/// Of all subdomains of this rank. Collective.
+/// The interface of this rank's subdomains. Collective.
 Interface find_interface(const Decomposition& decomposition, const NodeDirectory& directory, const Communicator& comm);
 
 /// Adds up the rows of the copies of a node: afterwards every copy of a node has in its row the sum over all copies. The sum is

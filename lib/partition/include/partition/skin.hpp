@@ -9,8 +9,8 @@ namespace mortise::partition {
 /// body; numbered as in boundary_surface(). Collective.
 mesh::Surface outer_surface(const Decomposition& decomposition, const Communicator& comm);
 
-/// Of a facet of a boundary: six times its cell's number and its place among the cell's faces, which are at most six, tell faces
-/// apart on every number of ranks. A panel of a skin is its own face, at place 0.
+/// The number of the face that a facet of a boundary is: six times the number of its cell, which has six faces at most, plus its
+/// place among the cell's faces, whatever the number of ranks. A panel of a skin is its own face, at place 0.
 Global face_number(const mesh::Mesh& mesh, std::size_t facet);
 
 /// The shape of a face of a cell and its nodes in the subdomain's mesh; of a skin the panel itself.

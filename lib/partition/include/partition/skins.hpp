@@ -9,7 +9,7 @@
 
 namespace mortise::partition {
 
-/// The same subdomains, those of the bodies in `of_body` (one entry a body) as skins (Subdomain::skin).
+/// The same subdomains, those of the bodies that `of_body` marks (one entry per body) as skins (Subdomain::skin).
 ///
 /// The panels of a skin are the faces that belong to one cell of the subdomain, cut into triangles (plane models: lines) that
 /// look out of it, as mesh::Face does. They take all nodes of a face: a quad4 makes 2, cut along the diagonal through its node of

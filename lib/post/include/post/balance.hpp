@@ -19,24 +19,26 @@ struct Reaction {
   bool operator==(const Reaction& other) const = default;
 };
 
-/// Of each of the deck's supports; contact forces that go straight into them count. Axes of revolution are none of them.
-/// Collective.
+/// The reaction of each of the deck's `supports`, so many; contact forces that go straight into them count, what the axis of
+/// revolution holds does not. Collective.
 std::vector<Reaction> reactions(const feti::DualProblem& problem, const Vector& lambda, std::size_t supports);
 
-/// Of each subdomain, nodes x 3: what holds the nodes that supports hold, along the components that they hold; at all copies of a
-/// node the same. Where a contact pushes such a node, it is the force of support and contact together. Collective.
+/// Of each subdomain, nodes x 3: the forces that hold the nodes of supports, along the components that these hold; the same at
+/// all copies of a node. Where a contact pushes such a node, it is the force of support and contact together. Collective.
 std::vector<Eigen::MatrixXd> holding_forces(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                                             const partition::Interface& interface, const Vector& lambda);
 
-/// Of a coupling: how its point moves and turns, and what it does to the boundary, forces and then moments about the point: the
-/// loads at the point and the reaction of the supports that hold it.
+/// The point of a coupling. Of six numbers the first three are displacements or forces, the others angles or moments about the
+/// point.
 struct CouplingState {
-  std::array<double, 6> motion{}, action{}, reaction{};
+  std::array<double, 6> motion{};    ///< of the point
+  std::array<double, 6> action{};    ///< on the boundary: the loads at the point and the reaction
+  std::array<double, 6> reaction{};  ///< of the supports that hold the point
 };
-/// All but the motions. Collective.
+/// Of all couplings, by name, but for the motions, which stay 0. Collective.
 std::vector<CouplingState> coupling_states(const feti::DualProblem& problem, const Vector& lambda);
 
-/// Of a spring between two points: its force, > 0 if it pulls them together, and its elongation.
+/// A spring between two points: its force, > 0 if it pulls them together, and its elongation, a length.
 struct SpringState {
   double force = 0, elongation = 0;
 };
@@ -49,26 +51,28 @@ struct Balance {
   Point obstacles = Point::Zero();   ///< rigid ones
   Point neighbours = Point::Zero();  ///< the sectors beside a cyclic one
   Point gauges = Point::Zero();      ///< what holds free motions against the push of facets, which is no force of the model
-  double largest = 0;                ///< of loads, supports, contacts
-  double acting = 0;                 ///< the same, at least a part of what presses in contacts before it cancels, as in a fit
+  double largest = 0;                ///< force: of loads, supports, contacts
+  double acting = 0;                 ///< the same, but at least a part of what presses in contacts before it cancels, as in a fit
   double difference = 0;             ///< of the sum of all, relative to the largest
   double push_of_facets = 0;         ///< of `gauges`, relative to `acting`
 };
 
-/// What rounding, and a solver whose measure are the loads, may leave where nothing is strained: of forces and of energies; and
-/// of the overlaps that loads press with which go straight into what holds them, and their work. `moved`: of energies as well,
-/// where a solver's errors are measured by displacements, as those of a lifted body; they grow with rigid motions.
+/// What rounding, and a solver that is measured by the loads, may leave where nothing is strained.
 struct Rounding {
-  double force = 0, energy = 0, length = 0, work = 0, moved = 0;
-  /// What is rounding here or there; but for the work, which a state of smaller loads has to fit to.
+  double force = 0, energy = 0;
+  double length = 0,
+         work = 0;   ///< of overlaps that loads cause which go straight into what holds them, and the work of these loads
+  double moved = 0;  ///< of energies, where errors are measured by displacements: grows with rigid motions
+  /// Keeps the larger of each but the work, which is that of this state's loads alone.
   void take(const Rounding& other);
 };
-/// For displacements of each subdomain and the forces that act on its nodes, those of loads that go straight into supports among
-/// them; `size` is that of the model. Collective.
+/// Of displacements and nodal forces of each subdomain (loads that go straight into supports among them); `size`: of the model, a
+/// length. Collective.
 Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::vector<Eigen::VectorXd>& load,
                   const std::vector<std::vector<double>>& nodal_stiffness, int dimension, double size, const Communicator& comm);
 
-/// `reactions`, `contacts` and `couplings`: of each support, contact and coupling. Collective.
+/// The balance of forces of a solution. `reactions`, `contacts` and `couplings`: of each support, contact and coupling.
+/// Collective.
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,
                 std::span<const contact::Resultant> contacts, std::span<const contact::Pair> pairs, bool axisymmetric,
                 std::span<const CouplingState> couplings, const Rounding& rounding);

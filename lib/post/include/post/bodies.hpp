@@ -24,7 +24,7 @@ struct Found {
   }
 };
 
-/// Of each body the largest over all ranks; `mine` has an entry for each body of the catalogue. Collective.
+/// Of each body the largest value over all ranks; `mine`: of this rank, an entry for each body of the catalogue. Collective.
 std::vector<Found> largest_of_ranks(const std::vector<Found>& mine, const Communicator& comm);
 
 /// The size of each body: the diagonal of the box round it, in axisymmetry round the whole turn. Collective.

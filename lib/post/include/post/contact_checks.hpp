@@ -11,26 +11,26 @@
 
 namespace mortise::post {
 
-/// The moment about the origin of all forces of one contact, on both of its sides.
+/// The moment about the origin of all forces of one contact, those on both of its sides together.
 struct ContactMoment {
-  double lost = 0;   ///< its length: 0 if the forces lie opposite each other, gap times shear if sides lie apart
-  double scale = 0;  ///< what the forces could turn: their sizes times their distance from their centre, root mean square
-  double sizes = 0;  ///< the sum of their sizes
+  double lost = 0;   ///< its length: 0 if the forces lie opposite each other, gap times shear if the sides lie apart
+  double scale = 0;  ///< a moment: the sum of |force| times the distance of the forces from their centre, root mean square
+  double sizes = 0;  ///< the sum of |force|
 };
 
-/// sum x_n x (B_c' lambda_c)_n of each contact c. 0 where one side is an obstacle or a sector's neighbour.
-/// `points`: as of contact_results(). Collective.
+/// sum_n x_n x (B_c' lambda_c)_n of each contact c; 0 where one side is an obstacle or a sector's neighbour. `points`: as of
+/// contact_results(). Collective.
 std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, const Vector& lambda,
                                            const partition::Decomposition& decomposition, std::span<const contact::Pair> pairs,
                                            std::span<const contact::ContactNodeState> points);
 
-/// "lost_moment": the moments that the two sides of a contact feel differ by more than 1 % of what its forces could turn. A row
-/// joins places that lie apart, and a shear force across a gap turns them: a bond over a gap, Tresca friction where it gapes,
-/// facets of curved sides that do not match.
+/// "lost_moment": the moments that the two sides of a contact feel differ by more than 1 % of ContactMoment::scale. A row joins
+/// places that lie apart, and a shear force across a gap turns them: a bond over a gap, Tresca friction where it gapes, facets of
+/// curved sides that do not match. `forces`: Balance::acting.
 std::vector<Warning> lost_moments(std::span<const ContactMoment> moments, std::span<const contact::Pair> pairs, double forces);
 
 /// "friction_across_gap": open points of a contact with Tresca's law, whose bound is given whether the sides touch or not, bear
-/// more than a hundredth of its forces. Collective.
+/// more than a hundredth of its forces. `forces` as in lost_moments(). Collective.
 std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> points,
                                            std::span<const contact::Pair> pairs, double forces, const Communicator& comm);
 

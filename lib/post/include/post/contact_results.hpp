@@ -17,7 +17,7 @@ struct ContactResults {
   double work_of_gaps = 0;                        ///< sum of |gap * normal force|, which is zero in contact
 };
 
-/// At the multipliers lambda of rows and nu of kernels, `displacement` of each subdomain. Collective.
+/// At the multipliers lambda of rows and nu of kernels; `displacement`: of each subdomain. Collective.
 ContactResults contact_results(const feti::DualProblem& problem, const Vector& lambda, const Eigen::VectorXd& nu,
                                const std::vector<Eigen::VectorXd>& displacement, std::span<const contact::Pair> pairs);
 

@@ -8,8 +8,8 @@
 
 namespace mortise::post {
 
-/// The body whose displacements are, by least squares, the largest rigid motion over its size, less `allowance`, a length that
-/// supports, gaps and overlaps account for. Collective.
+/// The largest rigid motion of a body over its size, fitted to its displacements by least squares, less `allowance`, a length
+/// that supports, gaps and overlaps account for. `sizes`: of the bodies, see body_sizes(). Collective.
 Drift drift(const partition::Decomposition& decomposition, fem::Kinematics kinematics, const std::vector<double>& sizes,
             const std::vector<Eigen::VectorXd>& displacement, double allowance, const Communicator& comm);
 

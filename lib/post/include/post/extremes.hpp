@@ -25,15 +25,16 @@ struct ExtremeProbe {
   std::optional<deck::LocalAxes> axes = {};  ///< that components are along; none: those of the model
 };
 
+/// The same on every rank.
 struct Extreme {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN if no value is a number
   Point at = Point::Zero();
   int body = -1;
 };
 
-/// At the nodes, in each material that meets there, and at the points inside boundary elements that something asks for; pressures
-/// are those averaged over the faces at a node. Of equal values that at the node with the lowest number. `displacement`: of each
-/// subdomain; `surfaces`: of each of `pairs`. Collective.
+/// What `probes.extremes` ask for. Values are looked at in the nodes, in each material that meets there, and at the points inside
+/// boundary elements that something asks for; pressures are those averaged over the faces at a node. Of equal values that at the
+/// node with the lowest number counts. `displacement`: of each subdomain; `surfaces`: of each of `pairs`. Collective.
 std::vector<Extreme> find_extremes(const partition::Decomposition& decomposition, const Probes& probes,
                                    const std::vector<Eigen::VectorXd>& displacement, const StressField& stress,
                                    const Interior& interior, std::span<const contact::Pair> pairs,

@@ -14,7 +14,7 @@
 
 namespace mortise::post {
 
-/// At some points.
+/// Displacements and stresses at some points.
 struct Values {
   Eigen::MatrixXd displacement;  ///< points x 3
   Eigen::MatrixXd stress;        ///< points x 6, XX YY ZZ XY YZ XZ
@@ -50,8 +50,8 @@ struct Interior {
   Values sampled;              ///< of Probes::sampled
 };
 
-/// `stress`: recovered from `displacement`. Its largest von Mises stress becomes that inside boundary elements, if that is
-/// larger. Collective.
+/// What `probes` ask for inside bodies. `stress`: recovered from `displacement`; its largest von Mises stress becomes that inside
+/// boundary elements if that is larger. Collective.
 Interior evaluate_interior(const ElasticBodies& bodies, const Probes& probes, const std::vector<Eigen::VectorXd>& displacement,
                            StressField& stress, const Communicator& comm);
 

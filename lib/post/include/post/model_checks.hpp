@@ -11,10 +11,10 @@
 
 namespace mortise::post {
 
-/// A body's material, one entry for each.
+/// A material of a body; a body of several materials has an entry for each.
 struct BodyMaterial {
   std::string body;
-  double size = 0;  ///< of the body
+  double size = 0;  ///< of the body, see body_sizes()
   fem::Material material;
   fem::Formulation formulation = fem::Formulation::standard;
   bool first_order = true;  ///< some cell of it has straight edges
@@ -24,10 +24,10 @@ struct BodyMaterial {
 /// exempt, as are the formulations for such materials.
 std::vector<Warning> locking(const std::vector<BodyMaterial>& bodies, fem::Kinematics kinematics);
 
-/// A load on a boundary as force over area.
+/// A load on a boundary.
 struct AppliedStress {
   std::string boundary;
-  double stress = 0;
+  double stress = 0;         ///< its force over the boundary's area
   double young_modulus = 0;  ///< of its bodies, the smallest
 };
 

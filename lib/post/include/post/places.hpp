@@ -18,13 +18,13 @@ struct Place {
   Point at;
 };
 
-/// Whether nothing is there of a subdomain but its skin.
+/// Whether a subdomain is known by its skin alone, without cells inside.
 inline bool is_surface_alone(const partition::Subdomain& subdomain)
 {
   return subdomain.skin && subdomain.inside.cells.size() == 0;
 }
 
-/// The cells that a subdomain is made of; of boundary elements those that its skin encloses, or that itself if there are none.
+/// The cells that a subdomain is made of; of boundary elements those that its skin encloses, or the skin if there are none.
 inline const mesh::Mesh& solid(const partition::Subdomain& subdomain)
 {
   return subdomain.skin && !is_surface_alone(subdomain) ? subdomain.inside : subdomain.mesh;
@@ -32,23 +32,23 @@ inline const mesh::Mesh& solid(const partition::Subdomain& subdomain)
 
 /// A point in a body, on this rank.
 struct PointInBody {
-  std::size_t point;
-  Global row;  ///< counts points and, where one lies in several bodies, these, in the order of the catalogue
+  std::size_t point;  ///< index into the points that were asked for
+  Global row;         ///< counts points and, where one lies in several bodies, these, in the order of the catalogue
   int body;
   Place place;
 };
 
-/// A point in no body, and the node that is nearest to it.
+/// A point in no body.
 struct LostPoint {
-  std::size_t point;
-  double distance;
-  int body;
+  std::size_t point;  ///< index into the points that were asked for
+  double distance;    ///< to the nearest node
+  int body;           ///< of that node
 };
 
 struct FoundPoints {
-  std::vector<PointInBody> mine;
-  Global rows = 0;              ///< on all ranks
-  std::vector<LostPoint> lost;  ///< the same on every rank
+  std::vector<PointInBody> mine;  ///< of this rank
+  Global rows = 0;                ///< on all ranks
+  std::vector<LostPoint> lost;    ///< the same on every rank
 };
 
 /// Each of `points`, the same on every rank, in each body that it lies in, to 1e-6 of the body's size. One that lies in none is

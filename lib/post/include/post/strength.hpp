@@ -12,8 +12,9 @@
 
 namespace mortise::post {
 
-/// "large_pressure": the recovered pressure of a contact exceeds a hundredth of the smaller Young's modulus of its bodies, which
-/// `softest` has for each body. `surfaces` as of contact::surface_states(). Collective.
+/// "large_pressure": the recovered pressure of a contact exceeds a hundredth of the smaller Young's modulus of its bodies.
+/// `softest`: of each body its smallest Young's modulus; `bodies`: their names; `surfaces` as of contact::surface_states().
+/// Collective.
 std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
                                      const std::vector<double>& softest, const std::vector<std::string>& bodies,
                                      const Communicator& comm);
@@ -67,8 +68,8 @@ struct MeshError {
 /// "coarse_mesh": the relative error exceeds 25 %.
 std::vector<Warning> coarse_mesh(const MeshError& error, const std::vector<std::string>& bodies);
 
-/// "facet_push": facets push bodies along motions that nothing resists with more than a thousandth of the largest force; `part`
-/// is what holds against it over that force, `force` itself.
+/// "facet_push": facets push bodies along motions that nothing resists with more than a thousandth of the largest force. `force`:
+/// of the gauges that hold against it; `part`: Balance::push_of_facets.
 std::vector<Warning> facet_push(double part, const Point& force);
 
 }  // namespace mortise::post

@@ -19,13 +19,13 @@
 
 namespace mortise::post {
 
-/// What the recovery works on. `constitution`: of each subdomain of this rank; `blocks`: the most materials of any body.
+/// What the recovery works on. Refers to its parts.
 struct ElasticBodies {
   const partition::Decomposition& decomposition;
   const partition::Interface& interface;
   fem::Kinematics kinematics;
-  std::span<const fem::Constitution> constitution;
-  std::size_t blocks = 1;
+  std::span<const fem::Constitution> constitution;  ///< of each subdomain of this rank
+  std::size_t blocks = 1;                           ///< the most materials of any body
   /// What subdomains of boundary elements need as well: what each is a copy of, and the operators.
   std::span<const partition::CopyOf> copies = {};
   std::span<const std::shared_ptr<const feti::SubdomainOperator>> operators = {};
@@ -53,16 +53,16 @@ struct StressField {
   std::vector<double> body_error;     ///< of each body: its part of the squared error on this rank
 };
 
-/// `displacement`: of each subdomain. Collective.
+/// The stresses of displacements of each subdomain. Collective.
 StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
                            const Communicator& comm);
 
-/// In the energy norm: the estimated error of the mesh, and the size of the solution. That of boundary elements is not estimated
-/// here, where it would cost much, but taken for a hundredth of their part of the solution.
+/// In the energy norm: the estimated error of the mesh, and the size of the solution.
 struct EnergyNorms {
   double error = 0, solution = 0;
 };
-/// Collective.
+/// Of displacements of each subdomain. The error of boundary elements is taken for a hundredth of their part of the solution,
+/// since the estimate of recover_stress() needs tractions, which cost much. Collective.
 EnergyNorms energy_norms(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
 
 }  // namespace mortise::post

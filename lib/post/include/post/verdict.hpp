@@ -27,7 +27,7 @@ struct Evidence : Residuals {
   bool converged = false;  ///< by the solver's own criterion
   std::string limit;       ///< the key of the deck that ended the solver early, or ""
   double tolerance = 0;    ///< the relative residual that the deck asks for; 0: auto
-  double imbalance = 0;    ///< of loads, supports and obstacles, over the largest force
+  double imbalance = 0;    ///< of all forces, over the largest: Balance::difference
   /// Of the solver, relative, in the energy norm: estimated, and what the stopping criterion allows.
   double algebraic_error = std::numeric_limits<double>::quiet_NaN();
   double allowed_error = std::numeric_limits<double>::infinity();

@@ -18,12 +18,14 @@ class ActiveSet {
   /// for each disc, is what curvatures are measured against. Distances from bounds below `active_set_tolerance` times the
   /// largest one count as none: bodies that touch without force, like the idle rollers of a bearing, are projected to next to
   /// nothing, and where that is free they could be given tension. `coupled`: radii follow the discs' normal unknowns; then what
-  /// moves is T x, and what is felt of a gradient is what x feels, so that the active set is not symmetric. Factorizes the coarse
-  /// matrices, and is of use until somebody else does. Collective.
+  /// moves is T x, and what is felt of a gradient is what x feels, so that the active set is not symmetric.
+  ///
+  /// Factorizes the coarse matrices of the projector: it is valid until the next projection or active set does so. Throws
+  /// Error(not_converged) if they have no factor. Collective.
   ActiveSet(Projector& projector, const Vector& argument, double step, std::span<const double> stiffness,
             double active_set_tolerance, bool coupled = false);
 
-  /// x becomes its free part, without constrained unknowns and with the tangents alone of discs that slip.
+  /// x becomes its free part Pi x: zero at constrained unknowns, along the tangent alone at discs that slip.
   void keep_free(Vector& x) const { restrict(x, 0); }
   /// x becomes x - T d, d its free part: how far it leads off the constraints. T d = d + coefficient d[normal] n at discs that
   /// slip in the direction n and follow a normal unknown.
@@ -45,15 +47,15 @@ class ActiveSet {
   /// The transpose of project(): the part of a gradient that free directions feel. Collective.
   void project_gradient(Vector& x, int sweeps = 2) const { sweep(x, false, sweeps); }
 
-  /// x becomes x + G'nu with the nu that leaves least of it to free directions: the reaction of the constraints, to the gradient
-  /// x. Returns the part of it that unknowns which are free without curvature feel still. Collective.
+  /// The reaction of the constraints to the gradient x: x becomes x + G'nu with the nu that leaves least of it to free
+  /// directions. Returns what is left of it at the free unknowns that have no curvature. Collective.
   Vector reduce(Vector& x) const;
 
   /// Unknowns of this rank that are not free at all.
   const std::vector<Local>& fixed() const { return fixed_; }
 
-  long long active_bounds = 0;  ///< on this rank
-  long long slipping = 0;       ///< on this rank
+  long long active_bounds = 0;  ///< bounds on this rank that hold their unknown
+  long long slipping = 0;       ///< discs on this rank that slip or are pinned
 
  private:
   struct Slip {

@@ -10,41 +10,44 @@
 
 namespace mortise::qp {
 
-/// How many products a solve that something else is ready to take over may take: `products`, and up to `near` more while, at the
-/// pace of its residuals, no more than that are left.
+/// How many products a solve may take that another approach is ready to take over from: `products`, and up to `near` more while
+/// no more than that are left at the pace of its residuals.
 struct Patience {
   int products, near = 0;
+  /// A number alone is a patience too.
   Patience(int count, int count_near = 0) : products(count), near(count_near) {}
 };
 
-/// A number that is given, for all solves together; else each solve goes on as long as something becomes better by 30 %: the
-/// residual, the bound of the error in the energy norm, by how much slip bounds change; or fewer points change their state in a
-/// step than ever. It sets the limit of the Hessian that it watches. Of random decks that ended well by products alone the worst
-/// went 1,200 products without.
+/// Watches a Hessian and sets its limit. That is a number that is given, for all solves together; else each solve goes on as long
+/// as something becomes better by 30 % within `stretch` products: the residual, the bound of the error in the energy norm, the
+/// change of the slip bounds; or fewer points than ever change their state in a step. (Of random decks that ended well by
+/// products alone the worst went 1,200 products without.)
 ///
-/// A solve that something else is ready to take over (`patience`) gives up sooner: after `look` products, if at the pace of its
-/// residuals it would take more than its patience, and where nothing has become better for as many.
+/// A solve with a patience gives up sooner: from `look` products on, if at the pace of its residuals it would take more than its
+/// patience, and where nothing has become better for `look` products.
 class Budget {
  public:
   static constexpr int stretch = 2500;  ///< products without anything better that end a solve
   static constexpr int most = 10000;    ///< of one solve, whatever becomes better
   static constexpr int look = 100;      ///< products that tell whether to go on where something else is ready
 
-  /// `given`: the number. `steady`: for an algorithm whose residual may rise for long, where nothing but `most` ends it.
+  /// `hessian` outlives it. `given`: the number, if there is one. `steady`: for an algorithm whose residual may rise for long:
+  /// then nothing but `most` ends it.
   Budget(Hessian& hessian, std::optional<int> given, bool steady);
 
-  /// Before a solve to the residual `goal`, that gives up when its `patience` ends if there is one.
+  /// Before a solve to the relative residual `goal`, which gives up when its `patience` ends, if it has one.
   void start(std::optional<Patience> patience, double goal = 1e-4);
   /// Another algorithm takes over: its residuals begin anew.
   void change_algorithm();
-  /// After a step; `changes`: points whose state changed, if that was an outer step. The arguments are the same on all ranks.
+  /// After a step. `changes`: points whose state changed, if that was an outer step; `change_of_bounds`: relative, of slip
+  /// bounds. The arguments are the same on all ranks.
   void note(const Progress& progress, std::optional<long long> changes, double change_of_bounds);
 
   /// Whether products are left, patience apart.
   bool left() const { return hessian_.count() < end_; }
-  /// Whether another algorithm may go on where one has ended: with products left, and nobody who waits for the solve to give up.
+  /// Whether another algorithm of the same approach may go on where one has ended: products are left, and there is no patience.
   bool may_change() const { return !patience_ && left(); }
-  /// What ended a solve whose products are spent, as the key of the deck and a remark.
+  /// For messages, what ended a solve whose products are spent: the key of the deck and a remark.
   std::string reason() const;
 
  private:

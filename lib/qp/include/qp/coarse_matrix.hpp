@@ -23,14 +23,15 @@ struct DowndateBlock {
 /// factorization is that of a small dense Schur complement; with many the whole is factorized sparsely. Every rank holds it.
 class CoarseMatrix {
  public:
-  /// `blocks`: all that may be downdated on this rank; parts of a block may. `equality` outlives it. Collective.
-  /// Above `largest_dense` touched rows, and where the sparse factor is the smaller one, it does not go by the Schur complement.
+  /// `blocks`: the unknowns of this rank's constraints, which may be downdated as a whole or in part. `equality` outlives it.
+  /// With more than `largest_dense` touched rows, or where the sparse factor is smaller, there is no Schur complement. Throws
+  /// Error(no_equilibrium) if the rows that no constraint touches are linearly dependent. Collective.
   CoarseMatrix(const EqualityConstraint& equality, std::span<const BlockIndex> blocks, int largest_dense = 2000);
 
   /// Factorizes G D G' + `regularisation` diag(G G') over the touched rows. Returns false if that is not positive definite.
   /// `downdates`: the blocks of this rank. Collective.
   [[nodiscard]] bool factorize(std::span<const DowndateBlock> downdates, double regularisation);
-  /// Of the matrix that was factorized last.
+  /// (G D G')^-1 r for the matrix that was factorized last; r is over all rows of G, the same on every rank.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
 
   int touched() const { return static_cast<int>(touched_.size()); }  ///< rows of G with a constrained unknown, over all ranks

@@ -24,8 +24,8 @@ struct ConstraintStates;
 
 /// What is left when unknowns without a constraint are eliminated.
 struct CondensedMatrices {
-  Eigen::MatrixXd w, h, c;
-  Eigen::VectorXd own;  ///< compliance of each unknown if all others are fixed: 1 / (W^-1)_ii
+  Eigen::MatrixXd w, h, c;  ///< W: constrained unknowns squared; H: rows of G x constrained unknowns; C: rows of G squared
+  Eigen::VectorXd own;      ///< compliance of each unknown if all others are fixed: 1 / (W^-1)_ii
 };
 
 /// On one rank alone. Heavy: moves, does not copy.
@@ -33,7 +33,7 @@ class CondensedNewton {
  public:
   /// A: symmetric, positive definite. `g`: G, dense, rows x unknowns. `c`: C_0, symmetric, positive semidefinite. `set`: over all
   /// unknowns; later ones may differ from it in radii and bounds. Throws Error(not_converged) if A is not definite, and, as
-  /// solve() does, Error(machine) if the process is told to end.
+  /// solve() does, Error(interrupted) if the process is told to end.
   CondensedNewton(Eigen::MatrixXd a, Eigen::MatrixXd g, Eigen::MatrixXd c, const FeasibleSet& set);
 
   struct Point {
@@ -43,7 +43,7 @@ class CondensedNewton {
   };
   /// For the linear term b and the right-hand side e.
   Point solve(const Eigen::VectorXd& b, const Eigen::VectorXd& e, const FeasibleSet& set) const;
-  /// A^-1 r.
+  /// A^-1 r, over all unknowns.
   Eigen::VectorXd inverse_times(const Eigen::VectorXd& r) const;
 
  private:

@@ -21,9 +21,8 @@ class EqualityConstraint {
   /// rows of G are linearly dependent. Collective.
   EqualityConstraint(SparseMatrix g, Eigen::VectorXd e, const Communicator& comm);
 
-  /// Rows of G; e, whole on every rank.
-  int size() const { return static_cast<int>(e_.size()); }
-  const Eigen::VectorXd& right_side() const { return e_; }
+  int size() const { return static_cast<int>(e_.size()); }  ///< rows of G
+  const Eigen::VectorXd& right_side() const { return e_; }  ///< e, whole on every rank
   /// A new e for the same G, the same on every rank.
   void set_right_side(Eigen::VectorXd e) { e_ = std::move(e); }
   /// The columns of G that belong to this rank's entries of x.
@@ -35,12 +34,12 @@ class EqualityConstraint {
   Eigen::VectorXd apply(const Vector& x) const;
   /// y += alpha G' nu.
   void add_transpose(double alpha, const Eigen::VectorXd& nu, Vector& y) const;
-  /// (G G')^-1 r.
+  /// (G G')^-1 r, r of size(), the same on every rank.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_->solve(r); }
   /// x = P x; returns (G G')^-1 G x of the x that came in. Collective.
   Eigen::VectorXd project(Vector& x) const;
-  /// ||Q x|| for an x with G x = r, which is the same on every rank: the norm of the residual r in which rows of different length
-  /// count alike.
+  /// (r'(G G')^-1 r)^1/2, which is ||Q x|| for any x with G x = r: the norm of a residual r, the same on every rank, in which
+  /// rows of different length count alike.
   double norm(const Eigen::VectorXd& r) const;
 
  private:

@@ -11,9 +11,9 @@
 
 namespace mortise::qp {
 
-/// For friction whose bounds depend on the solution. Both are collective.
+/// How slip bounds follow the solution, for friction whose bounds depend on it. Both are collective.
 struct SlipBoundUpdate {
-  /// Updates the radii of the problem's set for the point `x` if `apply`; returns the norm of what changes, or would change.
+  /// If `apply`, gives the problem's set the radii that belong to the point `x`. Returns the norm of their change, made or not.
   std::function<double(const Vector& x, bool apply)> update;
   /// Goes half way back to earlier radii, because the updated ones leave no feasible point.
   std::function<void()> retreat;

@@ -38,7 +38,7 @@ class FeasibleSet {
   FeasibleSet() = default;
   FeasibleSet(std::vector<Bound> bounds, std::vector<Disc> discs) : bounds_(std::move(bounds)), discs_(std::move(discs)) {}
 
-  /// In the order of the constructor; an unknown is in one of them at most.
+  /// In the order of the constructor; an unknown is in at most one bound or disc.
   std::span<const Bound> bounds() const { return bounds_; }
   std::span<const Disc> discs() const { return discs_; }
   bool empty() const { return bounds_.empty() && discs_.empty(); }

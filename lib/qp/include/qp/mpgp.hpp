@@ -12,10 +12,10 @@ namespace mortise::qp {
 /// y = H x; one product with the Hessian of the outer problem.
 using Product = std::function<void(const Vector& x, Vector& y)>;
 
-/// The point and what is known there.
+/// A point with its gradient.
 struct Point {
   Vector x;
-  Vector gradient;
+  Vector gradient;  ///< H x - c
 };
 
 /// Parameters of the method, for ||H|| = 1.

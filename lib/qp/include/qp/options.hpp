@@ -8,9 +8,9 @@
 namespace mortise::qp {
 
 struct Options {
-  std::string algorithm = "auto";
-  deck::OrAuto<double> tolerance;         ///< relative: reduced projected gradient and equality residual over ||P d||
-  deck::OrAuto<int> max_multiplications;  ///< with F, in the whole run; auto: see Budget
+  std::string algorithm = "auto";         ///< auto, or a name of solvers()
+  deck::OrAuto<double> tolerance;         ///< of gradient and equality residual over ||P d||; auto: by the error, see Goal
+  deck::OrAuto<int> max_multiplications;  ///< products with F, in the whole run; auto: see Budget
 };
 
 /// The keywords.

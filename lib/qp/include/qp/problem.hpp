@@ -14,7 +14,7 @@
 
 namespace mortise::qp {
 
-/// Products with the Hessian, counted: the figure by which solvers are compared.
+/// A with its products counted: the figure by which solvers are compared.
 class Hessian {
  public:
   /// `a` outlives it; `limit`: applications after which it is exhausted.
@@ -25,9 +25,8 @@ class Hessian {
     ++count_;
     a_->apply(x, y);
   }
-  /// Applications so far, and whether the limit is reached; both the same on all ranks. It goes on to apply beyond the limit.
-  int count() const { return count_; }
-  bool exhausted() const { return count_ >= limit_; }
+  int count() const { return count_; }                 ///< applications so far, the same on all ranks
+  bool exhausted() const { return count_ >= limit_; }  ///< whether the limit is reached; apply() works beyond it
   void set_limit(int limit) { limit_ = limit; }
   Teuchos::RCP<const Map> map() const { return a_->getDomainMap(); }
 
@@ -40,7 +39,8 @@ class Hessian {
 /// An approximation of A^-1, symmetric positive semidefinite, that may adapt to the active set it serves.
 class ActiveSetPreconditioner : public Operator {
  public:
-  /// From now on the unknowns `fixed` of this rank are 0 in what it is applied to, and in what is used of the result. Collective.
+  /// Until the next call the unknowns `fixed` of this rank are 0 in what it is applied to, and in what is used of the result.
+  /// Collective.
   virtual void fix(std::span<const Local> fixed) = 0;
   /// No less than sup (r'x)^2 / x'A x over all x with G x = 0 and x = 0 where fixed: the square of the error that a residual r
   /// stands for. r'M r is, if M comes from an approximation of the displacements that close the gaps r; a sharper one may cost
@@ -55,15 +55,16 @@ class ActiveSetPreconditioner : public Operator {
 
 /// Refers to its parts; they outlive it.
 struct Problem {
-  Hessian& hessian;
-  const Vector& linear;
-  const EqualityConstraint& equality;
-  const FeasibleSet& set;
-  const Vector* driven = nullptr;  ///< A x of an x that part of e alone asks for: its size counts like that of b
+  Hessian& hessian;                    ///< A
+  const Vector& linear;                ///< b
+  const EqualityConstraint& equality;  ///< G x = e
+  const FeasibleSet& set;              ///< Omega
+  const Vector* driven = nullptr;      ///< A x of an x that e asks for apart from b: its size counts like that of b; null: none
 };
 
-/// What tolerances are relative to: ||P b||, but no less than what rounding of b leaves of any residual at `tolerance`, for where
-/// supports move bodies rigidly P b should be zero and b is not. The same of Problem::driven, if that is larger. Collective.
+/// What tolerances are relative to: ||P b||, or the size beside which rounding of b stays below `tolerance`, if that is larger
+/// (where supports move bodies rigidly P b should be zero and b is not). The same of Problem::driven, if that is larger.
+/// Collective.
 double relative_size(const Problem& problem, double tolerance);
 
 /// Where a solver stands, for the history and the progress line.

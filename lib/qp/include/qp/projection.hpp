@@ -10,8 +10,8 @@ struct Projection {
   Vector point;         ///< in Omega; G point = e to rounding if `found`
   Vector argument;      ///< w = y - G' nu, of which `point` is the projection onto Omega: it tells the active constraints
   Eigen::VectorXd nu;   ///< multiplier of G x = e, the same on every rank; if C is empty a direction along which it is unbounded
-  bool found = false;   ///< false: C is empty, or so nearly that the iteration did not converge
-  bool empty = false;   ///< not found, and nu proves it: points of C would be a million times larger than e and y
+  bool found = false;   ///< false: C is empty, or so nearly empty that the iteration did not converge
+  bool empty = false;   ///< not found, and nu proves that C is empty: its points would be a million times larger than e and y
   double residual = 0;  ///< ||G point - e|| relative to ||e|| and ||y||, as EqualityConstraint::norm measures it
 };
 
@@ -30,9 +30,9 @@ class Projector {
   /// The point of C nearest to y = `from`, from the multiplier `start` (0 if empty). Collective.
   Projection operator()(const Vector& from, const Eigen::VectorXd& start = {});
 
-  /// Its matrix, which a caller may factorize for its own purposes between two projections.
+  /// The matrix G D G', which a caller may factorize for its own purposes between two projections.
   CoarseMatrix& matrix() { return matrix_; }
-  /// A second one, made when it is asked for first. Collective.
+  /// A second one, in which discs are downdated together with their normal unknowns; made at the first call. Collective.
   CoarseMatrix& trial_matrix();
   const EqualityConstraint& equality() const { return equality_; }
   const FeasibleSet& set() const { return set_; }
@@ -55,7 +55,7 @@ class Projector {
   std::unique_ptr<CoarseMatrix> trial_matrix_;
 };
 
-/// One projection. Collective.
+/// The point of C nearest to y, by a projector for this one use. Collective.
 Projection project(const Vector& y, const EqualityConstraint& equality, const FeasibleSet& set);
 
 }  // namespace mortise::qp

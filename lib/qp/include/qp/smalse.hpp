@@ -8,7 +8,8 @@
 
 namespace mortise::qp {
 
-/// Solves the problem to `tolerance` from `start`, or from the feasible point nearest to 0. Collective.
+/// Solves the problem to `tolerance`, relative to ||P b||, from `start`, or from the feasible point nearest to 0. Not converged
+/// if the products of problem.hessian run out. Collective.
 Solution smalse(const Problem& problem, const std::optional<Solution>& start, double tolerance, const Observer& observer);
 
 }  // namespace mortise::qp

@@ -9,7 +9,7 @@
 
 namespace mortise::qp {
 
-/// Of residuals, over ||P b||.
+/// Residuals over ||P b||.
 namespace tolerances {
 inline constexpr double loosest = 1e-2;    ///< of a problem whose solution only leads to the next one
 inline constexpr double finest = 1e-7;     ///< enough where no error is allowed
@@ -33,14 +33,15 @@ struct Goal {
   /// small, since a small residual alone says little where A is badly conditioned; if absent, it is believed. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> energy_norm = {};
 
-  /// In the norm of A, with an allowed error: a solution of ten times this size is none, and an error of this size nothing. What
-  /// counts as none beside the other problems of a sequence, as the state without a load on the way from pushing to pulling.
+  /// In the norm of A, with an allowed error: an error of this size counts as none if the solution is at most ten times as large.
+  /// For solutions that are nothing beside those of the sequence's other problems, as the state without a load between push and
+  /// pull.
   double negligible = 0;
 
-  /// Part of the energy norm. An error below it ends face Newton whatever the residual: for a start that is exact.
+  /// Part of the energy norm. An error below it ends face Newton whatever the residual: for a start from a direct solution.
   double exact = 0;
 
-  /// What may be left of `incompatibility`; where going on did not make the residual smaller; and of a start that is exact.
+  /// How large `incompatibility` may be; where going on did not make the residual smaller; and where `exact` is given.
   static constexpr double compatible = 1e-3, nearly_compatible = 1e-2, exactly_compatible = 1e-5;
   /// The residual up to which an estimated error that is good enough ends a solve. Beyond it the error has to be small itself.
   static constexpr double largest_residual = 0.4;
@@ -51,6 +52,7 @@ struct Goal {
 
 /// What a solve leaves, and what the next one of a sequence may start from.
 struct Solution {
+  /// Copies x, the gradient there, and nu.
   Solution(const Vector& point, const Vector& at_point, const Eigen::VectorXd& multipliers)
       : x(point, Teuchos::Copy), gradient(at_point, Teuchos::Copy), nu(multipliers)
   {

@@ -40,9 +40,9 @@ struct ExplicitProgramme {
   std::function<Point()> solve;
 };
 
-/// What a solver may use beside the problem.
+/// What a solver may use besides the problem.
 struct Means {
-  Budget& budget;                                     ///< of products; it decides whether another algorithm may take over
+  Budget& budget;                                     ///< of products; says also whether another algorithm may take over
   ActiveSetPreconditioner* preconditioner = nullptr;  ///< if there is one
   /// Makes the matrices of a direct solution, for the solver that needs them. Collective.
   std::function<ExplicitProgramme()> make_explicit = {};
@@ -76,13 +76,14 @@ struct SolverKind {
   std::string_view name;  ///< in the deck
   std::string_view help;
   bool steady;  ///< its residual may rise for long: see Budget
+  /// `problem` and what `means` refers to outlive the solver. Collective.
   std::unique_ptr<Solver> (*make)(const Problem& problem, const Means& means);
 };
 
 /// The table. To add a solver: a file with the function that makes it, and a row.
 std::span<const SolverKind> solvers();
 
-/// The row of a name in the deck. `auto` begins with the first.
+/// The row of a name in the deck; for `auto` the first one.
 const SolverKind& solver_kind(std::string_view name);
 
 }  // namespace mortise::qp
