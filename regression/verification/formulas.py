@@ -207,3 +207,21 @@ def cantilever(force, length, height, width, e, nu):
     """End deflection with shear, rectangular section, shear coefficient 10 (1 + nu) / (12 + 11 nu) [Cowper, J. Appl. Mech. 33 (1966)]."""
     area, inertia, shear = width * height, width * height**3 / 12, e / (2 * (1 + nu))
     return force * length**3 / (3 * e * inertia) + force * length / (10 * (1 + nu) / (12 + 11 * nu) * shear * area)
+
+
+def reentrant_corner():
+    """Williams (1952): exponent of the symmetric displacement, r^e, at a free corner of 270 degrees, and its stress for unit strength at
+    (r, theta), theta from the axis of symmetry, in plane strain (points x 3 x 3)."""
+    exponent, factor = 0.544483736782464, 0.543075578836737
+    low, high = exponent - 1, exponent + 1
+
+    def stress(r, theta, poisson):
+        scale = exponent * r**low
+        s = np.zeros(np.shape(theta) + (3, 3))
+        s[..., 0, 0] = scale * ((2 - factor * high) * np.cos(low * theta) - low * np.cos((exponent - 3) * theta))
+        s[..., 1, 1] = scale * ((2 + factor * high) * np.cos(low * theta) + low * np.cos((exponent - 3) * theta))
+        s[..., 0, 1] = s[..., 1, 0] = scale * (low * np.sin((exponent - 3) * theta) + factor * high * np.sin(low * theta))
+        s[..., 2, 2] = poisson * (s[..., 0, 0] + s[..., 1, 1])
+        return s
+
+    return exponent, stress

@@ -2,56 +2,9 @@
 
 #include <cmath>
 
-#include "cell_temperature.hpp"
-#include "elasticity.hpp"
-#include "fem/stiffness.hpp"
-#include "formulation.hpp"
+#include "cell_stress.hpp"
 
 namespace mortise::fem {
-
-namespace {
-
-using Stresses = Eigen::Matrix<double, 6, Eigen::Dynamic>;  // one a column
-
-// Where point q of a cell is, for a law that wants to know.
-Point place_for(const Elasticity& elasticity, const CellGeometry& cell, std::size_t q)
-{
-  return elasticity.uniform() ? Point::Zero() : place_of(cell, q);
-}
-
-// Calls visit(c, cell, stress, elasticity) for every cell c; stress is 6 x q.
-template <class Visit>
-void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, Formulation formulation,
-                   const Temperature& temperature_change, const Eigen::VectorXd& u, const Visit& visit)
-{
-  const int d = dimension(kinematics);
-  std::vector<Elasticity> elasticity;
-  std::vector<CellFormulation> cell_formulation;
-  for (std::size_t m = 0; m < materials.count(); ++m) {
-    elasticity.emplace_back(materials[m], kinematics);
-    cell_formulation.emplace_back(formulation, elasticity.back(), kinematics);
-  }
-  CellGeometry cell(kinematics);
-  Eigen::MatrixXd displacement;
-  Stresses stress;
-  std::vector<double> warmer;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto nodes = mesh.cells[c];
-    cell.gather(mesh, c);
-    cell.evaluate();
-    displacement.resize(d, cell.element().nodes);
-    for (int i = 0; i < cell.element().nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
-    stress.resize(6, static_cast<Eigen::Index>(cell.volumes().size()));
-    const auto& own = elasticity[materials.index(c)];
-    cell_temperature(temperature_change, cell, mesh, c, warmer);
-    const auto& gradients = cell_formulation[materials.index(c)].gradients(cell, displacement);
-    for (std::size_t q = 0; q < gradients.size(); ++q)
-      stress.col(static_cast<Eigen::Index>(q)) = own.stress(gradients[q], warmer[q], place_for(own, cell, q));
-    visit(c, cell, stress, own);
-  }
-}
-
-}  // namespace
 
 double von_mises(const Stress& s)
 {
@@ -90,41 +43,74 @@ StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinemat
   return field;
 }
 
+namespace {
+
+// The integral of d : C^-1 : d over a cell, of the difference d of `nodal` (6 x n, interpolated by the shape functions) and
+// `stress` (6 x q, at the integration points).
+double squared_norm(const CellGeometry& cell, const Elasticity& elasticity, const Stresses& nodal, const Stresses& stress)
+{
+  double sum = 0;
+  if (cell.volumes().size() ==
+      1) {  // one point misses what is linear in d; that is a simplex with nodes 0 .. n - 1: the integral
+    // of a quadratic form q of a linear function is V / (n (n + 1)) (sum of q(f_i) + q(sum of f_i)).
+    const int n = cell.element().nodes;
+    const Point x = place_for(elasticity, cell, 0);
+    Stress total = Stress::Zero();
+    for (int i = 0; i < n; ++i) {
+      const Stress difference = nodal.col(i) - stress.col(0);
+      total += difference;
+      sum += elasticity.complementary(difference, x);
+    }
+    return cell.volumes()[0] / (n * (n + 1)) * (sum + elasticity.complementary(total, x));
+  }
+  for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+    Stress difference = -stress.col(static_cast<Eigen::Index>(q));
+    for (int i = 0; i < cell.element().nodes; ++i) difference += cell.element().shape[q][i] * nodal.col(i);
+    sum += cell.volumes()[q] * elasticity.complementary(difference, place_for(elasticity, cell, q));
+  }
+  return sum;
+}
+
+// Of the nodes of a cell, one a column.
+void take_nodal(std::span<const Local> nodes, std::size_t block, const Eigen::MatrixXd& stress, Stresses& nodal)
+{
+  nodal.resize(6, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    nodal.col(static_cast<Eigen::Index>(i)) = stress.row(nodes[i]).segment(6 * static_cast<Eigen::Index>(block), 6).transpose();
+}
+
+}  // namespace
+
 Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
                                const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered, Formulation formulation,
                                const Temperature& temperature_change)
 {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
-  Stresses nodal;  // of one cell
-  for_each_cell(
-      mesh, materials, kinematics, formulation, temperature_change, u,
-      [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
-        double& sum = result[static_cast<Eigen::Index>(c)];
-        nodal.resize(6, cell.element().nodes);
-        for (int i = 0; i < cell.element().nodes; ++i)
-          nodal.col(i) = recovered.row(mesh.cells[c][static_cast<std::size_t>(i)])
-                             .segment(6 * static_cast<Eigen::Index>(materials.index(c)), 6)
-                             .transpose();
-        if (cell.volumes().size() == 1) {  // one point misses what is linear in s* - s; that is a simplex with nodes 0 .. n - 1:
-          // the integral of a quadratic form q of a linear function is V / (n (n + 1)) (sum of q(f_i) + q(sum of f_i)).
-          const int n = cell.element().nodes;
-          const Point x = place_for(elasticity, cell, 0);
-          Stress total = Stress::Zero();
-          double energy = 0;
-          for (int i = 0; i < n; ++i) {
-            const Stress difference = nodal.col(i) - stress.col(0);
-            total += difference;
-            energy += elasticity.complementary(difference, x);
-          }
-          sum = cell.volumes()[0] / (n * (n + 1)) * (energy + elasticity.complementary(total, x));
-          return;
-        }
-        for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
-          Stress difference = -stress.col(static_cast<Eigen::Index>(q));
-          for (int i = 0; i < cell.element().nodes; ++i) difference += cell.element().shape[q][i] * nodal.col(i);
-          sum += cell.volumes()[q] * elasticity.complementary(difference, place_for(elasticity, cell, q));
-        }
-      });
+  Stresses nodal;
+  for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
+                [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
+                  take_nodal(mesh.cells[c], materials.index(c), recovered, nodal);
+                  result[static_cast<Eigen::Index>(c)] = squared_norm(cell, elasticity, nodal, stress);
+                });
+  return result;
+}
+
+Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                               const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered, const Eigen::MatrixXd& other,
+                               Formulation formulation, const Temperature& temperature_change)
+{
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
+  const Eigen::MatrixXd between = recovered - other;
+  Stresses nodal, nothing;
+  for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
+                [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
+                  take_nodal(mesh.cells[c], materials.index(c), recovered, nodal);
+                  double& sum = result[static_cast<Eigen::Index>(c)];
+                  sum = squared_norm(cell, elasticity, nodal, stress);
+                  take_nodal(mesh.cells[c], materials.index(c), between, nodal);
+                  nothing.setZero(6, stress.cols());
+                  sum += squared_norm(cell, elasticity, nodal, nothing);
+                });
   return result;
 }
 

@@ -118,8 +118,12 @@ Interface find_interface(const Decomposition& decomposition, const NodeDirectory
   return interface;
 }
 
-void sum_over_copies(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
-                     const Communicator& comm)
+namespace {
+
+// row(s, n): where values[s] has shared node n of subdomain s.
+template <class Row>
+void sum_rows(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
+              const Communicator& comm, const Row& row_of)
 {
   if (comm.max(static_cast<long long>(values.size())) == 0) return;
   const auto width = static_cast<Eigen::Index>(comm.max(static_cast<long long>(values.empty() ? 0 : values[0].cols())));
@@ -136,7 +140,7 @@ void sum_over_copies(const Decomposition& decomposition, const Interface& interf
       for (const auto& copy : interface.copies[s][i]) {
         const auto rank = static_cast<std::size_t>(decomposition.rank_of(copy.subdomain));
         heads[rank].push_back({copy.subdomain, decomposition.subdomains[s].id, copy.node});
-        for (Eigen::Index c = 0; c < width; ++c) rows[rank].push_back(values[s](interface.nodes[s][i], c));
+        for (Eigen::Index c = 0; c < width; ++c) rows[rank].push_back(values[s](row_of(s, interface.nodes[s][i]), c));
       }
   const auto head_in = comm.exchange(heads);
   const auto row_in = comm.exchange(rows);
@@ -154,10 +158,28 @@ void sum_over_copies(const Decomposition& decomposition, const Interface& interf
   const Global base = decomposition.first[static_cast<std::size_t>(comm.rank())];
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const auto& head = terms[i].head;
-    auto row = values[static_cast<std::size_t>(head.to - base)].row(head.node);
+    const auto s = static_cast<std::size_t>(head.to - base);
+    auto row = values[s].row(row_of(s, head.node));
     if (i == 0 || terms[i - 1].head.to != head.to || terms[i - 1].head.node != head.node) row.setZero();
     row += Eigen::Map<const Eigen::RowVectorXd>(terms[i].row, width);
   }
+}
+
+}  // namespace
+
+void sum_over_copies(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
+                     const Communicator& comm)
+{
+  sum_rows(decomposition, interface, values, comm, [](std::size_t, Local n) { return n; });
+}
+
+void sum_shared(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
+                const Communicator& comm)
+{
+  sum_rows(decomposition, interface, values, comm, [&](std::size_t s, Local n) {
+    const auto& nodes = interface.nodes[s];
+    return std::lower_bound(nodes.begin(), nodes.end(), n) - nodes.begin();
+  });
 }
 
 }  // namespace mortise::partition

@@ -1,8 +1,11 @@
 #include "post/stress_recovery.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "boundary_stress.hpp"
+#include "fem/patches.hpp"
 #include "fem/stress.hpp"
 
 namespace mortise::post {
@@ -29,11 +32,64 @@ Point centre(const mesh::Mesh& mesh, std::size_t cell)
   return sum / static_cast<double>(mesh.cells[cell].size());
 }
 
-// Whether the stresses of boundary elements are recovered, or their errors assumed.
-enum class Boundary { recovered, assumed };
+// Results are recovered in full. To say while the solver runs what may be left of its error averages do, which find too little
+// error of the mesh rather than too much, and the errors of boundary elements are assumed.
+enum class Purpose { results, stop };
+
+// Sums over all copies of nodes x 7 blocks to nodes x 6 blocks; where nothing has weight `otherwise`.
+Eigen::MatrixXd means(const Eigen::MatrixXd& sums, Eigen::MatrixXd otherwise = {})
+{
+  const auto blocks = sums.cols() / 7;
+  Eigen::MatrixXd stress = otherwise.size() > 0 ? std::move(otherwise) : Eigen::MatrixXd::Zero(sums.rows(), 6 * blocks);
+  for (Eigen::Index n = 0; n < sums.rows(); ++n)
+    for (Eigen::Index k = 0; k < blocks; ++k)
+      if (sums(n, 7 * k + 6) > 0) stress.row(n).segment(6 * k, 6) = sums.row(n).segment(7 * k, 6) / sums(n, 7 * k + 6);
+  return stress;
+}
+
+// By polynomials on patches of cells (fem/patches.hpp): sums over all copies, nodes x 7 blocks of each subdomain; of boundary
+// elements nothing.
+std::vector<Eigen::MatrixXd> patch_sums(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
+                                        const Communicator& comm)
+{
+  const auto& subdomains = bodies.decomposition.subdomains;
+  int order = 1;
+  for (const auto& subdomain : subdomains)
+    if (!subdomain.skin) order = std::max(order, fem::largest_order(subdomain.mesh));
+  order = static_cast<int>(comm.max(static_cast<long long>(order)));
+  std::vector<fem::Patches> patches(subdomains.size());
+  Eigen::Index width = 0;
+  for (std::size_t s = 0; s < subdomains.size(); ++s)
+    if (!subdomains[s].skin) {
+      patches[s] =
+          fem::patch_sums(subdomains[s].mesh, bodies.constitution[s], bodies.kinematics, displacement[s], bodies.blocks, order);
+      width = patches[s].sums.rows();
+    }
+  width = static_cast<Eigen::Index>(comm.max(static_cast<long long>(width)));
+  std::vector<Eigen::MatrixXd> shared;
+  const auto each_shared_corner = [&](const auto& visit) {
+    for (std::size_t s = 0; s < subdomains.size(); ++s)
+      for (std::size_t i = 0; i < bodies.interface.nodes[s].size() && !subdomains[s].skin; ++i)
+        if (const auto row = patches[s].row[static_cast<std::size_t>(bodies.interface.nodes[s][i])]; row >= 0)
+          visit(shared[s].row(static_cast<Eigen::Index>(i)), patches[s].sums.col(row));
+  };
+  for (std::size_t s = 0; s < subdomains.size(); ++s)
+    shared.push_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(bodies.interface.nodes[s].size()), width));
+  each_shared_corner([](auto&& row, auto&& sums) { row = sums.transpose(); });
+  partition::sum_shared(bodies.decomposition, bodies.interface, shared, comm);
+  each_shared_corner([](auto&& row, auto&& sums) { sums = row.transpose(); });
+  std::vector<Eigen::MatrixXd> result;
+  for (std::size_t s = 0; s < subdomains.size(); ++s)
+    result.push_back(subdomains[s].skin ? Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(subdomains[s].mesh.node_count()),
+                                                                7 * static_cast<Eigen::Index>(bodies.blocks))
+                                        : fem::patch_stresses(subdomains[s].mesh, bodies.constitution[s].materials,
+                                                              bodies.kinematics, patches[s], bodies.blocks));
+  partition::sum_over_copies(bodies.decomposition, bodies.interface, result, comm);
+  return result;
+}
 
 Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm,
-                  Boundary way)
+                  Purpose purpose)
 {
   const auto& subdomains = bodies.decomposition.subdomains;
   const auto blocks = bodies.blocks;
@@ -42,13 +98,13 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
   result.worst_cell.resize(body_count);
   result.body_error.resize(body_count, 0.0);
   std::vector<BoundaryStress> boundary;
-  if (way == Boundary::recovered) boundary = boundary_stresses(bodies, displacement);
+  if (purpose == Purpose::results) boundary = boundary_stresses(bodies, displacement);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& own = bodies.constitution[s];
     if (subdomains[s].skin) {
       const double energy = boundary_energy(bodies, s, displacement[s]);
       result.strain_energy += energy;
-      if (way == Boundary::assumed) {
+      if (purpose == Purpose::stop) {
         result.squared_error += assumed_error * assumed_error * 2 * energy;
         result.nodal.emplace_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(subdomains[s].mesh.node_count()),
                                                         7 * static_cast<Eigen::Index>(blocks)));
@@ -67,19 +123,22 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
     result.cell_von_mises.push_back(std::move(field.cell_von_mises));
   }
   partition::sum_over_copies(bodies.decomposition, bodies.interface, result.nodal, comm);
+  std::vector<Eigen::MatrixXd> patches;
+  if (purpose == Purpose::results) patches = patch_sums(bodies, displacement, comm);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    if (subdomains[s].skin && way == Boundary::assumed) continue;
-    const auto& sums = result.nodal[s];
-    Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(sums.rows(), 6 * static_cast<Eigen::Index>(blocks));
-    for (Eigen::Index n = 0; n < sums.rows(); ++n)
-      for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(blocks); ++k)
-        if (sums(n, 7 * k + 6) > 0) stress.row(n).segment(6 * k, 6) = sums.row(n).segment(7 * k, 6) / sums(n, 7 * k + 6);
+    if (subdomains[s].skin && purpose == Purpose::stop) continue;
+    Eigen::MatrixXd stress = means(result.nodal[s]);
     const auto& mesh = subdomains[s].mesh;
     const auto body = static_cast<std::size_t>(subdomains[s].body);
     const auto& own = bodies.constitution[s];
-    const auto errors = subdomains[s].skin ? boundary_errors(bodies, s, boundary[s], stress)
-                                           : fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], stress,
-                                                                 own.formulation, own.temperature_change);
+    const auto errors = [&] {
+      if (subdomains[s].skin) return boundary_errors(bodies, s, boundary[s], stress);
+      if (purpose == Purpose::stop)
+        return fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], stress, own.formulation,
+                                   own.temperature_change);
+      return fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], means(patches[s], stress), stress,
+                                 own.formulation, own.temperature_change);
+    }();
     result.squared_error += errors.sum();
     result.body_error[body] += errors.sum();
     for (Eigen::Index c = 0; c < errors.size(); ++c)
@@ -109,7 +168,7 @@ Eigen::MatrixXd governing(const Eigen::MatrixXd& stress)
 StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
                            const Communicator& comm)
 {
-  auto recovered = recover(bodies, displacement, comm, Boundary::recovered);
+  auto recovered = recover(bodies, displacement, comm, Purpose::results);
   const auto& subdomains = bodies.decomposition.subdomains;
   StressField field;
   for (const auto& stress : recovered.nodal) field.nodal.push_back(governing(stress));
@@ -143,7 +202,7 @@ StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen:
 
 EnergyNorms energy_norms(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
-  const auto recovered = recover(bodies, displacement, comm, Boundary::assumed);
+  const auto recovered = recover(bodies, displacement, comm, Purpose::stop);
   return {std::sqrt(recovered.squared_error), std::sqrt(2 * recovered.strain_energy)};
 }
 

@@ -42,4 +42,10 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
                                const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered,
                                Formulation formulation = Formulation::standard, const Temperature& temperature_change = {});
 
+/// The same, and for each cell the squared norm of the difference of `recovered` and `other`, two recoveries of the same stress,
+/// which says how well either knows it: where s is smooth they agree, at a corner with steep stresses neither is right.
+Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                               const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered, const Eigen::MatrixXd& other,
+                               Formulation formulation = Formulation::standard, const Temperature& temperature_change = {});
+
 }  // namespace mortise::fem

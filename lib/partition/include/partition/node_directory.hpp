@@ -60,5 +60,8 @@ Interface find_interface(const Decomposition& decomposition, const NodeDirectory
 /// values[s]: nodes of subdomain s x components (the same number of components everywhere). Collective.
 void sum_over_copies(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
                      const Communicator& comm);
+/// The same of the shared nodes alone: values[s] has a row for each of interface.nodes[s], in that order. Collective.
+void sum_shared(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
+                const Communicator& comm);
 
 }  // namespace mortise::partition

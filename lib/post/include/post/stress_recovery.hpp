@@ -1,8 +1,13 @@
 // Stresses from displacements, and what they say of the mesh's error.
 //
-// Recovered stresses sigma* are averaged at the nodes of each body, material by material; the error of the finite element
-// stresses sigma_h in the energy norm is estimated by || sigma* - sigma_h || [Zienkiewicz and Zhu, Int. J. Numer. Methods Eng. 24
-// (1987)].
+// Stresses sigma_a that are shown are averaged at the nodes of each body, material by material. The error of the finite element
+// stresses sigma_h in the energy norm is estimated from a second recovery, sigma_p by polynomials on patches of cells
+// [fem/patches.hpp; Zienkiewicz and Zhu, Int. J. Numer. Methods Eng. 33 (1992)]:
+//
+//   error^2 = || sigma_p - sigma_h ||^2 + || sigma_p - sigma_a ||^2.
+//
+// Where stresses are smooth both recoveries are an order more exact than sigma_h and the second term is next to nothing; near
+// clamped edges, corners and edges of punches neither is, and what they differ by says how far sigma_p itself may be off.
 //
 // Of boundary elements stresses are known at the surface, panel by panel, and averaged in the same way.
 #pragma once
@@ -57,7 +62,9 @@ struct StressField {
 StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
                            const Communicator& comm);
 
-/// In the energy norm: the estimated error of the mesh, and the size of the solution.
+/// In the energy norm: an error of the mesh for the solver to stop by, and the size of the solution. It is || sigma_a - sigma_h
+/// ||, which costs least and is rather less than the error that is claimed. That of boundary elements is taken for a hundredth of
+/// their part of the solution.
 struct EnergyNorms {
   double error = 0, solution = 0;
 };
