@@ -24,9 +24,9 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
 std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
                                      const Communicator& comm);
 
-/// "scattered_contact": a secondary side of smaller faces and more than four times the other side's Young's modulus presses on few
-/// faces at all corners, on twice as many, eight at least, at some: the soft side's faces cannot follow a stiff one between their
-/// nodes, so that single points bear what all should. `softest` as in large_pressures(). Collective.
+/// "scattered_contact": a secondary side of smaller faces and more than four times the other side's Young's modulus presses on
+/// few faces at all corners, on twice as many, eight at least, at some: the soft side's faces cannot follow a stiff one between
+/// their nodes, so that single points bear what all should. `softest` as in large_pressures(). Collective.
 std::vector<Warning> scattered_contacts(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
                                         const std::vector<double>& softest, const Communicator& comm);
 
