@@ -188,9 +188,11 @@ class Builder {
         index_, secondary_.node_id[static_cast<std::size_t>(surface_node.node)], d, normal, {}, contacts.rows.size()};
     if (bonded() && !options_.preload) conflicts_.note_tear(terms_, d, normal);
     const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
-    if (!prescribed && options_.law != Law::frictionless)
+    if (!prescribed && options_.law != Law::frictionless) {
       for (const auto& tangent : tangents(p, normal))
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
+      if (!bonded()) writer_.leave_what_moves(terms_, d, normal, point.tangents);
+    }
 
     Point separation = Point::Zero();  // of the two sides in the mesh, weighted as the row is
     double weight = 0;

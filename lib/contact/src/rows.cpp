@@ -4,11 +4,14 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/dense.hpp"
+
 namespace mortise::contact {
 
 namespace {
 
 constexpr double negligible_coefficient = 1e-12;  // of a coefficient
+constexpr double held_but_for = 0.1;              // of what all terms together could move: that much is no slip
 
 }  // namespace
 
@@ -62,6 +65,41 @@ bool RowWriter::moves(std::span<const Term> terms, double d, const Point& axis)
   }
   const auto& all = coefficients(terms, d, axis);
   return std::any_of(all.begin(), all.end(), [](const Coefficient& c) { return !c.prescribed; });
+}
+
+Eigen::Matrix3d RowWriter::free_part(const Term& term) const
+{
+  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
+  for (const auto& i : skew_supports_of(term)) result -= along(i) * along(i).transpose();
+  const auto& supports = term.on_primary ? primary_supports_ : supports_;
+  for (int c = 0; c < 3; ++c)
+    if (c >= dimension_ || supports.find(node_of(term), c)) result.row(c).setZero(), result.col(c).setZero();
+  return result;
+}
+
+void RowWriter::leave_what_moves(std::span<const Term> terms, double d, const Point& normal, std::vector<Point>& tangents)
+{
+  if (tangents.empty() || rotation_) return;
+  Eigen::Matrix3d mobility = Eigen::Matrix3d::Zero();  // the scalar product of the rows along two directions
+  double all = 0;
+  for (const auto& term : terms) {
+    const double square = term.value / d * (term.value / d);
+    mobility += square * free_part(term);
+    all += square;
+  }
+  const Point felt = mobility * normal;
+  mobility -= felt * felt.transpose() / felt.dot(normal);
+  const double least = held_but_for * held_but_for * all;
+  if (tangents.size() == 1) {
+    if (tangents[0].dot(mobility * tangents[0]) < least) tangents.clear();
+    return;
+  }
+  Eigen::Matrix<double, 3, 2> plane;
+  plane << tangents[0], tangents[1];
+  const auto moves = dense::plane_eigenpairs(plane.transpose() * mobility * plane);
+  if (moves.values[0] >= least) return;
+  tangents.clear();
+  if (moves.values[1] >= least) tangents.emplace_back(plane * moves.vectors.col(1));
 }
 
 double RowWriter::prescribed_part(std::span<const Term> terms, double d, const Point& axis)

@@ -29,6 +29,10 @@ class RowWriter {
 
   /// Whether supports leave anything of the row.
   bool moves(std::span<const Term> terms, double d, const Point& axis);
+  /// Leaves those of the tangents of `normal` (or the one direction between two) along which more than `held_but_for` of the
+  /// terms can move, what the row along the normal feels aside. A point near a plane of symmetry that both sides have has a row
+  /// across it that is nearly a combination of its others: no friction acts there.
+  void leave_what_moves(std::span<const Term> terms, double d, const Point& normal, std::vector<Point>& tangents);
   /// What supports contribute to the row.
   double prescribed_part(std::span<const Term> terms, double d, const Point& axis);
   /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
@@ -61,6 +65,8 @@ class RowWriter {
     return (term.on_primary ? primary_supports_ : supports_).skew_supports(node_of(term));
   }
   void merge();
+  // Of a term's node: the projector onto what supports leave free.
+  Eigen::Matrix3d free_part(const Term& term) const;
 
   const Side &secondary_, &primary_;
   const SupportedNodes &supports_, &primary_supports_;
