@@ -193,22 +193,26 @@ std::optional<std::string> more_than_friction(const Search& search, const Unit& 
   return {};
 }
 
-// A motion along which all that rubs slid by the unit's size, and on which pressure does no work, as it does in a taper. Friction
-// does not grow with the way: where it held in the end, the tilts of facets, were they of rounding alone, have wedged the
-// surfaces together.
+// A motion along which all that rubs slid by a good part of the unit's size, and on which pressure does no work, as it does in a
+// taper. Friction does not grow with the way: where it held in the end, the tilts of facets, were they of rounding alone, have
+// wedged the surfaces together, or turns that are no longer small have moved where round ends press and shortened the loads'
+// levers; pressure then works on the motion by a part of the drive that grows with the way.
 std::optional<std::string> slid_away(const Search& search, const Unit& unit)
 {
-  constexpr double of_drive = 5e-3;
+  constexpr double of_drive = 5e-3, of_size = 0.1, of_way = 0.2;
   if (unit.motions.empty()) return {};
   const Eigen::VectorXd amplitudes = slid_along(search, unit.amplitudes);
   const double way = amplitudes.norm(), drive = search.bodies.generalised.dot(amplitudes);
-  if (way <= unit.size || drive <= of_forces * unit.forces * way || !all_slid(search, amplitudes)) return {};
-  if (feel(search, amplitudes / way, unit.sagitta).normal > of_drive * drive / way) return {};
+  if (way <= of_size * unit.size || drive <= of_forces * unit.forces * way || !all_slid(search, amplitudes)) return {};
+  const Felt felt = feel(search, amplitudes / way, unit.sagitta);
+  const double least = of_drive * drive / way;
+  const double turned = std::max(least, of_way * std::min(1.0, way / unit.size) * drive / way);
+  if (felt.normal > least && (felt.alike > least || felt.normal - felt.alike > turned)) return {};
   const auto body = static_cast<int>(unit.motions.front().motions.front().body);
   const auto& bodies = search.bodies;
   return name(search, combine(body, bodies.frames[static_cast<std::size_t>(body)],
                               amplitudes.segment(body * bodies.modes, bodies.modes) / way, bodies.kinematics)) +
-         ", past its own size; friction alone resists, and the mesh, which is no support";
+         fmt::format(", {:.2g} of its size; friction alone resists, and does not hold it", way / unit.size);
 }
 
 std::optional<std::string> beyond_friction(const Search& search, const BodyRows& rows, const std::vector<std::vector<int>>& units)

@@ -1,0 +1,28 @@
+// A ladder of length 10 at 60 degrees, ends round of radius 0.3, between a floor and a wall.
+SetFactory("Built-in");
+radius = 0.3; length = 10; angle = Pi / 3; size = 0.3; fine = 0.06;
+ax = radius + length * Cos(angle); by = radius + length * Sin(angle);
+nx = radius * Sin(angle); ny = radius * Cos(angle);
+Point(1) = {ax, radius, 0, size};
+Point(2) = {radius, by, 0, size};
+Point(3) = {ax + nx, radius + ny, 0, size};
+Point(4) = {radius + nx, by + ny, 0, size};
+Point(5) = {radius - nx, by - ny, 0, size};
+Point(6) = {ax - nx, radius - ny, 0, size};
+Point(7) = {ax, 0, 0, fine};
+Point(8) = {0, by, 0, fine};
+Point(9) = {ax + ny, radius - nx, 0, size};
+Point(10) = {radius - ny, by + nx, 0, size};
+Line(1) = {3, 4};
+Circle(2) = {4, 2, 10};
+Circle(3) = {10, 2, 8};
+Circle(4) = {8, 2, 5};
+Line(5) = {5, 6};
+Circle(6) = {6, 1, 7};
+Circle(7) = {7, 1, 9};
+Circle(8) = {9, 1, 3};
+Curve Loop(1) = {1:8};
+Plane Surface(1) = {1};
+Physical Surface("ladder") = {1};
+Physical Curve("foot") = {6, 7};
+Physical Curve("head") = {3, 4};
