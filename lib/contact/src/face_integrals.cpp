@@ -33,7 +33,7 @@ Eigen::Vector4d whole_of(const FaceGeometry& face)
 }  // namespace
 
 Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary,
-                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach,
+                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach, bool corners,
                        const std::vector<NearestPoint>& nearest)
     : secondary_(secondary),
       secondary_nodes_(secondary_nodes),
@@ -42,7 +42,8 @@ Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_node
       tree_(tree),
       reach_(reach),
       nearest_(nearest),
-      slot_(primary.points.size(), -1)
+      slot_(primary.points.size(), -1),
+      sharp_(corners ? sharp_nodes(primary) : std::vector<char>())
 {
 }
 
@@ -60,14 +61,16 @@ void Integrator::forget_nodes()
   for (const Local node : piece_->nodes) slot_[static_cast<std::size_t>(node)] = -1;
 }
 
-// The next piece, with nothing in it.
-void Integrator::start(std::size_t face, Local facet)
+// The next piece, with nothing in it. `functions`: how many, if that is not what follows from the facet.
+void Integrator::start(std::size_t face, Local facet, std::size_t functions)
 {
   forget_nodes();
   pieces_.emplace_back();
   piece_ = &pieces_.back();
   const auto n = static_cast<Eigen::Index>(secondary_.faces[face].size());
-  const auto r = facet < 0 ? n : static_cast<Eigen::Index>(secondary_.facets[static_cast<std::size_t>(facet)].size());
+  const auto r = functions > 0 ? static_cast<Eigen::Index>(functions)
+                 : facet < 0   ? n
+                               : static_cast<Eigen::Index>(secondary_.facets[static_cast<std::size_t>(facet)].size());
   piece_->facet = facet;
   piece_->mass.setZero(r, n);
   piece_->gram.setZero(r, r);
@@ -189,9 +192,9 @@ void Integrator::add_pair(std::size_t facet, std::size_t other, const Bulge& own
   const auto other_face = static_cast<std::size_t>(primary_.face_of[other]);
   if (piece_->facet >= 0) {
     common_.push_back(overlap_.common);
-    if (!plane_nodes_.empty()) note_common(facet);
+    if (!plane_nodes_.empty()) note_common(facet, other);
   }
-  if (!second_order && !primary_.second_order(other_face)) {
+  if (!basis_ && !second_order && !primary_.second_order(other_face)) {
     const Eigen::Matrix4d zero = Eigen::Matrix4d::Zero();
     return add_points<Eigen::Vector4d, Eigen::Matrix4d>(facet, other, own_bulge, Eigen::Vector4d::Zero(), zero, zero, zero);
   }
@@ -227,14 +230,19 @@ std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_
 }
 
 // Into its facets, unless what is covered lies inside the face, or too little of it between the points of the face's functions
-// then: a facet that is covered in its middle has too few of them, and where facets meet they mean different points.
+// then: a facet that is covered in its middle has too few of them, and where facets meet they mean different points. Or one of
+// its corners is none of these points.
 void Integrator::cut(std::size_t face)
 {
-  const bool in_space = secondary_.second_order(face) && secondary_.faces.type[face] != mesh::CellType::line3;
+  const auto type = secondary_.faces.type[face];
+  const bool in_space = mesh::corner_count(type) > 2, high = secondary_.second_order(face);
   plane_nodes_.clear();
-  if (in_space) lay_flat(face);
+  if (in_space && (high || !sharp_.empty())) lay_flat(face);
   cut_into_facets(face);
-  if (in_space && (inside(face) || reached() < least_reach)) move_points(face);
+  if (plane_nodes_.empty()) return;
+  corners_ = base_corners(plane_nodes_, parts_, corners_);
+  if ((high && (inside(face) || reached() < least_reach)) || !reach_corners()) move_points(face);
+  if (!corners_.empty()) name_corners(face);
 }
 
 // The face at work in its plane.
@@ -248,10 +256,11 @@ void Integrator::lay_flat(std::size_t face)
   for (std::size_t k = 0; k < secondary_.faces[face].size(); ++k) plane_nodes_.push_back(frame.project(point(k)));
   parts_.clear();
   samples_.clear();
+  corners_.clear();
 }
 
 // What a facet of this face has in common with a primary one.
-void Integrator::note_common(std::size_t facet)
+void Integrator::note_common(std::size_t facet, std::size_t other)
 {
   const FaceGeometry own = secondary_.geometry(facet);
   Few<Plane, 4> nodes;
@@ -260,6 +269,51 @@ void Integrator::note_common(std::size_t facet)
   parts_.push_back({static_cast<Local>(facet), {}});
   for (const auto& p : overlap_.common) parts_.back().polygon.push_back(in_face(facet, locator(p)));
   for (const auto& point : overlap_.points) samples_.push_back({in_face(facet, point.secondary), point.weight});
+  for (const Local node : primary_.facets[other])
+    if (!sharp_.empty() && sharp_[static_cast<std::size_t>(node)]) {
+      const Plane at = overlap_.frame.project(primary_.points[static_cast<std::size_t>(node)]);
+      corners_.push_back({in_face(facet, locator(at)), static_cast<Local>(facet), node});
+    }
+}
+
+// Whether each corner is the point of a function.
+bool Integrator::reach_corners()
+{
+  return std::all_of(corners_.begin(), corners_.end(), [&](const BaseCorner& corner) {
+    return std::any_of(pieces_.begin(), pieces_.end(), [&](const PieceIntegrals& piece) {
+      for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
+        if (at_corner(corner, piece, k)) return true;
+      return false;
+    });
+  });
+}
+
+// Whether the point of a piece's function is a corner.
+bool Integrator::at_corner(const BaseCorner& corner, const PieceIntegrals& piece, Eigen::Index k) const
+{
+  constexpr double same_place = 1e-6;  // of a face
+  const auto facet = piece.point_facet[static_cast<std::size_t>(k)];
+  if (facet < 0 || !(piece.covered[k] > 0)) return false;
+  const Plane at = in_face(static_cast<std::size_t>(facet), piece.points.row(k).transpose());
+  return (at - corner.at).norm() < same_place * (plane_nodes_[1] - plane_nodes_[0]).norm();
+}
+
+// Functions that belong to corners.
+void Integrator::name_corners(std::size_t face)
+{
+  Few<Global, 9> id;
+  for (const Local n : secondary_.faces[face]) id.push_back(secondary_.node_id[static_cast<std::size_t>(n)]);
+  for (auto& piece : pieces_) {
+    const auto r = static_cast<std::size_t>(piece.covered.size());
+    piece.corner.assign(r, -1);
+    piece.beside.assign(r, -1);
+    for (std::size_t k = 0; k < r; ++k)
+      for (const auto& corner : corners_)
+        if (at_corner(corner, piece, static_cast<Eigen::Index>(k))) {
+          piece.corner[k] = corner.primary_node;
+          piece.beside[k] = static_cast<Local>(node_beside(secondary_.faces.type[face], plane_nodes_, id, corner.at));
+        }
+  }
 }
 
 // Whether no corner of the face at work is covered.
@@ -308,15 +362,15 @@ Plane Integrator::in_face(std::size_t facet, const Eigen::Vector4d& shape) const
   return at;
 }
 
-// A face of second order that stays one piece, with functions that belong to points of its covered part.
+// A face that stays one piece, with functions that belong to points of its covered part.
 void Integrator::move_points(std::size_t face)
 {
-  basis_.emplace(secondary_.faces.type[face], plane_nodes_, parts_, samples_);
+  basis_.emplace(secondary_.faces.type[face], plane_nodes_, parts_, samples_, corners_);
 
   forget_nodes();
   pieces_.clear();
-  start(face, -1);
-  const auto n = plane_nodes_.size();
+  start(face, -1, basis_->size());
+  const auto n = basis_->size();
   piece_->point_facet.resize(n);
   piece_->points.setZero(static_cast<Eigen::Index>(n), 4);
   piece_->plane.setZero(static_cast<Eigen::Index>(n), 2);

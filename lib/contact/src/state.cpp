@@ -88,6 +88,39 @@ bool before(const T& a, const NodeState& b)
   return std::tie(a.node, a.contact) < std::tie(b.node, b.contact);
 }
 
+// A corner of the primary side has a row, but no place in the output: what presses there counts with the node beside it, on the
+// same side of a kink. `nodes` are sorted.
+void join_corners(std::vector<NodeState>& nodes)
+{
+  constexpr double one_normal = 0.9;  // cosine
+  const auto join = [](NodeState& to, const NodeState& corner) {
+    to.area += corner.area;
+    to.cover = std::max(to.cover, corner.cover);
+    to.force += corner.force;
+    for (std::size_t c = 0; c < 3; ++c) to.traction[c] += corner.traction[c];
+    if (to.status == static_cast<int>(Status::open)) to.status = corner.status;
+  };
+  const auto dot = [](const NodeState& a, const NodeState& b) {
+    return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2];
+  };
+  std::vector<NodeState> joined;
+  for (std::size_t first = 0, end = 0; first < nodes.size(); first = end) {
+    while (end < nodes.size() && !before(nodes[first], nodes[end])) ++end;
+    const std::size_t begin = joined.size();
+    for (const bool corners : {false, true})
+      for (std::size_t i = first; i < end; ++i) {
+        if ((nodes[i].cover == 0) != corners) continue;
+        const auto to = std::find_if(joined.begin() + static_cast<std::ptrdiff_t>(begin), joined.end(),
+                                     [&](const NodeState& other) { return corners && dot(other, nodes[i]) > one_normal; });
+        if (to == joined.end())
+          joined.push_back(nodes[i]);
+        else
+          join(*to, nodes[i]);
+      }
+  }
+  nodes = std::move(joined);
+}
+
 // Those of this rank's own nodes, ascending by node, contact and side. Collective.
 std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Communicator& comm)
 {
@@ -110,6 +143,7 @@ std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Comm
   std::stable_sort(nodes.begin(), nodes.end(), [](const NodeState& a, const NodeState& b) {
     return std::tie(a.node, a.contact, a.normal) < std::tie(b.node, b.contact, b.normal);
   });
+  join_corners(nodes);
   for (std::size_t i = 1; i < nodes.size(); ++i)
     if (!before(nodes[i - 1], nodes[i])) nodes[i].side = nodes[i - 1].side + 1;
   return nodes;

@@ -134,6 +134,46 @@ INSTANTIATE_TEST_SUITE_P(SurfaceNodes, Pad,
                          testing::Combine(testing::Values(mesh::CellType::tri6, mesh::CellType::quad8, mesh::CellType::quad9),
                                           testing::Values(1.1, 1.4, 1.8, 2.3)));
 
+class Base : public testing::TestWithParam<std::tuple<bool, double, double>> {};
+
+// A block that stands on faces without a mesh line in common, turned in their plane or with it: a multiplier pushes at each of
+// its corners, so that it stands for every load above its base, and the force and moment of a constant pressure are its own.
+TEST_P(Base, MultipliersReachItsCorners)
+{
+  const Communicator comm;
+  const auto [triangles, turned, tilted] = GetParam();
+  const Eigen::Matrix3d tilt = Eigen::AngleAxisd(tilted, Point(1, 2, 3).normalized()).toRotationMatrix();
+  const Point centre(2.8, 2.3, 0);
+  const double half = 1.4;
+  const auto place = [&, c = std::cos(turned), s = std::sin(turned)](double x, double y) {
+    return Point(tilt * (centre + Point(c * x - s * y, s * x + c * y, 0)));
+  };
+  const auto pair =
+      make_pair(surface(
+                    {4, 3, 0, 6, 0, 5, true, triangles}, [&](double x, double y) { return Point(tilt * Point(x, y, 0)); }, comm),
+                surface({3, 4, -half, half, -half, half, false, false, primary_ids}, place, comm), Law::frictionless);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  const auto nodes = nodes_of(pair, comm);
+  const Point up = tilt.col(2);
+  double force = 0;
+  Point moment = Point::Zero();
+  std::array<double, 4> nearest{1, 1, 1, 1};
+  for (const auto& row : rows.rows) {
+    Point at = Point::Zero();  // on the primary side
+    for (const auto& e : row.entries)
+      if (e.node >= primary_ids) at -= e.coefficient * up[e.component] / row.weight * nodes.at(e.node);
+    for (std::size_t c = 0; c < 4; ++c)
+      nearest[c] = std::min(nearest[c], (at - place(c % 2 ? half : -half, c / 2 ? half : -half)).norm());
+    force += row.area * row.weight;
+    moment += row.area * row.weight * at;
+  }
+  for (const double distance : nearest) EXPECT_LT(distance, 1e-6);
+  EXPECT_NEAR(force, 4 * half * half, 1e-9);
+  EXPECT_LT((moment / force - tilt * centre).norm(), 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Corners, Base, testing::Combine(testing::Bool(), testing::Values(0.0, 0.5), testing::Values(0.0, 0.8)));
+
 // A shaft in a bush that is shorter: the gap of the circles also where faces of the shaft cross the bush's rim.
 TEST(PartlyCovered, GapsAtTheRimAreThoseOfTheSmoothSurfaces)
 {
