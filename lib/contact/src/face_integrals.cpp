@@ -10,9 +10,10 @@ namespace mortise::contact {
 
 namespace {
 
-// A face of second order of which less is missing keeps its own basis: what its functions extrapolate then is nothing, and
-// projections of curved sides leave such slits at planes of symmetry.
-constexpr double nearly_covered = 0.98;
+// A face of second order keeps its own basis if none of its nodes is farther than this part of its length from what is covered:
+// projections of curved sides leave such slits at planes of symmetry, those of flat ones leave none but for rounding of
+// coordinates. The area says little: that of a corner which stands over is the square of how far it does.
+constexpr double curved_slit = 0.02;
 // A face whose functions, facet by facet, reach less than this part of what is covered gets points for all of it.
 constexpr double least_reach = 0.75;
 
@@ -43,7 +44,7 @@ Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_node
       reach_(reach),
       nearest_(nearest),
       slot_(primary.points.size(), -1),
-      sharp_(corners ? sharp_nodes(primary) : std::vector<char>())
+      covered_face_(secondary, primary, corners ? sharp_nodes(primary) : std::vector<char>())
 {
 }
 
@@ -139,7 +140,7 @@ void Integrator::add_points(std::size_t facet, std::size_t other, const Bulge& o
       const FaceShape phi = secondary_.shape_in_face(facet, point.secondary, overlap_.frame, point.at);
       FaceShape theta = phi;
       if (basis_)
-        theta = (*basis_)(in_face(facet, point.secondary));
+        theta = (*basis_)(covered_face_.in_face(facet, point.secondary));
       else if (piece_->facet >= 0)
         theta = point.secondary.head(r);
       else if (secondary_.second_order(face))
@@ -192,7 +193,7 @@ void Integrator::add_pair(std::size_t facet, std::size_t other, const Bulge& own
   const auto other_face = static_cast<std::size_t>(primary_.face_of[other]);
   if (piece_->facet >= 0) {
     common_.push_back(overlap_.common);
-    if (!plane_nodes_.empty()) note_common(facet, other);
+    if (covered_face_.laid_flat()) covered_face_.note(facet, other, overlap_);
   }
   if (!basis_ && !second_order && !primary_.second_order(other_face)) {
     const Eigen::Matrix4d zero = Eigen::Matrix4d::Zero();
@@ -220,10 +221,10 @@ std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_
              end = static_cast<std::size_t>(secondary_.first_facet[face + 1]);
   for (std::size_t facet = first; facet < end; ++facet) integrate_facet(facet);
   const double covered = piece_->covered.sum(), whole = piece_->whole.sum();
-  if (covered > 0 && covered < (secondary_.second_order(face) ? nearly_covered : 1 - 1e-6) * whole) {
-    cut(face);
+  if (covered > 0 && covered < (1 - 1e-6) * whole) {
+    cut(face, in_facets);
   } else if (covered > 0 && in_facets) {
-    plane_nodes_.clear();
+    covered_face_.forget();
     cut_into_facets(face);
   }
   return pieces_;
@@ -231,159 +232,50 @@ std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_
 
 // Into its facets, unless what is covered lies inside the face, or too little of it between the points of the face's functions
 // then: a facet that is covered in its middle has too few of them, and where facets meet they mean different points. Or one of
-// its corners is none of these points.
-void Integrator::cut(std::size_t face)
+// its corners is none of these points. A face of which only slits are missing stays what it was.
+void Integrator::cut(std::size_t face, bool in_facets)
 {
-  const auto type = secondary_.faces.type[face];
-  const bool in_space = mesh::corner_count(type) > 2, high = secondary_.second_order(face);
-  plane_nodes_.clear();
-  if (in_space && (high || !sharp_.empty())) lay_flat(face);
+  const bool in_space = mesh::corner_count(secondary_.faces.type[face]) > 2, high = secondary_.second_order(face);
+  covered_face_.forget();
+  if (in_space && (high || covered_face_.has_corners())) covered_face_.lay_flat(face);
+  PieceIntegrals one_piece;
+  if (high) one_piece = pieces_.front();
   cut_into_facets(face);
-  if (plane_nodes_.empty()) return;
-  corners_ = base_corners(plane_nodes_, parts_, corners_);
-  if ((high && (inside(face) || reached() < least_reach)) || !reach_corners()) move_points(face);
-  if (!corners_.empty()) name_corners(face);
-}
-
-// The face at work in its plane.
-void Integrator::lay_flat(std::size_t face)
-{
-  const auto type = secondary_.faces.type[face];
-  const auto point = [&](std::size_t k) { return secondary_.points[static_cast<std::size_t>(secondary_.faces[face][k])]; };
-  FaceGeometry corners{mesh::first_order(type), {}};
-  for (int k = 0; k < mesh::corner_count(type); ++k) corners.nodes.push_back(point(static_cast<std::size_t>(k)));
-  const Frame frame = frame_of(corners);
-  for (std::size_t k = 0; k < secondary_.faces[face].size(); ++k) plane_nodes_.push_back(frame.project(point(k)));
-  parts_.clear();
-  samples_.clear();
-  corners_.clear();
-}
-
-// What a facet of this face has in common with a primary one.
-void Integrator::note_common(std::size_t facet, std::size_t other)
-{
-  const FaceGeometry own = secondary_.geometry(facet);
-  Few<Plane, 4> nodes;
-  for (const auto& p : own.nodes) nodes.push_back(overlap_.frame.project(p));
-  const Locator locator(own.type, nodes);
-  parts_.push_back({static_cast<Local>(facet), {}});
-  for (const auto& p : overlap_.common) parts_.back().polygon.push_back(in_face(facet, locator(p)));
-  for (const auto& point : overlap_.points) samples_.push_back({in_face(facet, point.secondary), point.weight});
-  for (const Local node : primary_.facets[other])
-    if (!sharp_.empty() && sharp_[static_cast<std::size_t>(node)]) {
-      const Plane at = overlap_.frame.project(primary_.points[static_cast<std::size_t>(node)]);
-      corners_.push_back({in_face(facet, locator(at)), static_cast<Local>(facet), node});
-    }
-}
-
-// Whether each corner is the point of a function.
-bool Integrator::reach_corners()
-{
-  return std::all_of(corners_.begin(), corners_.end(), [&](const BaseCorner& corner) {
-    return std::any_of(pieces_.begin(), pieces_.end(), [&](const PieceIntegrals& piece) {
-      for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
-        if (at_corner(corner, piece, k)) return true;
-      return false;
-    });
-  });
-}
-
-// Whether the point of a piece's function is a corner.
-bool Integrator::at_corner(const BaseCorner& corner, const PieceIntegrals& piece, Eigen::Index k) const
-{
-  constexpr double same_place = 1e-6;  // of a face
-  const auto facet = piece.point_facet[static_cast<std::size_t>(k)];
-  if (facet < 0 || !(piece.covered[k] > 0)) return false;
-  const Plane at = in_face(static_cast<std::size_t>(facet), piece.points.row(k).transpose());
-  return (at - corner.at).norm() < same_place * (plane_nodes_[1] - plane_nodes_[0]).norm();
-}
-
-// Functions that belong to corners.
-void Integrator::name_corners(std::size_t face)
-{
-  Few<Global, 9> id;
-  for (const Local n : secondary_.faces[face]) id.push_back(secondary_.node_id[static_cast<std::size_t>(n)]);
-  for (auto& piece : pieces_) {
-    const auto r = static_cast<std::size_t>(piece.covered.size());
-    piece.corner.assign(r, -1);
-    piece.beside.assign(r, -1);
-    for (std::size_t k = 0; k < r; ++k)
-      for (const auto& corner : corners_)
-        if (at_corner(corner, piece, static_cast<Eigen::Index>(k))) {
-          piece.corner[k] = corner.primary_node;
-          piece.beside[k] = static_cast<Local>(node_beside(secondary_.faces.type[face], plane_nodes_, id, corner.at));
-        }
+  const bool whole = high && (in_space ? covered_face_.farthest_node() <= slits(face)
+                                       : one_piece.covered.sum() >= (1 - slits(face)) * one_piece.whole.sum());
+  if (whole && !in_facets) {
+    forget_nodes();
+    pieces_.assign(1, one_piece);
+    piece_ = &pieces_.back();
   }
+  if (whole || !covered_face_.laid_flat()) return;
+  covered_face_.find_corners();
+  if ((high && (covered_face_.inside() || covered_face_.reached(pieces_) < least_reach)) || !covered_face_.reach_corners(pieces_))
+    move_points(face);
+  covered_face_.name_corners(pieces_);
 }
 
-// Whether no corner of the face at work is covered.
-bool Integrator::inside(std::size_t face) const
+// How far a node of a face may be from what is covered, in its lengths, for no more than slits to be missing.
+double Integrator::slits(std::size_t face) const
 {
-  const auto corners = static_cast<std::size_t>(mesh::corner_count(secondary_.faces.type[face]));
-  const double near = 1e-6 * (plane_nodes_[1] - plane_nodes_[0]).norm();
-  for (std::size_t k = 0; k < corners; ++k)
-    for (const auto& part : parts_)
-      if ((nearest_in(part.polygon, plane_nodes_[k]) - plane_nodes_[k]).norm() < near) return false;
-  return true;
-}
-
-// The part of the convex hull of what is covered that lies between the points of the functions, those of a node in all facets
-// taken together.
-double Integrator::reached() const
-{
-  std::vector<Plane> covered, points(plane_nodes_.size(), Plane::Zero());
-  for (const auto& part : parts_) covered.insert(covered.end(), part.polygon.begin(), part.polygon.end());
-  std::vector<double> sums(plane_nodes_.size(), 0.0);
-  for (const auto& piece : pieces_)
-    for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
-      const auto facet = static_cast<std::size_t>(piece.facet);
-      const auto node = static_cast<std::size_t>(secondary_.corners[facet][static_cast<std::size_t>(k)]);
-      sums[node] += piece.covered[k];
-      points[node] += piece.covered[k] * in_face(facet, piece.points.row(k).transpose());
-    }
-  std::vector<Plane> used;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (sums[k] > 0) used.push_back(points[k] / sums[k]);
-  const auto area = [](const std::vector<Plane>& all) {
-    double twice = 0;
-    const auto corners = convex_hull(all);
-    for (std::size_t i = 0; i < corners.size(); ++i) twice += cross(all[corners[i]], all[corners[(i + 1) % corners.size()]]);
-    return 0.5 * twice;
-  };
-  return area(used) / area(covered);
-}
-
-// The place in the plane of the face at work where the shape functions of one of its facets are `shape`.
-Plane Integrator::in_face(std::size_t facet, const Eigen::Vector4d& shape) const
-{
-  Plane at = Plane::Zero();
-  for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c)
-    at += shape[static_cast<Eigen::Index>(c)] * plane_nodes_[static_cast<std::size_t>(secondary_.corners[facet][c])];
-  return at;
+  double curved = 0;  // the angle between normals
+  for (auto facet = static_cast<std::size_t>(secondary_.first_facet[face]);
+       facet < static_cast<std::size_t>(secondary_.first_facet[face + 1]); ++facet) {
+    const Point normal = secondary_.geometry(facet).normal();
+    for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c)
+      curved = std::max(curved, (secondary_nodes_.normal(secondary_, facet, c) - normal).norm());
+  }
+  return std::clamp(curved, slit, curved_slit);
 }
 
 // A face that stays one piece, with functions that belong to points of its covered part.
 void Integrator::move_points(std::size_t face)
 {
-  basis_.emplace(secondary_.faces.type[face], plane_nodes_, parts_, samples_, corners_);
-
+  basis_.emplace(covered_face_.basis());
   forget_nodes();
   pieces_.clear();
   start(face, -1, basis_->size());
-  const auto n = basis_->size();
-  piece_->point_facet.resize(n);
-  piece_->points.setZero(static_cast<Eigen::Index>(n), 4);
-  piece_->plane.setZero(static_cast<Eigen::Index>(n), 2);
-  for (std::size_t k = 0; k < n; ++k) {
-    const Local facet = piece_->point_facet[k] = basis_->facet(k);
-    if (facet < 0) continue;
-    Few<Plane, 4> nodes;
-    for (std::size_t c = 0; c < secondary_.facets[static_cast<std::size_t>(facet)].size(); ++c)
-      nodes.push_back(plane_nodes_[static_cast<std::size_t>(secondary_.corners[static_cast<std::size_t>(facet)][c])]);
-    piece_->points.row(static_cast<Eigen::Index>(k)) =
-        Locator(secondary_.facets.type[static_cast<std::size_t>(facet)], nodes)(basis_->point(k)).transpose();
-    piece_->plane.row(static_cast<Eigen::Index>(k)) = basis_->point(k).transpose();
-  }
+  covered_face_.put_points(*basis_, *piece_);
   for (auto facet = static_cast<std::size_t>(secondary_.first_facet[face]);
        facet < static_cast<std::size_t>(secondary_.first_facet[face + 1]); ++facet) {
     const auto& nodes = secondary_.corners[facet];

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "base_corners.hpp"
 #include "covered_basis.hpp"
+#include "covered_face.hpp"
 #include "nearest_points.hpp"
 #include "pieces.hpp"
 #include "surface_nodes.hpp"
@@ -34,15 +34,8 @@ class Integrator {
   template <class Use>
   void each_common(std::size_t facet, const Use& use);
   void integrate_facet(std::size_t facet);
-  Plane in_face(std::size_t facet, const Eigen::Vector4d& shape) const;
-  void cut(std::size_t face);
-  void lay_flat(std::size_t face);
-  void note_common(std::size_t facet, std::size_t other);
-  bool reach_corners();
-  bool at_corner(const BaseCorner& corner, const PieceIntegrals& piece, Eigen::Index k) const;
-  void name_corners(std::size_t face);
-  bool inside(std::size_t face) const;
-  double reached() const;
+  void cut(std::size_t face, bool in_facets);
+  double slits(std::size_t face) const;
   void move_points(std::size_t face);
   void cut_into_facets(std::size_t face);
   bool moved(std::size_t face) const;
@@ -66,12 +59,8 @@ class Integrator {
   PieceIntegrals* piece_ = nullptr;  // at work: the last of pieces_, if there is one
   std::vector<Local> slot_;          // of each primary node its place in piece_->nodes, or -1
   Overlap overlap_;
-  std::vector<Polygon> common_;      // what the facet at work has in common with the primary facets
-  Few<Plane, 9> plane_nodes_;        // of the face at work, in its plane
-  std::vector<CoveredPart> parts_;   // of this face
-  std::vector<char> sharp_;          // of each primary node, if corners have rows of their own
-  std::vector<BaseCorner> corners_;  // of this face: while it is integrated all sharp nodes, then those of the covered part
-  std::vector<Sample> samples_;
+  std::vector<Polygon> common_;        // what the facet at work has in common with the primary facets
+  CoveredFace covered_face_;           // at work, if it is cut
   std::optional<CoveredBasis> basis_;  // if it has points of its own
   std::vector<int> met_;
 };
