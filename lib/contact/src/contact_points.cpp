@@ -1,5 +1,6 @@
 #include "contact_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,25 @@ std::pair<Point, Point> ContactPoints::at(std::size_t p)
     }
   }
   return {node + shift / d, (surface_node.normal + tilt / d).normalized()};
+}
+
+double ContactPoints::room(std::size_t p)
+{
+  if (faces_.is_corner(p)) return 0;
+  const Local own = nodes_.all[faces_.surface_node(p)].node;
+  const Point& node = secondary_.points[static_cast<std::size_t>(own)];
+  const Point shift = nearest_place(p) ? Point(Point::Zero()) : Point(at(p).first - node);
+  const double length = shift.norm();
+  double farthest = 0;
+  for (const auto& function : faces_.at(p))
+    for (auto facet = static_cast<std::size_t>(secondary_.first_facet[function.face]);
+         facet < static_cast<std::size_t>(secondary_.first_facet[function.face + 1]); ++facet) {
+      const auto corners = secondary_.facets[facet];
+      if (std::find(corners.begin(), corners.end(), own) == corners.end()) continue;
+      for (const Local n : corners)
+        farthest = std::max(farthest, (secondary_.points[static_cast<std::size_t>(n)] - node).dot(shift));
+    }
+  return length * length < farthest ? 1 - length * length / farthest : length > 0 ? 0 : 1;
 }
 
 std::pair<Point, Point> ContactPoints::point_at(const Rays::FacetPoint& place) const

@@ -24,6 +24,10 @@ class ContactPoints {
   /// the other side comes nearest, or into what is covered.
   std::pair<Point, Point> at(std::size_t place);
 
+  /// How much is left of the way from its node to the next ones, in the direction in which the point was moved from the node into
+  /// what is covered: 1 at the node, little where the covered strip is narrow. 0 at a corner of the primary side.
+  double room(std::size_t place);
+
   /// The gap between the smooth surfaces at the point itself, along the direction of contact. Its mean over the dual basis, which
   /// has negative parts, would see an overlap of a twelfth of curvature times cell size squared between surfaces that only touch;
   /// that `mean` is left for points that look past the border of the primary side.

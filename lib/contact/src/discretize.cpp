@@ -205,7 +205,8 @@ class Builder {
     }
     point.weight = weight;
     point.at = at;
-    point.cover = chosen_.cover[p];
+    const double room = points_.room(p);
+    point.cover = room < 1 ? std::min(chosen_.cover[p], 0.5 * room) : chosen_.cover[p];
     const double mean = (normal.dot(separation) - rise / d) / weight,
                  mesh_gap = without_rounding(p, points_.gap(p, normal, mean), at, normal);
     const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, starting_gap_at(p, normal, mean), at, normal);
