@@ -31,6 +31,19 @@ void keep_small_pieces(const Side& secondary, CutFaces& faces, const std::vector
   for (const std::size_t p : more) keep[p] = 1;
 }
 
+// A corner of the primary side keeps its row, however little of a face it reaches, and so do the others of its piece: what they
+// left to each other would act elsewhere.
+void keep_corners(CutFaces& faces, const std::vector<char>& allowed, std::vector<char>& keep)
+{
+  for (const std::size_t f : faces.round())
+    for (const std::size_t i : faces.pieces(f)) {
+      const auto piece = faces.piece(i);
+      if (std::all_of(piece.corner.begin(), piece.corner.end(), [](Local corner) { return corner < 0; })) continue;
+      for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
+        if (const auto p = faces.place_of(f, piece, k); allowed[p] && piece.covered[k] > 0) keep[p] = 1;
+    }
+}
+
 // Marks the surface nodes of faces at which `holds` of all of them.
 template <class Holds>
 std::vector<char> at_all_nodes_of_a_face(const CutFaces& faces, std::size_t count, const Holds& holds)
@@ -53,7 +66,7 @@ std::vector<double> sum_areas(CutFaces& faces, std::vector<double>& covered)
       const auto piece = faces.piece(i);
       for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
         covered[faces.place_of(f, piece, k)] += piece.covered[k];
-        whole[faces.place_of(f, piece, k)] += piece.whole[k];
+        whole[faces.surface_node_of(f, piece, k)] += piece.whole[k];
       }
     }
   return whole;
@@ -64,12 +77,13 @@ std::vector<double> sum_areas(CutFaces& faces, std::vector<double>& covered)
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
                                   const SupportedNodes& supports, std::span<const char> seams_end, bool bonded, int dimension)
 {
-  const auto count = surface_nodes.all.size();
+  const auto count = faces.places();
   ContactNodes nodes;
   nodes.covered.assign(count, 0.0);
   const auto whole = sum_areas(faces, nodes.covered);
   nodes.directions.reserve(count);
-  for (const auto& surface_node : surface_nodes.all) {
+  for (std::size_t p = 0; p < count; ++p) {
+    const auto& surface_node = surface_nodes.all[faces.surface_node(p)];
     const Global node = secondary.node_id[static_cast<std::size_t>(surface_node.node)];
     const std::array<bool, 3> prescribed{supports.find(node, 0) != nullptr, supports.find(node, 1) != nullptr,
                                          supports.find(node, 2) != nullptr};
@@ -82,7 +96,7 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   // along a curved surface there as an overlap. In a bond they would hold the primary side to the mean of what it meets, and
   // leave their share to the others of the face, as those at a seam's end do; where a face has no others, as on a surface that a
   // support moves as a whole, they stay.
-  const auto left_out = [&](std::size_t p) { return !nodes.directions[p].free_normal || seams_end[p]; };
+  const auto left_out = [&](std::size_t p) { return !nodes.directions[p].free_normal || seams_end[faces.surface_node(p)]; };
   nodes.stranded = at_all_nodes_of_a_face(faces, count, left_out);
   std::vector<char> allowed(count, 0);
   nodes.cover.assign(count, 0);
@@ -92,11 +106,12 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
     nodes.freed[p] = (nodes.stranded[p] || !bonded) && !nodes.directions[p].free_normal;
     allowed[p] = !left_out(p) || nodes.stranded[p] || nodes.freed[p];
     if (nodes.freed[p])  // what moves decides about the tangents
-      nodes.directions[p] = directions(surface_nodes.all[p].normal, {false, false, false}, {}, dimension);
+      nodes.directions[p] = directions(surface_nodes.all[faces.surface_node(p)].normal, {false, false, false}, {}, dimension);
     nodes.cover[p] = whole[p] > 0 ? std::min(nodes.covered[p] / whole[p], 1.0) : 0.0;
     nodes.kept[p] = allowed[p] && nodes.cover[p] > least_cover;
   }
   keep_small_pieces(secondary, faces, allowed, nodes.kept);
+  keep_corners(faces, allowed, nodes.kept);
   return nodes;
 }
 

@@ -1,5 +1,6 @@
 #include "contact_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,7 +8,7 @@ namespace mortise::contact {
 
 std::pair<Point, Point> ContactPoints::at(std::size_t p)
 {
-  const SurfaceNode& surface_node = nodes_.all[p];
+  const SurfaceNode& surface_node = nodes_.all[faces_.surface_node(p)];
   const Point& node = secondary_.points[static_cast<std::size_t>(surface_node.node)];
   if (const auto place = nearest_place(p)) return point_at(*place);
   Point shift = Point::Zero(), tilt = Point::Zero();
@@ -26,6 +27,25 @@ std::pair<Point, Point> ContactPoints::at(std::size_t p)
   return {node + shift / d, (surface_node.normal + tilt / d).normalized()};
 }
 
+double ContactPoints::room(std::size_t p)
+{
+  if (faces_.is_corner(p)) return 0;
+  const Local own = nodes_.all[faces_.surface_node(p)].node;
+  const Point& node = secondary_.points[static_cast<std::size_t>(own)];
+  const Point shift = nearest_place(p) ? Point(Point::Zero()) : Point(at(p).first - node);
+  const double length = shift.norm();
+  double farthest = 0;
+  for (const auto& function : faces_.at(p))
+    for (auto facet = static_cast<std::size_t>(secondary_.first_facet[function.face]);
+         facet < static_cast<std::size_t>(secondary_.first_facet[function.face + 1]); ++facet) {
+      const auto corners = secondary_.facets[facet];
+      if (std::find(corners.begin(), corners.end(), own) == corners.end()) continue;
+      for (const Local n : corners)
+        farthest = std::max(farthest, (secondary_.points[static_cast<std::size_t>(n)] - node).dot(shift));
+    }
+  return length * length < farthest ? 1 - length * length / farthest : length > 0 ? 0 : 1;
+}
+
 std::pair<Point, Point> ContactPoints::point_at(const Rays::FacetPoint& place) const
 {
   const auto corners = secondary_.facets[place.facet];
@@ -41,6 +61,7 @@ double ContactPoints::gap(std::size_t p, const Point& direction, double mean, co
 {
   if (const auto place = nearest_place(p))
     if (const double gap = rays_.gap(p, *place, direction, gap_of); std::isfinite(gap)) return gap;
+  const std::size_t node = faces_.surface_node(p);
   std::optional<double> first;  // the mean is taken of what others differ from it: of equals it is exact
   double sum = 0, d = 0, at_node = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [face, i, k] : faces_.at(p)) {
@@ -50,9 +71,9 @@ double ContactPoints::gap(std::size_t p, const Point& direction, double mean, co
     double gap = at_node;
     if (!piece.point_facet.empty()) {
       const auto facet = static_cast<std::size_t>(piece.point_facet[static_cast<std::size_t>(k)]);
-      gap = rays_.gap(p, {facet, piece.points.row(k).transpose()}, direction, gap_of);
+      gap = rays_.gap(node, {facet, piece.points.row(k).transpose()}, direction, gap_of);
     } else if (std::isnan(gap)) {
-      gap = at_node = rays_.gap(p, direction, gap_of);
+      gap = at_node = rays_.gap(node, direction, gap_of);
     }
     if (!first) first = gap;
     d += part;

@@ -47,7 +47,7 @@ unsigned edges_at(mesh::CellType type, std::span<const Plane> nodes, const Plane
   const auto corners = static_cast<std::size_t>(mesh::corner_count(type));
   unsigned result = 0;
   for (std::size_t e = 0; e < corners; ++e) {
-    const Plane &a = nodes[e], &middle = nodes[corners + e], &b = nodes[(e + 1) % corners];
+    const Plane &a = nodes[e], &b = nodes[(e + 1) % corners], &middle = nodes.size() > corners ? nodes[corners + e] : b;
     if ((nearest_on(a, middle, x) - x).norm() < near || (nearest_on(middle, b, x) - x).norm() < near) result |= 1U << e;
   }
   return result;
@@ -56,7 +56,7 @@ unsigned edges_at(mesh::CellType type, std::span<const Plane> nodes, const Plane
 }  // namespace
 
 CoveredBasis::CoveredBasis(mesh::CellType type, std::span<const Plane> nodes, std::span<const CoveredPart> parts,
-                           std::span<const Sample> samples)
+                           std::span<const Sample> samples, std::span<const BaseCorner> corners)
     : type_(type), nodes_(nodes)
 {
   double largest = 0;
@@ -75,6 +75,7 @@ CoveredBasis::CoveredBasis(mesh::CellType type, std::span<const Plane> nodes, st
     facet_.push_back(-1);
   }
   take_nodes();
+  if (mesh::first_order(type) == type) add(corners);
   take_corners();
   fill_up();
   do triangulate();
@@ -93,6 +94,16 @@ void CoveredBasis::take_nodes()
       }
 }
 
+void CoveredBasis::add(std::span<const BaseCorner> corners)
+{
+  constexpr std::size_t most = 9;
+  for (const auto& corner : corners) {
+    if (points_.size() == most) return;
+    points_.push_back(corner.at);
+    facet_.push_back(corner.facet);
+  }
+}
+
 // The corners of the convex hull, counter-clockwise.
 std::vector<CoveredBasis::Corner> CoveredBasis::hull() const
 {
@@ -106,8 +117,8 @@ std::vector<CoveredBasis::Corner> CoveredBasis::hull() const
   std::vector<Corner> corners;
   for (const std::size_t i : convex_hull(at)) {
     Corner corner{at[i], facet[i], false};
-    for (std::size_t k = 0; k < nodes_.size(); ++k)
-      corner.node = corner.node || (has(k) && (at[i] - nodes_[k]).norm() < 1e-6 * length_);
+    for (std::size_t k = 0; k < size(); ++k)
+      corner.node = corner.node || (has(k) && (at[i] - points_[k]).norm() < 1e-6 * length_);
     corners.push_back(corner);
   }
   return corners;
@@ -119,8 +130,7 @@ std::vector<CoveredBasis::Corner> CoveredBasis::hull() const
 void CoveredBasis::take_corners()
 {
   auto corners = hull();
-  const auto free_nodes =
-      static_cast<std::ptrdiff_t>(std::count_if(facet_.begin(), facet_.end(), [](Local facet) { return facet < 0; }));
+  const auto free_nodes = std::count_if(facet_.begin(), facet_.end(), [](Local facet) { return facet < 0; });
   double area = 0;
   for (const auto& c : corners)
     area += triangle(low_, c.at, corners[static_cast<std::size_t>(&c - corners.data() + 1) % corners.size()].at);
@@ -171,7 +181,7 @@ void CoveredBasis::fill_up()
       if (const Plane at = nearest_in(part.polygon, nodes_[k]); !((at - nodes_[k]).norm() >= (best - nodes_[k]).norm()))
         best = at, facet = part.facet;
     bool far = true;
-    for (std::size_t l = 0; l < nodes_.size(); ++l) far = far && (!has(l) || (scaled(points_[l]) - scaled(best)).norm() > apart);
+    for (std::size_t l = 0; l < size(); ++l) far = far && (!has(l) || (scaled(points_[l]) - scaled(best)).norm() > apart);
     if (far) points_[k] = best, facet_[k] = facet;
   }
 }
@@ -181,7 +191,7 @@ void CoveredBasis::triangulate()
 {
   triangles_.clear();
   std::vector<std::size_t> used;
-  for (std::size_t k = 0; k < nodes_.size(); ++k)
+  for (std::size_t k = 0; k < size(); ++k)
     if (has(k)) used.push_back(k);
   std::vector<Plane> x;
   for (const std::size_t k : used) x.push_back(scaled(points_[k]));
@@ -202,9 +212,9 @@ void CoveredBasis::triangulate()
 
 FaceShape CoveredBasis::operator()(const Plane& x) const
 {
-  FaceShape result = FaceShape::Zero(static_cast<Eigen::Index>(nodes_.size()));
+  FaceShape result = FaceShape::Zero(static_cast<Eigen::Index>(size()));
   if (triangles_.empty()) {
-    for (std::size_t k = 0; k < nodes_.size(); ++k)
+    for (std::size_t k = 0; k < size(); ++k)
       if (has(k)) result[static_cast<Eigen::Index>(k)] = 1;
     return result;
   }
@@ -236,8 +246,8 @@ void CoveredBasis::take_one()
   middle /= area;
   Plane best = Plane::Constant(std::numeric_limits<double>::infinity());
   std::size_t node = 0;
+  for (auto& facet : facet_) facet = -1;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    facet_[k] = -1;
     if ((nodes_[k] - middle).norm() < (nodes_[node] - middle).norm()) node = k;
   }
   for (const auto& part : parts_)
@@ -249,15 +259,13 @@ void CoveredBasis::take_one()
 // Drops the function with the least integral if that is next to nothing; whether it did.
 bool CoveredBasis::drop_empty(std::span<const Sample> samples)
 {
-  FaceShape sums = FaceShape::Zero(static_cast<Eigen::Index>(nodes_.size()));
+  FaceShape sums = FaceShape::Zero(static_cast<Eigen::Index>(size()));
   for (const auto& sample : samples) sums += sample.weight * (*this)(sample.at);
-  std::size_t least = nodes_.size();
-  for (std::size_t k = 0; k < nodes_.size(); ++k)
-    if (has(k) && (least == nodes_.size() || sums[static_cast<Eigen::Index>(k)] < sums[static_cast<Eigen::Index>(least)]))
-      least = k;
+  std::size_t least = size();
+  for (std::size_t k = 0; k < size(); ++k)
+    if (has(k) && (least == size() || sums[static_cast<Eigen::Index>(k)] < sums[static_cast<Eigen::Index>(least)])) least = k;
   if (sums[static_cast<Eigen::Index>(least)] > least_part * sums.sum()) return false;
   facet_[least] = -1;
-  points_[least] = nodes_[least];
   return true;
 }
 

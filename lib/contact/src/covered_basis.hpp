@@ -17,6 +17,13 @@ struct CoveredPart {
   Polygon polygon;
 };
 
+/// A corner of the primary side's border inside a secondary face, see base_corners.hpp.
+struct BaseCorner {
+  Plane at;
+  Local facet;
+  Local primary_node;
+};
+
 /// Functions theta_k that belong to points x_k of the covered part: theta_k(x_l) = delta_kl, sum theta = 1, sum theta_k x_k = x
 /// in the plane of the face. So each dual function has its resultant at its point, and pressures that are nowhere negative can
 /// have theirs anywhere between the points. These are the nodes that are covered, the corners of the covered part's convex hull,
@@ -25,11 +32,15 @@ struct CoveredPart {
 /// over all such triangles, which keeps symmetry.
 class CoveredBasis {
  public:
-  /// `nodes`: of the face, in its plane. `parts` must not be empty; `samples` are integration points on them.
+  /// `nodes`: of the face, in its plane. `parts` must not be empty; `samples` are integration points on them. On a face of first
+  /// order `corners` have functions of their own, numbered after those of the nodes: it has fewer nodes than what is covered of
+  /// it may have corners. One of second order has enough, and finds them itself.
   CoveredBasis(mesh::CellType type, std::span<const Plane> nodes, std::span<const CoveredPart> parts,
-               std::span<const Sample> samples);
+               std::span<const Sample> samples, std::span<const BaseCorner> corners = {});
 
-  /// Values at a place of the plane, of all nodes of the face: 0 for those that have no function.
+  /// How many functions there may be: of the nodes, and those of corners.
+  std::size_t size() const { return points_.size(); }
+  /// Values at a place of the plane, of all of these: 0 for those that have no function.
   FaceShape operator()(const Plane& x) const;
   /// Whether a node has a function.
   bool has(std::size_t node) const { return facet_[node] >= 0; }
@@ -50,6 +61,7 @@ class CoveredBasis {
 
   Plane scaled(const Plane& x) const { return (x - low_).cwiseQuotient(extent_); }
   void take_nodes();
+  void add(std::span<const BaseCorner> corners);
   std::vector<Corner> hull() const;
   void take_corners();
   void fill_up();

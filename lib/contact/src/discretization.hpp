@@ -25,6 +25,7 @@ struct TwoSides {
   bool obstacle;                             ///< the primary side is rigid and has no faces
   double reach;                              ///< what lies farther away does not count
   bool mesh_gaps;                            ///< the contact starts with the gaps of the meshes
+  bool corners;                              ///< those of the primary side have rows of their own
   const std::vector<NearestPoint>& nearest;  ///< of each surface node, or none
 };
 

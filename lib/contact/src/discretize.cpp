@@ -68,9 +68,9 @@ class Builder {
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, options.obstacle, reach),
         mesh_gaps_(options.law != Law::bonded && !options.clearance),
         nearest_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<NearestPoint>()),
-        discretization_(
-            make_discretization(options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
-                                                         options.obstacle.has_value(), reach, mesh_gaps_, nearest_})),
+        discretization_(make_discretization(
+            options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
+                                     options.obstacle.has_value(), reach, mesh_gaps_, options.law != Law::bonded, nearest_})),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
         supports_(supports, secondary_.node_id, comm),
@@ -85,7 +85,7 @@ class Builder {
   double covered_area() const
   {
     double sum = 0;
-    for (std::size_t p = 0; p < nodes_.all.size(); ++p)
+    for (std::size_t p = 0; p < faces_.places(); ++p)
       if (own(p)) sum += chosen_.covered[p];
     return sum;
   }
@@ -110,6 +110,7 @@ class Builder {
   void add_rows(constraint::Contacts& contacts)
   {
     for (const std::size_t f : faces_.round()) discretization_->add_face(f);
+    faces_.number_corners();
     chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, seams_end(), bonded(), dimension_);
     if (bonded() && !options_.preload && !options_.obstacle)
       for (std::size_t p = 0; p < nodes_.all.size(); ++p)
@@ -117,13 +118,14 @@ class Builder {
           conflicts_.note_held_tear(nodes_.all[p].node, nodes_.all[p].normal, rays_.meet(p));
     discretization_->make_functions(chosen_.kept);
     faces_.sort_by_nodes();
-    for (std::size_t p = 0; p < nodes_.all.size(); ++p)
-      if (own(p) && chosen_.kept[p]) add_surface_node(p, contacts);
+    for (std::size_t p = 0; p < faces_.places(); ++p)
+      if (own(p) && chosen_.kept[p]) add_place(p, contacts);
   }
 
  private:
-  bool own(std::size_t surface_node) const { return share_.own[static_cast<std::size_t>(nodes_.all[surface_node].node)] != 0; }
-  bool at_nearest_place(std::size_t p) const { return !nearest_.empty() && nearest_[p].found; }
+  const SurfaceNode& surface_node(std::size_t place) const { return nodes_.all[faces_.surface_node(place)]; }
+  bool own(std::size_t place) const { return share_.own[static_cast<std::size_t>(surface_node(place).node)] != 0; }
+  bool at_nearest_place(std::size_t p) const { return !nearest_.empty() && !faces_.is_corner(p) && nearest_[p].found; }
   bool bonded() const { return options_.law == Law::bonded; }
 
   // Of each surface node whether this seam ends there at a contact.
@@ -153,7 +155,7 @@ class Builder {
     terms_.resize(end);
   }
 
-  void add_surface_node(std::size_t p, constraint::Contacts& contacts)
+  void add_place(std::size_t p, constraint::Contacts& contacts)
   {
     terms_.clear();
     double d = 0, rise = 0;
@@ -181,11 +183,11 @@ class Builder {
   // The contact node of a surface node and its rows; `d`, `rise`: integrals of its functions and of what surfaces bulge.
   void add_point(std::size_t p, double d, double rise, constraint::Contacts& contacts)
   {
-    const SurfaceNode& surface_node = nodes_.all[p];
+    const SurfaceNode& node_here = surface_node(p);
     const auto [at, own_normal] = points_.at(p);
-    const Point normal = bonded() ? surface_node.normal : rays_.direction(p, at, own_normal);
+    const Point normal = bonded() ? node_here.normal : rays_.direction(faces_.surface_node(p), at, own_normal);
     constraint::ContactNode point{
-        index_, secondary_.node_id[static_cast<std::size_t>(surface_node.node)], d, normal, {}, contacts.rows.size()};
+        index_, secondary_.node_id[static_cast<std::size_t>(node_here.node)], d, normal, {}, contacts.rows.size()};
     if (bonded() && !options_.preload) conflicts_.note_tear(terms_, d, normal);
     const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
     if (!prescribed && options_.law != Law::frictionless) {
@@ -203,7 +205,8 @@ class Builder {
     }
     point.weight = weight;
     point.at = at;
-    point.cover = chosen_.cover[p];
+    const double room = points_.room(p);
+    point.cover = room < 1 ? std::min(chosen_.cover[p], 0.5 * room) : chosen_.cover[p];
     const double mean = (normal.dot(separation) - rise / d) / weight,
                  mesh_gap = without_rounding(p, points_.gap(p, normal, mean), at, normal);
     const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, starting_gap_at(p, normal, mean), at, normal);
@@ -254,7 +257,7 @@ class Builder {
       return std::any_of(skew_supports.begin(), skew_supports.end(),
                          [&](const auto& i) { return std::abs(direction.dot(along(i))) > none; });
     };
-    const Opposite& opposite = rays_.meet(p);
+    const Opposite& opposite = rays_.meet(faces_.surface_node(p));
     if (!std::isfinite(opposite.gap)) return true;
     const auto nodes = primary_.facets[opposite.facet];
     for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -268,11 +271,11 @@ class Builder {
   {
     const auto& known = chosen_.directions[p].tangents;
     Few<Point, 2> result;
-    if (normal == nodes_.all[p].normal) {
+    if (normal == surface_node(p).normal) {
       for (const auto& tangent : known) result.push_back(tangent);
       return result;
     }
-    const Global node = secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)];
+    const Global node = secondary_.node_id[static_cast<std::size_t>(surface_node(p).node)];
     const bool freed = chosen_.freed[p];
     const std::array<bool, 3> prescribed{!freed && supports_.find(node, 0), !freed && supports_.find(node, 1),
                                          !freed && supports_.find(node, 2)};
@@ -302,7 +305,7 @@ class Builder {
   // That which the contact starts with; the terms are those of the surface node.
   double starting_gap_at(std::size_t p, const Point& direction, double mean)
   {
-    return points_.gap(p, direction, starting_gap(options_, mean, one_surface_.holds(p, terms_)),
+    return points_.gap(p, direction, starting_gap(options_, mean, one_surface_.holds(faces_.surface_node(p), terms_)),
                        [&](std::size_t surface_node, const Opposite& opposite) {
                          return starting_gap(
                              options_, opposite.gap,

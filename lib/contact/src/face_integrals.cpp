@@ -10,9 +10,10 @@ namespace mortise::contact {
 
 namespace {
 
-// A face of second order of which less is missing keeps its own basis: what its functions extrapolate then is nothing, and
-// projections of curved sides leave such slits at planes of symmetry.
-constexpr double nearly_covered = 0.98;
+// A face of second order keeps its own basis if none of its nodes is farther than this part of its length from what is covered:
+// projections of curved sides leave such slits at planes of symmetry, those of flat ones leave none but for rounding of
+// coordinates. The area says little: that of a corner which stands over is the square of how far it does.
+constexpr double curved_slit = 0.02;
 // A face whose functions, facet by facet, reach less than this part of what is covered gets points for all of it.
 constexpr double least_reach = 0.75;
 
@@ -33,7 +34,7 @@ Eigen::Vector4d whole_of(const FaceGeometry& face)
 }  // namespace
 
 Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary,
-                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach,
+                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach, bool corners,
                        const std::vector<NearestPoint>& nearest)
     : secondary_(secondary),
       secondary_nodes_(secondary_nodes),
@@ -42,7 +43,8 @@ Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_node
       tree_(tree),
       reach_(reach),
       nearest_(nearest),
-      slot_(primary.points.size(), -1)
+      slot_(primary.points.size(), -1),
+      covered_face_(secondary, primary, corners ? sharp_nodes(primary) : std::vector<char>())
 {
 }
 
@@ -60,14 +62,16 @@ void Integrator::forget_nodes()
   for (const Local node : piece_->nodes) slot_[static_cast<std::size_t>(node)] = -1;
 }
 
-// The next piece, with nothing in it.
-void Integrator::start(std::size_t face, Local facet)
+// The next piece, with nothing in it. `functions`: how many, if that is not what follows from the facet.
+void Integrator::start(std::size_t face, Local facet, std::size_t functions)
 {
   forget_nodes();
   pieces_.emplace_back();
   piece_ = &pieces_.back();
   const auto n = static_cast<Eigen::Index>(secondary_.faces[face].size());
-  const auto r = facet < 0 ? n : static_cast<Eigen::Index>(secondary_.facets[static_cast<std::size_t>(facet)].size());
+  const auto r = functions > 0 ? static_cast<Eigen::Index>(functions)
+                 : facet < 0   ? n
+                               : static_cast<Eigen::Index>(secondary_.facets[static_cast<std::size_t>(facet)].size());
   piece_->facet = facet;
   piece_->mass.setZero(r, n);
   piece_->gram.setZero(r, r);
@@ -136,7 +140,7 @@ void Integrator::add_points(std::size_t facet, std::size_t other, const Bulge& o
       const FaceShape phi = secondary_.shape_in_face(facet, point.secondary, overlap_.frame, point.at);
       FaceShape theta = phi;
       if (basis_)
-        theta = (*basis_)(in_face(facet, point.secondary));
+        theta = (*basis_)(covered_face_.in_face(facet, point.secondary));
       else if (piece_->facet >= 0)
         theta = point.secondary.head(r);
       else if (secondary_.second_order(face))
@@ -189,9 +193,9 @@ void Integrator::add_pair(std::size_t facet, std::size_t other, const Bulge& own
   const auto other_face = static_cast<std::size_t>(primary_.face_of[other]);
   if (piece_->facet >= 0) {
     common_.push_back(overlap_.common);
-    if (!plane_nodes_.empty()) note_common(facet);
+    if (covered_face_.laid_flat()) covered_face_.note(facet, other, overlap_);
   }
-  if (!second_order && !primary_.second_order(other_face)) {
+  if (!basis_ && !second_order && !primary_.second_order(other_face)) {
     const Eigen::Matrix4d zero = Eigen::Matrix4d::Zero();
     return add_points<Eigen::Vector4d, Eigen::Matrix4d>(facet, other, own_bulge, Eigen::Vector4d::Zero(), zero, zero, zero);
   }
@@ -217,119 +221,61 @@ std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_
              end = static_cast<std::size_t>(secondary_.first_facet[face + 1]);
   for (std::size_t facet = first; facet < end; ++facet) integrate_facet(facet);
   const double covered = piece_->covered.sum(), whole = piece_->whole.sum();
-  if (covered > 0 && covered < (secondary_.second_order(face) ? nearly_covered : 1 - 1e-6) * whole) {
-    cut(face);
+  if (covered > 0 && covered < (1 - 1e-6) * whole) {
+    cut(face, in_facets);
   } else if (covered > 0 && in_facets) {
-    plane_nodes_.clear();
+    covered_face_.forget();
     cut_into_facets(face);
   }
   return pieces_;
 }
 
 // Into its facets, unless what is covered lies inside the face, or too little of it between the points of the face's functions
-// then: a facet that is covered in its middle has too few of them, and where facets meet they mean different points.
-void Integrator::cut(std::size_t face)
+// then: a facet that is covered in its middle has too few of them, and where facets meet they mean different points. Or one of
+// its corners is none of these points. A face of which only slits are missing stays what it was.
+void Integrator::cut(std::size_t face, bool in_facets)
 {
-  const bool in_space = secondary_.second_order(face) && secondary_.faces.type[face] != mesh::CellType::line3;
-  plane_nodes_.clear();
-  if (in_space) lay_flat(face);
+  const bool in_space = mesh::corner_count(secondary_.faces.type[face]) > 2, high = secondary_.second_order(face);
+  covered_face_.forget();
+  if (in_space && (high || covered_face_.has_corners())) covered_face_.lay_flat(face);
+  PieceIntegrals one_piece;
+  if (high) one_piece = pieces_.front();
   cut_into_facets(face);
-  if (in_space && (inside(face) || reached() < least_reach)) move_points(face);
+  const bool whole = high && (in_space ? covered_face_.farthest_node() <= slits(face)
+                                       : one_piece.covered.sum() >= (1 - slits(face)) * one_piece.whole.sum());
+  if (whole && !in_facets) {
+    forget_nodes();
+    pieces_.assign(1, one_piece);
+    piece_ = &pieces_.back();
+  }
+  if (whole || !covered_face_.laid_flat()) return;
+  covered_face_.find_corners();
+  if ((high && (covered_face_.inside() || covered_face_.reached(pieces_) < least_reach)) || !covered_face_.reach_corners(pieces_))
+    move_points(face);
+  covered_face_.name_corners(pieces_);
 }
 
-// The face at work in its plane.
-void Integrator::lay_flat(std::size_t face)
+// How far a node of a face may be from what is covered, in its lengths, for no more than slits to be missing.
+double Integrator::slits(std::size_t face) const
 {
-  const auto type = secondary_.faces.type[face];
-  const auto point = [&](std::size_t k) { return secondary_.points[static_cast<std::size_t>(secondary_.faces[face][k])]; };
-  FaceGeometry corners{mesh::first_order(type), {}};
-  for (int k = 0; k < mesh::corner_count(type); ++k) corners.nodes.push_back(point(static_cast<std::size_t>(k)));
-  const Frame frame = frame_of(corners);
-  for (std::size_t k = 0; k < secondary_.faces[face].size(); ++k) plane_nodes_.push_back(frame.project(point(k)));
-  parts_.clear();
-  samples_.clear();
+  double curved = 0;  // the angle between normals
+  for (auto facet = static_cast<std::size_t>(secondary_.first_facet[face]);
+       facet < static_cast<std::size_t>(secondary_.first_facet[face + 1]); ++facet) {
+    const Point normal = secondary_.geometry(facet).normal();
+    for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c)
+      curved = std::max(curved, (secondary_nodes_.normal(secondary_, facet, c) - normal).norm());
+  }
+  return std::clamp(curved, slit, curved_slit);
 }
 
-// What a facet of this face has in common with a primary one.
-void Integrator::note_common(std::size_t facet)
-{
-  const FaceGeometry own = secondary_.geometry(facet);
-  Few<Plane, 4> nodes;
-  for (const auto& p : own.nodes) nodes.push_back(overlap_.frame.project(p));
-  const Locator locator(own.type, nodes);
-  parts_.push_back({static_cast<Local>(facet), {}});
-  for (const auto& p : overlap_.common) parts_.back().polygon.push_back(in_face(facet, locator(p)));
-  for (const auto& point : overlap_.points) samples_.push_back({in_face(facet, point.secondary), point.weight});
-}
-
-// Whether no corner of the face at work is covered.
-bool Integrator::inside(std::size_t face) const
-{
-  const auto corners = static_cast<std::size_t>(mesh::corner_count(secondary_.faces.type[face]));
-  const double near = 1e-6 * (plane_nodes_[1] - plane_nodes_[0]).norm();
-  for (std::size_t k = 0; k < corners; ++k)
-    for (const auto& part : parts_)
-      if ((nearest_in(part.polygon, plane_nodes_[k]) - plane_nodes_[k]).norm() < near) return false;
-  return true;
-}
-
-// The part of the convex hull of what is covered that lies between the points of the functions, those of a node in all facets
-// taken together.
-double Integrator::reached() const
-{
-  std::vector<Plane> covered, points(plane_nodes_.size(), Plane::Zero());
-  for (const auto& part : parts_) covered.insert(covered.end(), part.polygon.begin(), part.polygon.end());
-  std::vector<double> sums(plane_nodes_.size(), 0.0);
-  for (const auto& piece : pieces_)
-    for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
-      const auto facet = static_cast<std::size_t>(piece.facet);
-      const auto node = static_cast<std::size_t>(secondary_.corners[facet][static_cast<std::size_t>(k)]);
-      sums[node] += piece.covered[k];
-      points[node] += piece.covered[k] * in_face(facet, piece.points.row(k).transpose());
-    }
-  std::vector<Plane> used;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (sums[k] > 0) used.push_back(points[k] / sums[k]);
-  const auto area = [](const std::vector<Plane>& all) {
-    double twice = 0;
-    const auto corners = convex_hull(all);
-    for (std::size_t i = 0; i < corners.size(); ++i) twice += cross(all[corners[i]], all[corners[(i + 1) % corners.size()]]);
-    return 0.5 * twice;
-  };
-  return area(used) / area(covered);
-}
-
-// The place in the plane of the face at work where the shape functions of one of its facets are `shape`.
-Plane Integrator::in_face(std::size_t facet, const Eigen::Vector4d& shape) const
-{
-  Plane at = Plane::Zero();
-  for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c)
-    at += shape[static_cast<Eigen::Index>(c)] * plane_nodes_[static_cast<std::size_t>(secondary_.corners[facet][c])];
-  return at;
-}
-
-// A face of second order that stays one piece, with functions that belong to points of its covered part.
+// A face that stays one piece, with functions that belong to points of its covered part.
 void Integrator::move_points(std::size_t face)
 {
-  basis_.emplace(secondary_.faces.type[face], plane_nodes_, parts_, samples_);
-
+  basis_.emplace(covered_face_.basis());
   forget_nodes();
   pieces_.clear();
-  start(face, -1);
-  const auto n = plane_nodes_.size();
-  piece_->point_facet.resize(n);
-  piece_->points.setZero(static_cast<Eigen::Index>(n), 4);
-  piece_->plane.setZero(static_cast<Eigen::Index>(n), 2);
-  for (std::size_t k = 0; k < n; ++k) {
-    const Local facet = piece_->point_facet[k] = basis_->facet(k);
-    if (facet < 0) continue;
-    Few<Plane, 4> nodes;
-    for (std::size_t c = 0; c < secondary_.facets[static_cast<std::size_t>(facet)].size(); ++c)
-      nodes.push_back(plane_nodes_[static_cast<std::size_t>(secondary_.corners[static_cast<std::size_t>(facet)][c])]);
-    piece_->points.row(static_cast<Eigen::Index>(k)) =
-        Locator(secondary_.facets.type[static_cast<std::size_t>(facet)], nodes)(basis_->point(k)).transpose();
-    piece_->plane.row(static_cast<Eigen::Index>(k)) = basis_->point(k).transpose();
-  }
+  start(face, -1, basis_->size());
+  covered_face_.put_points(*basis_, *piece_);
   for (auto facet = static_cast<std::size_t>(secondary_.first_facet[face]);
        facet < static_cast<std::size_t>(secondary_.first_facet[face + 1]); ++facet) {
     const auto& nodes = secondary_.corners[facet];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "covered_basis.hpp"
+#include "covered_face.hpp"
 #include "nearest_points.hpp"
 #include "pieces.hpp"
 #include "surface_nodes.hpp"
@@ -16,9 +17,10 @@ namespace mortise::contact {
 /// Integrates over secondary faces and what lies opposite them. Holds room to work in.
 class Integrator {
  public:
-  /// All of which must outlive it. `tree` has the facets of the primary side; `nearest` are those of nearest_points().
+  /// All of which must outlive it. `tree` has the facets of the primary side; `nearest` are those of nearest_points(). `corners`:
+  /// those of the primary side have rows of their own.
   Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
-             const Tree& tree, double reach, const std::vector<NearestPoint>& nearest);
+             const Tree& tree, double reach, bool corners, const std::vector<NearestPoint>& nearest);
   /// Everything on the primary side that a face looks at within reach: one piece, or those of its facets; `in_facets`: of these
   /// in any case. Valid until the next call.
   std::span<const PieceIntegrals> integrate(std::size_t face, bool in_facets);
@@ -27,17 +29,13 @@ class Integrator {
 
  private:
   void begin(std::size_t face);
-  void start(std::size_t face, Local facet);
+  void start(std::size_t face, Local facet, std::size_t functions = 0);
   void forget_nodes();
   template <class Use>
   void each_common(std::size_t facet, const Use& use);
   void integrate_facet(std::size_t facet);
-  Plane in_face(std::size_t facet, const Eigen::Vector4d& shape) const;
-  void cut(std::size_t face);
-  void lay_flat(std::size_t face);
-  void note_common(std::size_t facet);
-  bool inside(std::size_t face) const;
-  double reached() const;
+  void cut(std::size_t face, bool in_facets);
+  double slits(std::size_t face) const;
   void move_points(std::size_t face);
   void cut_into_facets(std::size_t face);
   bool moved(std::size_t face) const;
@@ -61,10 +59,8 @@ class Integrator {
   PieceIntegrals* piece_ = nullptr;  // at work: the last of pieces_, if there is one
   std::vector<Local> slot_;          // of each primary node its place in piece_->nodes, or -1
   Overlap overlap_;
-  std::vector<Polygon> common_;     // what the facet at work has in common with the primary facets
-  Few<Plane, 9> plane_nodes_;       // of the face at work, in its plane
-  std::vector<CoveredPart> parts_;  // of this face
-  std::vector<Sample> samples_;
+  std::vector<Polygon> common_;        // what the facet at work has in common with the primary facets
+  CoveredFace covered_face_;           // at work, if it is cut
   std::optional<CoveredBasis> basis_;  // if it has points of its own
   std::vector<int> met_;
 };

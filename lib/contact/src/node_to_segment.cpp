@@ -9,7 +9,8 @@ class NodeToSegment : public Discretization {
  public:
   explicit NodeToSegment(const TwoSides& sides)
       : Discretization(sides),
-        integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.reach, none_)
+        integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.reach, false,
+                    none_)
   {
   }
 

@@ -157,7 +157,7 @@ void move_into(std::span<const Polygon> common, mesh::CellType type, const Few<P
 
 void PieceStore::add(const PieceIntegrals& piece)
 {
-  shapes_.push_back({piece.facet, piece.dual, !piece.point_facet.empty(), piece.plane.rows() > 0,
+  shapes_.push_back({piece.facet, piece.dual, !piece.point_facet.empty(), piece.plane.rows() > 0, !piece.corner.empty(),
                      static_cast<int>(piece.mass.rows()), static_cast<int>(piece.mass.cols()), values_.size(), nodes_.size()});
   const auto put = [&](const auto& matrix) { values_.insert(values_.end(), matrix.data(), matrix.data() + matrix.size()); };
   put(piece.mass);
@@ -169,6 +169,8 @@ void PieceStore::add(const PieceIntegrals& piece)
   put(piece.rise);
   for (const auto& column : piece.opposite) put(column);
   nodes_.insert(nodes_.end(), piece.point_facet.begin(), piece.point_facet.end());
+  nodes_.insert(nodes_.end(), piece.corner.begin(), piece.corner.end());
+  nodes_.insert(nodes_.end(), piece.beside.begin(), piece.beside.end());
   nodes_.insert(nodes_.end(), piece.nodes.begin(), piece.nodes.end());
 }
 
@@ -178,13 +180,16 @@ PieceStore::View PieceStore::operator[](std::size_t i)
   const Eigen::Index r = shape.r, n = shape.n, points = shape.own_points ? r : 0, plane = shape.in_plane ? r : 0;
   const std::size_t end = i + 1 < shapes_.size() ? shapes_[i + 1].first_node : nodes_.size();
   const auto all = std::span<const Local>(nodes_).subspan(shape.first_node, end - shape.first_node);
-  const auto nodes = all.subspan(static_cast<std::size_t>(points));
+  const auto corners = static_cast<std::size_t>(shape.corners ? r : 0);
+  const auto after_points = all.subspan(static_cast<std::size_t>(points)), nodes = after_points.subspan(2 * corners);
   double* mass = values_.data() + shape.first_value;
   double *gram = mass + r * n, *at = gram + r * r, *in_plane = at + 4 * points, *covered = in_plane + 2 * plane,
          *whole = covered + r, *rise = whole + r;
   return {shape.facet,
           shape.dual,
           all.first(static_cast<std::size_t>(points)),
+          after_points.first(corners),
+          after_points.subspan(corners, corners),
           Matrix(mass, r, n),
           Matrix(gram, r, r),
           Matrix(at, points, 4),

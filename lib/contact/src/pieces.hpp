@@ -32,18 +32,21 @@ const Eigen::MatrixXd& control_values(mesh::CellType type);
 
 /// Integrals over a piece with r functions theta of a face with n nodes.
 struct PieceIntegrals {
-  Local facet = -1;                 ///< of the side, whose nodes' functions they are; -1: of all nodes of the face, r = n
-  bool dual = true;                 ///< false: too thin for a dual basis; the multipliers are theta themselves
-  SmallMatrix mass;                 ///< integral theta_i phi_j, r x n
-  SmallMatrix gram;                 ///< integral theta_i theta_j, r x r
-  FaceShape covered;                ///< integral theta_i
-  FaceShape whole;                  ///< the same over the piece, covered or not, of functions that belong to its nodes
-  FaceShape rise;                   ///< integral theta_i (bulge of both faces)
-  std::vector<Local> point_facet;   ///< the facet on which each function's point lies, -1 if there is no such function; r, or
-                                    ///< none if functions belong to the nodes
-  SmallMatrix points;               ///< its shape functions there, r x 4
-  SmallMatrix plane;                ///< where the points lie in the plane of a face that is in one piece, r x 2; else 0 x 2
-  std::vector<Local> nodes;         ///< those of the primary side that it meets, in any order
+  Local facet = -1;  ///< of the side, whose nodes' functions they are; -1: of all nodes of the face, r = n or, with corners, more
+  bool dual = true;  ///< false: too thin for a dual basis; the multipliers are theta themselves
+  SmallMatrix mass;  ///< integral theta_i phi_j, r x n
+  SmallMatrix gram;  ///< integral theta_i theta_j, r x r
+  FaceShape covered;               ///< integral theta_i
+  FaceShape whole;                 ///< the same over the piece, covered or not, of functions that belong to its nodes
+  FaceShape rise;                  ///< integral theta_i (bulge of both faces)
+  std::vector<Local> point_facet;  ///< the facet on which each function's point lies, -1 if there is no such function; r, or
+                                   ///< none if functions belong to the nodes
+  std::vector<Local> corner;  ///< the primary side's node at each function's point if that is a corner of its own row, or -1;
+                              ///< r, or none
+  std::vector<Local> beside;  ///< and the node of the face beside it; r, or none
+  SmallMatrix points;         ///< its shape functions there, r x 4
+  SmallMatrix plane;          ///< where the points lie in the plane of a face that is in one piece, r x 2; else 0 x 2
+  std::vector<Local> nodes;   ///< those of the primary side that it meets, in any order
   std::vector<FaceShape> opposite;  ///< for each of them, integral theta_i phi^m
 };
 
@@ -70,7 +73,7 @@ class PieceStore {
   struct View {
     Local facet;
     bool dual;
-    std::span<const Local> point_facet;
+    std::span<const Local> point_facet, corner, beside;
     Matrix mass, gram, points, plane;
     Vector covered, whole, rise;
     std::span<const Local> nodes;
@@ -84,7 +87,7 @@ class PieceStore {
  private:
   struct Shape {
     Local facet;
-    bool dual, own_points, in_plane;
+    bool dual, own_points, in_plane, corners;
     int r, n;
     std::size_t first_value, first_node;
   };

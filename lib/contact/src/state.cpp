@@ -1,11 +1,12 @@
 #include "contact/state.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
 #include "by_node.hpp"
+#include "narrow_nodes.hpp"
+#include "node_state.hpp"
 #include "overlap.hpp"
 
 namespace mortise::contact {
@@ -57,265 +58,87 @@ std::vector<Resultant> resultants(std::span<const ContactNodeState> points, std:
 
 namespace {
 
-// Less cover makes a strip too narrow for a pressure of its own.
-constexpr double narrow = 0.35;
-
 // Of the largest pressure: less counts as open, whatever the solver's tolerance leaves.
 constexpr double open_part = 1e-4;
 // Of the largest pressure on a face: a node with less enters its mean by degrees.
 constexpr double entered_part = 0.05;
-// A face belongs to the points at its nodes whose normals enclose less than some 40 degrees with its own: beyond a kink are
-// others.
-constexpr double one_side = 0.75;
 
-// A point at a node of a contact; at a kink there are several, in the order of their normals. Plain bytes. Lives on the node's
-// own rank, see by_node().
-struct NodeState {
-  Global node;
-  int contact, side, status;  // side: which of the node's points
-  double area, cover, force, gap;
-  std::array<double, 3> normal, traction, slip;  // traction: a force until divide_by_areas()
-};
-
-auto key(const NodeState& state)
+// How much the k-th node of a face counts in its mean: none that is open, unless it stands in the middle of nodes that press.
+// `here`: of all its nodes, or null.
+double share_of(mesh::CellType type, std::span<const NodeState* const> here, std::size_t k, double least, double entered)
 {
-  return std::tie(state.node, state.contact, state.side);
-}
-
-template <class T>
-bool before(const T& a, const NodeState& b)
-{
-  return std::tie(a.node, a.contact) < std::tie(b.node, b.contact);
-}
-
-// Those of this rank's own nodes, ascending by node, contact and side. Collective.
-std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Communicator& comm)
-{
-  std::vector<NodeState> mine;
-  for (const auto& p : points) {
-    const auto &n = p.normal, &f = p.force_on_secondary, &s = p.slip;
-    mine.push_back({p.node,
-                    p.contact,
-                    0,
-                    static_cast<int>(p.status),
-                    p.area,
-                    p.cover,
-                    p.force,
-                    p.gap,
-                    {n[0], n[1], n[2]},
-                    {f[0], f[1], f[2]},
-                    {s[0], s[1], s[2]}});
+  const double part = std::min(1.0, 2 * here[k]->cover);
+  if (const auto corners = static_cast<std::size_t>(mesh::corner_count(type)); k >= corners) {
+    const auto& ends = mesh::middles(type)[k - corners];
+    const auto presses = [&](int c) {
+      const auto* end = here[static_cast<std::size_t>(c)];
+      return end && end->force > least;
+    };
+    if (std::all_of(ends.begin(), ends.end(), presses)) return part;
   }
-  auto nodes = by_node<NodeState>(mine, comm);
-  std::stable_sort(nodes.begin(), nodes.end(), [](const NodeState& a, const NodeState& b) {
-    return std::tie(a.node, a.contact, a.normal) < std::tie(b.node, b.contact, b.normal);
-  });
-  for (std::size_t i = 1; i < nodes.size(); ++i)
-    if (!before(nodes[i - 1], nodes[i])) nodes[i].side = nodes[i - 1].side + 1;
-  return nodes;
+  return here[k]->force > least ? part * std::min(1.0, here[k]->force / entered) : 0;
 }
 
-// All points at a node, of ascending ones.
-template <class Nodes>
-auto points_at(Nodes& nodes, int contact, Global node)
-{
-  NodeState wanted{};
-  wanted.contact = contact;
-  wanted.node = node;
-  const auto [first, last] = std::equal_range(nodes.begin(), nodes.end(), wanted, before<NodeState>);
-  return std::span(first, last);
-}
-
-// That at a node of a face with this normal, or null; of a single point without a normal that one.
-const NodeState* point_of(const std::vector<NodeState>& nodes, int contact, Global node, const Point& face_normal)
-{
-  const NodeState* best = nullptr;
-  double most = one_side;
-  for (const auto& state : points_at(nodes, contact, node)) {
-    const Point normal(state.normal[0], state.normal[1], state.normal[2]);
-    const double cosine = normal.isZero(0) ? 1 : normal.dot(face_normal);
-    if (cosine > most) most = cosine, best = &state;
-  }
-  return best;
-}
-
-// What the nodes of this rank's secondary sides are, ascending. Collective.
-std::vector<NodeState> on_sides(const std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm)
-{
-  std::vector<Global> wanted;
-  for (const auto& pair : pairs) wanted.insert(wanted.end(), pair.secondary.node_id.begin(), pair.secondary.node_id.end());
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  auto result = answer(nodes, ask(wanted, comm), comm);
-  std::sort(result.begin(), result.end(), [](const NodeState& a, const NodeState& b) { return key(a) < key(b); });
-  return result;
-}
-
-// What passes between a node with little cover and one of its neighbours with more; lives on the rank of `node`, one of the two.
-struct Given {
+// What a face gives to the mean at one of its nodes; on the node's rank at last.
+struct FaceMean {
   Global node;
   int contact, side;
-  Global other;
-  int other_side;
-  double part;         // of what the narrow one has; at first the area of the wide one
-  double area, force;  // that pass
-  std::array<double, 3> traction;
+  double force, area;
 };
 
-bool ascending(const Given& a, const Given& b)
+// The means of the faces of a contact's side. `least`: what counts as open.
+void add_means(const mesh::Surface& surface, int contact, const std::vector<NodeState>& states, double least,
+               std::vector<FaceMean>& means)
 {
-  return std::tie(a.node, a.contact, a.side, a.other, a.other_side) < std::tie(b.node, b.contact, b.side, b.other, b.other_side);
-}
-
-// The narrow or the wide one's state, whichever lives here.
-NodeState& state_of(std::vector<NodeState>& nodes, const Given& given)
-{
-  return points_at(nodes, given.contact, given.node)[static_cast<std::size_t>(given.side)];
-}
-
-// Each pair of neighbours once, on the rank of the narrow node. Collective.
-std::vector<Given> neighbours(const std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm)
-{
-  const auto known = on_sides(nodes, pairs, comm);
-  std::vector<Given> found;
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const auto& surface = pairs[c].secondary;
-    std::vector<const NodeState*> here;  // of the nodes of a face
-    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-      const Point normal = corners_of(surface, f).normal();
-      here.clear();
-      for (const Local n : surface.faces[f])
-        here.push_back(point_of(known, static_cast<int>(c), surface.node_id[static_cast<std::size_t>(n)], normal));
-      for (const auto* from : here)
-        for (const auto* to : here)
-          if (from && to && from->cover < narrow && to->cover >= narrow)
-            found.push_back({from->node, from->contact, from->side, to->node, to->side, to->area, 0, 0, {0, 0, 0}});
+  std::vector<const NodeState*> here;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    const auto corners = corners_of(surface, f);
+    const Point normal = corners.normal();
+    double highest = 0, sum = 0, count = 0;
+    here.clear();
+    for (const Local n : surface.faces[f]) {
+      here.push_back(point_of(states, contact, surface.node_id[static_cast<std::size_t>(n)], normal));
+      if (here.back()) highest = std::max(highest, here.back()->force);
     }
-  }
-  found = by_node<Given>(found, comm);
-  std::sort(found.begin(), found.end(), ascending);
-  const auto same = [](const Given& a, const Given& b) { return !ascending(a, b) && !ascending(b, a); };
-  found.erase(std::unique(found.begin(), found.end(), same), found.end());
-  return found;
-}
-
-// The same on the ranks of the other nodes. Collective.
-std::vector<Given> turned_round(std::vector<Given> given, const Communicator& comm)
-{
-  for (auto& g : given) {
-    std::swap(g.node, g.other);
-    std::swap(g.side, g.other_side);
-  }
-  given = by_node<Given>(given, comm);
-  std::sort(given.begin(), given.end(), ascending);
-  return given;
-}
-
-// Turns forces into pressures and tractions. What has little cover gives force and area to its neighbours, by their areas, and
-// takes their mean. Collective.
-void divide_by_areas(std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm)
-{
-  auto given = neighbours(nodes, pairs, comm);
-  for (auto first = given.begin(); first != given.end();) {
-    const NodeState& from = state_of(nodes, *first);
-    auto end = first;
-    double area = 0;  // of all neighbours
-    for (; end != given.end() && &state_of(nodes, *end) == &from; ++end) area += end->part;
-    for (; first != end; ++first) {
-      first->part /= area;
-      first->area = first->part * from.area;
-      first->force = first->part * from.force;
-      for (int c = 0; c < 3; ++c) first->traction[c] = first->part * from.traction[c];
+    if (!(highest > least)) continue;
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      if (!here[k]) continue;
+      const double share = share_of(surface.faces.type[f], here, k, least, entered_part * highest);
+      sum += share * here[k]->force;
+      count += share;
+      if (share == 0) here[k] = nullptr;
     }
-  }
-  auto taken = turned_round(given, comm);
-  for (const auto& g : taken) {
-    auto& to = state_of(nodes, g);
-    to.area += g.area;
-    to.force += g.force;
-    for (int c = 0; c < 3; ++c) to.traction[c] += g.traction[c];
-  }
-  for (auto& node : nodes) {
-    node.force /= node.area;
-    for (double& traction : node.traction) traction /= node.area;
-  }
-  for (auto& g : taken) {
-    const auto& wide = state_of(nodes, g);
-    g.force = g.part * wide.force;
-    for (int c = 0; c < 3; ++c) g.traction[c] = g.part * wide.traction[c];
-  }
-  for (const auto& g : given) {
-    auto& node = state_of(nodes, g);
-    node.force = 0;
-    for (double& traction : node.traction) traction = 0;
-  }
-  for (const auto& g : turned_round(taken, comm)) {
-    auto& node = state_of(nodes, g);
-    node.force += g.force;
-    for (int c = 0; c < 3; ++c) node.traction[c] += g.traction[c];
+    const double size = corners.area() * count / static_cast<double>(surface.faces[f].size());
+    for (const auto* state : here)
+      if (state) means.push_back({state->node, contact, state->side, size * sum / count, size});
   }
 }
 
 // The mean over the faces at each pressed node of the means of their pressed nodes: a contact one cell wide keeps its pressure,
 // and the border of a contact stays where it is. A node that begins to press enters by degrees, so that the mean does not jump as
-// a load grows. At a kink the larger one of its sides. `states`: of the nodes of the surface.
-// Collective.
-std::vector<double> averaged_over_faces(const mesh::Surface& surface, int contact, const std::vector<NodeState>& states,
-                                        const std::vector<double>& pressure, const Communicator& comm)
+// a load grows; one of which less than half is covered counts as much less. `own`: with their pressures. Collective.
+void average_over_faces(std::vector<NodeState>& own, std::span<const Pair> pairs, const Communicator& comm)
 {
-  struct Sums {
-    Global node;
-    int side;
-    double force, area;
-  };
-  const auto before = [](const Sums& a, const Sums& b) { return std::tie(a.node, a.side) < std::tie(b.node, b.side); };
-  double least = 0;
-  for (const double p : pressure) least = std::max(least, p);
-  least = comm.max(least) * open_part;
-  std::vector<Sums> mine;
-  std::vector<const NodeState*> pressed;
-  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    const auto corners = corners_of(surface, f);
-    const Point normal = corners.normal();
-    double highest = 0, sum = 0, count = 0;
-    pressed.clear();
-    for (const Local n : surface.faces[f])
-      if (const auto* state = point_of(states, contact, surface.node_id[static_cast<std::size_t>(n)], normal);
-          state && state->force > least) {
-        highest = std::max(highest, state->force);
-        pressed.push_back(state);
-      }
-    if (pressed.empty()) continue;
-    for (const auto* state : pressed) {
-      const double share = std::min(1.0, state->force / (entered_part * highest));
-      sum += share * state->force;
-      count += share;
-    }
-    const double size = corners.area() * count / static_cast<double>(surface.faces[f].size());
-    for (const auto* state : pressed) mine.push_back({state->node, state->side, size * sum / count, size});
+  const auto all = on_sides(own, pairs, comm);
+  std::vector<double> largest(pairs.size(), 0.0);
+  for (const auto& node : own)
+    largest[static_cast<std::size_t>(node.contact)] = std::max(largest[static_cast<std::size_t>(node.contact)], node.force);
+  std::vector<FaceMean> means;
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    add_means(pairs[c].secondary, static_cast<int>(c), all, comm.max(largest[c]) * open_part, means);
+  means = by_node<FaceMean>(means, comm);
+  std::vector<double> area(own.size(), 0.0);
+  for (const auto& mean : means) {
+    auto& node = points_at(own, mean.contact, mean.node)[static_cast<std::size_t>(mean.side)];
+    node.recovered += mean.force;
+    area[static_cast<std::size_t>(&node - own.data())] += mean.area;
   }
-  auto met = by_node<Sums>(mine, comm);
-  std::stable_sort(met.begin(), met.end(), before);
-  std::vector<Sums> totals;
-  for (const auto& part : met) {
-    if (totals.empty() || before(totals.back(), part)) {
-      totals.push_back(part);
-    } else {
-      totals.back().force += part.force;
-      totals.back().area += part.area;
-    }
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    if (area[i] > 0)
+      own[i].recovered /= area[i];
+    else
+      own[i].recovered = std::max(own[i].force, 0.0);  // no face looks the way of the contact
   }
-  auto found = answer(totals, ask(surface.node_id, comm), comm);
-  std::sort(found.begin(), found.end(), before);
-  std::vector<double> result;
-  for (std::size_t i = 0; i < surface.node_id.size(); ++i) {
-    double largest = 0;
-    for (auto at = std::lower_bound(found.begin(), found.end(), Sums{surface.node_id[i], 0, 0, 0}, before);
-         at != found.end() && at->node == surface.node_id[i]; ++at)
-      largest = std::max(largest, at->force / at->area);
-    result.push_back(pressure[i] > 0 && largest == 0 ? pressure[i] : largest);  // no face looks the way of the contact
-  }
-  return result;
 }
 
 }  // namespace
@@ -324,14 +147,22 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
                                          const Communicator& comm)
 {
   auto own = meet(points, comm);
-  divide_by_areas(own, pairs, comm);
+  NarrowNodes narrow(own, pairs, comm);
+  narrow.give(own);
+  for (auto& node : own) {
+    node.force /= node.area;
+    for (double& traction : node.traction) traction /= node.area;
+  }
+  narrow.take_pressures(own);
+  average_over_faces(own, pairs, comm);
+  narrow.take_recovered(own);
   const auto all = on_sides(own, pairs, comm);
   std::vector<SurfaceState> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& nodes = pairs[c].secondary.node_id;
     SurfaceState state{std::vector<double>(nodes.size(), 0.0),
                        std::vector<double>(nodes.size(), 0.0),
-                       {},
+                       std::vector<double>(nodes.size(), 0.0),
                        std::vector<Point>(nodes.size(), Point::Zero()),
                        std::vector<Point>(nodes.size(), Point::Zero()),
                        std::vector<int>(nodes.size(), 0),
@@ -348,8 +179,8 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
       state.gap[i] = node->gap;
       state.slip[i] = Point(node->slip[0], node->slip[1], node->slip[2]);
       state.status[i] = node->status;
+      for (const auto& point : here) state.recovered_pressure[i] = std::max(state.recovered_pressure[i], point.recovered);
     }
-    state.recovered_pressure = averaged_over_faces(pairs[c].secondary, static_cast<int>(c), all, state.pressure, comm);
     result.push_back(std::move(state));
   }
   return result;

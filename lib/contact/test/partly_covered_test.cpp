@@ -134,6 +134,46 @@ INSTANTIATE_TEST_SUITE_P(SurfaceNodes, Pad,
                          testing::Combine(testing::Values(mesh::CellType::tri6, mesh::CellType::quad8, mesh::CellType::quad9),
                                           testing::Values(1.1, 1.4, 1.8, 2.3)));
 
+class Base : public testing::TestWithParam<std::tuple<bool, double, double>> {};
+
+// A block that stands on faces without a mesh line in common, turned in their plane or with it: a multiplier pushes at each of
+// its corners, so that it stands for every load above its base, and the force and moment of a constant pressure are its own.
+TEST_P(Base, MultipliersReachItsCorners)
+{
+  const Communicator comm;
+  const auto [triangles, turned, tilted] = GetParam();
+  const Eigen::Matrix3d tilt = Eigen::AngleAxisd(tilted, Point(1, 2, 3).normalized()).toRotationMatrix();
+  const Point centre(2.8, 2.3, 0);
+  const double half = 1.4;
+  const auto place = [&, c = std::cos(turned), s = std::sin(turned)](double x, double y) {
+    return Point(tilt * (centre + Point(c * x - s * y, s * x + c * y, 0)));
+  };
+  const auto pair =
+      make_pair(surface(
+                    {4, 3, 0, 6, 0, 5, true, triangles}, [&](double x, double y) { return Point(tilt * Point(x, y, 0)); }, comm),
+                surface({3, 4, -half, half, -half, half, false, false, primary_ids}, place, comm), Law::frictionless);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  const auto nodes = nodes_of(pair, comm);
+  const Point up = tilt.col(2);
+  double force = 0;
+  Point moment = Point::Zero();
+  std::array<double, 4> nearest{1, 1, 1, 1};
+  for (const auto& row : rows.rows) {
+    Point at = Point::Zero();  // on the primary side
+    for (const auto& e : row.entries)
+      if (e.node >= primary_ids) at -= e.coefficient * up[e.component] / row.weight * nodes.at(e.node);
+    for (std::size_t c = 0; c < 4; ++c)
+      nearest[c] = std::min(nearest[c], (at - place(c % 2 ? half : -half, c / 2 ? half : -half)).norm());
+    force += row.area * row.weight;
+    moment += row.area * row.weight * at;
+  }
+  for (const double distance : nearest) EXPECT_LT(distance, 1e-6);
+  EXPECT_NEAR(force, 4 * half * half, 1e-9);
+  EXPECT_LT((moment / force - tilt * centre).norm(), 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Corners, Base, testing::Combine(testing::Bool(), testing::Values(0.0, 0.5), testing::Values(0.0, 0.8)));
+
 // A shaft in a bush that is shorter: the gap of the circles also where faces of the shaft cross the bush's rim.
 TEST(PartlyCovered, GapsAtTheRimAreThoseOfTheSmoothSurfaces)
 {
@@ -170,37 +210,6 @@ TEST(PartlyCovered, DirectionsAreThoseOfTheFlatterSide)
   EXPECT_LT(directions(surface({5, 3, -3, 3, 0, 1, true}, flat, comm),
                        surface({8, 2, -2, 2, 0, 1, false, false, primary_ids}, curved, comm)),
             1e-7);
-}
-
-// The side with nodes in the middle of its edges (and faces), and turned about the origin.
-mesh::Surface second_order(const mesh::Surface& side, mesh::CellType type, const Eigen::Matrix3d& rotation, Global first_id)
-{
-  mesh::Surface result = side;
-  result.faces = {};
-  std::map<Global, Local> middles;
-  const auto middle = [&](std::span<const Local> ends) {
-    Point at = Point::Zero();
-    Global least = side.node_id[static_cast<std::size_t>(ends[0])] - first_id, most = least;
-    for (const Local n : ends) {
-      at += side.points[static_cast<std::size_t>(n)] / static_cast<double>(ends.size());
-      least = std::min(least, side.node_id[static_cast<std::size_t>(n)] - first_id);
-      most = std::max(most, side.node_id[static_cast<std::size_t>(n)] - first_id);
-    }
-    const Global id = first_id + (ends.size() == 2 ? 1000 : 20000) + 100 * least + most;
-    const auto [found, added] = middles.try_emplace(id, static_cast<Local>(result.points.size()));
-    if (added) result.points.push_back(at), result.node_id.push_back(id);
-    return found->second;
-  };
-  for (std::size_t f = 0; f < side.faces.size(); ++f) {
-    const std::vector<Local> corners(side.faces[f].begin(), side.faces[f].end());
-    auto nodes = corners;
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      nodes.push_back(middle(std::vector{corners[k], corners[(k + 1) % corners.size()]}));
-    if (type == mesh::CellType::quad9) nodes.push_back(middle(corners));
-    result.faces.add(type, nodes);
-  }
-  for (auto& x : result.points) x = rotation * x;
-  return result;
 }
 
 class Flat : public testing::TestWithParam<mesh::CellType> {};

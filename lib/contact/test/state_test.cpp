@@ -107,6 +107,35 @@ TEST(State, NarrowPointsGiveWhatPressesOnThemToTheirNeighbours)
   }
 }
 
+// Three faces in a row, each pair of nodes covered less than the one before: the last, which is next to nothing, has but one with
+// little to give to, and that gives on. A face's worth of force over the area of a sliver shows nowhere.
+TEST(State, SliversGiveOverOthersThatAreNarrow)
+{
+  const Communicator comm;
+  const auto flat = [](double x, double y) { return Point(x, y, 0); };
+  const auto pair = make_pair(surface({3, 1, 0, 3, 0, 1, true}, flat, comm),
+                              surface({1, 1, 0, 3, 0, 1, false, false, primary_ids}, flat, comm), Law::frictionless);
+  const std::array<double, 4> area{0.5, 0.45, 0.15, 0.005}, force{5, 4, 1, 3};
+  std::vector<ContactNodeState> points;
+  for (Global node = 0; node < 8; ++node) {
+    if (node % comm.size() != comm.rank()) continue;
+    const auto column = static_cast<std::size_t>(node % 4);
+    ContactNodeState point;
+    point.node = node;
+    point.area = area[column];
+    point.cover = area[column];
+    point.force = force[column];
+    point.status = Status::slip;
+    points.push_back(point);
+  }
+  const auto state = surface_states(points, std::vector<Pair>{pair}, comm).front();
+  for (std::size_t n = 0; n < pair.secondary.node_id.size(); ++n) {
+    const bool first = pair.secondary.node_id[n] % 4 == 0;
+    EXPECT_NEAR(state.pressure[n], first ? 10 : 8 / 0.605, 1e-12);
+    EXPECT_LT(state.recovered_pressure[n], 14);
+  }
+}
+
 // Scatter that alternates from node to node goes, a constant stays, and so does a slope inside.
 TEST(State, RecoveredPressureIsSmooth)
 {

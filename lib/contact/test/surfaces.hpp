@@ -1,6 +1,7 @@
 // Surfaces to search, and all rows that come of them.
 #pragma once
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -65,6 +66,38 @@ mesh::Surface surface(const Grid& g, const Height& height, const Communicator& c
     result.face_id.push_back(g.first_id + static_cast<Global>(f));
     result.body.push_back(0);
   }
+  return result;
+}
+
+// The side with nodes in the middle of its edges (and faces), and turned about the origin.
+inline mesh::Surface second_order(const mesh::Surface& side, mesh::CellType type, const Eigen::Matrix3d& rotation,
+                                  Global first_id)
+{
+  mesh::Surface result = side;
+  result.faces = {};
+  std::map<Global, Local> middles;
+  const auto middle = [&](std::span<const Local> ends) {
+    Point at = Point::Zero();
+    Global least = side.node_id[static_cast<std::size_t>(ends[0])] - first_id, most = least;
+    for (const Local n : ends) {
+      at += side.points[static_cast<std::size_t>(n)] / static_cast<double>(ends.size());
+      least = std::min(least, side.node_id[static_cast<std::size_t>(n)] - first_id);
+      most = std::max(most, side.node_id[static_cast<std::size_t>(n)] - first_id);
+    }
+    const Global id = first_id + (ends.size() == 2 ? 1000 : 20000) + 100 * least + most;
+    const auto [found, added] = middles.try_emplace(id, static_cast<Local>(result.points.size()));
+    if (added) result.points.push_back(at), result.node_id.push_back(id);
+    return found->second;
+  };
+  for (std::size_t f = 0; f < side.faces.size(); ++f) {
+    const std::vector<Local> corners(side.faces[f].begin(), side.faces[f].end());
+    auto nodes = corners;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      nodes.push_back(middle(std::vector{corners[k], corners[(k + 1) % corners.size()]}));
+    if (type == mesh::CellType::quad9) nodes.push_back(middle(corners));
+    result.faces.add(type, nodes);
+  }
+  for (auto& x : result.points) x = rotation * x;
   return result;
 }
 

@@ -91,7 +91,9 @@ struct ContactNode {
   double weight = 1;  ///< sum of the row's coefficients on the secondary side, above 1 where it stands in for dropped nodes
   double gap = 0;     ///< bound of the normal row, a length: interference deducted, before any support moves
   Point at = Point::Zero();  ///< its place in the mesh: the node, or where the node was moved to at the primary side's border
-  double cover = 1;          ///< part of its surroundings that lies opposite the primary side
+  /// Part of its surroundings that lies opposite the primary side. Where the node was moved, at most half of the part that is
+  /// left of the way to the next nodes: that of a surface which goes on beyond its border.
+  double cover = 1;
 };
 
 /// An entry of a contact row that a support holds: it stands in the row's bound instead, and what the row's multiplier pushes

@@ -1,0 +1,109 @@
+#include "node_state.hpp"
+
+#include "by_node.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+// A face belongs to the points at its nodes whose normals enclose less than some 40 degrees with its own: beyond a kink are
+// others.
+constexpr double one_side = 0.75;
+
+bool before(const NodeState& a, const NodeState& b)
+{
+  return std::tie(a.node, a.contact) < std::tie(b.node, b.contact);
+}
+
+auto key(const NodeState& state)
+{
+  return std::tie(state.node, state.contact, state.side);
+}
+
+void join(NodeState& to, const NodeState& corner)
+{
+  to.area += corner.area;
+  to.force += corner.force;
+  for (std::size_t c = 0; c < 3; ++c) to.traction[c] += corner.traction[c];
+  if (to.status == static_cast<int>(Status::open)) to.status = corner.status;
+}
+
+// A corner of the primary side has a row, but no place in the output: what presses there counts with the node beside it, on the
+// same side of a kink. `nodes` are sorted.
+void join_corners(std::vector<NodeState>& nodes)
+{
+  constexpr double one_normal = 0.9;  // cosine
+  const auto dot = [](const NodeState& a, const NodeState& b) {
+    return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2];
+  };
+  std::vector<NodeState> joined;
+  for (std::size_t first = 0, end = 0; first < nodes.size(); first = end) {
+    while (end < nodes.size() && !before(nodes[first], nodes[end])) ++end;
+    const std::size_t begin = joined.size();
+    for (const bool corners : {false, true})
+      for (std::size_t i = first; i < end; ++i) {
+        if ((nodes[i].cover == 0) != corners) continue;
+        const auto to = std::find_if(joined.begin() + static_cast<std::ptrdiff_t>(begin), joined.end(),
+                                     [&](const NodeState& other) { return corners && dot(other, nodes[i]) > one_normal; });
+        if (to == joined.end())
+          joined.push_back(nodes[i]);
+        else
+          join(*to, nodes[i]);
+      }
+  }
+  nodes = std::move(joined);
+}
+
+}  // namespace
+
+std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Communicator& comm)
+{
+  std::vector<NodeState> mine;
+  for (const auto& p : points) {
+    const auto &n = p.normal, &f = p.force_on_secondary, &s = p.slip;
+    mine.push_back({p.node,
+                    p.contact,
+                    0,
+                    static_cast<int>(p.status),
+                    p.area,
+                    p.cover,
+                    p.force,
+                    p.gap,
+                    {n[0], n[1], n[2]},
+                    {f[0], f[1], f[2]},
+                    {s[0], s[1], s[2]}});
+  }
+  auto nodes = by_node<NodeState>(mine, comm);
+  std::stable_sort(nodes.begin(), nodes.end(), [](const NodeState& a, const NodeState& b) {
+    return std::tie(a.node, a.contact, a.normal) < std::tie(b.node, b.contact, b.normal);
+  });
+  join_corners(nodes);
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    if (!before(nodes[i - 1], nodes[i])) nodes[i].side = nodes[i - 1].side + 1;
+  return nodes;
+}
+
+const NodeState* point_of(const std::vector<NodeState>& nodes, int contact, Global node, const Point& face_normal)
+{
+  const NodeState* best = nullptr;
+  double most = one_side;
+  for (const auto& state : points_at(nodes, contact, node)) {
+    const Point normal(state.normal[0], state.normal[1], state.normal[2]);
+    const double cosine = normal.isZero(0) ? 1 : normal.dot(face_normal);
+    if (cosine > most) most = cosine, best = &state;
+  }
+  return best;
+}
+
+std::vector<NodeState> on_sides(const std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm)
+{
+  std::vector<Global> wanted;
+  for (const auto& pair : pairs) wanted.insert(wanted.end(), pair.secondary.node_id.begin(), pair.secondary.node_id.end());
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  auto result = answer(nodes, ask(wanted, comm), comm);
+  std::sort(result.begin(), result.end(), [](const NodeState& a, const NodeState& b) { return key(a) < key(b); });
+  return result;
+}
+
+}  // namespace mortise::contact
