@@ -174,6 +174,44 @@ TEST_P(Base, MultipliersReachItsCorners)
 
 INSTANTIATE_TEST_SUITE_P(Corners, Base, testing::Combine(testing::Bool(), testing::Values(0.0, 0.5), testing::Values(0.0, 0.8)));
 
+// In a plane, nodes along x at y = 0; the first of the secondary side and all of the primary one cannot move along x.
+mesh::Surface line(const std::vector<double>& x, bool up, Global first_id, const Communicator& comm)
+{
+  mesh::Surface result;
+  if (comm.rank() != 0) return result;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    result.points.push_back({x[n], 0, 0});
+    result.node_id.push_back(first_id + static_cast<Global>(n));
+    if (n == 0) continue;
+    const auto end = static_cast<Local>(n), begin = end - 1;
+    result.faces.add(mesh::CellType::line2, up ? std::vector<Local>{end, begin} : std::vector<Local>{begin, end});
+    result.face_id.push_back(first_id + static_cast<Global>(n));
+    result.body.push_back(0);
+  }
+  return result;
+}
+
+// A cell beside a plane of symmetry on a held anvil that ends at x = `edge`: along x the point there feels `edge` times the
+// displacement of the cell's other node, beside 1 - `edge` times that of the one in the plane. Below a tenth it slips nowhere.
+TEST(PartlyCovered, NoFrictionInAPlaneAcrossWhatSupportsOfBothSidesHold)
+{
+  const Communicator comm;
+  for (const auto& [edge, slips] : {std::pair{0.05, false}, {0.1, false}, {0.3, true}}) {
+    const auto pair = make_pair(line({0, 1, 2}, true, 0, comm), line({-1, edge}, false, primary_ids, comm), Law::coulomb);
+    std::vector<constraint::PrescribedDof> prescribed;
+    if (comm.root())
+      for (const Global node : {Global{0}, primary_ids, primary_ids + 1}) prescribed.push_back({node, 0, 0, 0});
+    const auto contacts = discretize(std::vector<Pair>{pair}, prescribed, fem::Kinematics::plane_strain, comm);
+    long long points = 0, tangents = 0;
+    for (const auto& point : contacts.nodes) {
+      ++points;
+      tangents += static_cast<long long>(point.tangents.size());
+    }
+    EXPECT_EQ(comm.sum(points), 2) << edge;
+    EXPECT_EQ(comm.sum(tangents), slips ? 1 : 0) << edge;
+  }
+}
+
 // A shaft in a bush that is shorter: the gap of the circles also where faces of the shaft cross the bush's rim.
 TEST(PartlyCovered, GapsAtTheRimAreThoseOfTheSmoothSurfaces)
 {

@@ -5,15 +5,18 @@
 #include <cmath>
 #include <utility>
 
+#include "central_path.hpp"
 #include "condensed_programme.hpp"
 
 namespace mortise::qp {
 
 namespace {
 
-constexpr int max_guesses = 15;             // at one softness, and so many
-constexpr int max_last_guesses = 60;        // once it is none: forces that hardly count settle late;
-constexpr int look_back = 4;                // the first ones no more if in so many of them changes have not become half as many,
+constexpr int max_guesses = 15;        // at one softness, and so many
+constexpr int max_last_guesses = 60;   // once it is none: forces that hardly count settle late;
+constexpr int look_back_at_first = 4;  // guesses that must have halved changes, if these are more than so few
+constexpr int look_back_on_path = 1;
+constexpr int to_the_end = 0;
 constexpr double few_changes = 0.02;        // of all constraints, or so few,
 constexpr double handful = 8;               // or so few in all
 constexpr double dependent = 1e-10;         // of what a row gives way with all others: less alone comes of rounding
@@ -31,6 +34,10 @@ constexpr double stride = 0.1;              // from one softness to the next
 constexpr double least_stride = 0.8;        // as slow as it gets,
 constexpr double largest_stride = 1e-4;     // and as fast, where
 constexpr int at_once = 2;                  // guesses were enough
+constexpr int most_on_path = 100;           // linear problems along the central path,
+constexpr int stuck_on_path = 12;           // the last of so many must have brought it half as near as it was
+constexpr double path_near = 1e-3;          // residual over x from which on guesses are tried from the path,
+constexpr double path_nearer = 0.1;         // and of what it was then, to try again
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -119,13 +126,13 @@ VectorXd CondensedNewton::inverse_times(const VectorXd& r) const
   return x;
 }
 
-// Guesses from `states` on; false if they do not converge. The very first ones, which soft contact comes after, may end sooner.
-bool CondensedNewton::iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point)
+// Guesses from `states` on; false if they do not converge. Those that something else comes after end sooner: if in `look_back` of
+// them changes have not become half as many.
+bool CondensedNewton::iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point, int look_back)
 {
   std::vector<int> turns(states.kind.size(), 0), history;
   const double few = std::max(few_changes * static_cast<double>(states.closed.size() + states.kind.size()), handful);
-  const bool first = point.steps == 0;
-  const int guesses = first || programme.softness() > 0 ? max_guesses : max_last_guesses;
+  const int guesses = look_back > 0 || programme.softness() > 0 ? max_guesses : max_last_guesses;
   int fewest = INT_MAX, fewest_at = 0;
   double before = 0;
   for (int step = 0; step < guesses; ++step) {
@@ -144,27 +151,32 @@ bool CondensedNewton::iterate(CondensedProgramme& programme, ConstraintStates& s
     if (step > 0 && small && (changes == 0 || turns_on_rounding)) return true;
     if (changes == 0 && residual <= settled_residual * size) return true;
     history.push_back(changes);
-    if (first && step >= look_back && changes > few && 2 * changes > history[history.size() - 1 - look_back])
+    if (look_back > 0 && step >= look_back && changes > few &&
+        2 * changes > history[history.size() - 1 - static_cast<std::size_t>(look_back)])
       return false;  // taking turns
     before = residual;
   }
   return false;
 }
 
-// The same from a soft contact on, which becomes harder as fast as guesses converge.
-bool CondensedNewton::harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point)
+// The same from a soft contact on, which becomes harder as fast as guesses converge. If it is a `trial`, until they do not.
+bool CondensedNewton::harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point, bool trial)
 {
   double part = stride;
+  states = programme.all_closed();
+  point.nu.setZero();
   programme.soften(softness);
-  iterate(programme, states, point);
+  iterate(programme, states, point, to_the_end);
   while (softness > 0) {
     const double next = softness * part > hardest ? softness * part : 0;
-    auto trial = states;
+    auto guess = states;
     const VectorXd nu = point.nu;
     const int steps = point.steps;
     programme.soften(next);
-    if (iterate(programme, trial, point)) {
+    if (iterate(programme, guess, point, to_the_end)) {
       part = std::max(point.steps - steps <= at_once ? largest_stride : stride, part * part);
+    } else if (trial) {
+      return false;
     } else if (part < least_stride) {
       part = std::sqrt(part);
       point.nu = nu;
@@ -172,10 +184,36 @@ bool CondensedNewton::harden(CondensedProgramme& programme, double softness, Con
     } else if (next == 0) {
       return false;
     }
-    states = std::move(trial);
+    states = std::move(guess);
     softness = next;
   }
   return true;
+}
+
+// The same from points of the central path, which begins at a soft contact that is closed.
+bool CondensedNewton::follow_path(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point)
+{
+  point.nu.setZero();
+  programme.soften(softness);
+  programme.solve(programme.all_closed(), point.x, point.nu);
+  programme.soften(0);
+  auto path = programme.path_from(point.x, point.nu);
+  std::vector<double> products;
+  double wanted = path_near;
+  while (static_cast<int>(products.size()) < most_on_path && path.advance()) {
+    ++point.steps;
+    const auto off = [&] { return programme.residual(path.x(), path.nu()) / programme.size(path.x()); };
+    if (const double now = off(); now <= wanted) {
+      wanted = path_nearer * now;
+      point.x = path.x(), point.nu = path.nu();
+      states = programme.states(point.x, point.nu);
+      if (iterate(programme, states, point, now > settled_residual ? look_back_on_path : to_the_end)) return true;
+    }
+    products.push_back(path.product());
+    const auto count = products.size();
+    if (count > stuck_on_path && 2 * products.back() > products[count - 1 - stuck_on_path]) break;
+  }
+  return false;
 }
 
 CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd& e, const FeasibleSet& set) const
@@ -186,11 +224,11 @@ CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd&
   point.x = VectorXd::Zero(programme.unknowns());
   point.nu = VectorXd::Zero(programme.motions());
   auto states = programme.all_closed();
-  point.converged = iterate(programme, states, point);
+  point.converged = iterate(programme, states, point, look_back_at_first);
   if (!point.converged && programme.unknowns() > 0) {
-    states = programme.all_closed();
-    point.nu.setZero();
-    point.converged = harden(programme, softest * matrices_.w.diagonal().cwiseQuotient(matrices_.own).maxCoeff(), states, point);
+    const double softness = softest * matrices_.w.diagonal().cwiseQuotient(matrices_.own).maxCoeff();
+    point.converged = harden(programme, softness, states, point, true) || follow_path(programme, softness, states, point) ||
+                      harden(programme, softness, states, point, false);
   }
   // Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
   if (point.converged && programme.residual(point.x, point.nu) > flutter * programme.size(point.x))

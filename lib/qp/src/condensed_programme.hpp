@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/interruption.hpp"
+#include "central_path.hpp"
 #include "move_problem.hpp"
 #include "qp/condensed_newton.hpp"
 
@@ -72,6 +73,12 @@ class CondensedProgramme {
   /// for states may leave a body free. Where there are many unknowns, the factors of an earlier problem serve as long as they
   /// lead on; x is a start then, and comes out nearer by four figures.
   void solve(const ConstraintStates& states, Eigen::VectorXd& x, Eigen::VectorXd& nu);
+
+  /// The way to the solution without softness, from an x and nu near.
+  CentralPath path_from(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const
+  {
+    return {matrices_, set_, bound_of_, b_, e_, x, nu};
+  }
 
   const FeasibleSet& set() const { return set_; }
   Eigen::Index unknowns() const { return b_.size(); }

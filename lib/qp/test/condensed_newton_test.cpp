@@ -169,7 +169,7 @@ TEST(CondensedNewton, IsAmongAllGuessesOfCoulombsLaw)
       }
     }
   EXPECT_GT(several, 3);
-  EXPECT_LT(missed, 30) << "of 300";
+  EXPECT_LT(missed, 5) << "of 300";
 }
 
 // Loads that nothing balances: pulled off, pushed beyond what friction holds.

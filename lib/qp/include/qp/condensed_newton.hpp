@@ -10,7 +10,8 @@
 //
 // Guesses can take turns for ever, where friction passes forces on from point to point. So if they do not converge at once,
 // contact becomes soft first, W + a D with the compliance D of each unknown alone, and hardens again: a soft contact has
-// converged in three steps from anywhere, and each next one in as many from there.
+// converged in three steps from anywhere, and each next one in as many from there. Where that fails, as on plates that bend, an
+// interior point method leads near the solution (src/central_path.hpp), and guesses go on from there.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -49,8 +50,9 @@ class CondensedNewton {
  private:
   void measure();
   bool separate_dependent_rows();
-  static bool iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point);
-  static bool harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
+  static bool iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point, int look_back);
+  static bool harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point, bool trial);
+  static bool follow_path(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
 
   std::vector<Local> constrained_, others_;  // unknowns
   CondensedMatrices matrices_;
