@@ -376,8 +376,8 @@ SubdomainRow gauge(const FreeMotion& motion, bool alone, const partition::Decomp
       row.coefficients.back() = std::move(v);
     }
   }
-  const double norm = std::sqrt(comm.sum(square));
-  for (auto& coefficients : row.coefficients) coefficients /= norm;
+  row.scale = std::sqrt(comm.sum(square));
+  for (auto& coefficients : row.coefficients) coefficients /= row.scale;
   return row;
 }
 

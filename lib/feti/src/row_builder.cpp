@@ -169,7 +169,7 @@ void RowBuilder::add(std::span<const SubdomainRow> rows)
       lowest = std::min(lowest, subdomains[s].id);
       for (Local i = 0; i < coefficients.size(); ++i) send({subdomains[s].id, end_, i, coefficients[i]});
     }
-    if (decomposition_.rank_of(comm_.min(lowest)) == comm_.rank()) own(end_, 1);
+    if (decomposition_.rank_of(comm_.min(lowest)) == comm_.rank()) own(end_, extra.scale);
     ++end_;
   }
 }

@@ -155,7 +155,8 @@ void add_state(const StateSummary& s, Json& json)
                        {"equality", number(s.residuals.equality)},
                        {"equilibrium", number(s.residuals.equilibrium)},
                        {"penetration", number(s.residuals.penetration)},
-                       {"complementarity", number(s.residuals.complementarity)}};
+                       {"complementarity", number(s.residuals.complementarity)},
+                       {"supports", number(s.residuals.supports)}};
   json["error_estimate"] = {{"discretization", number(s.error_estimate.discretization)},
                             {"algebraic", number(s.error_estimate.algebraic)}};
   json["strain_energy"] = number(s.strain_energy);

@@ -1,6 +1,7 @@
 #include "post/compatibility.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact_bounds.hpp"
 #include "post/results.hpp"
@@ -59,6 +60,20 @@ double largest_overlap(const feti::DualProblem& problem, const std::vector<Eigen
 
 }  // namespace
 
+double distance_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u)
+{
+  const Eigen::VectorXd jumps = problem.jumps(u);
+  const auto& constraints = problem.constraints();
+  auto row = problem.jump().ranges().dirichlet;
+  double largest = 0;
+  for (const auto& held : constraints.prescribed) {
+    if (held.coupling < 0) largest = std::max(largest, std::abs(jumps[row] - held.value));
+    ++row;
+  }
+  for (const auto& held : constraints.skew_supports) largest = std::max(largest, std::abs(jumps[row++] - held.value));
+  return problem.communicator().max(largest);
+}
+
 double incompatibility(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                        const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
 {
@@ -67,7 +82,7 @@ double incompatibility(const feti::DualProblem& problem, const partition::Decomp
   const auto loads = problem.loads_of_bodies();
   const double largest = *std::max_element(size.begin(), size.end()), load = *std::max_element(loads.begin(), loads.end());
   if (!(largest > 0)) return 0;
-  double worst = comm.max(largest_overlap(problem, u, nu)) / largest;
+  double worst = std::max(comm.max(largest_overlap(problem, u, nu)), distance_from_supports(problem, u)) / largest;
   for (std::size_t b = 0; b < tear.size(); ++b) {
     const bool loaded = loads[b] > loaded_part * load;
     worst = std::max(worst, tear[b] / (loaded ? std::max(size[b], moved_part * largest) : largest));

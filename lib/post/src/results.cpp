@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "post/compatibility.hpp"
 #include "post/drift.hpp"
 
 namespace mortise::post {
@@ -94,6 +95,8 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   residuals.equilibrium = problem.imbalance(displacement, lambda, rounding.force);
   const double length = std::max(results.max_displacement, rounding.length);
   residuals.penetration = length > 0 ? results.contact.penetration / length : results.contact.penetration;
+  const double off = distance_from_supports(problem, displacement);
+  residuals.supports = length > 0 ? off / length : off;
   const double energy = std::max({results.stress.strain_energy, rounding.energy, rounding.moved, rounding.work});
   residuals.complementarity = energy > 0 ? results.contact.work_of_gaps / (2 * energy) : results.contact.work_of_gaps;
 

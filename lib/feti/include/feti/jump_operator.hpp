@@ -19,9 +19,11 @@
 namespace mortise::feti {
 
 /// An additional equality row given in terms of subdomains: coefficients over all unknowns of this rank's subdomains (empty
-/// vectors where it has none). The row stands on the rank of the lowest subdomain that has it.
+/// vectors where it has none). The row stands on the rank of the lowest subdomain that has it. `scale`: that of the row over
+/// one in lengths, the same on all ranks.
 struct SubdomainRow {
   std::vector<Eigen::VectorXd> coefficients;
+  double scale = 1;
 };
 
 /// Heavy: moves, does not copy.

@@ -6,10 +6,14 @@
 
 namespace mortise::post {
 
+/// The largest distance of a held node from where supports hold it, along what each of them prescribes. Springs are no such
+/// supports. Collective.
+double distance_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u);
+
 /// How far displacements `u` of subdomains, with the multipliers nu, are from those of one assembly: the largest distance of a
-/// copy of a node from the mean of its copies, over the largest displacement of its body if that is loaded, else of all; and the
-/// largest overlap at a contact node over the largest displacement. A plate bends by much at little energy, and a clip does
-/// beside a press, so that a small error in the energy norm alone says little of them. Collective.
+/// copy of a node from the mean of its copies, over the largest displacement of its body if that is loaded, else of all; and
+/// the largest overlap at a contact node and distance_from_supports() over the largest displacement. A plate bends by much at
+/// little energy, and a clip does beside a press, so that a small error in the energy norm alone says little of them. Collective.
 double incompatibility(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                        const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu);
 

@@ -19,6 +19,7 @@ struct Residuals {
   double projected_gradient = 0, equality = 0, equilibrium = 0;
   double penetration = 0;      ///< over the largest displacement
   double complementarity = 0;  ///< sum of |gap * force| over twice the strain energy
+  double supports = 0;         ///< how far held nodes are from where they are held, over the largest displacement
 };
 
 /// What one equilibrium claims. A number that is not finite is a failure, but for error estimates, where NaN says that none was
