@@ -8,7 +8,7 @@ def material(random):
 
 def law(random, laws):
     found = random.choice(laws)
-    return {"friction": found} if found else {}
+    return {"friction": dict(found)} if found else {}  # of its own: relations scale each contact for itself
 
 
 def blocks(random):
