@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "central_path.hpp"
@@ -38,6 +39,11 @@ constexpr int most_on_path = 100;           // linear problems along the central
 constexpr int stuck_on_path = 12;           // the last of so many must have brought it half as near as it was
 constexpr double path_near = 1e-3;          // residual over x from which on guesses are tried from the path,
 constexpr double path_nearer = 0.1;         // and of what it was then, to try again
+constexpr int most_repeated = 2000;         // unknowns: more take minutes
+constexpr int patience_with_radii = 6;      // radii in a row without a residual that is so much
+constexpr double nearer = 0.7;              // of the least before
+constexpr double end_of_path = 1e-13;       // of the first product
+constexpr double settled_on_path = 1e-9;    // residual over x at which radii are those of the forces
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -216,6 +222,38 @@ bool CondensedNewton::follow_path(CondensedProgramme& programme, double softness
   return false;
 }
 
+// Coulomb's law by radii that are given, those of the normal forces before: each of these programmes is convex, so its path leads
+// to its solution, and where rows depend on each other to the middle of all.
+bool CondensedNewton::repeat_paths(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point)
+{
+  if (!programme.follows() || programme.unknowns() > most_repeated) return false;
+  point.nu.setZero();
+  programme.soften(softness);
+  programme.solve(programme.all_closed(), point.x, point.nu);
+  programme.soften(0);
+  double best = std::numeric_limits<double>::infinity();
+  for (int since_best = 0; since_best < patience_with_radii;) {
+    auto path = programme.path_with_radii(point.x, point.nu);
+    std::vector<double> products{path.product()};
+    while (static_cast<int>(products.size()) < most_on_path && products.back() > end_of_path * products[0] && path.advance()) {
+      ++point.steps;
+      products.push_back(path.product());
+      const auto count = products.size();
+      if (count > stuck_on_path && 2 * products.back() > products[count - 1 - stuck_on_path]) break;
+    }
+    point.x = path.x(), point.nu = path.nu();
+    const double now = programme.residual(point.x, point.nu) / programme.size(point.x);
+    if (!std::isfinite(now)) return false;
+    if (now <= settled_on_path) {
+      states = programme.states(point.x, point.nu);
+      return true;
+    }
+    since_best = now < nearer * best ? 0 : since_best + 1;
+    best = std::min(best, now);
+  }
+  return false;
+}
+
 CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd& e, const FeasibleSet& set) const
 {
   CondensedProgramme programme(matrices_, contact_, set.compact(), b(constrained_) - coupling_.transpose() * b(others_),
@@ -228,7 +266,7 @@ CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd&
   if (!point.converged && programme.unknowns() > 0) {
     const double softness = softest * matrices_.w.diagonal().cwiseQuotient(matrices_.own).maxCoeff();
     point.converged = harden(programme, softness, states, point, true) || follow_path(programme, softness, states, point) ||
-                      harden(programme, softness, states, point, false);
+                      repeat_paths(programme, softness, states, point) || harden(programme, softness, states, point, false);
   }
   // Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
   if (point.converged && programme.residual(point.x, point.nu) > flutter * programme.size(point.x))

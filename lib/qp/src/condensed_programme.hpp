@@ -80,6 +80,25 @@ class CondensedProgramme {
     return {matrices_, set_, bound_of_, b_, e_, x, nu};
   }
 
+  /// The same with radii that are given: those of x.
+  CentralPath path_with_radii(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const
+  {
+    std::vector<Bound> bounds(set_.bounds().begin(), set_.bounds().end());
+    std::vector<Disc> discs(set_.discs().begin(), set_.discs().end());
+    for (std::size_t d = 0; d < discs.size(); ++d) {
+      if (bound_of_[d] < 0) continue;
+      discs[d].radius = discs[d].coefficient * std::max(x[discs[d].normal], 0.0);
+      discs[d].coefficient = 0;
+      discs[d].normal = -1;
+    }
+    const std::vector<int> given(discs.size(), -1);
+    return {matrices_, FeasibleSet(std::move(bounds), std::move(discs)), given, b_, e_, x, nu};
+  }
+  bool follows() const
+  {
+    return std::any_of(bound_of_.begin(), bound_of_.end(), [](int bound) { return bound >= 0; });
+  }
+
   const FeasibleSet& set() const { return set_; }
   Eigen::Index unknowns() const { return b_.size(); }
   Eigen::Index motions() const { return e_.size(); }

@@ -52,6 +52,7 @@ class CondensedNewton {
   bool separate_dependent_rows();
   static bool iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point, int look_back);
   static bool harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point, bool trial);
+  static bool repeat_paths(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
   static bool follow_path(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
 
   std::vector<Local> constrained_, others_;  // unknowns
