@@ -214,9 +214,9 @@ void print_results(const post::Results& results, const io::Summary& s, Log& log)
   print_contacts(s, log);
   log.line(
       "  residuals           gradient {:.1e}, equality {:.1e}, equilibrium {:.1e}, penetration {:.1e}, complementarity {:.1e}, "
-      "supports {:.1e}",
+      "supports {:.1e}, interfaces {:.1e}",
       s.residuals.projected_gradient, s.residuals.equality, s.residuals.equilibrium, s.residuals.penetration,
-      s.residuals.complementarity, s.residuals.supports);
+      s.residuals.complementarity, s.residuals.supports, s.residuals.interfaces);
   log.line("  work                {} products with F, {} outer iterations, {} friction steps", s.hessian_multiplications,
            s.outer_iterations, s.friction_steps);
 }

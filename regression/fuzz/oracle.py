@@ -25,7 +25,8 @@ FOREIGN = re.compile(r"std::|what\(\)|basic_string|vector::|map::at|bad_alloc|te
 NOT_A_NUMBER = re.compile(r"(?<![\w.\"-])-?(nan|inf)(?![\w.\"])", re.IGNORECASE)
 BALANCE_FAR_AWAY = 1e-3  # the program's own limit
 # Limits of residuals and of the balance of forces for a run that says solved.
-RESIDUALS = {"equilibrium": 1e-6, "equality": 1e-2, "projected_gradient": 0.3, "penetration": 5e-2, "complementarity": 5e-2, "supports": 5e-2}
+RESIDUALS = {"equilibrium": 1e-6, "equality": 1e-2, "projected_gradient": 0.3, "penetration": 5e-2, "complementarity": 5e-2,
+             "supports": 5e-2, "interfaces": 5e-2}
 
 
 @dataclasses.dataclass

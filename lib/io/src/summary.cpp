@@ -156,7 +156,8 @@ void add_state(const StateSummary& s, Json& json)
                        {"equilibrium", number(s.residuals.equilibrium)},
                        {"penetration", number(s.residuals.penetration)},
                        {"complementarity", number(s.residuals.complementarity)},
-                       {"supports", number(s.residuals.supports)}};
+                       {"supports", number(s.residuals.supports)},
+                       {"interfaces", number(s.residuals.interfaces)}};
   json["error_estimate"] = {{"discretization", number(s.error_estimate.discretization)},
                             {"algebraic", number(s.error_estimate.algebraic)}};
   json["strain_energy"] = number(s.strain_energy);

@@ -68,7 +68,7 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "peak_memory_bytes",
                                "communication"}));
   EXPECT_EQ(keys(json["residuals"]),
-            (Names{"projected_gradient", "equality", "equilibrium", "penetration", "complementarity", "supports"}));
+            (Names{"projected_gradient", "equality", "equilibrium", "penetration", "complementarity", "supports", "interfaces"}));
   EXPECT_EQ(keys(json["error_estimate"]), (Names{"discretization", "algebraic"}));
   EXPECT_EQ(keys(json["reactions"][0]), (Names{"boundary", "force", "moment", "name"}));
   EXPECT_EQ(keys(json["max_von_mises_place"]), (Names{"coordinates", "body"}));

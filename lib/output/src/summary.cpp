@@ -36,7 +36,8 @@ void add_work(const friction::Result& solved, io::StateSummary& summary)
 void add_figures(const post::Results& results, const mesh::Catalogue& catalogue, io::StateSummary& summary)
 {
   const auto& r = results.residuals;
-  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration, r.complementarity, r.supports};
+  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration, r.complementarity, r.supports,
+                       r.interfaces};
   summary.error_estimate.discretization = results.mesh_error.relative;
   summary.error_estimate.algebraic = results.algebraic_error;
   summary.strain_energy = results.stress.strain_energy;

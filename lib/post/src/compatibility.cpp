@@ -43,17 +43,25 @@ Tears tears(const partition::Decomposition& decomposition, const partition::Inte
   return {{largest.begin(), middle}, {middle, largest.end()}};
 }
 
-// The largest overlap at a contact node of this rank. Collective.
-double largest_overlap(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
+// At the contact nodes of this rank: the largest overlap, and the largest distance across what is bonded. Collective.
+struct Openings {
+  double overlap = 0, bonded = 0;
+};
+Openings openings(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
 {
   const Eigen::VectorXd jumps = problem.jumps(u);
   const auto& contacts = problem.constraints().contacts;
   const auto bound = contact_bounds(problem, nu);
-  double largest = 0;
+  Openings largest;
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     const auto& node = contacts.nodes[i];
-    if (contacts.bonded[i]) continue;
-    largest = std::max(largest, (jumps[problem.node_rows()[i].normal] - bound[node.row]) / std::max(node.weight, 1.0));
+    const auto& rows = problem.node_rows()[i];
+    const double weight = std::max(node.weight, 1.0);
+    const auto opening = [&](int k) { return (jumps[rows.normal + k] - bound[node.row + static_cast<std::size_t>(k)]) / weight; };
+    if (!contacts.bonded[i])
+      largest.overlap = std::max(largest.overlap, opening(0));
+    else
+      for (int k = 0; k <= rows.tangents; ++k) largest.bonded = std::max(largest.bonded, std::abs(opening(k)));
   }
   return largest;
 }
@@ -74,6 +82,15 @@ double distance_from_supports(const feti::DualProblem& problem, const std::vecto
   return problem.communicator().max(largest);
 }
 
+double distance_between_parts(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
+                              const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u,
+                              const Eigen::VectorXd& nu)
+{
+  const auto& comm = problem.communicator();
+  const auto tear = tears(decomposition, interface, u, problem.dimension(), comm).tear;
+  return std::max(comm.max(openings(problem, u, nu).bonded), *std::max_element(tear.begin(), tear.end()));
+}
+
 double incompatibility(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                        const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
 {
@@ -82,7 +99,7 @@ double incompatibility(const feti::DualProblem& problem, const partition::Decomp
   const auto loads = problem.loads_of_bodies();
   const double largest = *std::max_element(size.begin(), size.end()), load = *std::max_element(loads.begin(), loads.end());
   if (!(largest > 0)) return 0;
-  double worst = std::max(comm.max(largest_overlap(problem, u, nu)), distance_from_supports(problem, u)) / largest;
+  double worst = std::max(comm.max(openings(problem, u, nu).overlap), distance_from_supports(problem, u)) / largest;
   for (std::size_t b = 0; b < tear.size(); ++b) {
     const bool loaded = loads[b] > loaded_part * load;
     worst = std::max(worst, tear[b] / (loaded ? std::max(size[b], moved_part * largest) : largest));

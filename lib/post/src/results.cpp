@@ -97,6 +97,8 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   residuals.penetration = length > 0 ? results.contact.penetration / length : results.contact.penetration;
   const double off = distance_from_supports(problem, displacement);
   residuals.supports = length > 0 ? off / length : off;
+  const double apart = distance_between_parts(problem, bodies.decomposition, bodies.interface, displacement, nu);
+  residuals.interfaces = length > 0 ? apart / length : apart;
   const double energy = std::max({results.stress.strain_energy, rounding.energy, rounding.moved, rounding.work});
   residuals.complementarity = energy > 0 ? results.contact.work_of_gaps / (2 * energy) : results.contact.work_of_gaps;
 

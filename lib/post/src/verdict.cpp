@@ -14,6 +14,7 @@ constexpr double gradient_limit = 0.5;
 constexpr double equality_limit = 1e-2;
 constexpr double penetration_limit = 5e-2;      // of the largest displacement
 constexpr double supports_limit = 5e-2;         // of the largest displacement
+constexpr double interfaces_limit = 5e-2;       // of the largest displacement
 constexpr double complementarity_limit = 5e-2;  // of twice the strain energy
 // Nearly incompressible bodies leave gradients of 10 and 300 where the energy is right to 0.3 and 0.5 %: multipliers that waver
 // from node to node cost no energy. So an error below this excuses the gradient.
@@ -42,6 +43,7 @@ std::string unfit(const Evidence& e)
   check("equilibrium", e.equilibrium, equilibrium_limit);
   check("penetration", e.penetration, std::max(penetration_limit, e.tolerance));
   check("supports", e.supports, std::max(supports_limit, e.tolerance));
+  check("interfaces", e.interfaces, std::max(interfaces_limit, e.tolerance));
   check("complementarity", e.complementarity, std::max(complementarity_limit, e.tolerance));
   check("balance of forces", e.imbalance, imbalance_limit);
   if (!std::isnan(e.algebraic_error))

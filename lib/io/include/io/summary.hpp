@@ -19,7 +19,8 @@ struct StateSummary {
   bool converged = false;
   int friction_steps = 0, outer_iterations = 0, hessian_multiplications = 0;
   struct {
-    double projected_gradient = 0, equality = 0, equilibrium = 0, penetration = 0, complementarity = 0, supports = 0;
+    double projected_gradient = 0, equality = 0, equilibrium = 0, penetration = 0, complementarity = 0, supports = 0,
+           interfaces = 0;
   } residuals;
   struct {
     double discretization = std::numeric_limits<double>::quiet_NaN();  ///< relative, in the energy norm; NaN: not estimated

@@ -10,6 +10,12 @@ namespace mortise::post {
 /// supports. Collective.
 double distance_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u);
 
+/// How far parts that are one are from each other: the largest distance of a copy of a node from the mean of its copies, and of a
+/// node of a bonded contact from where the other side holds it; nu as below. Collective.
+double distance_between_parts(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
+                              const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u,
+                              const Eigen::VectorXd& nu);
+
 /// How far displacements `u` of subdomains, with the multipliers nu, are from those of one assembly: the largest distance of a
 /// copy of a node from the mean of its copies, over the largest displacement of its body if that is loaded, else of all; and
 /// the largest overlap at a contact node and distance_from_supports() over the largest displacement. A plate bends by much at

@@ -20,6 +20,7 @@ struct Residuals {
   double penetration = 0;      ///< over the largest displacement
   double complementarity = 0;  ///< sum of |gap * force| over twice the strain energy
   double supports = 0;         ///< how far held nodes are from where they are held, over the largest displacement
+  double interfaces = 0;       ///< how far copies of a node, and bonded nodes, are from each other, over the same
 };
 
 /// What one equilibrium claims. A number that is not finite is a failure, but for error estimates, where NaN says that none was
