@@ -50,8 +50,8 @@ TEST(Verdict, every_number_can_spoil_it)
 {
   using Member = double Evidence::*;
   for (const Member m : std::initializer_list<Member>{&Evidence::projected_gradient, &Evidence::equality, &Evidence::equilibrium,
-                                                      &Evidence::penetration, &Evidence::complementarity, &Evidence::supports, &Evidence::interfaces,
-                                                      &Evidence::imbalance}) {
+                                                      &Evidence::penetration, &Evidence::complementarity, &Evidence::supports,
+                                                      &Evidence::interfaces, &Evidence::imbalance}) {
     for (const double bad : {1.0, std::numeric_limits<double>::infinity(), nan}) {
       auto e = good();
       e.*m = bad;
