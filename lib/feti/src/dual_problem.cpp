@@ -365,4 +365,11 @@ std::vector<double> DualProblem::shortenings(const Eigen::VectorXd& nu) const
   return result;
 }
 
+Eigen::Index DualProblem::first_coupling_motion() const
+{
+  const auto& sections = constraints_.pretension_sections;
+  const auto unknown = [](const auto& section) { return section.preload.force.has_value(); };
+  return kernel_dimension() + std::count_if(sections.begin(), sections.end(), unknown);
+}
+
 }  // namespace mortise::feti

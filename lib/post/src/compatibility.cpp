@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constraint/coupling.hpp"
 #include "contact_bounds.hpp"
 #include "post/results.hpp"
 
@@ -66,18 +67,30 @@ Openings openings(const feti::DualProblem& problem, const std::vector<Eigen::Vec
   return largest;
 }
 
+// The value of each row of Constraints::prescribed of this rank: what supports prescribe, and what the motions of rigid couplings
+// make of it.
+std::vector<double> places_of_held_nodes(const feti::DualProblem& problem, const Eigen::VectorXd& nu)
+{
+  const auto& constraints = problem.constraints();
+  std::vector<double> places;
+  for (const auto& held : constraints.prescribed) places.push_back(held.value);
+  Eigen::Index next = problem.first_coupling_motion();
+  for (const auto& motion : constraint::unknown_motions(constraints, problem.dimension())) {
+    for (const auto& [row, part] : motion.rows) places[row] += part * nu[next];
+    ++next;
+  }
+  return places;
+}
+
 }  // namespace
 
-double distance_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u)
+double distance_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
 {
   const Eigen::VectorXd jumps = problem.jumps(u);
   const auto& constraints = problem.constraints();
   auto row = problem.jump().ranges().dirichlet;
   double largest = 0;
-  for (const auto& held : constraints.prescribed) {
-    if (held.coupling < 0) largest = std::max(largest, std::abs(jumps[row] - held.value));
-    ++row;
-  }
+  for (const double place : places_of_held_nodes(problem, nu)) largest = std::max(largest, std::abs(jumps[row++] - place));
   for (const auto& held : constraints.skew_supports) largest = std::max(largest, std::abs(jumps[row++] - held.value));
   return problem.communicator().max(largest);
 }
@@ -99,7 +112,7 @@ double incompatibility(const feti::DualProblem& problem, const partition::Decomp
   const auto loads = problem.loads_of_bodies();
   const double largest = *std::max_element(size.begin(), size.end()), load = *std::max_element(loads.begin(), loads.end());
   if (!(largest > 0)) return 0;
-  double worst = std::max(comm.max(openings(problem, u, nu).overlap), distance_from_supports(problem, u)) / largest;
+  double worst = std::max(comm.max(openings(problem, u, nu).overlap), distance_from_supports(problem, u, nu)) / largest;
   for (std::size_t b = 0; b < tear.size(); ++b) {
     const bool loaded = loads[b] > loaded_part * load;
     worst = std::max(worst, tear[b] / (loaded ? std::max(size[b], moved_part * largest) : largest));

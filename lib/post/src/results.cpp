@@ -95,7 +95,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   residuals.equilibrium = problem.imbalance(displacement, lambda, rounding.force);
   const double length = std::max(results.max_displacement, rounding.length);
   residuals.penetration = length > 0 ? results.contact.penetration / length : results.contact.penetration;
-  const double off = distance_from_supports(problem, displacement);
+  const double off = distance_from_supports(problem, displacement, nu);
   residuals.supports = length > 0 ? off / length : off;
   const double apart = distance_between_parts(problem, bodies.decomposition, bodies.interface, displacement, nu);
   residuals.interfaces = length > 0 ? apart / length : apart;

@@ -82,6 +82,9 @@ class DualProblem {
   const Vector* balancing_multipliers() const { return balancing_multipliers_.get(); }
   /// The shortening of each of constraints().pretension_sections, given or found.
   std::vector<double> shortenings(const Eigen::VectorXd& nu) const;
+  /// Where in nu the unknown motions of rigid couplings begin, in the order of constraint::unknown_motions(): behind the kernels'
+  /// coordinates and the shortenings that are unknown.
+  Eigen::Index first_coupling_motion() const;
 
   /// The force of each owned row in physical units, from the multipliers of the scaled rows of B.
   Eigen::VectorXd forces(const Vector& lambda) const;

@@ -6,12 +6,12 @@
 
 namespace mortise::post {
 
-/// The largest distance of a held node from where supports hold it, along what each of them prescribes. Springs are no such
-/// supports. Collective.
-double distance_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u);
+/// The largest distance of a held node from where supports hold it, along what each of them prescribes, or from where the motion of
+/// its rigid coupling's point takes it; nu are the multipliers that u belongs to. Springs are no such supports. Collective.
+double distance_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu);
 
 /// How far parts that are one are from each other: the largest distance of a copy of a node from the mean of its copies, and of a
-/// node of a bonded contact from where the other side holds it; nu as below. Collective.
+/// node of a bonded contact from where the other side holds it; nu as above. Collective.
 double distance_between_parts(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                               const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u,
                               const Eigen::VectorXd& nu);
