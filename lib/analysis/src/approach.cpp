@@ -71,6 +71,9 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
     approach.patience = products_of_check;
   else if (approach.algorithm == "auto") {
     approach.patience = patience_with_products(effort(), comm);
+    // All that comes before a direct solution together may cost as much as that.
+    if (approach.kind == Approach::Kind::smaller_subdomains && approach.patience)
+      approach.patience->products = std::max(approach.patience->products - approach.spent, products_on_large_ones);
     if (approach.kind == Approach::Kind::as_asked && approach.patience.value_or(INT_MAX).products > products_on_large_ones &&
         has_large_subdomains(assembly, comm)) {
       approach.patience = products_on_large_ones;

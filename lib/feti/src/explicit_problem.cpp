@@ -118,7 +118,9 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
     whole.add_parts(parts);
     if (springs) whole.w(spring_rows, spring_rows) += springs->compliance();
     newton_ = std::make_unique<qp::CondensedNewton>(std::move(whole.w), std::move(whole.h), std::move(whole.c), set);
+    separated_ = newton_->separated();
   });
+  separated_ = comm.any(separated_);
 }
 
 ExplicitProblem::~ExplicitProblem() = default;
@@ -195,31 +197,36 @@ void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
   }
 }
 
-ExplicitProblem::Result ExplicitProblem::solve() const
+ExplicitProblem::Result ExplicitProblem::solve(const Vector& linear, Eigen::VectorXd e, const Result* near) const
 {
   const auto& comm = problem_.communicator();
-  Eigen::VectorXd e = problem_.equality().right_side();
-  const auto linear = to_root(elimination_->reduce(problem_.linear(), e));
+  const Eigen::VectorXd right_side = e;
+  const auto reduced = to_root(elimination_->reduce(linear, e));
+  const auto start = near ? to_root(near->x) : std::vector<double>();
   const qp::FeasibleSet set = whole_set();
-  std::vector<double> x, nu;
+  const auto map = [](const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  std::vector<double> x, nu, reaction;
   std::vector<long long> outcome;
   collectively(comm, [&] {
     if (!comm.root()) return;
-    const auto found =
-        newton_->solve(Eigen::Map<const Eigen::VectorXd>(linear.data(), static_cast<Eigen::Index>(linear.size())), e, set);
+    qp::CondensedNewton::Point from;
+    if (near) from = {map(start), near->nu};
+    const auto found = newton_->solve(map(reduced), e, set, near ? &from : nullptr);
     x.assign(found.x.begin(), found.x.end());
     nu.assign(found.nu.begin(), found.nu.end());
+    reaction.assign(found.reaction.begin(), found.reaction.end());
     outcome = {found.converged ? 1 : 0, found.steps};
   });
   comm.broadcast(nu);
   comm.broadcast(outcome);
-  Result result{from_root(std::move(x)), Eigen::Map<const Eigen::VectorXd>(nu.data(), static_cast<Eigen::Index>(nu.size())),
-                outcome[0] == 1, static_cast<int>(outcome[1])};
-  elimination_->complete(problem_.linear(), result.nu, result.x);
+  Result result{from_root(std::move(x)), map(nu), outcome[0] == 1, static_cast<int>(outcome[1]), from_root(std::move(reaction))};
+  elimination_->complete(linear, result.nu, result.x);
   const auto& equality = problem_.equality();
   if (!comm.any(!problem_.set().constrained().empty()) && equality.size() > 0) {
     // A body may be free to change its shape and have no other forces than those of G x = e: rounding of d is large beside them.
-    const Eigen::VectorXd lacking = equality.right_side() - equality.apply(result.x);
+    const Eigen::VectorXd lacking = right_side - equality.apply(result.x);
     equality.add_transpose(1, equality.solve(lacking), result.x);
   }
   return result;

@@ -11,11 +11,19 @@ qp::Means means_of(const DualProblem& problem, qp::Budget& budget)
 {
   const auto make_explicit = [&problem] {
     const auto matrices = std::make_shared<ExplicitProblem>(problem);
-    const auto solve = [matrices] {
-      auto found = matrices->solve();
-      return qp::ExplicitProgramme::Point{std::move(found.x), std::move(found.nu), found.converged};
+    using Point = qp::ExplicitProgramme::Point;
+    const auto point = [](ExplicitProblem::Result found) {
+      return Point{std::move(found.x), std::move(found.nu), found.converged, std::move(found.reaction)};
     };
-    return qp::ExplicitProgramme{matrices, solve};
+    const auto solve = [matrices, point] { return point(matrices->solve()); };
+    const auto go_on = [matrices, point](const Vector& linear, const Eigen::VectorXd& e, const Point& near) {
+      const ExplicitProblem::Result from{Vector(near.x, Teuchos::Copy), near.nu, near.converged, 0,
+                                         Vector(*near.reaction, Teuchos::Copy)};
+      return point(matrices->solve(linear, e, &from));
+    };
+    qp::ExplicitProgramme programme{matrices, solve};
+    if (matrices->separated()) programme.go_on = go_on;
+    return programme;
   };
   return {budget, problem.preconditioner(), make_explicit};
 }

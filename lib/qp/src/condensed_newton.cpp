@@ -4,6 +4,7 @@
 #include <climits>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "central_path.hpp"
@@ -39,7 +40,8 @@ constexpr int most_on_path = 100;           // linear problems along the central
 constexpr int stuck_on_path = 12;           // the last of so many must have brought it half as near as it was
 constexpr double path_near = 1e-3;          // residual over x from which on guesses are tried from the path,
 constexpr double path_nearer = 0.1;         // and of what it was then, to try again
-constexpr int most_repeated = 2000;         // unknowns: more take minutes
+constexpr Eigen::Index few_unknowns = 2000; // up to which a factor of W takes a moment; beyond, as long as many guesses,
+constexpr int guesses_of_path = 100;        // and a path of them as long as so many
 constexpr int patience_with_radii = 6;      // radii in a row without a residual that is so much
 constexpr double nearer = 0.7;              // of the least before
 constexpr double end_of_path = 1e-13;       // of the first product
@@ -77,6 +79,210 @@ VectorXd diagonal_of_inverse(const Eigen::LLT<MatrixXd>& factor)
   return result;
 }
 
+// Looks for the states of one solution: by guesses from closed contact, and from what leads near it where these take turns.
+class Search {
+ public:
+  Search(const CondensedMatrices& matrices, const Eigen::LLT<MatrixXd>& factor_of_w, const FeasibleSet& set, VectorXd b,
+         VectorXd e)
+      : programme_(matrices, factor_of_w, set, std::move(b), std::move(e)), states_(programme_.all_closed())
+  {
+    point_.x = VectorXd::Zero(programme_.unknowns());
+    point_.nu = VectorXd::Zero(programme_.motions());
+    if (programme_.unknowns() > 0) softest_ = softest * matrices.w.diagonal().cwiseQuotient(matrices.own).maxCoeff();
+  }
+
+  // From closed contact that sticks, by whatever leads to a solution.
+  bool from_anywhere()
+  {
+    if (guess(look_back_at_first)) return true;
+    if (programme_.unknowns() == 0) return false;
+    const bool small = programme_.unknowns() <= few_unknowns;
+    return harden(small ? 0 : guesses_of_path) || follow_path() || (small && repeat_paths()) || harden(INT_MAX);
+  }
+  // From the states at a point near.
+  bool from(VectorXd x, VectorXd nu)
+  {
+    point_.x = std::move(x);
+    point_.nu = std::move(nu);
+    states_ = programme_.states(point_.x, point_.nu);
+    return guess(to_the_end);
+  }
+  // Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
+  void polish()
+  {
+    const double before = off();
+    if (before <= flutter) return;
+    const VectorXd x = point_.x, nu = point_.nu;
+    programme_.solve(states_, point_.x, point_.nu);
+    if (off() <= before) return;
+    point_.x = x;
+    point_.nu = nu;
+  }
+
+  const CondensedNewton::Point& point() const { return point_; }
+  VectorXd reaction() const { return programme_.gradient(point_.x, point_.nu); }
+
+ private:
+  // The hardest of the soft contacts that have converged.
+  struct Soft {
+    double softness, stride;  // to the next one
+    ConstraintStates states;
+    VectorXd nu;
+  };
+
+  // The residual over x.
+  double off() const { return programme_.residual(point_.x, point_.nu) / programme_.size(point_.x); }
+  bool guess(int look_back);
+  bool harden(int patience);
+  bool follow_path();
+  bool repeat_paths();
+  void start_soft();
+  template <class Visit>
+  static bool walk(CentralPath& path, double last, const Visit& is_end);
+
+  CondensedProgramme programme_;
+  ConstraintStates states_;
+  CondensedNewton::Point point_;
+  double softest_ = 0;
+  std::optional<Soft> soft_;
+};
+
+// Guesses from `states_` on; false if they do not converge. Those that something else comes after end sooner: if in `look_back`
+// of them changes have not become half as many.
+bool Search::guess(int look_back)
+{
+  std::vector<int> turns(states_.kind.size(), 0), history;
+  const double few = std::max(few_changes * static_cast<double>(states_.closed.size() + states_.kind.size()), handful);
+  const int guesses = look_back > 0 || programme_.softness() > 0 ? max_guesses : max_last_guesses;
+  int fewest = INT_MAX, fewest_at = 0;
+  double before = 0;
+  for (int step = 0; step < guesses; ++step) {
+    stop_if_requested();
+    programme_.solve(states_, point_.x, point_.nu);
+    ++point_.steps;
+    const double residual = programme_.residual(point_.x, point_.nu), size = programme_.size(point_.x);
+    auto next = programme_.states(point_.x, point_.nu);
+    const int changes = compare(states_, next, turns);
+    states_ = std::move(next);
+    if (changes < fewest) fewest = changes, fewest_at = step;
+    const bool stands = residual > stalled * before, rounded = stands && residual <= roundings * programme_.rounding(point_.x);
+    const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
+    // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
+    const bool turns_on_rounding = residual <= flutter * size || (rounded && step - fewest_at >= idle);
+    if (step > 0 && small && (changes == 0 || turns_on_rounding)) return true;
+    if (changes == 0 && residual <= settled_residual * size) return true;
+    history.push_back(changes);
+    if (look_back > 0 && step >= look_back && changes > few &&
+        2 * changes > history[history.size() - 1 - static_cast<std::size_t>(look_back)])
+      return false;  // taking turns
+    before = residual;
+  }
+  return false;
+}
+
+// Guesses from a soft contact on, which becomes harder as fast as they converge. Where they do not, it becomes harder slower, for
+// as many guesses as `patience` says; the next call goes on from there.
+bool Search::harden(int patience)
+{
+  if (!soft_) {
+    states_ = programme_.all_closed();
+    point_.nu.setZero();
+    programme_.soften(softest_);
+    guess(to_the_end);
+    soft_ = Soft{softest_, stride, states_, point_.nu};
+  }
+  auto& [softness, part, states, nu] = *soft_;
+  int left = INT_MAX;  // guesses
+  while (softness > 0 && left > 0) {
+    const double next = softness * part > hardest ? softness * part : 0;
+    const int before = point_.steps;
+    states_ = states;
+    point_.nu = nu;
+    programme_.soften(next);
+    const bool converged = guess(to_the_end), slowest = part >= least_stride;
+    const int taken = point_.steps - before;
+    if (!converged) left = std::min(left, patience);
+    if (left < INT_MAX) left -= taken;
+    if (!converged && slowest && next == 0) break;
+    if (!converged && !slowest) {
+      part = std::sqrt(part);
+      continue;
+    }
+    if (converged) part = std::max(taken <= at_once ? largest_stride : stride, part * part);
+    softness = next;
+    states = states_;
+    nu = point_.nu;
+  }
+  programme_.soften(0);
+  return softness == 0;
+}
+
+// The point of a soft contact that is closed.
+void Search::start_soft()
+{
+  point_.nu.setZero();
+  programme_.soften(softest_);
+  programme_.solve(programme_.all_closed(), point_.x, point_.nu);
+  programme_.soften(0);
+}
+
+// Along a path until `is_end` of a point, its product is `last` over the first, or it leads nowhere. Whether it was the first.
+template <class Visit>
+bool Search::walk(CentralPath& path, double last, const Visit& is_end)
+{
+  std::vector<double> products{path.product()};
+  while (static_cast<int>(products.size()) < most_on_path && products.back() > last * products[0] && path.advance()) {
+    if (is_end()) return true;
+    products.push_back(path.product());
+    const auto count = products.size();
+    if (count > stuck_on_path && 2 * products.back() > products[count - 1 - stuck_on_path]) break;
+  }
+  return false;
+}
+
+// Guesses from points of the central path that come near.
+bool Search::follow_path()
+{
+  start_soft();
+  auto path = programme_.path_from(point_.x, point_.nu);
+  double wanted = path_near;
+  return walk(path, 0, [&] {
+    ++point_.steps;
+    const double now = programme_.residual(path.x(), path.nu()) / programme_.size(path.x());
+    if (!(now <= wanted)) return false;
+    wanted = path_nearer * now;
+    point_.x = path.x(), point_.nu = path.nu();
+    states_ = programme_.states(point_.x, point_.nu);
+    return guess(now > settled_residual ? look_back_on_path : to_the_end);
+  });
+}
+
+// Coulomb's law by radii that are given, those of the normal forces before: each of these programmes is convex, so its path leads
+// to its solution, and where rows depend on each other to the middle of all.
+bool Search::repeat_paths()
+{
+  if (!programme_.follows()) return false;
+  start_soft();
+  double best = std::numeric_limits<double>::infinity();
+  for (int since_best = 0; since_best < patience_with_radii;) {
+    auto path = programme_.path_with_radii(point_.x, point_.nu);
+    walk(path, end_of_path, [&] {
+      ++point_.steps;
+      return false;
+    });
+    point_.x = path.x(), point_.nu = path.nu();
+    const double now = off();
+    if (!std::isfinite(now)) return false;
+    if (now <= settled_on_path) {
+      states_ = programme_.states(point_.x, point_.nu);
+      return true;
+    }
+    since_best = now < nearer * best ? 0 : since_best + 1;
+    best = std::min(best, now);
+  }
+  return false;
+}
+
 }  // namespace
 
 CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const FeasibleSet& set) : constrained_(set.constrained())
@@ -98,7 +304,8 @@ CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const Feasi
   matrices_.c = std::move(c);
   matrices_.c.noalias() += g_free * motion_;
   measure();
-  if (separate_dependent_rows()) measure();
+  separated_ = separate_dependent_rows();
+  if (separated_) measure();
 }
 
 // What each point gives way alone.
@@ -132,149 +339,21 @@ VectorXd CondensedNewton::inverse_times(const VectorXd& r) const
   return x;
 }
 
-// Guesses from `states` on; false if they do not converge. Those that something else comes after end sooner: if in `look_back` of
-// them changes have not become half as many.
-bool CondensedNewton::iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point, int look_back)
+CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd& e, const FeasibleSet& set,
+                                              const Point* near) const
 {
-  std::vector<int> turns(states.kind.size(), 0), history;
-  const double few = std::max(few_changes * static_cast<double>(states.closed.size() + states.kind.size()), handful);
-  const int guesses = look_back > 0 || programme.softness() > 0 ? max_guesses : max_last_guesses;
-  int fewest = INT_MAX, fewest_at = 0;
-  double before = 0;
-  for (int step = 0; step < guesses; ++step) {
-    stop_if_requested();
-    programme.solve(states, point.x, point.nu);
-    ++point.steps;
-    const double residual = programme.residual(point.x, point.nu), size = programme.size(point.x);
-    auto next = programme.states(point.x, point.nu);
-    const int changes = compare(states, next, turns);
-    states = std::move(next);
-    if (changes < fewest) fewest = changes, fewest_at = step;
-    const bool stands = residual > stalled * before, rounded = stands && residual <= roundings * programme.rounding(point.x);
-    const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
-    // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
-    const bool turns_on_rounding = residual <= flutter * size || (rounded && step - fewest_at >= idle);
-    if (step > 0 && small && (changes == 0 || turns_on_rounding)) return true;
-    if (changes == 0 && residual <= settled_residual * size) return true;
-    history.push_back(changes);
-    if (look_back > 0 && step >= look_back && changes > few &&
-        2 * changes > history[history.size() - 1 - static_cast<std::size_t>(look_back)])
-      return false;  // taking turns
-    before = residual;
-  }
-  return false;
-}
-
-// The same from a soft contact on, which becomes harder as fast as guesses converge. If it is a `trial`, until they do not.
-bool CondensedNewton::harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point, bool trial)
-{
-  double part = stride;
-  states = programme.all_closed();
-  point.nu.setZero();
-  programme.soften(softness);
-  iterate(programme, states, point, to_the_end);
-  while (softness > 0) {
-    const double next = softness * part > hardest ? softness * part : 0;
-    auto guess = states;
-    const VectorXd nu = point.nu;
-    const int steps = point.steps;
-    programme.soften(next);
-    if (iterate(programme, guess, point, to_the_end)) {
-      part = std::max(point.steps - steps <= at_once ? largest_stride : stride, part * part);
-    } else if (trial) {
-      return false;
-    } else if (part < least_stride) {
-      part = std::sqrt(part);
-      point.nu = nu;
-      continue;
-    } else if (next == 0) {
-      return false;
-    }
-    states = std::move(guess);
-    softness = next;
-  }
-  return true;
-}
-
-// The same from points of the central path, which begins at a soft contact that is closed.
-bool CondensedNewton::follow_path(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point)
-{
-  point.nu.setZero();
-  programme.soften(softness);
-  programme.solve(programme.all_closed(), point.x, point.nu);
-  programme.soften(0);
-  auto path = programme.path_from(point.x, point.nu);
-  std::vector<double> products;
-  double wanted = path_near;
-  while (static_cast<int>(products.size()) < most_on_path && path.advance()) {
-    ++point.steps;
-    const auto off = [&] { return programme.residual(path.x(), path.nu()) / programme.size(path.x()); };
-    if (const double now = off(); now <= wanted) {
-      wanted = path_nearer * now;
-      point.x = path.x(), point.nu = path.nu();
-      states = programme.states(point.x, point.nu);
-      if (iterate(programme, states, point, now > settled_residual ? look_back_on_path : to_the_end)) return true;
-    }
-    products.push_back(path.product());
-    const auto count = products.size();
-    if (count > stuck_on_path && 2 * products.back() > products[count - 1 - stuck_on_path]) break;
-  }
-  return false;
-}
-
-// Coulomb's law by radii that are given, those of the normal forces before: each of these programmes is convex, so its path leads
-// to its solution, and where rows depend on each other to the middle of all.
-bool CondensedNewton::repeat_paths(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point)
-{
-  if (!programme.follows() || programme.unknowns() > most_repeated) return false;
-  point.nu.setZero();
-  programme.soften(softness);
-  programme.solve(programme.all_closed(), point.x, point.nu);
-  programme.soften(0);
-  double best = std::numeric_limits<double>::infinity();
-  for (int since_best = 0; since_best < patience_with_radii;) {
-    auto path = programme.path_with_radii(point.x, point.nu);
-    std::vector<double> products{path.product()};
-    while (static_cast<int>(products.size()) < most_on_path && products.back() > end_of_path * products[0] && path.advance()) {
-      ++point.steps;
-      products.push_back(path.product());
-      const auto count = products.size();
-      if (count > stuck_on_path && 2 * products.back() > products[count - 1 - stuck_on_path]) break;
-    }
-    point.x = path.x(), point.nu = path.nu();
-    const double now = programme.residual(point.x, point.nu) / programme.size(point.x);
-    if (!std::isfinite(now)) return false;
-    if (now <= settled_on_path) {
-      states = programme.states(point.x, point.nu);
-      return true;
-    }
-    since_best = now < nearer * best ? 0 : since_best + 1;
-    best = std::min(best, now);
-  }
-  return false;
-}
-
-CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd& e, const FeasibleSet& set) const
-{
-  CondensedProgramme programme(matrices_, contact_, set.compact(), b(constrained_) - coupling_.transpose() * b(others_),
-                               e - motion_.transpose() * b(others_));
-  Point point;
-  point.x = VectorXd::Zero(programme.unknowns());
-  point.nu = VectorXd::Zero(programme.motions());
-  auto states = programme.all_closed();
-  point.converged = iterate(programme, states, point, look_back_at_first);
-  if (!point.converged && programme.unknowns() > 0) {
-    const double softness = softest * matrices_.w.diagonal().cwiseQuotient(matrices_.own).maxCoeff();
-    point.converged = harden(programme, softness, states, point, true) || follow_path(programme, softness, states, point) ||
-                      repeat_paths(programme, softness, states, point) || harden(programme, softness, states, point, false);
-  }
-  // Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
-  if (point.converged && programme.residual(point.x, point.nu) > flutter * programme.size(point.x))
-    programme.solve(states, point.x, point.nu);
-  VectorXd x(b.size());
-  x(constrained_) = point.x;
-  x(others_) = free_.solve(VectorXd(b(others_))) - coupling_ * point.x - motion_ * point.nu;
-  point.x = std::move(x);
+  Search search(matrices_, contact_, set.compact(), b(constrained_) - coupling_.transpose() * b(others_),
+                e - motion_.transpose() * b(others_));
+  const bool converged = near ? search.from(near->x(constrained_), near->nu) : search.from_anywhere();
+  if (converged) search.polish();
+  Point point = search.point();
+  point.converged = converged;
+  const VectorXd contact = point.x;
+  point.x.resize(b.size());
+  point.x(constrained_) = contact;
+  point.x(others_) = free_.solve(VectorXd(b(others_))) - coupling_ * contact - motion_ * point.nu;
+  point.reaction = VectorXd::Zero(b.size());
+  point.reaction(constrained_) = search.reaction();
   return point;
 }
 

@@ -63,6 +63,8 @@ class CondensedProgramme {
   ConstraintStates all_closed() const;
   /// Those of x - step s, s what is felt at x and nu.
   ConstraintStates states(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
+  /// W x + H'nu - b, of softened W.
+  Eigen::VectorXd gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
   /// The norm, in that of `own`, of x - P(x - step s), and of what H x - C nu lacks.
   double residual(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
   /// That of x, which a residual is to be small beside; that of e where x is zero, for all may be open.
@@ -106,7 +108,6 @@ class CondensedProgramme {
  private:
   std::vector<Move> moves(const ConstraintStates& states, Eigen::VectorXd& base, bool& symmetric) const;
   void solve_with_springs(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right, Eigen::VectorXd& nu) const;
-  Eigen::VectorXd gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
 
   const CondensedMatrices& matrices_;
   FeasibleSet set_;

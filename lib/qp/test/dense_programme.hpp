@@ -28,7 +28,7 @@ struct Programme {
 // under test.
 inline double violation(const Programme& p, const CondensedNewton::Point& point)
 {
-  const auto& [x, nu, converged, steps] = point;
+  const auto &x = point.x, &nu = point.nu;
   if (!x.allFinite() || !nu.allFinite()) return std::numeric_limits<double>::infinity();
   const VectorXd gap = p.a * x - p.b + p.g.transpose() * nu;
   const double force = 1e-300 + x.cwiseAbs().maxCoeff(),

@@ -17,7 +17,8 @@ namespace {
 // The matrices of a random programme, whole on every rank.
 class DenseProgramme : public ActiveSetPreconditioner {
  public:
-  explicit DenseProgramme(RandomProgramme& programme) : programme_(programme) {}
+  // `compliance` on the diagonal is none of A.
+  explicit DenseProgramme(RandomProgramme& programme, double compliance = 0) : programme_(programme), compliance_(compliance) {}
   Teuchos::RCP<const Map> getDomainMap() const override { return programme_.map; }
   Teuchos::RCP<const Map> getRangeMap() const override { return programme_.map; }
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const override
@@ -27,20 +28,25 @@ class DenseProgramme : public ActiveSetPreconditioner {
   }
   void fix(std::span<const Local>) override {}
 
-  ExplicitProgramme::Point solve() const
+  ExplicitProgramme::Point solve() const { return solve(programme_.b, programme_.equality.right_side(), nullptr); }
+  ExplicitProgramme::Point solve(const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Point* near) const
   {
     FeasibleSet set = RandomProgramme::bounds_and_discs(RandomProgramme::n);  // of all ranks: all discs are alike
     const auto discs = programme_.set.discs();
     set.set_radii(std::vector<double>(set.discs().size(), discs.front().radius));
     set.set_coefficients(std::vector<double>(set.discs().size(), discs.front().coefficient));
-    const CondensedNewton newton(programme_.dense, programme_.g, Eigen::MatrixXd::Zero(programme_.g.rows(), programme_.g.rows()),
-                                 set);
-    const auto found = newton.solve(gathered(programme_.b, world()), programme_.equality.right_side(), set);
-    return {local_part(found.x, programme_.map), found.nu, found.converged};
+    constexpr auto n = RandomProgramme::n;
+    const CondensedNewton newton(programme_.dense + compliance_ * Eigen::MatrixXd::Identity(n, n), programme_.g,
+                                 Eigen::MatrixXd::Zero(programme_.g.rows(), programme_.g.rows()), set);
+    CondensedNewton::Point from;
+    if (near) from = {gathered(near->x, world()), near->nu};
+    const auto found = newton.solve(gathered(b, world()), e, set, near ? &from : nullptr);
+    return {local_part(found.x, programme_.map), found.nu, found.converged, local_part(found.reaction, programme_.map)};
   }
 
  private:
   RandomProgramme& programme_;
+  double compliance_;
 };
 
 struct Setting {
@@ -107,6 +113,32 @@ TEST(Solvers, ADirectSolutionIsShownByAFewProducts)
   EXPECT_EQ(setting.programme.hessian.count(), 0);
   EXPECT_TRUE(solver->solve(start, goal, observer).converged);
   EXPECT_LE(setting.programme.hessian.count(), 24);  // up to 20 of them for the norm
+}
+
+// A matrix with a compliance that A has not: each product leaves so much less of what it makes of the solution.
+TEST(Solvers, ANearbyMatrixIsCorrectedByAFewProducts)
+{
+  const auto solve = [](Setting& setting) {
+    const auto solver = setting.make(solver_kind("direct"));
+    Goal goal{1e-12};
+    std::optional<Solution> start;
+    solver->begin(start, goal, {});
+    return gathered(start->x, world());
+  };
+  Setting exact, nearby;
+  nearby.means.make_explicit = [&nearby] {
+    const auto matrices = std::make_shared<DenseProgramme>(nearby.programme, 1e-5);
+    ExplicitProgramme programme{matrices, [matrices] { return matrices->solve(); }};
+    programme.go_on = [matrices](const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Point& near) {
+      return matrices->solve(b, e, &near);
+    };
+    return programme;
+  };
+  const Eigen::VectorXd expected = solve(exact), x = solve(nearby);
+  EXPECT_EQ(exact.programme.hessian.count(), 0);
+  EXPECT_GE(nearby.programme.hessian.count(), 2);
+  EXPECT_LE(nearby.programme.hessian.count(), 5);
+  EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
 }
 
 // Coulomb's law as SlipLaw; radii are infinite to begin with.

@@ -28,9 +28,15 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
     Eigen::VectorXd nu;      ///< the same on every rank
     bool converged = false;  ///< exact to rounding; else the last guess
     int steps = 0;           ///< linear problems solved
+    Vector reaction;         ///< F lambda - d + G'nu by the matrices, zero at rows without a constraint
   };
   /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Collective.
-  Result solve() const;
+  Result solve() const { return solve(problem_.linear(), problem_.equality().right_side()); }
+  /// The same for another linear term d and another e, the latter the same on every rank. `near`: a solution for others that
+  /// differ by little, to go on from. Collective.
+  Result solve(const Vector& linear, Eigen::VectorXd e, const Result* near = nullptr) const;
+  /// Whether rows depend on each other, and so the matrices have a little compliance that F has not. The same on every rank.
+  bool separated() const { return separated_; }
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
@@ -46,6 +52,7 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   const DualProblem& problem_;
   std::unique_ptr<const DirichletElimination> elimination_;
   std::unique_ptr<qp::CondensedNewton> newton_;  // rank 0
+  bool separated_ = false;
 };
 
 }  // namespace mortise::feti

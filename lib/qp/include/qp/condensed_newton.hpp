@@ -20,9 +20,6 @@
 
 namespace mortise::qp {
 
-class CondensedProgramme;
-struct ConstraintStates;
-
 /// What is left when unknowns without a constraint are eliminated.
 struct CondensedMatrices {
   Eigen::MatrixXd w, h, c;  ///< W: constrained unknowns squared; H: rows of G x constrained unknowns; C: rows of G squared
@@ -38,28 +35,29 @@ class CondensedNewton {
   CondensedNewton(Eigen::MatrixXd a, Eigen::MatrixXd g, Eigen::MatrixXd c, const FeasibleSet& set);
 
   struct Point {
-    Eigen::VectorXd x, nu;   ///< A x - b + G'nu in the normal cone of -Omega, G x - C_0 nu = e
-    bool converged = false;  ///< to rounding; else the last guess
-    int steps = 0;           ///< linear problems solved
+    Eigen::VectorXd x, nu;         ///< A x - b + G'nu in the normal cone of -Omega, G x - C_0 nu = e
+    bool converged = false;        ///< to rounding; else the last guess
+    int steps = 0;                 ///< linear problems solved
+    Eigen::VectorXd reaction = {};  ///< A x - b + G'nu, zero at unknowns without a constraint
   };
-  /// For the linear term b and the right-hand side e.
-  Point solve(const Eigen::VectorXd& b, const Eigen::VectorXd& e, const FeasibleSet& set) const;
+  /// For the linear term b and the right-hand side e. `near`: a solution for others that differ by little, from whose states
+  /// guesses go on; nothing else is tried then.
+  Point solve(const Eigen::VectorXd& b, const Eigen::VectorXd& e, const FeasibleSet& set, const Point* near = nullptr) const;
+  /// Whether rows depend on each other, and so A has been given a little compliance more.
+  bool separated() const { return separated_; }
   /// A^-1 r, over all unknowns.
   Eigen::VectorXd inverse_times(const Eigen::VectorXd& r) const;
 
  private:
   void measure();
   bool separate_dependent_rows();
-  static bool iterate(CondensedProgramme& programme, ConstraintStates& states, Point& point, int look_back);
-  static bool harden(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point, bool trial);
-  static bool repeat_paths(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
-  static bool follow_path(CondensedProgramme& programme, double softness, ConstraintStates& states, Point& point);
 
   std::vector<Local> constrained_, others_;  // unknowns
   CondensedMatrices matrices_;
   Eigen::LLT<Eigen::MatrixXd> free_, contact_;  // of A_ff and W
   Eigen::MatrixXd coupling_;                    // A_ff^-1 A_fc
   Eigen::MatrixXd motion_;                      // A_ff^-1 G_f'
+  bool separated_ = false;
 };
 
 }  // namespace mortise::qp

@@ -33,11 +33,16 @@ struct ExplicitProgramme {
     Vector x;
     Eigen::VectorXd nu;
     bool converged = false;  ///< exact to rounding; else the last guess
+    /// A x - b + G'nu by the matrix, zero where there is no constraint; there if go_on() is.
+    std::optional<Vector> reaction = {};
   };
   std::shared_ptr<ActiveSetPreconditioner> inverse;  ///< A^-1
   /// Solves with the linear term, right-hand side and set that the programme has by now; radii of discs with a coefficient follow
   /// their normal unknown. Collective.
   std::function<Point()> solve;
+  /// Where the matrix differs from A by a little: the same for another linear term and right-hand side that differ by little from
+  /// those of a solution `near`, from which it goes on. Else empty. Collective.
+  std::function<Point(const Vector& b, const Eigen::VectorXd& e, const Point& near)> go_on = {};
 };
 
 /// What a solver may use besides the problem.
