@@ -8,7 +8,7 @@ namespace mortise::contact {
 
 namespace {
 
-constexpr double sharp_angle = 150 * 3.14159265358979 / 180;
+constexpr double degree = 3.14159265358979 / 180, sharp_angle = 150 * degree, least_turn = 5 * degree;
 // Of a face's length: places nearer to each other are one.
 constexpr double same_place = 1e-7;
 
@@ -37,6 +37,40 @@ std::vector<char> sharp_nodes(const Side& side)
   return result;
 }
 
+std::vector<std::array<bool, 4>> border_edges(const Side& side)
+{
+  std::vector<std::array<bool, 4>> result(side.facets.size(), {false, false, false, false});
+  struct Edge {
+    std::pair<Local, Local> ends;
+    std::size_t facet, number;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto facet = side.facets[f];
+    for (std::size_t k = 0; k < facet.size() && facet.size() > 2; ++k)
+      edges.push_back({std::minmax({facet[k], facet[(k + 1) % facet.size()]}), f, k});
+  }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
+  for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {
+    while (end < edges.size() && edges[end].ends == edges[first].ends) ++end;
+    if (end == first + 1) result[edges[first].facet][edges[first].number] = true;
+  }
+  return result;
+}
+
+std::optional<Plane> crossing(const Plane& a, const Plane& b, const Plane& c, const Plane& d)
+{
+  constexpr double beyond_end = 1e-9;  // of an edge, where rounding may put a crossing
+  const Plane u = b - a, v = c - d;    // both with the common part on their left
+  const double turn = cross(u, v), along = u.dot(v);
+  constexpr double parallel = 1e-9;
+  // The borders turn by what is missing to a straight angle.
+  if (std::abs(turn) < parallel * u.norm() * v.norm() || std::atan2(std::abs(turn), along) < least_turn) return {};
+  const double s = cross(c - a, v) / turn, t = cross(c - a, u) / turn;  // a + s u = c - t v
+  if (s < -beyond_end || s > 1 + beyond_end || t > beyond_end || t < -1 - beyond_end) return {};
+  return Plane(a + s * u);
+}
+
 std::vector<BaseCorner> base_corners(std::span<const Plane> nodes, std::span<const CoveredPart> parts,
                                      std::span<const BaseCorner> sharp)
 {
@@ -48,14 +82,19 @@ std::vector<BaseCorner> base_corners(std::span<const Plane> nodes, std::span<con
   for (const std::size_t i : convex_hull(all)) {
     const auto here = [&](const Plane& x) { return (x - all[i]).norm() < near; };
     if (std::any_of(nodes.begin(), nodes.end(), here)) continue;
-    const auto corner = std::find_if(sharp.begin(), sharp.end(), [&](const BaseCorner& c) { return here(c.at); });
-    if (corner != sharp.end()) result.push_back(*corner);
+    const BaseCorner* best = nullptr;  // a node, if there is one
+    for (const auto& corner : sharp)
+      if (here(corner.at) && (!best || best->number < corner.number)) best = &corner;
+    if (best) result.push_back(*best);
   }
-  const auto by_node = [](const BaseCorner& a, const BaseCorner& b) { return a.primary_node < b.primary_node; };
-  std::sort(result.begin(), result.end(), by_node);
-  const auto same = [](const BaseCorner& a, const BaseCorner& b) { return a.primary_node == b.primary_node; };
-  result.erase(std::unique(result.begin(), result.end(), same), result.end());
-  return result;
+  std::sort(result.begin(), result.end(), [](const BaseCorner& a, const BaseCorner& b) {
+    return std::tuple(a.number < 0, a.number, a.at[0], a.at[1]) < std::tuple(b.number < 0, b.number, b.at[0], b.at[1]);
+  });
+  std::vector<BaseCorner> once;
+  for (const auto& corner : result)
+    if (std::none_of(once.begin(), once.end(), [&](const BaseCorner& c) { return (c.at - corner.at).norm() < 4 * near; }))
+      once.push_back(corner);
+  return once;
 }
 
 std::size_t node_beside(mesh::CellType type, std::span<const Plane> nodes, std::span<const Global> id, const Plane& at)

@@ -75,8 +75,8 @@ CoveredBasis::CoveredBasis(mesh::CellType type, std::span<const Plane> nodes, st
     facet_.push_back(-1);
   }
   take_nodes();
-  if (mesh::first_order(type) == type) add(corners);
-  take_corners();
+  add(corners);
+  take_corners(corners);
   fill_up();
   do triangulate();
   while (!triangles_.empty() && drop_empty(samples));
@@ -96,9 +96,8 @@ void CoveredBasis::take_nodes()
 
 void CoveredBasis::add(std::span<const BaseCorner> corners)
 {
-  constexpr std::size_t most = 9;
   for (const auto& corner : corners) {
-    if (points_.size() == most) return;
+    if (points_.size() == most_functions) return;
     points_.push_back(corner.at);
     facet_.push_back(corner.facet);
   }
@@ -127,9 +126,12 @@ std::vector<CoveredBasis::Corner> CoveredBasis::hull() const
 // The other corners of the hull, the sharpest of them, stand for nodes that are not covered. Of these a node on an edge that the
 // covered part reaches also belongs to the next face, and only takes corners on that edge: elsewhere the two faces would mean
 // different points.
-void CoveredBasis::take_corners()
+void CoveredBasis::take_corners(std::span<const BaseCorner> base)
 {
   auto corners = hull();
+  const auto of_base = [&](const Corner& c) {
+    return std::any_of(base.begin(), base.end(), [&](const BaseCorner& b) { return (b.at - c.at).norm() < 1e-6 * length_; });
+  };
   const auto free_nodes = std::count_if(facet_.begin(), facet_.end(), [](Local facet) { return facet < 0; });
   double area = 0;
   for (const auto& c : corners)
@@ -141,7 +143,7 @@ void CoveredBasis::take_corners()
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const auto n = corners.size();
       const double size = triangle(corners[(i + n - 1) % n].at, corners[i].at, corners[(i + 1) % n].at);
-      if (!corners[i].node && size < cut_off) cut_off = size, least = i;
+      if (!corners[i].node && size < cut_off && (open <= free_nodes || !of_base(corners[i]))) cut_off = size, least = i;
     }
     if (least == corners.size() || (open <= free_nodes && cut_off > blunt * area)) break;
     corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(least));

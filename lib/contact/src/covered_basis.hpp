@@ -17,11 +17,11 @@ struct CoveredPart {
   Polygon polygon;
 };
 
-/// A corner of the primary side's border inside a secondary face, see base_corners.hpp.
+/// A corner of the common base inside a secondary face or on its edge, see base_corners.hpp.
 struct BaseCorner {
   Plane at;
   Local facet;
-  Local primary_node;
+  Local number;  ///< the primary side's node, or, of a crossing of both borders, a number of its own after all nodes
 };
 
 /// Functions theta_k that belong to points x_k of the covered part: theta_k(x_l) = delta_kl, sum theta = 1, sum theta_k x_k = x
@@ -32,9 +32,9 @@ struct BaseCorner {
 /// over all such triangles, which keeps symmetry.
 class CoveredBasis {
  public:
-  /// `nodes`: of the face, in its plane. `parts` must not be empty; `samples` are integration points on them. On a face of first
-  /// order `corners` have functions of their own, numbered after those of the nodes: it has fewer nodes than what is covered of
-  /// it may have corners. One of second order has enough, and finds them itself.
+  /// `nodes`: of the face, in its plane. `parts` must not be empty; `samples` are integration points on them. `corners` have
+  /// functions of their own, numbered after those of the nodes, as long as there are no more than `most_functions` in all; then
+  /// those of nodes that are not covered.
   CoveredBasis(mesh::CellType type, std::span<const Plane> nodes, std::span<const CoveredPart> parts,
                std::span<const Sample> samples, std::span<const BaseCorner> corners = {});
 
@@ -63,7 +63,7 @@ class CoveredBasis {
   void take_nodes();
   void add(std::span<const BaseCorner> corners);
   std::vector<Corner> hull() const;
-  void take_corners();
+  void take_corners(std::span<const BaseCorner> base);
   void fill_up();
   void triangulate();
   void take_one();
@@ -74,8 +74,8 @@ class CoveredBasis {
   std::vector<CoveredPart> parts_;
   double length_ = 0;   // of the face
   Plane low_, extent_;  // the box round the covered part
-  Few<Plane, 9> points_;
-  Few<Local, 9> facet_;  // -1: no function
+  Few<Plane, most_functions> points_;
+  Few<Local, most_functions> facet_;  // -1: no function
   std::vector<Triangle> triangles_;
 };
 

@@ -5,6 +5,15 @@
 
 namespace mortise::contact {
 
+CoveredFace::CoveredFace(const Side& secondary, const Side& primary, bool corners) : secondary_(secondary), primary_(primary)
+{
+  if (!corners) return;
+  sharp_ = sharp_nodes(primary);
+  border_ = border_edges(secondary);
+  other_border_ = border_edges(primary);
+  next_number_ = static_cast<Local>(primary.points.size());
+}
+
 void CoveredFace::lay_flat(std::size_t face)
 {
   face_ = face;
@@ -34,6 +43,41 @@ void CoveredFace::note(std::size_t facet, std::size_t other, const Overlap& comm
       const Plane at = common.frame.project(primary_.points[static_cast<std::size_t>(node)]);
       corners_.push_back({in_face(facet, locator(at)), static_cast<Local>(facet), node});
     }
+  if (!sharp_.empty()) note_crossings(facet, other, common, locator);
+}
+
+void CoveredFace::note_crossings(std::size_t facet, std::size_t other, const Overlap& common, const Locator& locator)
+{
+  const auto own = secondary_.facets[facet], others = primary_.facets[other];
+  const auto ends = [&](const Side& side, std::span<const Local> nodes, std::size_t k) {
+    const auto at = [&](std::size_t i) {
+      return common.frame.project(side.points[static_cast<std::size_t>(nodes[i % nodes.size()])]);
+    };
+    return std::pair(at(k), at(k + 1));
+  };
+  for (std::size_t k = 0; k < own.size(); ++k)
+    for (std::size_t l = 0; l < others.size() && border_[facet][k]; ++l) {
+      if (!other_border_[other][l]) continue;
+      const auto [a, b] = ends(secondary_, own, k);
+      const auto [c, d] = ends(primary_, others, l);
+      if (const auto at = crossing(a, b, c, d))
+        corners_.push_back({in_face(facet, locator(*at)), static_cast<Local>(facet), -1});
+    }
+}
+
+void CoveredFace::find_corners()
+{
+  corners_ = base_corners(nodes_, parts_, corners_);
+  for (auto& corner : corners_)
+    if (corner.number < 0) corner.number = next_number_++;
+  if (corners_.empty() || secondary_.second_order(face_)) return;
+  // Triangles at corners may be small: integrate as finely as over faces of second order.
+  samples_.clear();
+  std::vector<Sample> points;
+  for (const auto& part : parts_) {
+    sample(part.polygon, Integrand::second_order, points);
+    samples_.insert(samples_.end(), points.begin(), points.end());
+  }
 }
 
 Plane CoveredFace::in_face(std::size_t facet, const Eigen::Vector4d& shape) const
@@ -122,7 +166,7 @@ void CoveredFace::name_corners(std::span<PieceIntegrals> pieces) const
     for (std::size_t k = 0; k < r; ++k)
       for (const auto& corner : corners_)
         if (at_corner(corner, piece, static_cast<Eigen::Index>(k))) {
-          piece.corner[k] = corner.primary_node;
+          piece.corner[k] = corner.number;
           piece.beside[k] = static_cast<Local>(node_beside(secondary_.faces.type[face_], nodes_, id, corner.at));
         }
   }

@@ -14,14 +14,10 @@ namespace mortise::contact {
 
 class CoveredFace {
  public:
-  /// Of faces of `secondary`, which must outlive it. `sharp`: the nodes of the primary side at whose corners functions may stand,
-  /// see sharp_nodes(), or none.
-  CoveredFace(const Side& secondary, const Side& primary, std::vector<char> sharp)
-      : secondary_(secondary), primary_(primary), sharp_(std::move(sharp))
-  {
-  }
+  /// Of faces of `secondary`, which must outlive it. `corners`: functions may stand at corners of the common base.
+  CoveredFace(const Side& secondary, const Side& primary, bool corners);
 
-  /// Whether functions stand at corners of the primary side.
+  /// Whether functions stand at corners of the base.
   bool has_corners() const { return !sharp_.empty(); }
   /// The next face, of which nothing is covered so far.
   void lay_flat(std::size_t face);
@@ -30,8 +26,8 @@ class CoveredFace {
   bool laid_flat() const { return !nodes_.empty(); }
   /// What a facet of it has in common with a primary one.
   void note(std::size_t facet, std::size_t other, const Overlap& common);
-  /// Once all are noted: which corners of the primary side are those of the covered part.
-  void find_corners() { corners_ = base_corners(nodes_, parts_, corners_); }
+  /// Once all are noted: which corners of the base are those of the covered part.
+  void find_corners();
 
   /// The place in the plane where the shape functions of a facet are `shape`.
   Plane in_face(std::size_t facet, const Eigen::Vector4d& shape) const;
@@ -52,17 +48,20 @@ class CoveredFace {
   void put_points(const CoveredBasis& basis, PieceIntegrals& piece) const;
 
  private:
+  void note_crossings(std::size_t facet, std::size_t other, const Overlap& common, const Locator& locator);
   bool at_corner(const BaseCorner& corner, const PieceIntegrals& piece, Eigen::Index k) const;
   Few<Plane, 4> corners_of(std::size_t facet) const;
   double length() const { return (nodes_[1] - nodes_[0]).norm(); }
 
   const Side &secondary_, &primary_;
-  std::vector<char> sharp_;
+  std::vector<char> sharp_;  // nodes of the primary side
+  std::vector<std::array<bool, 4>> border_, other_border_;
+  Local next_number_ = 0;  // of a crossing
   std::size_t face_ = 0;
   Few<Plane, 9> nodes_;  // in the plane
   std::vector<CoveredPart> parts_;
   std::vector<Sample> samples_;
-  std::vector<BaseCorner> corners_;  // while parts are noted all sharp nodes, then those of the covered part
+  std::vector<BaseCorner> corners_;  // while parts are noted all sharp nodes and crossings, then those of the covered part
 };
 
 }  // namespace mortise::contact

@@ -44,7 +44,7 @@ Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_node
       reach_(reach),
       nearest_(nearest),
       slot_(primary.points.size(), -1),
-      covered_face_(secondary, primary, corners ? sharp_nodes(primary) : std::vector<char>())
+      covered_face_(secondary, primary, corners)
 {
 }
 
@@ -182,7 +182,8 @@ void Integrator::each_common(std::size_t facet, const Use& use)
   tree_.swept(box, reach_ * own.normal(), met_);
   for (const int met : met_) {
     const auto other = static_cast<std::size_t>(met);
-    const bool high = second_order || primary_.second_order(static_cast<std::size_t>(primary_.face_of[other]));
+    // Functions of points of its own are linear on triangles, which may be small.
+    const bool high = second_order || basis_ || primary_.second_order(static_cast<std::size_t>(primary_.face_of[other]));
     if (overlap(own, primary_.geometry(other), reach_, high, overlap_)) use(other);
   }
 }

@@ -18,7 +18,7 @@ namespace mortise::contact {
 class Integrator {
  public:
   /// All of which must outlive it. `tree` has the facets of the primary side; `nearest` are those of nearest_points(). `corners`:
-  /// those of the primary side have rows of their own.
+  /// those of the common base have rows of their own.
   Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
              const Tree& tree, double reach, bool corners, const std::vector<NearestPoint>& nearest);
   /// Everything on the primary side that a face looks at within reach: one piece, or those of its facets; `in_facets`: of these

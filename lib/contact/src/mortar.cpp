@@ -34,7 +34,7 @@ class Mortar : public Discretization {
     for (const std::size_t f : faces.near())
       for (const std::size_t i : faces.pieces(f)) {
         auto piece = faces.piece(i);
-        Few<char, 9> here;
+        Few<char, most_functions> here;
         for (Eigen::Index k = 0; k < piece.covered.size(); ++k) here.push_back(kept[faces.place_of(f, piece, k)]);
         make_dual(piece, here);
       }

@@ -51,7 +51,7 @@ std::vector<NarrowNodes::Given> NarrowNodes::neighbours(const std::vector<NodeSt
       for (const auto* from : here)
         for (const auto* to : here)
           if (from && to && band_of(from->cover) > band_of(to->cover))
-            found.push_back({from->node, from->contact, from->side, to->node, to->side, to->area, 0, 0, {}});
+            found.push_back({from->node, from->contact, from->side, to->node, to->side, to->area, 0, 0, 0, {}});
     }
   }
   found = by_node<Given>(found, comm_);
@@ -100,6 +100,7 @@ void NarrowNodes::give(std::vector<NodeState>& nodes)
       const NodeState& from = state_of(nodes, g);
       g.area = g.part * from.area;
       g.force = g.part * from.force;
+      g.closed = from.closed;
       for (std::size_t c = 0; c < 3; ++c) g.traction[c] = g.part * from.traction[c];
     }
     taken_[band] = turned_round(given_[band]);
@@ -107,6 +108,7 @@ void NarrowNodes::give(std::vector<NodeState>& nodes)
       auto& to = state_of(nodes, g);
       to.area += g.area;
       to.force += g.force;
+      to.closed = std::max(to.closed, g.closed);
       for (std::size_t c = 0; c < 3; ++c) to.traction[c] += g.traction[c];
     }
   }
@@ -148,6 +150,14 @@ void NarrowNodes::take_recovered(std::vector<NodeState>& nodes)
   take(
       nodes, [](Given& g, const NodeState& wide) { g.force = g.part * wide.recovered; },
       [](NodeState& node) { node.recovered = 0; }, [](const Given& g, NodeState& node) { node.recovered += g.force; });
+}
+
+void NarrowNodes::take_closed(std::vector<NodeState>& nodes)
+{
+  take(
+      nodes, [](Given& g, const NodeState& wide) { g.force = g.part * wide.closed; },
+      [](NodeState& node) { node.closed = node.status == static_cast<int>(Status::open) ? 0 : 1; },
+      [](const Given& g, NodeState& node) { node.closed = std::min(node.closed + g.force, 1.0); });
 }
 
 }  // namespace mortise::contact

@@ -19,11 +19,13 @@ class NarrowNodes {
   /// Collective.
   NarrowNodes(const std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm);
 
-  /// Forces and areas pass to the neighbours. Collective, as the others.
+  /// Forces and areas pass to the neighbours. Collective, as the others, which it comes before.
   void give(std::vector<NodeState>& nodes);
   /// And their pressures and tractions back.
   void take_pressures(std::vector<NodeState>& nodes);
   void take_recovered(std::vector<NodeState>& nodes);
+  /// And what is closed: a node is that takes force from one that is, or part of its pressure from such nodes.
+  void take_closed(std::vector<NodeState>& nodes);
 
  private:
   // How narrow a node can be.
@@ -36,7 +38,7 @@ class NarrowNodes {
     Global other;
     int other_side;
     double part;         // of what the narrow one has
-    double area, force;  // that pass
+    double area, force, closed;  // that pass
     std::array<double, 3> traction;
   };
   static bool ascending(const Given& a, const Given& b);

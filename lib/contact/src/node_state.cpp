@@ -22,6 +22,7 @@ auto key(const NodeState& state)
 
 void join(NodeState& to, const NodeState& corner)
 {
+  if (to.area + corner.area > 0) to.closed = (to.area * to.closed + corner.area * corner.closed) / (to.area + corner.area);
   to.area += corner.area;
   to.force += corner.force;
   for (std::size_t c = 0; c < 3; ++c) to.traction[c] += corner.traction[c];
@@ -72,6 +73,7 @@ std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Comm
                     {n[0], n[1], n[2]},
                     {f[0], f[1], f[2]},
                     {s[0], s[1], s[2]}});
+    mine.back().closed = p.status == Status::open ? 0 : 1;
   }
   auto nodes = by_node<NodeState>(mine, comm);
   std::stable_sort(nodes.begin(), nodes.end(), [](const NodeState& a, const NodeState& b) {

@@ -19,6 +19,7 @@ struct NodeState {
   double area, cover, force, gap;                ///< force: a pressure once it is divided by the area
   std::array<double, 3> normal, traction, slip;  ///< traction is a force at first
   double recovered = 0;                          ///< pressure
+  double closed = 0;                             ///< part of its area that counts as closed
 };
 
 /// Those of this rank's own nodes, ascending by node, contact and side. What presses on a corner of the primary side counts with

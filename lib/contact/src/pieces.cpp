@@ -203,11 +203,12 @@ PieceStore::View PieceStore::operator[](std::size_t i)
 
 namespace {
 
+using Numbers = Few<Eigen::Index, most_functions>;
+
 // Shares the dropped functions of a face with points in its plane out so that linear fields stay in the basis: to those kept with
 // weights b of least squares for which sum b = 1 and sum b_k x_k = x_d. Whether it could: the points that are kept must span the
 // plane, and functions must keep positive integrals.
-bool keep_linear(const PieceStore::View& piece, const Few<Eigen::Index, 9>& keep, const Few<Eigen::Index, 9>& drop,
-                 SmallMatrix& t)
+bool keep_linear(const PieceStore::View& piece, const Numbers& keep, const Numbers& drop, SmallMatrix& t)
 {
   if (piece.plane.rows() == 0 || keep.size() < 3) return false;
   const auto count = static_cast<Eigen::Index>(keep.size());
@@ -234,7 +235,7 @@ bool keep_linear(const PieceStore::View& piece, const Few<Eigen::Index, 9>& keep
 void make_dual(PieceStore::View& piece, std::span<const char> kept)
 {
   const auto n = piece.covered.size();
-  Few<Eigen::Index, 9> keep, drop;
+  Numbers keep, drop;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!piece.point_facet.empty() && piece.point_facet[static_cast<std::size_t>(i)] < 0) continue;  // no function
     (kept[static_cast<std::size_t>(i)] ? keep : drop).push_back(i);

@@ -16,8 +16,8 @@
 
 namespace mortise::contact {
 
-/// Of two faces' nodes, without allocation.
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 9, 9>;
+/// Of functions or nodes of two faces, without allocation.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_functions, most_functions>;
 
 /// theta = basis * phi: the functions that multipliers of a covered face are dual to, n x n. For a face of first order they are
 /// its shape functions. Those of second order have negative parts, and the mean over such a function is no pressure; theta are

@@ -11,8 +11,11 @@
 
 namespace mortise::contact {
 
-/// Shape functions of a face of first or second order.
-using FaceShape = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1>;
+/// Functions of a face, at most: of its nodes, up to nine, and of corners of what is covered of it.
+inline constexpr int most_functions = 12;
+
+/// Shape functions of a face of first or second order, or of its covered part.
+using FaceShape = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_functions, 1>;
 
 /// Geometry is done with facets of first order: a face of second order is cut into facets between its nodes, one of first order
 /// is its own facet. Displacements and multipliers belong to the faces.

@@ -148,7 +148,12 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
 {
   auto own = meet(points, comm);
   NarrowNodes narrow(own, pairs, comm);
+  std::vector<double> own_area, area(pairs.size(), 0.0);
+  for (const auto& node : own) own_area.push_back(node.area);
   narrow.give(own);
+  narrow.take_closed(own);
+  for (std::size_t i = 0; i < own.size(); ++i) area[static_cast<std::size_t>(own[i].contact)] += own[i].closed * own_area[i];
+  comm.sum_in_place(area);
   for (auto& node : own) {
     node.force /= node.area;
     for (double& traction : node.traction) traction /= node.area;
@@ -166,7 +171,8 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
                        std::vector<Point>(nodes.size(), Point::Zero()),
                        std::vector<Point>(nodes.size(), Point::Zero()),
                        std::vector<int>(nodes.size(), 0),
-                       std::vector<char>(nodes.size(), 0)};
+                       std::vector<char>(nodes.size(), 0),
+                       area[c]};
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto here = points_at(all, static_cast<int>(c), nodes[i]);
       if (here.empty()) continue;

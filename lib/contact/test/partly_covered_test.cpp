@@ -174,6 +174,67 @@ TEST_P(Base, MultipliersReachItsCorners)
 
 INSTANTIATE_TEST_SUITE_P(Corners, Base, testing::Combine(testing::Bool(), testing::Values(0.0, 0.5), testing::Values(0.0, 0.8)));
 
+class Crossing : public testing::TestWithParam<std::tuple<mesh::CellType, mesh::CellType, double>> {};
+
+// Rectangles turned against each other, each of which hangs over edges of the other: a multiplier pushes at every corner of what
+// they have in common, also where their borders cross, and none outside. So blocks stand up to there, and no farther.
+TEST_P(Crossing, MultipliersReachCrossingsOfBothBorders)
+{
+  const Communicator comm;
+  const auto [own, other, turned] = GetParam();
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(turned, Point::UnitZ()).toRotationMatrix();
+  const Point shift(0.37, 0.21, 0);
+  const auto make = [&](mesh::CellType type, Grid grid, const Eigen::Matrix3d& rotate, const Point& by) {
+    grid.triangles = mesh::corner_count(type) == 3;
+    auto side = surface(grid, flat, comm);
+    if (mesh::first_order(type) != type) side = second_order(side, type, Eigen::Matrix3d::Identity(), grid.first_id);
+    for (auto& x : side.points) x = rotate * x + by;
+    return side;
+  };
+  const Grid grid{3, 2, -1.7, 1.7, -1.1, 1.1, true}, base{2, 3, -1.3, 1.3, -1.6, 1.6, false, false, primary_ids};
+  const auto pair = make_pair(make(own, grid, Eigen::Matrix3d::Identity(), Point::Zero()), make(other, base, rotation, shift),
+                              Law::frictionless);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  const auto nodes = nodes_of(pair, comm);
+
+  // The lines of both borders, as unit normals to the inside and distances.
+  std::vector<Eigen::Vector3d> lines{{1, 0, 1.7}, {-1, 0, 1.7}, {0, 1, 1.1}, {0, -1, 1.1}};
+  for (const auto& [x, y, far] : {std::tuple(1, 0, 1.3), {-1, 0, 1.3}, {0, 1, 1.6}, {0, -1, 1.6}}) {
+    const Point normal = rotation * Point(x, y, 0);
+    lines.emplace_back(normal[0], normal[1], far - normal.dot(shift));
+  }
+  const auto depth = [&](const Point& x) {
+    double least = 10;
+    for (const auto& line : lines) least = std::min(least, line.dot(Eigen::Vector3d(x[0], x[1], 1)));
+    return least;
+  };
+  std::vector<Point> places;
+  for (const auto& row : rows.rows) {
+    places.push_back(resultant(row, nodes, true));
+    EXPECT_LT((places.back() - resultant(row, nodes, false)).norm(), 1e-9);
+    EXPECT_GT(depth(places.back()), -1e-9);
+  }
+  int corners = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Eigen::Vector3d meet = lines[i].cross(lines[j]);
+      if (std::abs(meet[2]) < 1e-9) continue;
+      const Point corner(meet[0] / meet[2], meet[1] / meet[2], 0);
+      if (depth(corner) < -1e-9) continue;
+      ++corners;
+      double nearest = 10;
+      for (const auto& place : places) nearest = std::min(nearest, (place - corner).norm());
+      EXPECT_LT(nearest, 1e-6) << corner.transpose();
+    }
+  EXPECT_GT(corners, 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bases, Crossing,
+                         testing::Combine(testing::Values(mesh::CellType::tri3, mesh::CellType::quad4, mesh::CellType::tri6,
+                                                          mesh::CellType::quad8, mesh::CellType::quad9),
+                                          testing::Values(mesh::CellType::tri6, mesh::CellType::quad4),
+                                          testing::Values(0.3, 0.9)));
+
 // In a plane, nodes along x at y = 0; the first of the secondary side and all of the primary one cannot move along x.
 mesh::Surface line(const std::vector<double>& x, bool up, Global first_id, const Communicator& comm)
 {

@@ -35,7 +35,7 @@ ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std
 /// Totals of one contact, over all ranks.
 struct Resultant {
   Point force = Point::Zero();              ///< on the secondary side
-  double area = 0;                          ///< of the nodes that are closed
+  double area = 0;                          ///< of the nodes that are closed, each for itself
   long long open = 0, stick = 0, slip = 0;  ///< nodes of each status
   double sizes = 0;                         ///< the sum of |force| over the nodes
 };
@@ -55,6 +55,7 @@ struct SurfaceState {
   std::vector<Point> traction, slip;
   std::vector<int> status;  ///< as Status
   std::vector<char> near;   ///< whether the node lies near enough to the other side to have a state; else the numbers are 0
+  double area = 0;  ///< of the contact, over all ranks: of the nodes that show a pressure: those that are closed, and those that share it
 };
 /// One for each pair. Collective.
 std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,
