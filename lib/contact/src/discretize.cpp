@@ -193,7 +193,11 @@ class Builder {
     if (!prescribed && options_.law != Law::frictionless) {
       for (const auto& tangent : tangents(p, normal))
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
-      if (!bonded()) writer_.leave_what_moves(terms_, d, normal, point.tangents);
+      if (!bonded()) {
+        writer_.leave_what_moves(terms_, d, normal, point.tangents);
+        int direction = 0;
+        for (const auto& held : other_tangents(normal, point.tangents)) writer_.add_held(terms_, d, held, direction++, contacts);
+      }
     }
 
     Point separation = Point::Zero();  // of the two sides in the mesh, weighted as the row is
@@ -236,14 +240,21 @@ class Builder {
   {
     Few<Point, 2> result = free_tangents(p, normal);
     if (options_.cyclic || options_.obstacle || (bonded() && !chosen_.held_through[p])) return result;
-    Few<Point, 2> held;
-    if (dimension_ == 2 && result.empty()) held.push_back(Point(-normal[1], normal[0], 0));
-    if (dimension_ == 3 && result.size() == 1) held.push_back(normal.cross(result[0]).normalized());
-    if (dimension_ == 3 && result.empty())
-      for (const auto& tangent : directions(normal, {false, false, false}, {}, 3).tangents) held.push_back(tangent);
-    for (const auto& tangent : held)
+    for (const auto& tangent : other_tangents(normal, result))
       if (!primary_held(p, tangent)) result.push_back(tangent);
     return result;
+  }
+
+  // What the tangents of a normal lack of all directions in the surface.
+  template <class Tangents>
+  Few<Point, 2> other_tangents(const Point& normal, const Tangents& tangents) const
+  {
+    Few<Point, 2> others;
+    if (dimension_ == 2 && tangents.empty()) others.push_back(Point(-normal[1], normal[0], 0));
+    if (dimension_ == 3 && tangents.size() == 1) others.push_back(normal.cross(tangents[0]).normalized());
+    if (dimension_ == 3 && tangents.empty())
+      for (const auto& tangent : directions(normal, {false, false, false}, {}, 3).tangents) others.push_back(tangent);
+    return others;
   }
 
   // Whether supports hold the primary side along a direction where a surface node meets it.

@@ -149,4 +149,10 @@ void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, do
   contacts.rows.close(bound);
 }
 
+void RowWriter::add_held(std::span<const Term> terms, double d, const Point& axis, int direction, constraint::Contacts& contacts)
+{
+  for (const auto& c : coefficients(terms, d, axis))
+    if (c.prescribed) contacts.held.push_back({contacts.nodes.size(), direction, c.component, c.prescribed->support, c.value});
+}
+
 }  // namespace mortise::contact

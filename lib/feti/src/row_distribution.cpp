@@ -124,10 +124,13 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
   ByRank<SentRow> rows(size);
   ByRank<constraint::Entry> entries(size);
   ByRank<constraint::PrescribedEntry> prescribed(size);  // their rows are counted among those that go to the same rank
+  ByRank<constraint::HeldEntry> held(size);  // and so are their nodes
   std::vector<std::pair<std::size_t, std::size_t>> position_of(contacts.rows.size());  // rank, row among those that go there
+  std::vector<std::size_t> node_of(contacts.nodes.size());                              // among those that go there
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     const auto& p = contacts.nodes[i];
     const auto to = ranks[i];
+    node_of[i] = points[to].size();
     points[to].push_back(pack(p, contacts.bonded[i]));
     for (std::size_t r = p.row; r <= p.row + p.tangents.size(); ++r) {
       const auto row = contacts.rows[r];
@@ -141,16 +144,26 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
     entry.row = row;
     prescribed[to].push_back(entry);
   }
+  for (auto entry : contacts.held) {
+    const auto to = ranks[entry.node];
+    entry.node = node_of[entry.node];
+    held[to].push_back(entry);
+  }
 
   const auto points_in = comm.exchange(points);
   const auto rows_in = comm.exchange(rows);
   const auto entries_in = comm.exchange(entries);
   const auto prescribed_in = comm.exchange(prescribed);
+  const auto held_in = comm.exchange(held);
   constraint::Contacts result;
   for (std::size_t from = 0; from < size; ++from) {
     for (auto entry : prescribed_in[from]) {
       entry.row += result.rows.size();
       result.prescribed.push_back(entry);
+    }
+    for (auto entry : held_in[from]) {
+      entry.node += result.nodes.size();
+      result.held.push_back(entry);
     }
     auto row = rows_in[from].begin();
     auto entry = entries_in[from].begin();

@@ -157,4 +157,78 @@ std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeS
   return worst(std::move(result), "contacts");
 }
 
+namespace {
+
+// What each support prescribes of each component, where it does not vary: 3 numbers a support. Collective.
+std::vector<double> values_of_supports(const constraint::Constraints& constraints, const Communicator& comm)
+{
+  int count = 0;
+  for (const auto& held : constraints.prescribed) count = std::max(count, held.support + 1);
+  const auto size = 3 * static_cast<std::size_t>(comm.max(static_cast<long long>(count)));
+  std::vector<double> largest(2 * size, 0.0);  // upwards, downwards
+  for (const auto& held : constraints.prescribed) {
+    const auto i = 3 * static_cast<std::size_t>(held.support) + static_cast<std::size_t>(held.component);
+    largest[i] = std::max(largest[i], held.value);
+    largest[size + i] = std::max(largest[size + i], -held.value);
+  }
+  for (auto& value : largest) value = comm.max(value);
+  std::vector<double> values(size);
+  for (std::size_t i = 0; i < size; ++i) values[i] = largest[i] >= largest[size + i] ? largest[i] : -largest[size + i];
+  return values;
+}
+
+// Of each contact node whether supports alone move it past the other side.
+std::vector<bool> dragged(const constraint::Contacts& contacts, std::span<const double> values)
+{
+  constexpr double rounding = 1e-9;
+  std::vector<std::array<double, 2>> slip(contacts.nodes.size(), {0, 0}), moved(slip);
+  for (const auto& entry : contacts.held) {
+    const auto direction = static_cast<std::size_t>(entry.direction);
+    const double part =
+        entry.coefficient * values[3 * static_cast<std::size_t>(entry.support) + static_cast<std::size_t>(entry.component)];
+    slip[entry.node][direction] += part;
+    moved[entry.node][direction] += std::abs(part);
+  }
+  std::vector<bool> result(slip.size());
+  for (std::size_t i = 0; i < slip.size(); ++i)
+    result[i] = std::abs(slip[i][0]) > rounding * moved[i][0] || std::abs(slip[i][1]) > rounding * moved[i][1];
+  return result;
+}
+
+}  // namespace
+
+std::vector<Warning> frictions_of_supports(const constraint::Constraints& constraints,
+                                           std::span<const contact::ContactNodeState> points,
+                                           std::span<const contact::Pair> pairs, double forces, const Communicator& comm)
+{
+  const auto moved = dragged(constraints.contacts, values_of_supports(constraints, comm));
+  std::vector<double> sums(2 * pairs.size(), 0.0);  // normal forces of dragged nodes, of all nodes
+  std::vector<Found> largest(pairs.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto c = static_cast<std::size_t>(points[i].contact);
+    if (constraints.contacts.bonded[i] || points[i].status == contact::Status::open) continue;
+    sums[2 * c + 1] += points[i].force;
+    if (!moved[i]) continue;
+    sums[2 * c] += points[i].force;
+    largest[c].take(points[i].force, constraints.contacts.nodes[i].at);
+  }
+  comm.sum_in_place(sums);
+  largest = largest_of_ranks(largest, comm);
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const double uncounted = sums[2 * c], all = sums[2 * c + 1];
+    if (!(uncounted > part_of_forces * all) || uncounted < nothing_beside * forces) continue;
+    result.push_back(about(
+        pairs[c], "friction_of_supports",
+        fmt::format("friction is not counted at nodes of contact {} that bear {:.4g} of {:.4g} of its normal forces, the largest "
+                    "at {}: supports drag them along something that is rigid or held as well. Reactions and forces of the "
+                    "contact lack it, and so does what the nodes do across the drag, and after the support lets go",
+                    pairs[c].options.name, uncounted, all, spell(largest[c].at)),
+        "let the support hold nodes that are not in the contact, or make the other side a body that gives way", uncounted,
+        part_of_forces * all));
+    result.back().at = largest[c].at;
+  }
+  return worst(std::move(result), "contacts");
+}
+
 }  // namespace mortise::post

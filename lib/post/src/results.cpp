@@ -32,6 +32,28 @@ double prescribed(const constraint::Constraints& constraints, const Communicator
   return comm.max(prescribed) + comm.max(gap);
 }
 
+// How far bodies would expand if nothing held them.
+double free_expansion(const ElasticBodies& bodies, std::span<const double> sizes, const Communicator& comm)
+{
+  double longest = 0;
+  for (std::size_t s = 0; s < bodies.constitution.size(); ++s) {
+    const auto& [materials, formulation, change, acceleration] = bodies.constitution[s];
+    if (!change.any()) continue;
+    const auto& subdomain = bodies.decomposition.subdomains[s];
+    double degrees = std::abs(change.uniform), strain = 0;
+    if (change.varying)
+      for (const auto& point : subdomain.mesh.points) degrees = std::max(degrees, std::abs(change.varying(point)));
+    for (std::size_t i = 0; i < materials.count(); ++i) {
+      const auto& material = materials[i];
+      strain = std::max(strain, std::abs(material.thermal_expansion));
+      if (material.orthotropic && material.orthotropic->thermal_expansion)
+        for (const double along : *material.orthotropic->thermal_expansion) strain = std::max(strain, std::abs(along));
+    }
+    longest = std::max(longest, degrees * strain * sizes[static_cast<std::size_t>(subdomain.body)]);
+  }
+  return comm.max(longest);
+}
+
 // Twice an energy below which nothing is strained: rounding is not the error of anything. Where bodies moved the solver's error
 // says what is nothing: they may be strained by next to nothing of the way that supports take them, and that well.
 double nothing_of_errors(const Rounding& rounding, double error)
@@ -93,7 +115,8 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   residuals.projected_gradient = solved.solution.projected_gradient;
   residuals.equality = solved.solution.equality;
   residuals.equilibrium = problem.imbalance(displacement, lambda, rounding.force);
-  const double length = std::max(results.max_displacement, rounding.length);
+  // Of heated bodies that are held all round, displacements say nothing.
+  const double length = std::max({results.max_displacement, rounding.length, free_expansion(bodies, sizes, comm)});
   residuals.penetration = length > 0 ? results.contact.penetration / length : results.contact.penetration;
   const double off = distance_from_supports(problem, displacement, nu);
   residuals.supports = length > 0 ? off / length : off;

@@ -106,12 +106,23 @@ struct PrescribedEntry {
   std::array<double, 3> at{};  ///< the node's place
 };
 
+/// What a support holds at a contact node of a direction in the surface that has no row, since supports hold both sides there:
+/// coefficient * u(component) is its part of the tangential jump.
+struct HeldEntry {
+  std::size_t node;  ///< of Contacts::nodes
+  int direction;     ///< 0 or 1: the number of the direction among those without a row
+  int component;
+  int support;
+  double coefficient;
+};
+
 /// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the node in length units, with the
 /// coefficient of the secondary node n (normal row) or t (tangential): (u_s - sum_j m_j u_j) . n <= gap. Its multiplier is a
 /// force. Rows have no entries at prescribed components, so they are independent of the supports.
 struct Contacts {
   Rows rows;
   std::vector<PrescribedEntry> prescribed;
+  std::vector<HeldEntry> held;  ///< of contacts with friction
   std::vector<ContactNode> nodes;
   std::vector<bool> bonded;  ///< for each node: all its rows are equalities
   /// Of each row: the tangential jump at the end of the load step before, from which friction counts. Part of the row's bound.
