@@ -32,7 +32,7 @@ import tempfile
 
 # Limits of summary.json's residuals for a deck solved to 1e-6, a hundred times looser than what such decks reach.
 RESIDUALS = {"projected_gradient": 1e-6, "equality": 1e-6, "equilibrium": 1e-8, "penetration": 1e-4, "complementarity": 1e-4,
-             "supports": 1e-4, "interfaces": 1e-4}
+             "supports": 1e-3, "interfaces": 1e-3}
 
 
 def entry(text):

@@ -227,6 +227,10 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   };
   auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
   if (found.gave_up) return {rows_, std::move(found), {}, {}};
+  if (approach_.kind == Approach::Kind::direct_instead) {  // what it has solved is not thrown away for a later state
+    approach_.patience.reset();
+    solver_->be_patient();
+  }
   found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, unfelt_force * largest_force_);
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   refuse_support_of_facets(*problem_, assembly_, *rows_, found, displacement);

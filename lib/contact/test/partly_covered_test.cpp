@@ -174,11 +174,11 @@ TEST_P(Base, MultipliersReachItsCorners)
 
 INSTANTIATE_TEST_SUITE_P(Corners, Base, testing::Combine(testing::Bool(), testing::Values(0.0, 0.5), testing::Values(0.0, 0.8)));
 
-class Crossing : public testing::TestWithParam<std::tuple<mesh::CellType, mesh::CellType, double>> {};
+class CrossingBorders : public testing::TestWithParam<std::tuple<mesh::CellType, mesh::CellType, double>> {};
 
 // Rectangles turned against each other, each of which hangs over edges of the other: a multiplier pushes at every corner of what
 // they have in common, also where their borders cross, and none outside. So blocks stand up to there, and no farther.
-TEST_P(Crossing, MultipliersReachCrossingsOfBothBorders)
+TEST_P(CrossingBorders, MultipliersReachCrossingsOfBothBorders)
 {
   const Communicator comm;
   const auto [own, other, turned] = GetParam();
@@ -229,7 +229,7 @@ TEST_P(Crossing, MultipliersReachCrossingsOfBothBorders)
   EXPECT_GT(corners, 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Bases, Crossing,
+INSTANTIATE_TEST_SUITE_P(Bases, CrossingBorders,
                          testing::Combine(testing::Values(mesh::CellType::tri3, mesh::CellType::quad4, mesh::CellType::tri6,
                                                           mesh::CellType::quad8, mesh::CellType::quad9),
                                           testing::Values(mesh::CellType::tri6, mesh::CellType::quad4),

@@ -60,6 +60,8 @@ class Solver {
   Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver,
          std::optional<qp::Patience> patience = {});
   ~Solver();
+  /// From now on no solve gives up in favour of another approach.
+  void be_patient() { patience_.reset(); }
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
