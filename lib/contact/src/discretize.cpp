@@ -195,8 +195,7 @@ class Builder {
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
       if (!bonded()) {
         writer_.leave_what_moves(terms_, d, normal, point.tangents);
-        int direction = 0;
-        for (const auto& held : other_tangents(normal, point.tangents)) writer_.add_held(terms_, d, held, direction++, contacts);
+        for (const auto& held : other_tangents(normal, point.tangents)) writer_.add_held(terms_, d, held, contacts);
       }
     }
 

@@ -149,10 +149,12 @@ void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, do
   contacts.rows.close(bound);
 }
 
-void RowWriter::add_held(std::span<const Term> terms, double d, const Point& axis, int direction, constraint::Contacts& contacts)
+void RowWriter::add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts)
 {
+  const auto row = contacts.held.size();
+  contacts.held.push_back({contacts.nodes.size(), prescribed_part(terms, d, axis)});
   for (const auto& c : coefficients(terms, d, axis))
-    if (c.prescribed) contacts.held.push_back({contacts.nodes.size(), direction, c.component, c.prescribed->support, c.value});
+    if (c.prescribed) contacts.held_entries.push_back({row, c.component, c.prescribed->support, c.value, c.prescribed->at});
 }
 
 }  // namespace mortise::contact

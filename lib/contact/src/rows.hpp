@@ -38,9 +38,8 @@ class RowWriter {
   /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
   void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
            std::span<const Term> couple = {}, const Point& couple_axis = Point::Zero());
-  /// Appends what supports hold of the row along an axis to `held`, as direction number `direction` of the contact node that comes
-  /// next; skew supports aside.
-  void add_held(std::span<const Term> terms, double d, const Point& axis, int direction, constraint::Contacts& contacts);
+  /// Appends a direction that has no row to those of the contact node that comes next.
+  void add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts);
 
  private:
   struct Coefficient {

@@ -124,7 +124,8 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
   ByRank<SentRow> rows(size);
   ByRank<constraint::Entry> entries(size);
   ByRank<constraint::PrescribedEntry> prescribed(size);  // their rows are counted among those that go to the same rank
-  ByRank<constraint::HeldEntry> held(size);  // and so are their nodes
+  ByRank<constraint::HeldDirection> held(size);  // and so are their nodes
+  ByRank<constraint::PrescribedEntry> held_entries(size);
   std::vector<std::pair<std::size_t, std::size_t>> position_of(contacts.rows.size());  // rank, row among those that go there
   std::vector<std::size_t> node_of(contacts.nodes.size());                              // among those that go there
   for (std::size_t i = 0; i < ranks.size(); ++i) {
@@ -144,10 +145,18 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
     entry.row = row;
     prescribed[to].push_back(entry);
   }
-  for (auto entry : contacts.held) {
-    const auto to = ranks[entry.node];
-    entry.node = node_of[entry.node];
-    held[to].push_back(entry);
+  std::vector<std::pair<std::size_t, std::size_t>> position_of_held(contacts.held.size());
+  for (std::size_t i = 0; i < contacts.held.size(); ++i) {
+    auto direction = contacts.held[i];
+    const auto to = ranks[direction.node];
+    direction.node = node_of[direction.node];
+    position_of_held[i] = {to, held[to].size()};
+    held[to].push_back(direction);
+  }
+  for (auto entry : contacts.held_entries) {
+    const auto [to, direction] = position_of_held[entry.row];
+    entry.row = direction;
+    held_entries[to].push_back(entry);
   }
 
   const auto points_in = comm.exchange(points);
@@ -155,15 +164,20 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
   const auto entries_in = comm.exchange(entries);
   const auto prescribed_in = comm.exchange(prescribed);
   const auto held_in = comm.exchange(held);
+  const auto held_entries_in = comm.exchange(held_entries);
   constraint::Contacts result;
   for (std::size_t from = 0; from < size; ++from) {
     for (auto entry : prescribed_in[from]) {
       entry.row += result.rows.size();
       result.prescribed.push_back(entry);
     }
-    for (auto entry : held_in[from]) {
-      entry.node += result.nodes.size();
-      result.held.push_back(entry);
+    for (auto entry : held_entries_in[from]) {
+      entry.row += result.held.size();
+      result.held_entries.push_back(entry);
+    }
+    for (auto direction : held_in[from]) {
+      direction.node += result.nodes.size();
+      result.held.push_back(direction);
     }
     auto row = rows_in[from].begin();
     auto entry = entries_in[from].begin();

@@ -157,60 +157,23 @@ std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeS
   return worst(std::move(result), "contacts");
 }
 
-namespace {
-
-// What each support prescribes of each component, where it does not vary: 3 numbers a support. Collective.
-std::vector<double> values_of_supports(const constraint::Constraints& constraints, const Communicator& comm)
-{
-  int count = 0;
-  for (const auto& held : constraints.prescribed) count = std::max(count, held.support + 1);
-  const auto size = 3 * static_cast<std::size_t>(comm.max(static_cast<long long>(count)));
-  std::vector<double> largest(2 * size, 0.0);  // upwards, downwards
-  for (const auto& held : constraints.prescribed) {
-    const auto i = 3 * static_cast<std::size_t>(held.support) + static_cast<std::size_t>(held.component);
-    largest[i] = std::max(largest[i], held.value);
-    largest[size + i] = std::max(largest[size + i], -held.value);
-  }
-  for (auto& value : largest) value = comm.max(value);
-  std::vector<double> values(size);
-  for (std::size_t i = 0; i < size; ++i) values[i] = largest[i] >= largest[size + i] ? largest[i] : -largest[size + i];
-  return values;
-}
-
-// Of each contact node whether supports alone move it past the other side.
-std::vector<bool> dragged(const constraint::Contacts& contacts, std::span<const double> values)
+std::vector<Warning> frictions_of_supports(const constraint::Contacts& contacts, std::span<const contact::ContactNodeState> points,
+                                           std::span<const contact::Pair> pairs, double displacement, double forces,
+                                           const Communicator& comm)
 {
   constexpr double rounding = 1e-9;
-  std::vector<std::array<double, 2>> slip(contacts.nodes.size(), {0, 0}), moved(slip);
-  for (const auto& entry : contacts.held) {
-    const auto direction = static_cast<std::size_t>(entry.direction);
-    const double part =
-        entry.coefficient * values[3 * static_cast<std::size_t>(entry.support) + static_cast<std::size_t>(entry.component)];
-    slip[entry.node][direction] += part;
-    moved[entry.node][direction] += std::abs(part);
-  }
-  std::vector<bool> result(slip.size());
-  for (std::size_t i = 0; i < slip.size(); ++i)
-    result[i] = std::abs(slip[i][0]) > rounding * moved[i][0] || std::abs(slip[i][1]) > rounding * moved[i][1];
-  return result;
-}
-
-}  // namespace
-
-std::vector<Warning> frictions_of_supports(const constraint::Constraints& constraints,
-                                           std::span<const contact::ContactNodeState> points,
-                                           std::span<const contact::Pair> pairs, double forces, const Communicator& comm)
-{
-  const auto moved = dragged(constraints.contacts, values_of_supports(constraints, comm));
+  std::vector<char> dragged(points.size(), 0);
+  for (const auto& direction : contacts.held)
+    if (std::abs(direction.slip) > rounding * displacement) dragged[direction.node] = 1;
   std::vector<double> sums(2 * pairs.size(), 0.0);  // normal forces of dragged nodes, of all nodes
   std::vector<Found> largest(pairs.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto c = static_cast<std::size_t>(points[i].contact);
-    if (constraints.contacts.bonded[i] || points[i].status == contact::Status::open) continue;
+    if (contacts.bonded[i] || points[i].status == contact::Status::open) continue;
     sums[2 * c + 1] += points[i].force;
-    if (!moved[i]) continue;
+    if (!dragged[i]) continue;
     sums[2 * c] += points[i].force;
-    largest[c].take(points[i].force, constraints.contacts.nodes[i].at);
+    largest[c].take(points[i].force, contacts.nodes[i].at);
   }
   comm.sum_in_place(sums);
   largest = largest_of_ranks(largest, comm);

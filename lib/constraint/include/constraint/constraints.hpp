@@ -106,14 +106,10 @@ struct PrescribedEntry {
   std::array<double, 3> at{};  ///< the node's place
 };
 
-/// What a support holds at a contact node of a direction in the surface that has no row, since supports hold both sides there:
-/// coefficient * u(component) is its part of the tangential jump.
-struct HeldEntry {
+/// A direction in the surface at a contact node that has no row, since supports hold both sides along it.
+struct HeldDirection {
   std::size_t node;  ///< of Contacts::nodes
-  int direction;     ///< 0 or 1: the number of the direction among those without a row
-  int component;
-  int support;
-  double coefficient;
+  double slip;       ///< the tangential jump that supports make there, a length
 };
 
 /// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the node in length units, with the
@@ -122,7 +118,8 @@ struct HeldEntry {
 struct Contacts {
   Rows rows;
   std::vector<PrescribedEntry> prescribed;
-  std::vector<HeldEntry> held;  ///< of contacts with friction
+  std::vector<HeldDirection> held;            ///< of contacts with friction
+  std::vector<PrescribedEntry> held_entries;  ///< what components of supports add to their slip; `row` numbers `held`
   std::vector<ContactNode> nodes;
   std::vector<bool> bonded;  ///< for each node: all its rows are equalities
   /// Of each row: the tangential jump at the end of the load step before, from which friction counts. Part of the row's bound.
