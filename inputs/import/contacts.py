@@ -6,81 +6,53 @@ from bodies import clean
 from model import rotated
 from reader import InputError
 
-SOFT, VISIBLE = 0.3, 0.02  # how far a law of contact gives way, in parts of what the bodies do: no penalty any more; worth a word
-FAR = 1e-4  # of that size: clearances at which exponential contact begins to press
-
 
 class Contacts:
     def make_contacts(self):
         for contact in self.interactions.contacts:
             card, line = contact["card"], contact["line"]
-            item = {}
+            item, sides = {}, None
             if contact.get("auto"):
                 item["auto"] = True
-                sides = None
             else:
-                sides = [self.faces_of(card, line, contact[side]) for side in ("secondary", "primary")]
-                if None in sides:
+                sides = self.sides_of(contact)
+                if sides is None or contact.get("dropped"):
                     continue
                 item["secondary"], item["primary"] = sides
-            own = [{self.bodies.outer[key] for key in self.boundaries[s]} for s in sides] if sides else [set(), set()]
-            if own[0] & own[1] and "cyclic" not in contact:
-                names = ", ".join(self.bodies.bodies[b].name for b in sorted(own[0] & own[1]))
-                self.model.leave_out(card, f"both sides belong to one body ({names}): bodies of the deck do not touch themselves", line)
-                continue
-            if "law" in contact and sides:
-                self.report_soft(contact["law"], own)
+            if "law" in contact:
+                self.report_soft(contact["law"], sides)
             if contact.get("name"):
                 item["name"] = self.name_of(clean(contact["name"]))
-            if contact.get("adjust") == 0:
-                self.model.note(card, "ADJUST=0: Abaqus removes initial overlaps, the deck takes them as they are", line)
-                del contact["adjust"]
-            if "adjusted" in contact:
-                self.adjust_nodes(contact, sides[0])
-            for key in ("friction", "cyclic", "adjust", "clearance"):
+            for key in ("friction", "cyclic", "adjust", "clearance", "search_distance"):
                 if key in contact:
                     item[key] = contact[key]
-            if contact.get("tied"):
-                if contact.get("tolerance"):
-                    item["search_distance"] = contact["tolerance"]
-            elif "cyclic" in contact:
+            if "cyclic" in contact:
                 item["cyclic"] = self.turned_right(contact["cyclic"], sides)
-            elif sides:
+            elif sides and not contact.get("tied"):
                 distance = self.far_apart(sides)
                 if distance:
                     item["search_distance"] = distance
             self.contacts.append(item)
 
-    def adjust_nodes(self, contact, secondary):
-        """ADJUST with a set moves its nodes onto the other side: of a whole side that is a contact without gaps."""
-        nodes = {n for key in self.boundaries[secondary] for n in self.bodies.nodes(key)}
-        if nodes <= set(contact["adjusted"]):
-            contact.setdefault("clearance", 0)
-            self.model.note(contact["card"], "ADJUST: nodes stay where they are; the contact takes its gaps for 0")
-        else:
-            self.model.leave_out(contact["card"], "ADJUST with a set of some of the slave's nodes: nodes are not moved")
+    def sides_of(self, contact):
+        """The boundaries of both sides, or None where the deck cannot have the contact, which is listed once."""
+        if "sides" not in contact:
+            contact["sides"] = self.find_sides(contact, contact["card"], contact["line"])
+        return contact["sides"]
 
-    def report_soft(self, law, sides):
-        """Laws of contact that give way, beside the bodies that they press on: not a penalty but a spring."""
-        size = min(
-            max(np.ptp([self.model.points[n] for n in self.bodies.nodes_of_body(b)], axis=0).max() for b in side) for side in sides
-        )
-        young = min(
-            self.stiffness_of(m) for side in sides for b in side for m, _ in self.bodies.bodies[b].volumes.values()
-        )
-        if "stiffness" in law:
-            value, card = law["stiffness"]
-            part = young / (value * size) if value > 0 else 1.0
-            if part > VISIBLE:
-                text = f"{value:g} an area and length gives way by some {100 * part:.2g} % of what a body of {size:.3g} and Young's modulus {young:.3g} does"
-                self.model.leave_out(card, text + ": contact of the deck gives way by nothing", changes=part > SOFT)
-        if "clearance" in law and law["clearance"][0] > FAR * size:
-            value, card = law["clearance"]
-            self.model.leave_out(card, f"pressure from a clearance of {value:g} on, beside bodies of {size:.3g}: contact of the deck begins at 0")
+    def find_sides(self, contact, card, line):
+        sides = [self.faces_of(card, line, contact[side]) for side in ("secondary", "primary")]
+        if None in sides:
+            return None
+        own = self.bodies_of(sides)
+        if own[0] & own[1] and "cyclic" not in contact:
+            names = ", ".join(self.bodies.bodies[b].name for b in sorted(own[0] & own[1]))
+            self.model.leave_out(card, f"both sides belong to one body ({names}): bodies of the deck do not touch themselves", line)
+            return None
+        return sides
 
-    def stiffness_of(self, m):
-        material = self.materials[m]
-        return material["young_modulus"] if "young_modulus" in material else min(material["orthotropic"]["young_modulus"])
+    def bodies_of(self, sides):
+        return [{self.bodies.outer[key] for key in self.boundaries[s]} for s in sides]
 
     def turned_right(self, cyclic, sides):
         """The turn brings the primary side to the secondary one."""

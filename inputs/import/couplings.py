@@ -39,6 +39,8 @@ class Couplings:
                 else:
                     nodes = [n for e in self.model.elements_of(card, card.line, card.get("ELSET")) for n in self.model.elements[e].nodes]
                 result[node] = {"name": card.get("NSET") or card.get("ELSET"), "nodes": nodes, "kind": "rigid", "card": card, "node": node}
+                if card.get("POSITION", "INPUT").upper() != "INPUT":
+                    self.model.leave_out(card, f'POSITION={card.get("POSITION")}: the reference node stays where it is')
                 if card.get("ROTNODE"):
                     turn = self.model.nodes_of(card, card.line, card.get("ROTNODE"))[0]
                     result[turn] = {"rotation_of": node, "card": card}

@@ -1,9 +1,12 @@
 """What acts at the end of each step: supports, forces, pressures, accelerations, temperatures."""
 
 import dataclasses
-import itertools
 import re
 
+import numpy as np
+
+from amplitudes import Amplitudes
+from keywords import PROCEDURES, QUIET
 from reader import is_number
 
 FREE = {
@@ -19,80 +22,9 @@ FREE = {
     "NOOVAL": (),
     "NODEFORM": (),
 }
-# Keywords that leave the answer as it is: what is printed, how it is solved, what it is called.
-HARMLESS = {
-    "HEADING",
-    "PREPRINT",
-    "RESTART",
-    "NODEPRINT",
-    "NODEFILE",
-    "NODEOUTPUT",
-    "ELPRINT",
-    "ELFILE",
-    "ELEMENTOUTPUT",
-    "OUTPUT",
-    "CONTACTPRINT",
-    "CONTACTFILE",
-    "CONTACTOUTPUT",
-    "ENERGYOUTPUT",
-    "ENERGYPRINT",
-    "ENERGYFILE",
-    "SECTIONPRINT",
-    "MONITOR",
-    "FILEOUTPUT",
-    "FILEFORMAT",
-    "TIMEPOINTS",
-    "CONTROLS",
-    "CONTACTCONTROLS",
-    "SOLUTIONTECHNIQUE",
-    "ENDSTEP",
-    "ENDPART",
-    "ENDASSEMBLY",
-    "PHYSICALCONSTANTS",
-    "NSET",
-    "ELSET",
-    "SURFACE",
-    "INTEGRATEDOUTPUT",
-    "NONSTRUCTURALMASS",
-    "COLOR",
-    "DISPLAYBODY",
-    "FILTER",
-    "STATIC",
-    "STEP",
-    "AMPLITUDE",
-    "NETWORKMPC",
-    "SECTIONCONTROLS",
-    "HOURGLASSSTIFFNESS",
-    "PRINT",
-    "DIAGNOSTICS",
-}
-QUIET = HARMLESS - {"NONSTRUCTURALMASS", "DISPLAYBODY", "NETWORKMPC", "SECTIONCONTROLS", "HOURGLASSSTIFFNESS"}
-PROCEDURES = {
-    "VISCO",
-    "DYNAMIC",
-    "FREQUENCY",
-    "COMPLEXFREQUENCY",
-    "BUCKLE",
-    "HEATTRANSFER",
-    "COUPLEDTEMPERATURE-DISPLACEMENT",
-    "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
-    "MODALDYNAMIC",
-    "STEADYSTATEDYNAMICS",
-    "RANDOMRESPONSE",
-    "RESPONSESPECTRUM",
-    "SUBSTRUCTUREGENERATE",
-    "GREEN",
-    "SENSITIVITY",
-    "FEASIBLEDIRECTION",
-    "CFD",
-    "ELECTROMAGNETICS",
-    "ELECTROMAGNETIC",
-    "SOILS",
-    "ANNEAL",
-    "CRACKPROPAGATION",
-    "ROBUSTDESIGN",
-    "DIRECTCYCLIC",
-}
+
+NOT_READ = ("USER", "SUBMODEL", "SECTOR", "LOADCASE", "REGION", "TIMEDELAY", "FILE", "MASSFLOW", "BCASE", "FIXEDDOF")
+DISTRIBUTED = ("DLOAD", "DSLOAD")
 
 
 @dataclasses.dataclass
@@ -129,64 +61,6 @@ class State:
     }
 
 
-class Amplitudes:
-    def __init__(self, cards):
-        self.tables = {}
-        for card in cards:
-            if card.name != "AMPLITUDE":
-                continue
-            words = [(line, w) for line, row in card.rows() for w in row]
-            values = [card.value(w, line) for line, w in words]
-            form = card.get("DEFINITION", "TABULAR").upper()
-            known = form in ("TABULAR", "SMOOTHSTEP", "SMOOTH STEP") and len(values) % 2 == 0 and values
-            relative = card.get("VALUE", "RELATIVE").upper() != "ABSOLUTE"
-            table = sorted(zip(values[::2], values[1::2]), key=lambda p: p[0]) if known else None
-            shift, rise = (card.value(card.get(key) or "0", card.line) for key in ("SHIFTX", "SHIFTY"))
-            self.tables[card.need("NAME").upper()] = (
-                table and [(t + shift, v + rise) for t, v in table],
-                card.get("TIME").upper().replace(" ", "") == "TOTALTIME",
-                relative,
-            )
-
-    def in_total_time(self, card):
-        """Whether the amplitude of a load goes on in the steps after it."""
-        return self.tables.get(card.get("AMPLITUDE").upper(), (None, False))[1]
-
-    def of(self, card, begin, end):
-        """(factors at the start and the end of a step, whether it runs straight between them), or None."""
-        name = card.get("AMPLITUDE").upper()
-        if name not in self.tables:
-            raise card.error(f'there is no *AMPLITUDE "{card.get("AMPLITUDE")}"')
-        table, total, relative = self.tables[name]
-        if table is None:
-            return None
-        first, last = (begin, end) if total else (0.0, end - begin)
-
-        def at(t):
-            if t <= table[0][0]:
-                return table[0][1]
-            for (t0, v0), (t1, v1) in zip(table, table[1:]):
-                if t <= t1:
-                    return v1 if t1 == t0 else v0 + (v1 - v0) * (t - t0) / (t1 - t0)
-            return table[-1][1]
-
-        start, stop = at(first), at(last)
-        inside = [(t, v) for t, v in table if first < t < last]
-        straight = all(
-            abs(v - (start + (stop - start) * (t - first) / (last - first))) <= 1e-6 * max(map(abs, (start, stop, v, 1e-300)))
-            for t, v in inside
-        )
-        return start, stop, straight
-
-
-def turned_away(entry, vector):
-    """Whether a load of a step before has another direction."""
-    if entry is None or not any(entry.value) or not any(vector):
-        return False
-    cross = [a * d - b * c for (a, c), (b, d) in itertools.combinations(list(zip(entry.value, vector)), 2)]
-    return max(map(abs, cross)) > 1e-9 * max(map(abs, entry.value)) * max(map(abs, vector))
-
-
 class History:
     """States of the static steps of a model; what else its steps hold goes to the model's findings."""
 
@@ -202,6 +76,8 @@ class History:
         before = State("", None)
         for card in model.cards:
             if card.name == "BOUNDARY":
+                for key in sorted({"AMPLITUDE", *NOT_READ} & card.parameters.keys()):
+                    model.leave_out(card, f"{key} is not understood before the first step")
                 self.read_supports(card, before, {}, 1.0)
         time, now = 0.0, before
         for number, cards in enumerate(model.steps, 1):
@@ -228,13 +104,13 @@ class History:
             *(dict(getattr(before, t)) for t in ("supports", "forces", "pressures", "tractions", "accelerations", "turning", "temperatures")),
             set(before.locked),
         )
-        fresh = {}
+        first = {}
         for card in cards:
-            if card.get("OP").upper() == "NEW":
-                for table in State.TABLES.get(card.name, ()):
-                    if (card.name, table) not in fresh:
-                        fresh[card.name, table] = True
-                        self.clear(now, card, table)
+            if card.name in State.TABLES and first.setdefault(card.name, card) is card and card.get("OP").upper() == "NEW":
+                self.clear(now, card)
+        for card in cards:
+            if card.get("OP").upper() == "NEW" and card.name in first and first[card.name].get("OP").upper() != "NEW":
+                self.model.note(card, f"OP=NEW counts on the first *{card.spelt} of a step alone, as in CalculiX; Abaqus wants it on all of them")
         self.follow(now, time, time + period)
         touched = {}
         for card in cards:
@@ -261,24 +137,28 @@ class History:
                     elif card in cards:
                         self.model.leave_out(card, "adds to another load; its amplitude in total time is not followed in the steps after it")
 
-    def clear(self, now, card, table):
-        own = getattr(now, table)
-        if table in ("pressures", "tractions"):  # *DLOAD and *DSLOAD share tables, but each forgets its own
-            for key in [k for k, e in own.items() if e.card.name == card.name]:
+    def clear(self, now, card):
+        """Forgets loads or supports of the steps before. *DLOAD and *DSLOAD share tables, but each forgets its own."""
+        for table in State.TABLES[card.name]:
+            own = getattr(now, table)
+            for key in [k for k, e in own.items() if e.card.name == card.name or card.name not in DISTRIBUTED]:
                 del own[key]
-        else:
-            own.clear()
+            kept = {e.card.spelt for e in own.values()}
+            if kept:
+                self.model.leave_out(
+                    card, f"OP=NEW: loads of *{kept.pop()} in steps before stay, as in Abaqus; CalculiX forgets them too, unless they are given again"
+                )
 
     def read(self, card, now, touched, begin, end):
         factor = 1.0
-        for key in ("USER", "SUBMODEL", "SECTOR", "LOADCASE", "REGION", "TIMEDELAY", "FILE", "MASSFLOW", "BCASE", "FIXEDDOF"):
+        for key in NOT_READ:
             if key in card.parameters and not (key in ("LOADCASE", "SECTOR") and card.get(key) == "1"):
                 self.model.leave_out(card, f"{key} is not understood")
                 return
         if card.get("AMPLITUDE"):
             course = self.amplitudes.of(card, begin, end)
             if course is None:
-                self.model.leave_out(card, f'the amplitude "{card.get("AMPLITUDE")}" is no table')
+                self.model.leave_out(card, f'the amplitude "{card.get("AMPLITUDE")}" is no table of factors (VALUE=ABSOLUTE is none)')
                 return
             factor = course[1]
             if not course[2] or abs(course[0]) > 0:
@@ -315,15 +195,17 @@ class History:
             nodes = self.model.nodes_of(card, line, words[0])
             hint = "" if is_number(words[0].split(".")[-1]) else words[0]
             word = words[1].upper() if len(words) > 1 else ""
-            if word and not re.fullmatch(r"\d+", word):
+            if not re.fullmatch(r"\d+", word):
                 if word not in FREE:
-                    raise card.error(f'expected a degree of freedom or one of {", ".join(FREE)}, found "{words[1]}"', line)
+                    raise card.error(f'expected a degree of freedom or one of {", ".join(FREE)}, found "{word}"', line)
                 axes, value = FREE[word] + ((4, 5, 6) if word == "ENCASTRE" else ()), 0.0
                 if not FREE[word]:
                     self.model.leave_out(card, f"{word} concerns pipes and shells", line)
             else:
-                first = card.number(words[1], line) if word else 1
-                last = card.number(words[2], line) if len(words) > 2 and words[2] else first if word else 3
+                first = card.number(word, line)
+                last = card.number(words[2], line) if len(words) > 2 and words[2] else first
+                if first < 1:
+                    raise card.error(f'expected a degree of freedom from 1 on, found "{word}"', line)
                 axes = range(first, last + 1)
                 value = factor * card.value(words[3] if len(words) > 3 else "", line, 0.0)
             for node in nodes:
@@ -348,8 +230,10 @@ class History:
                 raise card.error("expected a node or a set, a direction and a value", line)
             hint = "" if is_number(words[0].split(".")[-1]) else words[0]
             axis = card.number(words[1], line)
+            if axis < 1:
+                raise card.error(f'expected a degree of freedom from 1 on, found "{words[1]}"', line)
             value = factor * card.value(words[2] if len(words) > 2 else "", line, 0.0)
-            for node in self.model.nodes_of(card, line, words[0]):
+            for node in self.model.often(card, line, words[0], self.model.nodes_of(card, line, words[0], repeated=True)):
                 self.add(now.forces, touched, "force", (node, axis), Entry(value, hint, card, line))
                 if node in self.special:
                     now.locked.discard(node)
@@ -363,7 +247,23 @@ class History:
             for node in self.model.nodes_of(card, line, words[0]):
                 table[node] = Entry(factor * card.value(words[1], line), words[0], card, line)
 
+    def report_kept(self, card, line, touched, name, loaded, vector, hint):
+        """GRAV that meets one of a step before with another direction or set: Abaqus replaces it, CalculiX keeps both."""
+        for key, entry in loaded.items():
+            aligned = np.dot(entry.value, vector) >= (1 - 1e-12) * np.linalg.norm(entry.value) * np.linalg.norm(vector)
+            if (name, key) not in touched and any(entry.value) and not (aligned and entry.hint == hint):
+                self.model.leave_out(
+                    card,
+                    "GRAV in another direction, or of another set, than in the step before: it replaces that one, as in Abaqus; CalculiX keeps both unless "
+                    "OP=NEW stands here",
+                    line,
+                )
+                return
+
     def read_distributed(self, card, now, touched, factor):
+        axes_of = {}
+        for key in now.turning:
+            axes_of.setdefault(key[0], set()).add(key)
         for line, words in card.rows():
             if len(words) < 2:
                 raise card.error("expected an element or a set, the label of a load and a value", line)
@@ -375,12 +275,7 @@ class History:
                     raise card.error("GRAV needs a direction", line)
                 vector = tuple(factor * numbers[0] * g / length for g in numbers[1:])
                 of = self.model.elements_of(card, line, words[0]) if words[0] else range(len(self.model.elements))
-                if any(("gravity", e) not in touched and turned_away(now.accelerations.get(e), vector) for e in of):
-                    self.model.note(
-                        card,
-                        "GRAV in another direction than in the step before: it replaces that one, as in Abaqus; CalculiX keeps both unless OP=NEW stands here",
-                        line,
-                    )
+                self.report_kept(card, line, touched, "gravity", {e: now.accelerations[e] for e in of if e in now.accelerations}, vector, words[0])
                 for e in of:
                     self.add(now.accelerations, touched, "gravity", e, Entry(vector, words[0], card, line))
             elif label == "CENTRIF":
@@ -392,12 +287,15 @@ class History:
                     raise card.error("CENTRIF takes the square of a speed, which is not negative", line)
                 axis = (tuple(numbers[1:4]), tuple(a / length for a in numbers[4:]))
                 of = self.model.elements_of(card, line, words[0]) if words[0] else range(len(self.model.elements))
+                if any((e, *axis) != key for e in of for key in axes_of.get(e, ())):
+                    self.model.leave_out(card, "CENTRIF about a second axis: it adds, from step to step as well; CalculiX takes the first one alone", line)
                 for e in of:
+                    axes_of.setdefault(e, set()).add((e, *axis))
                     self.add(now.turning, touched, "turning", (e, *axis), Entry(factor * numbers[0], words[0], card, line))
             elif re.fullmatch(r"P\d?", label):
                 value = factor * card.value(words[2] if len(words) > 2 else "", line, 0.0)
                 hint = "" if is_number(words[0].split(".")[-1]) else f"{words[0]}_{label}"
-                for e in self.model.elements_of(card, line, words[0]):
+                for e in self.model.often(card, line, words[0], self.model.elements_of(card, line, words[0], repeated=True)):
                     if not self.model.elements[e].shape:
                         self.model.leave_out(card, f"element {self.model.elements[e].number} is no solid", line)
                         continue
@@ -431,5 +329,5 @@ class History:
                 if card.get("FOLLOWER", "YES").upper() != "NO":
                     self.model.note(card, "the traction keeps its direction", line)
             table, name = (now.pressures, "pressure") if label == "P" else (now.tractions, "traction")
-            for face in self.model.sides_of_surface(surface):
+            for face in self.model.often(card, line, words[0], self.model.sides_of_surface(surface, repeated=True)):
                 self.add(table, touched, name, face, Entry(value, words[0], card, line))

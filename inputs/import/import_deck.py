@@ -30,14 +30,11 @@ def import_file(path, target, schema):
     parameters.report(cards, result.model, [state.card for state in result.history.states])
     mesh = target.with_suffix(".msh")
     deck = {"title": title, "dimension": result.deck["dimension"], "mesh": {"file": mesh.name}, **result.deck}
-    head = [f"From {path.name}, by ./mortise import."]
-    if result.thickness != 1:
-        head.append(f"Forces are those of a thickness 1; the sections of {path.name} have {result.thickness:g}.")
     writers.write_mesh(mesh, result.model, result.bodies, result.boundaries)
     for body, (number, fields) in result.temperatures.items():
         file = target.with_name(result.file_of_temperatures(body))
         writers.write_fields(file, result.model, result.bodies.bodies[number].elements, fields)
-    target.write_text(writers.deck_text(deck, result.model.findings, head), encoding="utf-8")
+    target.write_text(writers.deck_text(deck, result.model.findings, [f"From {path.name}, by ./mortise import."]), encoding="utf-8")
     return result
 
 

@@ -29,7 +29,9 @@ class Interactions:
         current = None
         for card in model.cards:
             if card.name == "SURFACEINTERACTION":
-                current = self.laws.setdefault(card.need("NAME").upper(), {})
+                if card.need("NAME").upper() in self.laws:
+                    raise card.error(f'the *SURFACE INTERACTION "{card.get("NAME")}" is given twice')
+                current = self.laws.setdefault(card.get("NAME").upper(), {})
             elif card.name in ("SURFACEBEHAVIOR", "FRICTION", "GAPCONDUCTANCE", "GAPHEATGENERATION", "CONTACTDAMPING"):
                 if current is None:
                     model.leave_out(card, "stands outside of a *SURFACE INTERACTION")
@@ -51,19 +53,7 @@ class Interactions:
             self.model.note(card, "without influence on a static equilibrium at given temperatures")
             return
         if card.name == "FRICTION":
-            rows = card.rows()
-            if "ROUGH" in card.parameters:
-                self.model.leave_out(card, "ROUGH: the deck has Coulomb's law; what never slips is bonded there")
-                return
-            if card.get("TAUMAX") or "ANISOTROPIC" in card.parameters or "USER" in card.parameters:
-                self.model.leave_out(card, "TAUMAX, ANISOTROPIC and USER: the deck has Coulomb's law with one coefficient")
-            if not rows or not rows[0][1]:
-                return
-            law["friction"] = card.value(rows[0][1][0], rows[0][0])
-            if len(rows) > 1:
-                self.model.leave_out(card, "a coefficient that depends on pressure, rate or temperature; the first line is taken")
-            if "EXPONENTIALDECAY" in card.parameters:
-                self.model.leave_out(card, "EXPONENTIAL DECAY: the static coefficient is taken")
+            self.read_friction(card, law)
             return
         kind = card.get("PRESSURE-OVERCLOSURE", "HARD").upper()
         if kind == "TIED":
@@ -81,6 +71,29 @@ class Interactions:
             self.model.note(card, f"PRESSURE-OVERCLOSURE={kind}: sides in contact do not overlap at all, instead of by a penalty")
         elif kind != "HARD":
             self.model.leave_out(card, f"PRESSURE-OVERCLOSURE={kind}: sides in contact do not overlap")
+
+    def read_friction(self, card, law):
+        """The second number of a line is CalculiX's stick slope, and a rate of slip, without influence alone, for Abaqus where it has parameters."""
+        rows = card.rows()
+        if "ROUGH" in card.parameters:
+            self.model.leave_out(card, "ROUGH: the deck has Coulomb's law; what never slips is bonded there")
+            return
+        if card.get("TAUMAX") or "ANISOTROPIC" in card.parameters or "USER" in card.parameters:
+            self.model.leave_out(card, "TAUMAX, ANISOTROPIC and USER: the deck has Coulomb's law with one coefficient")
+        if not rows or not rows[0][1]:
+            return
+        law["friction"] = card.value(rows[0][1][0], rows[0][0])
+        if len(rows) > 1:
+            self.model.leave_out(card, "a coefficient that depends on pressure, rate or temperature; the first line is taken")
+        if "EXPONENTIALDECAY" in card.parameters:
+            self.model.leave_out(card, "EXPONENTIAL DECAY: the static coefficient is taken")
+        for key, relative in (("SLIPTOLERANCE", True), ("ELASTICSLIP", False)):
+            if card.get(key):
+                law["slip"] = (card.value(card.get(key), card.line), relative, card)
+        slope = card.value(rows[0][1][1], rows[0][0], 0.0) if len(rows[0][1]) > 1 else 0.0
+        if slope > 0 and not card.parameters:
+            law["stick"] = (slope, card)
+            self.model.note(card, f"a stick slope of {slope:g}: what sticks does not slide at all, instead of by a penalty")
 
     def read_clearance(self, card):
         key = (card.get("SLAVE").upper(), card.get("MASTER").upper())
@@ -152,7 +165,7 @@ class Interactions:
                     continue
                 contact["cyclic"] = found
             else:
-                contact["tied"] = True
+                contact["tied"], contact["moves"] = True, card.get("ADJUST", "YES").upper() != "NO"
                 if card.get("POSITIONTOLERANCE"):
                     contact["tolerance"] = card.value(card.get("POSITIONTOLERANCE"), card.line)
             self.contacts.append(contact)
@@ -178,6 +191,9 @@ class Interactions:
                         used.add(k)
                         self.give_law(contact, self.laws[name])
             self.contacts += contacts
+        general = [c for c in self.model.cards if c.name == "CONTACT"]
+        if general and not any(c["card"].name == "CONTACTINCLUSIONS" for c in self.contacts):
+            self.model.leave_out(general[0], "names no surfaces by *CONTACT INCLUSIONS: no contact is made of it")
         for k, (_, name, card, line) in enumerate(assigned):
             if k not in used:
                 self.model.leave_out(card, f'"{name}" is meant for no contact that the deck has', line)

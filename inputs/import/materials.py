@@ -47,7 +47,9 @@ def read_materials(model):
     materials, current, done = {}, None, set()
     for card in model.cards:
         if card.name == "MATERIAL":
-            current = materials.setdefault(card.need("NAME").upper(), {"name": card.get("NAME"), "card": card})
+            if card.need("NAME").upper() in materials:
+                raise card.error(f'the material "{card.get("NAME")}" is given twice')
+            current = materials.setdefault(card.get("NAME").upper(), {"name": card.get("NAME"), "card": card})
             done.add(id(card))
         elif card.name in PROPERTIES | set(LEFT_OUT) and current is not None:
             done.add(id(card))

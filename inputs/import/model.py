@@ -27,6 +27,7 @@ class SetDefinition:
     name: str
     items: list = dataclasses.field(default_factory=list)  # (card, line, scope or None, fields, generate)
     members: list | None = None
+    all: list = dataclasses.field(default_factory=list)  # members, and those that are given more than once as often
     open: bool = False
 
 
@@ -97,24 +98,24 @@ class Model:
                 return self.instances[instance.upper()], rest
         return scope, word
 
-    def nodes_of(self, card, line, word, scope=None):
-        """Indices of a node's number or of a set."""
+    def nodes_of(self, card, line, word, scope=None, repeated=False):
+        """Indices of a node's number or of a set; repeated: as often as the set holds them."""
         scope, word = self._scope(card, scope or self.assembly, word)
         if is_number(word):
             if int(word) not in scope.nodes:
                 raise card.error(f"there is no node {word}", line)
             return [scope.nodes[int(word)]]
-        return self._members(card, line, scope, scope.node_sets, word, self.nodes_of, "nodes")
+        return self._members(card, line, scope, scope.node_sets, word, self.nodes_of, "nodes", repeated)
 
-    def elements_of(self, card, line, word, scope=None):
+    def elements_of(self, card, line, word, scope=None, repeated=False):
         scope, word = self._scope(card, scope or self.assembly, word)
         if is_number(word):
             if int(word) not in scope.elements:
                 raise card.error(f"there is no element {word}", line)
             return [scope.elements[int(word)]]
-        return self._members(card, line, scope, scope.element_sets, word, self.elements_of, "elements")
+        return self._members(card, line, scope, scope.element_sets, word, self.elements_of, "elements", repeated)
 
-    def _members(self, card, line, scope, sets, word, look_up, what):
+    def _members(self, card, line, scope, sets, word, look_up, what, repeated):
         found = sets.get(word.upper())
         if found is None:
             if what == "nodes" and word.upper() in scope.node_surfaces:
@@ -135,11 +136,23 @@ class Model:
                         if not w:
                             continue
                         if what == "nodes" and of_card.get("ELSET") and of_card.name == "NSET":
-                            members += [n for e in self.elements_of(of_card, of_line, w, of_scope) for n in self.elements[e].nodes]
+                            members += dict.fromkeys(n for e in self.elements_of(of_card, of_line, w, of_scope) for n in self.elements[e].nodes)
                         else:
-                            members += look_up(of_card, of_line, w, of_scope)
-            found.members, found.open = list(dict.fromkeys(members)), False
-        return found.members
+                            members += look_up(of_card, of_line, w, of_scope, repeated=True)
+            found.members, found.all, found.open = list(dict.fromkeys(members)), members, False
+        return found.all if repeated else found.members
+
+    def often(self, card, line, name, members):
+        """Members of a set or surface that are loaded as often as it holds them, as CalculiX does; it is listed, for Abaqus drops repeated ones."""
+        more = len(members) - len(set(members))
+        if more:
+            self.leave_out(
+                card,
+                f'"{name}" holds {more} of its members more than once: they are loaded as often, as in CalculiX; Abaqus drops what is repeated. '
+                "Give each once",
+                line,
+            )
+        return members
 
     @staticmethod
     def _generated(card, line, scope, words, what):
@@ -165,19 +178,19 @@ class Model:
             result += self.nodes_of(card, line, words[0], surface.scope)
         return list(dict.fromkeys(result))
 
-    def sides_of_surface(self, surface):
-        """(element, face from 0, or None for all free ones) of a surface of element faces."""
+    def sides_of_surface(self, surface, repeated=False):
+        """(element, face from 0, or None for all free ones) of a surface of element faces; repeated: as often as it holds them."""
         result = []
         for card, line, words in surface.items:
             label = words[1].upper() if len(words) > 1 else ""
-            for e in self.elements_of(card, line, words[0], surface.scope):
+            for e in self.elements_of(card, line, words[0], surface.scope, repeated):
                 if self.elements[e].shape:
                     result.append((e, self.face_number(card, line, e, label)))
                 else:
                     reason = f'the surface "{surface.name}" has faces of elements of type {self.elements[e].type}'
                     if not any(f.line == line and f.reason == reason for f in self.findings):
                         self.leave_out(card, reason, line)
-        return result
+        return result if repeated else list(dict.fromkeys(result))
 
     def face_number(self, card, line, e, label):
         if label == "":

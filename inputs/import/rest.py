@@ -1,7 +1,7 @@
 """What a file has beside: cards that the deck has no counterpart for, each with the reason."""
 
-import history
 import interactions
+import keywords
 import materials
 
 MODEL_CARDS = {"SOLIDSECTION", "AMPLITUDE", "BOUNDARY", "INITIALCONDITIONS", "PRE-TENSIONSECTION", "ORIENTATION", "SURFACE"}
@@ -61,7 +61,7 @@ class Rest:
             )
 
     def report_rest(self, done):
-        known = history.QUIET | interactions.CARDS | MODEL_CARDS | {"TRANSFORM"}
+        known = keywords.QUIET | interactions.CARDS | MODEL_CARDS | {"TRANSFORM"}
         for card in self.model.cards:
             if id(card) in done or card.name in known or card.name in COUPLINGS and id(card) in self.coupling_cards:
                 continue
@@ -102,7 +102,7 @@ class Rest:
             self.model.note(card, "without influence on a static equilibrium at given temperatures")
         elif card.name == "NONSTRUCTURALMASS" and any(s.accelerations or s.turning for s in self.history.states):
             self.model.leave_out(card, "mass beside that of materials, which has weight and is turned")
-        elif card.name in history.HARMLESS:
+        elif card.name in keywords.HARMLESS:
             self.model.note(card, "without influence on a static equilibrium")
         else:
             self.model.leave_out(card, REASONS.get(card.name, "the deck has nothing like it, or this program does not know it"))

@@ -18,6 +18,8 @@ def read(model, bodies):
         if any(model.elements[i].type.upper() != "SPRINGA" for i in members):
             continue
         line, words = rows[-1]
+        if len({w[0] for _, w in rows}) > 1:
+            model.leave_out(card, "a stiffness that depends on temperature or frequency; the last one is taken, as in CalculiX")
         stiffness = card.value(words[0], line)
         done_cards.add(id(card))
         for i in members:

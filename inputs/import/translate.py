@@ -9,6 +9,7 @@ import materials
 import pretension
 import springs
 import transforms
+from adjusting import Adjusting
 from bodies import Bodies, unique
 from boundaries import Boundaries
 from contacts import Contacts
@@ -17,10 +18,11 @@ from forces import Forces
 from loads import Loads
 from rest import Rest
 from sections import Sections
+from softness import Softness
 from supports import Supports
 
 
-class Translation(Boundaries, Supports, Forces, Loads, Contacts, Couplings, Sections, Rest):
+class Translation(Boundaries, Supports, Forces, Loads, Contacts, Adjusting, Softness, Couplings, Sections, Rest):
     def __init__(self, model, schema, title, stem):
         """stem: what names of files beside the deck begin with."""
         self.model, self.schema, self.stem = model, schema, stem
@@ -50,6 +52,7 @@ class Translation(Boundaries, Supports, Forces, Loads, Contacts, Couplings, Sect
         self.transforms = self.read_transforms()
         self.used = used
         self.surfaces()
+        self.adjust()
         self.supports, self.loads, self.contacts = [], [], []
         self.make_supports()
         self.make_forces()
@@ -74,6 +77,13 @@ class Translation(Boundaries, Supports, Forces, Loads, Contacts, Couplings, Sect
             card = self.model.elements[self.bodies.solid[0]].card
             self.model.leave_out(
                 card, f"sections of different thickness ({', '.join(f'{v:g}' for v in sorted(values))}): the deck has one, 1"
+            )
+        elif self.thickness != 1:
+            sections = [s for own in (self.model.assembly, *self.model.instances.values()) for s, _ in own.sections]
+            self.model.note(
+                sections[0],
+                f"a thickness of {self.thickness:g}: the deck and its results have forces and energies of a thickness 1, which are 1/{self.thickness:g} "
+                "of the file's; displacements and stresses are the same",
             )
 
     def read_transforms(self):

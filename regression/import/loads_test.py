@@ -154,7 +154,7 @@ class Contacts(Import):
     def test_laws(self):
         sides = {"secondary": "UPPER_BOTTOM", "primary": "CUBE_TOP"}
         self.assertEqual(self.contact(), sides)
-        self.assertEqual(self.contact("*FRICTION\n.3, 1000.\n", ", ADJUST=0.1"), {**sides, "friction": {"coulomb": 0.3}, "adjust": 0.1})
+        self.assertEqual(self.contact("*FRICTION\n.3, 1.E7\n", ", ADJUST=0.1"), {**sides, "friction": {"coulomb": 0.3}, "adjust": 0.1})
         self.assertEqual(self.contact(extra="*CLEARANCE, SLAVE=UPPER_BOTTOM, MASTER=CUBE_TOP, VALUE=0.02\n"), {**sides, "clearance": 0.02})
         tie = self.deck(MODEL + SECOND + "*TIE, NAME=T\nUPPER_BOTTOM, CUBE_TOP\n" + step("*DLOAD\nUPPER, P2, 5.\n"))
         self.assertEqual(tie["contacts"], [{**sides, "name": "T", "friction": {"bonded": True}}])
