@@ -24,7 +24,6 @@ FREE = {
 }
 
 NOT_READ = ("USER", "SUBMODEL", "SECTOR", "LOADCASE", "REGION", "TIMEDELAY", "FILE", "MASSFLOW", "BCASE", "FIXEDDOF")
-DISTRIBUTED = ("DLOAD", "DSLOAD")
 
 
 @dataclasses.dataclass
@@ -141,12 +140,12 @@ class History:
         """Forgets loads or supports of the steps before. *DLOAD and *DSLOAD share tables, but each forgets its own."""
         for table in State.TABLES[card.name]:
             own = getattr(now, table)
-            for key in [k for k, e in own.items() if e.card.name == card.name or card.name not in DISTRIBUTED]:
+            others = {c.spelt for e in own.values() for c in e.cards or (e.card,) if c.name != card.name}
+            for key in [k for k, e in own.items() if e.card.name == card.name]:
                 del own[key]
-            kept = {e.card.spelt for e in own.values()}
-            if kept:
+            if others:
                 self.model.leave_out(
-                    card, f"OP=NEW: loads of *{kept.pop()} in steps before stay, as in Abaqus; CalculiX forgets them too, unless they are given again"
+                    card, f"OP=NEW: loads of *{others.pop()} in steps before stay, as in Abaqus; CalculiX forgets them too, unless they are given again"
                 )
 
     def read(self, card, now, touched, begin, end):

@@ -192,7 +192,7 @@ class Interactions:
                         self.give_law(contact, self.laws[name])
             self.contacts += contacts
         general = [c for c in self.model.cards if c.name == "CONTACT"]
-        if general and not any(c["card"].name == "CONTACTINCLUSIONS" for c in self.contacts):
+        if general and not any("ALLEXTERIOR" in c.parameters or c.rows() for c in self.model.cards if c.name == "CONTACTINCLUSIONS"):
             self.model.leave_out(general[0], "names no surfaces by *CONTACT INCLUSIONS: no contact is made of it")
         for k, (_, name, card, line) in enumerate(assigned):
             if k not in used:

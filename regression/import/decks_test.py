@@ -16,7 +16,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 IMPORT = HERE.parents[1] / "inputs" / "import" / "import_deck.py"
-TOLERANCE = {"pressed_block": 0.004, "two_plates": 0.008, "bolt": 0.002, "springs": 1e-5, "wood": 1e-5, "transforms": 1e-5, "warm": 2e-4}
+TOLERANCE = {"pressed_block": 0.004, "two_plates": 0.008, "bolt": 0.002, "springs": 1e-5, "wood": 1e-5, "transforms": 1e-5, "warm": 2e-4, "ties": 1e-5}
 
 
 def run(*command):
