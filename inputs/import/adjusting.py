@@ -73,6 +73,9 @@ class Adjusting:
             moved &= chosen
         else:
             moved &= gaps <= value
+            apart = (near & facing & (gaps > value)).sum()
+            if "tied_pair" in contact and apart:
+                self.model.leave_out(contact["card"], f"TIED: {apart} slave nodes are farther away than ADJUST={value:g}: they are not tied", contact["line"])
             if value == 0:
                 del contact["adjust"]
         self.move(nodes, places, moved)

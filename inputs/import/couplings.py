@@ -17,14 +17,8 @@ class Couplings:
             if card.name == "COUPLING":
                 node = self.model.nodes_of(card, card.line, card.need("REFNODE"))[0]
                 surface = self.model.surface(card, card.line, card.need("SURFACE"))
-                open_one = {
-                    "name": card.get("CONSTRAINTNAME") or "coupling",
-                    "surface": surface,
-                    "kind": "rigid",
-                    "card": card,
-                    "node": node,
-                }
-                result[node] = open_one
+                open_one = {"name": card.get("CONSTRAINTNAME") or "coupling", "surfaces": [surface], "kind": "rigid", "card": card, "node": node}
+                result.setdefault(node, []).append(open_one)
                 self.coupling_cards.add(id(card))
             elif card.name in ("KINEMATIC", "DISTRIBUTING") and open_one:
                 self.coupling_cards.add(id(card))
@@ -32,32 +26,46 @@ class Couplings:
                 axes = {a for line, words in card.rows() for a in range(card.number(words[0], line), card.number(words[-1], line) + 1)}
                 if axes and not {1, 2, 3} <= axes:
                     self.model.leave_out(card, "a coupling of some directions alone: all are coupled")
+                if card.name == "DISTRIBUTING":
+                    open_one["turns"] = axes
             elif card.name == "RIGIDBODY" and card.get("REFNODE") and (card.get("NSET") or card.get("ELSET")):
                 node = self.model.nodes_of(card, card.line, card.get("REFNODE"))[0]
                 if card.get("NSET"):
                     nodes = self.model.nodes_of(card, card.line, card.get("NSET"))
                 else:
                     nodes = [n for e in self.model.elements_of(card, card.line, card.get("ELSET")) for n in self.model.elements[e].nodes]
-                result[node] = {"name": card.get("NSET") or card.get("ELSET"), "nodes": nodes, "kind": "rigid", "card": card, "node": node}
+                body = {"name": card.get("NSET") or card.get("ELSET"), "nodes": nodes, "kind": "rigid", "card": card, "node": node}
+                result.setdefault(node, []).append(body)
                 if card.get("POSITION", "INPUT").upper() != "INPUT":
                     self.model.leave_out(card, f'POSITION={card.get("POSITION")}: the reference node stays where it is')
                 if card.get("ROTNODE"):
                     turn = self.model.nodes_of(card, card.line, card.get("ROTNODE"))[0]
-                    result[turn] = {"rotation_of": node, "card": card}
+                    result[turn] = [{"rotation_of": node, "card": card}]
                 self.coupling_cards.add(id(card))
             else:
                 open_one = None
-        return result
+        return {node: self.joined(found) for node, found in result.items()}
+
+    def joined(self, found):
+        """One coupling of those that share a reference node: rigid ones of surfaces are one."""
+        first = found[0]
+        for other in found[1:]:
+            if "surfaces" in first and "surfaces" in other and first["kind"] == other["kind"] == "rigid":
+                first["surfaces"] += other["surfaces"]
+            else:
+                self.model.leave_out(other["card"], "its reference node has a coupling already")
+        return first
 
     def make_coupled(self):
         self.deck_couplings = {}
         names = {}
+        in_body = set().union(*(self.bodies.nodes_of_body(b) for b in range(len(self.bodies.bodies))))
         for node, coupling in self.couplings.items():
             if "rotation_of" in coupling:
                 continue
             card = coupling["card"]
-            if "surface" in coupling:
-                boundary = self.faces_of(card, card.line, coupling["surface"].name)
+            if "surfaces" in coupling:
+                boundary = self.boundary_of_all(card, coupling)
             else:
                 nodes = [n for n in dict.fromkeys(coupling["nodes"]) if n != node]
                 keys = self.bodies.faces_within(nodes)
@@ -68,12 +76,34 @@ class Couplings:
                 self.report_rigid_inside(card, set(nodes), {n for key in keys for n in self.bodies.nodes(key)})
             if boundary is None:
                 continue
+            on = {n for key in self.boundaries[boundary] for n in self.bodies.nodes(key)}
+            if node in in_body and not (coupling["kind"] == "rigid" and node in on):
+                self.model.leave_out(card, "its reference node belongs to a solid, which does not follow it in the deck")
             name = unique(clean(coupling["name"]), self.names)
             names[node] = name
             self.deck_couplings[name] = {"boundary": boundary, "point": self.vector(self.model.points[node]), "kind": coupling["kind"]}
         turns = {n: c["rotation_of"] for n, c in self.couplings.items() if "rotation_of" in c}
         self.coupled_loads(names, turns)
         self.coupled_supports(names, turns)
+
+    def boundary_of_all(self, card, coupling):
+        """The faces of all surfaces of a coupling, as one boundary."""
+        boundaries = [self.faces_of(card, card.line, surface.name) for surface in coupling["surfaces"]]
+        if len(boundaries) == 1 or None in boundaries:
+            return next((b for b in boundaries if b is not None), None)
+        return self.add_boundary(coupling["name"], [key for b in boundaries for key in self.boundaries[b]])
+
+    def transmits(self, node, axis, entry):
+        """Whether a coupling passes on what acts along this degree of freedom: distributing ones those that they name, as for moments and rotations."""
+        turns = self.couplings[node].get("turns")
+        if turns is None or axis <= 3 or axis in turns:
+            return True
+        if turns:
+            reason = f"degree of freedom {axis} is none of those that *DISTRIBUTING names: nothing is passed on"
+            self.model.leave_out(entry.card, reason, entry.line, changes=entry.card.name == "CLOAD")
+            return False
+        self.model.leave_out(entry.card, "*DISTRIBUTING names no degrees of freedom: Abaqus and the deck turn all, CalculiX moves the first three alone", entry.line)
+        return True
 
     def report_rigid_inside(self, card, rigid, held):
         """Rigid nodes inside of bodies follow the faces where the whole body is rigid, and not where a part of it is."""
@@ -89,7 +119,7 @@ class Couplings:
         groups = {}
         for (node, axis), (values, entry) in self.series("forces").items():
             owner = turns.get(node, node)
-            if owner in names and any(values):
+            if owner in names and any(values) and self.transmits(node, axis, entry):
                 kind, a = ("moment", axis - 1 if node in turns else axis - 4) if node in turns or axis > 3 else ("force", axis - 1)
                 direction = self.direction(node, a, entry)
                 if direction is None:
@@ -108,7 +138,7 @@ class Couplings:
         groups = {}
         for (node, axis), (values, entry) in self.along_model_axes(self.series("supports"), turns).items():
             owner = turns.get(node, node)
-            if owner not in names:
+            if owner not in names or not self.transmits(node, axis, entry):
                 continue
             rotation = node in turns or axis > 3
             a = axis - 1 if node in turns or axis <= 3 else axis - 4

@@ -65,6 +65,10 @@ class Interactions:
             law["stiffness"] = (values[0], card)
         elif kind == "EXPONENTIAL" and len(values) > 1:
             law["clearance"] = (values[0], card)
+        elif kind == "HARD" and {"PENALTY", "AUGMENTEDLAGRANGE"} & card.parameters.keys() and values and values[0] > 0:
+            law["stiffness"] = (values[0], card)  # of Abaqus, then the clearance at which it begins
+            if len(values) > 1 and values[1] > 0:
+                law["clearance"] = (values[1], card)
         if kind == "TABULAR":
             self.model.leave_out(card, "PRESSURE-OVERCLOSURE=TABULAR: sides in contact do not overlap, whatever the table says")
         elif kind in ("LINEAR", "EXPONENTIAL", "TIED"):
@@ -145,7 +149,7 @@ class Interactions:
                 contact["clearance"] = clearance[0]
             self.give_law(contact, law)
             if "TIED" in card.parameters:
-                contact["friction"] = {"bonded": True}
+                contact["friction"], contact["tied_pair"] = {"bonded": True}, True
             self.contacts.append(contact)
 
     def read_tie(self, card):

@@ -81,6 +81,8 @@ def axes_of(model, name, section):
             raise card.error("an additional rotation of cylindrical directions has no counterpart")
         return {"axis": numbers(b - a), "point": numbers(a)}
     origin = np.array((rows[0] + [0.0] * 3)[6:9])
+    if origin.any():
+        model.note(card, "a third point, the origin of the two, as in Abaqus; CalculiX knows none")
     x, y = a - origin, b - origin
     if np.linalg.norm(np.cross(x, y)) < 1e-9 * np.linalg.norm(x) * np.linalg.norm(y) or not np.linalg.norm(x):
         raise card.error("the two points and the origin lie on one line")

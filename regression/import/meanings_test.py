@@ -84,6 +84,11 @@ class Adjust(Meanings):
         self.assertEqual(result.deck["contacts"][0]["search_distance"], 0.1)
         self.told(tilted, "1 of 4 slave nodes are farther away")
 
+    def test_tied_pairs(self):
+        pair = "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I, TIED, ADJUST={}\nUPPER_BOTTOM, CUBE_TOP\n" + step(PRESS)
+        self.told(MODEL + apart(0.05) + pair.format(0.01), "TIED: 4 slave nodes")
+        self.assertEqual(self.findings(MODEL + apart(0.05) + pair.format(0.1), True), [])
+
     def test_contact_pairs(self):
         pair = "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I, ADJUST={}\nUPPER_BOTTOM, CUBE_TOP\n" + step(PRESS)
         for gap, adjust, height in ((0.05, 0.1, 1), (0.05, 0.01, 1.05), (-0.05, 0.01, 1), (-0.05, 0, 1), (0.05, 0, 1.05)):
@@ -125,6 +130,37 @@ class Laws(Meanings):
         general = "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n,,I\n"
         self.told(self.friction("", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E5\n", general), "gives way")
         self.told(MODEL + SECOND + "*CONTACT\n" + step(PRESS), "no contact is made of it")
+
+
+    def test_penalty_of_its_own(self):
+        """Abaqus: a stiffness, and the clearance at which it begins."""
+        self.told(self.friction("", "*SURFACE BEHAVIOR, PENALTY\n1.E5\n"), "gives way")
+        self.told(self.friction("", "*SURFACE BEHAVIOR, AUGMENTED LAGRANGE\n1.E9, 0.01\n"), "clearance of 0.01")
+        self.assertEqual(self.findings(self.friction("", "*SURFACE BEHAVIOR, PENALTY\n1.E9\n"), True), [])
+
+
+class Couplings(Meanings):
+    HEAD = MODEL + "*NODE\n50, .5, .5, 2.\n*SURFACE, NAME=GRIP\nCUBE, S2\n*SURFACE, NAME=SIDE\nCUBE, S4\n"
+    GRIP = "*COUPLING, REF NODE=50, SURFACE=GRIP, CONSTRAINT NAME=C\n"
+
+    def test_rotations_that_are_named(self):
+        text = self.HEAD + self.GRIP + "*DISTRIBUTING\n{}" + step("*CLOAD\n50, 1, 7.\n50, 5, 3.\n")
+        self.assertEqual(self.deck(text.format("1, 6\n"))["loads"], [{"coupling": "C", "force": [7, 0, 0], "moment": [0, 3, 0]}])
+        self.told(text.format("1, 3\n"), "nothing is passed on")
+        self.assertEqual(self.translate(text.format("1, 3\n")).deck["loads"], [{"coupling": "C", "force": [7, 0, 0]}])
+        self.told(text.format(""), "CalculiX moves the first three alone")
+        held = self.HEAD + self.GRIP + "*DISTRIBUTING\n1, 3\n" + step("*BOUNDARY\n50, 4, 6\n*CLOAD\n50, 1, 7.\n")
+        self.assertEqual([s for s in self.deck(held)["supports"] if "coupling" in s], [])
+
+    def test_reference_nodes(self):
+        both = self.HEAD + self.GRIP + "*KINEMATIC\n1, 3\n" + self.GRIP.replace("GRIP", "SIDE") + "*{}\n1, 3\n" + step("*CLOAD\n50, 1, 7.\n")
+        result = self.translate(both.format("KINEMATIC"))
+        self.assertEqual(len(result.boundaries[result.deck["couplings"]["C"]["boundary"]]), 2)
+        self.assertEqual([f.reason for f in result.model.findings if f.changes], [])
+        self.told(both.format("DISTRIBUTING"), "a coupling already")
+        own = self.HEAD + self.GRIP.replace("50", "{}") + "*KINEMATIC\n1, 3\n" + step("*CLOAD\n1, 3, 1.\n")
+        self.told(own.format(2), "belongs to a solid")
+        self.assertEqual(self.findings(own.format(6), True), [])
 
 
 class Repeated(Meanings):

@@ -214,7 +214,7 @@ class LeftOut(Import):
     def test_couplings_where_the_deck_has_them(self):
         text = (
             MODEL
-            + "*NODE\n50, .5, .5, 2.\n*SURFACE, NAME=GRIP\nCUBE, S2\n*COUPLING, REF NODE=50, SURFACE=GRIP, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 3\n"
+            + "*NODE\n50, .5, .5, 2.\n*SURFACE, NAME=GRIP\nCUBE, S2\n*COUPLING, REF NODE=50, SURFACE=GRIP, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 6\n"
         )
         text += step("*CLOAD\n50, 1, 7.\n50, 5, 3.\n")
         self.schema["properties"].pop("couplings", None)
