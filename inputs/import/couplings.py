@@ -91,7 +91,7 @@ class Couplings:
         boundaries = [self.faces_of(card, card.line, surface.name) for surface in coupling["surfaces"]]
         if len(boundaries) == 1 or None in boundaries:
             return next((b for b in boundaries if b is not None), None)
-        return self.add_boundary(coupling["name"], [key for b in boundaries for key in self.boundaries[b]])
+        return self.add_boundary(coupling["surfaces"][0].name, [key for b in boundaries for key in self.boundaries[b]])
 
     def transmits(self, node, axis, entry):
         """Whether a coupling passes on what acts along this degree of freedom: distributing ones those that they name, as for moments and rotations."""
