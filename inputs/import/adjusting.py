@@ -3,6 +3,7 @@
 import numpy as np
 
 import projection
+from softness import FAR
 
 TOLERANCE = 0.05  # of the mean size of the master's faces: how far Abaqus ties where no POSITION TOLERANCE is given
 CALCULIX = 0.005  # the same of CalculiX, about; it is counted from triangles
@@ -79,6 +80,19 @@ class Adjusting:
             if value == 0:
                 del contact["adjust"]
         self.move(nodes, places, moved)
+
+    def report_pulled(self, contact, sides):
+        """CalculiX's law TIED draws sides that are apart together, and pushes apart those that overlap; bonds of the deck leave gaps as they are."""
+        size, reach = self.sizes(sides)
+        nodes, _, gaps, _, near, facing = self.onto(sides, reach)
+        gap = np.abs(gaps[near & facing]).max(initial=0.0)
+        if gap > 1e-6 * size:
+            self.model.leave_out(
+                contact["card"],
+                f"PRESSURE-OVERCLOSURE=TIED closes gaps and overlaps of up to {gap:.3g} by force; the deck bonds the sides as they are. ADJUST takes them away",
+                contact["line"],
+                changes=gap > FAR * size,
+            )
 
     def onto(self, sides, reach):
         """Of the slave's nodes: the nearest places on the master, signed gaps, distances, whether the place is not beside the node but opposite,

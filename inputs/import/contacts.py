@@ -20,7 +20,11 @@ class Contacts:
                     continue
                 item["secondary"], item["primary"] = sides
             if "law" in contact:
-                self.report_soft(contact["law"], sides)
+                self.report_soft(contact["law"], sides, contact.get("nodal", False))
+                if contact["law"].get("bonded") and sides:
+                    self.report_pulled(contact, sides)
+            if "clearance" in contact:
+                contact.pop("adjust", None)  # the gap is given, wherever the nodes are
             if contact.get("name"):
                 item["name"] = self.name_of(clean(contact["name"]))
             for key in ("friction", "cyclic", "adjust", "clearance", "search_distance"):

@@ -94,7 +94,7 @@ class Couplings:
         return self.add_boundary(coupling["surfaces"][0].name, [key for b in boundaries for key in self.boundaries[b]])
 
     def transmits(self, node, axis, entry):
-        """Whether a coupling passes on what acts along this degree of freedom: distributing ones those that they name, as for moments and rotations."""
+        """Whether a coupling passes on what acts along this degree of freedom: distributing ones pass on moments that they name."""
         turns = self.couplings[node].get("turns")
         if turns is None or axis <= 3 or axis in turns:
             return True
@@ -102,7 +102,8 @@ class Couplings:
             reason = f"degree of freedom {axis} is none of those that *DISTRIBUTING names: nothing is passed on"
             self.model.leave_out(entry.card, reason, entry.line, changes=entry.card.name == "CLOAD")
             return False
-        self.model.leave_out(entry.card, "*DISTRIBUTING names no degrees of freedom: Abaqus and the deck turn all, CalculiX moves the first three alone", entry.line)
+        reason = "*DISTRIBUTING names no degrees of freedom: Abaqus and the deck couple all, CalculiX moves the first three alone"
+        self.model.leave_out(entry.card, reason, entry.line)
         return True
 
     def report_rigid_inside(self, card, rigid, held):

@@ -63,6 +63,8 @@ class Interactions:
         values = [card.value(w, line, 0.0) for line, words in card.rows()[:1] for w in words]
         if kind in ("LINEAR", "TIED") and values:
             law["stiffness"] = (values[0], card)
+            if kind == "LINEAR" and len(values) > 1 and values[1] > 0:
+                law["tension"] = (values[1], card)
         elif kind == "EXPONENTIAL" and len(values) > 1:
             law["clearance"] = (values[0], card)
         elif kind == "HARD" and {"PENALTY", "AUGMENTEDLAGRANGE"} & card.parameters.keys() and values and values[0] > 0:
@@ -136,6 +138,7 @@ class Interactions:
             contact = self.pair(card, line, words)
             if contact is None:
                 continue
+            contact["nodal"] = card.get("TYPE").upper().replace(" ", "") in ("", "NODETOSURFACE")
             adjust = card.get("ADJUST")
             if adjust:
                 try:

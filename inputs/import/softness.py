@@ -3,13 +3,13 @@
 import numpy as np
 
 SOFT, VISIBLE = 0.3, 0.02  # how far a law gives way, in parts of what the bodies do: no penalty any more; worth a word
-FAR = 1e-4  # of the bodies' size: clearances at which exponential contact begins to press
+FAR = 1e-4  # of the bodies' size, or of Young's modulus: clearances at which contact begins to press, gaps that are pulled shut, tensions
 SLIP, MUCH_SLIP = 0.005, 0.05  # elastic slip in parts of the slave's faces: what Abaqus takes by itself; no penalty any more
 
 
 class Softness:
-    def report_soft(self, law, sides):
-        """sides: the boundaries, or None for contact of all bodies."""
+    def report_soft(self, law, sides, nodal):
+        """sides: the boundaries, or None for contact of all bodies; nodal: whether nodes meet faces, which CalculiX's linear law then holds back."""
         own = self.bodies_of(sides) if sides else [range(len(self.bodies.bodies))] * 2
         size = min(
             max(np.ptp([self.model.points[n] for n in self.bodies.nodes_of_body(b)], axis=0).max() for b in side) for side in own
@@ -17,6 +17,14 @@ class Softness:
         used = {m for side in own for b in side for m, _ in self.bodies.bodies[b].volumes.values()}
         if "stiffness" in law:
             self.report_spring(*law["stiffness"], size, "Young's", min(map(self.young_modulus, used)), "contact of the deck gives way by nothing")
+        if nodal and "tension" in law:
+            value, card = law["tension"]
+            young = min(map(self.young_modulus, used))
+            self.model.leave_out(
+                card,
+                f"a tension of up to {value:g} where sides part, beside Young's modulus {young:.3g}: contact of the deck holds none",
+                changes=value > FAR * young,
+            )
         if "stick" in law and (law.get("friction") or law.get("bonded")):
             self.report_spring(*law["stick"], size, "shear", min(map(self.shear_modulus, used)), "what sticks in the deck, or is tied, does not slide at all")
         if "slip" in law and sides and law.get("friction"):

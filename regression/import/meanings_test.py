@@ -118,8 +118,14 @@ class Laws(Meanings):
 
     def test_elastic_slip(self):
         """Parts of the diagonal 1.414 of a face."""
-        for parameter, part, changes in (("SLIP TOLERANCE=0.005", None, None), ("SLIP TOLERANCE=0.02", "2 %", False), ("SLIP TOLERANCE=0.5", "50 %", True),
-                                         ("ELASTIC SLIP=0.005", None, None), ("ELASTIC SLIP=0.02", "1.4 %", False), ("ELASTIC SLIP=0.2", "14 %", True)):  # fmt: skip
+        for parameter, part, changes in (
+            ("SLIP TOLERANCE=0.005", None, None),
+            ("SLIP TOLERANCE=0.02", "2 %", False),
+            ("SLIP TOLERANCE=0.5", "50 %", True),
+            ("ELASTIC SLIP=0.005", None, None),
+            ("ELASTIC SLIP=0.02", "1.4 %", False),
+            ("ELASTIC SLIP=0.2", "14 %", True),
+        ):
             text = self.friction(f"*FRICTION, {parameter}\n0.3, 100.\n")  # the second number is a rate of slip
             if part:
                 self.told(text, f"an elastic slip of {part}", changes)
@@ -137,6 +143,28 @@ class Laws(Meanings):
         self.told(self.friction("", "*SURFACE BEHAVIOR, PENALTY\n1.E5\n"), "gives way")
         self.told(self.friction("", "*SURFACE BEHAVIOR, AUGMENTED LAGRANGE\n1.E9, 0.01\n"), "clearance of 0.01")
         self.assertEqual(self.findings(self.friction("", "*SURFACE BEHAVIOR, PENALTY\n1.E9\n"), True), [])
+
+
+    def test_tension_where_nodes_meet_faces(self):
+        """CalculiX holds sides back up to its second number."""
+        law = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1.E9, {}\n"
+        self.told(self.friction("", law.format("100.")), "a tension of up to 100")
+        self.told(self.friction("", law.format("3.")), "a tension of up to 3 ", changes=False)
+        surfaces = "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nUPPER_BOTTOM, CUBE_TOP\n"
+        self.assertEqual(self.findings(self.friction("", law.format("100."), surfaces), True), [])
+
+    def test_tied_law_pulls(self):
+        law = "*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1.E9\n"
+        pair = "*CONTACT PAIR, INTERACTION=I{}\nUPPER_BOTTOM, CUBE_TOP\n" + step(PRESS)
+        for gap in (0.05, -0.05):
+            self.told(MODEL + apart(gap) + law + pair.format(""), "by force")
+        self.assertEqual(self.findings(MODEL + apart(0.05) + law + pair.format(", ADJUST=0.1"), True), [])
+        self.assertEqual(self.findings(MODEL + apart(0) + law + pair.format(""), True), [])
+
+    def test_given_clearance_beside_adjust(self):
+        law = "*SURFACE INTERACTION, NAME=I\n*CLEARANCE, SLAVE=UPPER_BOTTOM, MASTER=CUBE_TOP, VALUE=0.01\n"
+        text = MODEL + apart(0.05) + law + "*CONTACT PAIR, INTERACTION=I, ADJUST=0.1\nUPPER_BOTTOM, CUBE_TOP\n" + step(PRESS)
+        self.assertEqual(self.deck(text)["contacts"], [{"secondary": "UPPER_BOTTOM", "primary": "CUBE_TOP", "clearance": 0.01}])
 
 
 class Couplings(Meanings):
