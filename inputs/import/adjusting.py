@@ -77,9 +77,18 @@ class Adjusting:
             apart = (near & facing & (gaps > value)).sum()
             if "tied_pair" in contact and apart:
                 self.model.leave_out(contact["card"], f"TIED: {apart} slave nodes are farther away than ADJUST={value:g}: they are not tied", contact["line"])
-            if value == 0:
-                del contact["adjust"]
+        if value == 0:
+            self.set_adjust(contact, size, gaps, moved, near & facing & ~moved)
         self.move(nodes, places, moved)
+
+    @staticmethod
+    def set_adjust(contact, size, gaps, moved, others):
+        """Rows between nodes that moved and others have gaps or overlaps of their own: they count for 0 as far as no other node's gap does."""
+        contact.pop("adjust", None)
+        moves = np.abs(gaps[moved]).max(initial=0.0)
+        limit = min(moves, 0.99 * gaps[others & (gaps > 0)].min(initial=np.inf))
+        if moves > 1e-9 * size:
+            contact["adjust"] = float(f"{limit:.3g}")
 
     def report_pulled(self, contact, sides):
         """CalculiX's law TIED draws sides that are apart together, and pushes apart those that overlap; bonds of the deck leave gaps as they are."""
