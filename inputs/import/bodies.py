@@ -90,7 +90,7 @@ class Bodies:
         sets = {}
         for scope in (self.model.assembly, *self.model.instances.values()):
             for definition in scope.element_sets.values():
-                members = self.model.elements_of(definition.items[0][0], None, definition.name, scope) if definition.items else []
+                members = self.model.elements_of(definition.items[-1][0], None, definition.name, scope) if definition.items else []
                 sets.setdefault(frozenset(members), definition.name)
         self.bodies, taken = [], set()
         count = {}

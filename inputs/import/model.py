@@ -30,6 +30,10 @@ class SetDefinition:
     all: list = dataclasses.field(default_factory=list)  # members, and those that are given more than once as often
     open: bool = False
 
+    def orders(self):
+        """The first and the last card that gives members."""
+        return (self.items[0][0].order, self.items[-1][0].order) if self.items else (0, 0)
+
 
 @dataclasses.dataclass
 class Surface:
@@ -121,6 +125,9 @@ class Model:
             if what == "nodes" and word.upper() in scope.node_surfaces:
                 return self.nodes_of_surface(scope.node_surfaces[word.upper()])
             raise card.error(f'there is no set of {what} "{word}"', line)
+        orders = found.orders()
+        if orders[0] < card.order < orders[1]:
+            self.leave_out(card, f'the set "{found.name}" has more members in lines below: all are taken; CalculiX takes those that it knows here', line)
         if found.members is None:
             if found.open:
                 raise card.error(f'the set "{found.name}" holds itself', line)

@@ -20,6 +20,7 @@ class Card:
     line: int
     data: list = dataclasses.field(default_factory=list)  # (line, fields)
     spelt: str = ""  # the keyword for people: in capitals, with its blanks
+    order: int = 0  # among all cards
 
     def get(self, key, default=""):
         return self.parameters.get(key, default)
@@ -142,7 +143,7 @@ def read_cards(path):
     for file, number, line in lines(path, root):
         if line.startswith("*"):
             keyword = line[1:].partition(",")[0].upper()
-            card = Card(re.sub(r"\s", "", keyword), parameters(line), file, number, spelt=" ".join(keyword.split()))
+            card = Card(re.sub(r"\s", "", keyword), parameters(line), file, number, spelt=" ".join(keyword.split()), order=len(result))
             result.append(card)
             if card.get("INPUT"):
                 data = beside(card.get("INPUT"), file, number, root)

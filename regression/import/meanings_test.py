@@ -207,6 +207,13 @@ class Repeated(Meanings):
         self.assertEqual(self.findings(held, True), [])
 
 
+    def test_sets_that_grow_after_they_are_used(self):
+        for between in ("*NSET, NSET=D\nTOP\n{}" + step("*CLOAD\nD, 3, 1.\n"), "*BOUNDARY\nTOP, 1\n{}" + step("*DLOAD\n1, P2, 1.\n")):
+            self.told(MODEL + between.format("*NSET, NSET=TOP\n1\n"), "more members in lines below")
+            self.assertEqual(self.findings(MODEL + between.format(""), True), [])
+        self.assertEqual(self.findings(MODEL + "*NSET, NSET=TOP\n1\n*BOUNDARY\nTOP, 1\n" + step("*DLOAD\n1, P2, 1.\n"), True), [])
+
+
 class Steps(Meanings):
     def test_first_card_decides_on_what_is_forgotten(self):
         deck = self.deck(MODEL + step("*CLOAD\nTOP, 3, 1.\n") + step("*CLOAD\nTOP, 1, 2.\n*CLOAD, OP=NEW\n5, 3, 3.\n"))
