@@ -7,35 +7,41 @@ from softness import FAR
 
 TOLERANCE = 0.05  # of the mean size of the master's faces: how far Abaqus ties where no POSITION TOLERANCE is given
 CALCULIX = 0.005  # the same of CalculiX, about; it is counted from triangles
+MUCH = 0.2  # of that size: overlaps of general contact that are no errors of a mesh
 BESIDE = 0.025  # of that size: how far beside the master a node may lie to belong to it
 
 
 class Adjusting:
     def adjust(self):
         for contact in self.interactions.contacts:
-            if not (contact.get("tied") or "adjust" in contact or "adjusted" in contact):
+            if contact.get("auto"):
+                self.adjust_all(contact)
+            if contact.get("auto") or not (contact.get("tied") or {"adjust", "adjusted", "general"} & contact.keys()):
                 continue
             sides = self.sides_of(contact)
             if sides is None:
                 continue
+            keys = [self.boundaries[side] for side in sides]
             if contact.get("tied"):
-                self.adjust_tie(contact, sides)
+                self.adjust_tie(contact, *keys)
+            elif "general" in contact:
+                self.part(contact, *keys)
             else:
-                self.adjust_pair(contact, sides)
+                self.adjust_pair(contact, *keys)
 
-    def adjust_tie(self, contact, sides):
+    def adjust_tie(self, contact, slave, master):
         """Nodes within the tolerance are tied, and moved unless ADJUST=NO; others are not tied."""
         card, line = contact["card"], contact["line"]
-        size, reach = self.sizes(sides)
+        size, reach = self.sizes(slave, master)
         tolerance = contact.get("tolerance", 0.0)
         given = tolerance > 1e-10  # what is less counts for none in CalculiX
         if not given:
             tolerance = TOLERANCE * size
-        nodes, places, gaps, distances, near, facing = self.onto(sides, max(tolerance, reach))
-        tied, far = near & (distances <= tolerance), near & facing & (distances > tolerance)
+        nodes, places, gaps, distances, near = self.onto(slave, master, max(tolerance, reach))
+        tied, far = near & (distances <= tolerance), near & (distances > tolerance)
         limit = f"the tolerance, {tolerance:.3g}" + ("" if given else ", 5 % of the master's faces")
         if not tied.any():
-            self.model.leave_out(card, f"no slave node is nearer than {limit}: nothing is tied", line)
+            self.model.leave_out(card, f"no slave node lies opposite the master and nearer than {limit}: nothing is tied", line)
             contact["dropped"] = True
             return
         if far.any():
@@ -58,12 +64,12 @@ class Adjusting:
         if contact["moves"]:
             self.move(nodes, places, tied)
 
-    def adjust_pair(self, contact, sides):
+    def adjust_pair(self, contact, slave, master):
         """A value moves nodes that overlap or are nearer than it, a set its nodes: without strain, as in both programs."""
-        size, reach = self.sizes(sides)
+        size, reach = self.sizes(slave, master)
         value = contact.get("adjust", 0.0)
-        nodes, places, gaps, _, near, facing = self.onto(sides, max(value, reach))
-        moved = near & facing
+        nodes, places, gaps, _, near = self.onto(slave, master, max(value, reach))
+        moved = near.copy()
         if "adjusted" in contact:
             chosen = np.isin(nodes, contact["adjusted"])
             lost = (chosen & ~moved).sum()
@@ -74,12 +80,38 @@ class Adjusting:
             moved &= chosen
         else:
             moved &= gaps <= value
-            apart = (near & facing & (gaps > value)).sum()
+            apart = (near & (gaps > value)).sum()
             if "tied_pair" in contact and apart:
                 self.model.leave_out(contact["card"], f"TIED: {apart} slave nodes are farther away than ADJUST={value:g}: they are not tied", contact["line"])
         if value == 0:
-            self.set_adjust(contact, size, gaps, moved, near & facing & ~moved)
+            self.set_adjust(contact, size, gaps, moved, near & ~moved)
         self.move(nodes, places, moved)
+
+    def adjust_all(self, contact):
+        """General contact of all bodies: each is parted from those before it."""
+        faces = {}
+        for key, b in sorted(self.bodies.outer.items()):
+            faces.setdefault(b, []).append(key)
+        before = list(faces.get(0, ()))
+        for b in range(1, len(self.bodies.bodies)):
+            self.part(contact, faces[b], before)
+            before += faces[b]
+
+    def part(self, contact, slave, master):
+        """General contact of Abaqus: small overlaps are taken away without strain, and sides that overlap by more do not meet at all."""
+        size, _ = self.sizes(slave, master)
+        nodes, places, gaps, _, near = self.onto(slave, master, size)
+        over = near & (gaps < -1e-9 * size)
+        deep = -gaps[over].min(initial=0.0)
+        if deep > MUCH * size:
+            self.model.leave_out(
+                contact["card"],
+                f"sides overlap by up to {deep:.3g}: Abaqus takes small overlaps away, and lets sides that overlap by more pass each other; the deck has "
+                "them as they are",
+                contact["line"],
+            )
+        elif over.any():
+            self.move(nodes, places, over)
 
     @staticmethod
     def set_adjust(contact, size, gaps, moved, others):
@@ -92,9 +124,10 @@ class Adjusting:
 
     def report_pulled(self, contact, sides):
         """CalculiX's law TIED draws sides that are apart together, and pushes apart those that overlap; bonds of the deck leave gaps as they are."""
-        size, reach = self.sizes(sides)
-        nodes, _, gaps, _, near, facing = self.onto(sides, reach)
-        gap = np.abs(gaps[near & facing]).max(initial=0.0)
+        slave, master = (self.boundaries[side] for side in sides)
+        size, reach = self.sizes(slave, master)
+        nodes, _, gaps, _, near = self.onto(slave, master, reach)
+        gap = np.abs(gaps[near]).max(initial=0.0)
         if gap > 1e-6 * size:
             self.model.leave_out(
                 contact["card"],
@@ -103,24 +136,25 @@ class Adjusting:
                 changes=gap > FAR * size,
             )
 
-    def onto(self, sides, reach):
-        """Of the slave's nodes: the nearest places on the master, signed gaps, distances, whether the place is not beside the node but opposite,
-        and whether a face of the node looks that way."""
-        slave, master = (self.boundaries[side] for side in sides)
-        nodes = np.array(sorted({n for key in slave for n in self.bodies.nodes(key)}))
-        points = np.array([self.model.points[n] for n in nodes])
-        places, normals, distances = projection.nearest([self.face(key) for key in master], points, reach)
-        off = points - places
-        gaps = np.einsum("nc,nc->n", off, normals)
-        size, _ = self.sizes(sides)
-        beside = np.linalg.norm(off - gaps[:, None] * normals, axis=1)
-        near = np.isfinite(distances) & (beside <= BESIDE * size)
-        facing, number = np.zeros(len(nodes), bool), {n: k for k, n in enumerate(nodes)}
+    def onto(self, slave, master, reach):
+        """Of the slave's nodes: the nearest places on faces of the master that lie opposite, signed gaps, distances, and whether there is such a
+        place not beside the master."""
+        looks = {}
         for key in slave:
             normal = self.normal(key)
             for n in self.bodies.nodes(key):
-                facing[number[n]] |= normal @ normals[number[n]] < -0.3
-        return nodes, places, gaps, distances, near, facing
+                looks.setdefault(n, []).append(normal)
+        nodes = np.array(sorted(looks))
+        directions = np.zeros((len(nodes), max(map(len, looks.values())), 3))
+        for k, n in enumerate(nodes):
+            directions[k, : len(looks[n])] = looks[n]
+        points = np.array([self.model.points[n] for n in nodes])
+        places, normals, distances = projection.nearest([self.face(key) for key in master], points, reach, directions)
+        off = points - places
+        gaps = np.einsum("nc,nc->n", off, normals)
+        size, _ = self.sizes(slave, master)
+        beside = np.linalg.norm(off - gaps[:, None] * normals, axis=1)
+        return nodes, places, gaps, distances, np.isfinite(distances) & (beside <= BESIDE * size)
 
     def move(self, nodes, places, which):
         for n, place in zip(nodes[which], places[which]):
@@ -139,11 +173,11 @@ class Adjusting:
         _, normal = projection.nearest_of_faces(shape, np.array([nodes], dtype=float), middle[None])
         return normal[0] if normal[0] @ (middle - behind) > 0 else -normal[0]
 
-    def sizes(self, sides):
+    def sizes(self, slave, master):
         """(mean size of the master's faces, how far contact of the deck reaches by itself): tenth of the smaller side, or the longest face."""
         lengths, extents = [], []
-        for side in sides:
-            corners = [np.array([self.model.points[n] for n in self.bodies.corners(key)]) for key in self.boundaries[side]]
+        for side in (slave, master):
+            corners = [np.array([self.model.points[n] for n in self.bodies.corners(key)]) for key in side]
             lengths.append([np.linalg.norm(c[:, None] - c[None], axis=2).max() for c in corners])
             extents.append(np.linalg.norm(np.ptp(np.concatenate(corners), axis=0)))
         return float(np.mean(lengths[1])), max(0.1 * min(extents), *(max(own) for own in lengths))

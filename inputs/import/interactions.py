@@ -192,6 +192,7 @@ class Interactions:
             else:
                 contacts = [pair for line, words in card.rows() if (pair := self.pair_of_inclusions(card, line, words))]
             for contact in contacts:
+                contact["general"] = True
                 names = {contact[side].upper() for side in ("secondary", "primary") if side in contact}
                 for k, (of, name, _, _) in enumerate(assigned):
                     if not of or of == names:

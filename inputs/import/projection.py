@@ -19,6 +19,8 @@ EXPONENTS = {
 }
 STEPS, CLOSE = 30, 1e-12  # of Gauss and Newton; the last step in reference coordinates
 
+OPPOSITE = -0.3  # cosine
+
 
 class Functions:
     """Shape functions of a face and their derivatives at many reference points, as polynomials."""
@@ -112,9 +114,9 @@ def candidates(boxes, points, reach):
     return np.concatenate(found) if found else np.zeros((0, 2), int)
 
 
-def nearest(faces, points, reach):
-    """The nearest places on faces within `reach` of points (n, 3). faces: (shape, places of the nodes, a point behind the face) of each.
-    Returns places (n, 3), outward unit normals there (n, 3) and distances (n), infinite where no face is that near."""
+def nearest(faces, points, reach, looks=None):
+    """The nearest places on faces within `reach` of points (n, 3). faces: (shape, places of the nodes, a point behind the face) of each;
+    looks: directions of each point (n, any, 3), to one of which a face has to be opposite; zeros are none. Returns places (n, 3), outward unit normals there (n, 3) and distances (n), infinite where no face is that near."""
     places, normals, distances = np.zeros((len(points), 3)), np.zeros((len(points), 3)), np.full(len(points), np.inf)
     for shape in sorted({face[0] for face in faces}):
         nodes = np.array([face[1] for face in faces if face[0] == shape], dtype=float)
@@ -126,6 +128,8 @@ def nearest(faces, points, reach):
         inward = np.einsum("pc,pc->p", normal, nodes[pairs[:, 0]].mean(axis=1) - behind[pairs[:, 0]]) < 0
         normal[inward] *= -1
         distance = np.linalg.norm(at - points[pairs[:, 1]], axis=1)
+        if looks is not None:
+            distance[np.einsum("pkc,pc->pk", looks[pairs[:, 1]], normal).min(axis=1) > OPPOSITE] = np.inf
         for k in np.argsort(-distance, kind="stable"):  # the nearest one is the last
             point = pairs[k, 1]
             if distance[k] <= min(reach, distances[point]):

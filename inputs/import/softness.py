@@ -41,7 +41,7 @@ class Softness:
 
     def report_slip(self, value, relative, card, sides):
         """Elastic slip at the bound of friction, as a length or in parts of the mean size of the slave's faces."""
-        size, _ = self.sizes(sides[::-1])
+        size, _ = self.sizes(*(self.boundaries[side] for side in sides[::-1]))
         part = value if relative else value / size
         if part > SLIP:
             self.model.leave_out(

@@ -84,6 +84,15 @@ class Adjust(Meanings):
         self.assertEqual(result.deck["contacts"][0]["search_distance"], 0.1)
         self.told(tilted, "1 of 4 slave nodes are farther away")
 
+    def test_general_contact_takes_overlaps_away(self):
+        head, law = "*SURFACE INTERACTION, NAME=I\n*CONTACT\n", "*CONTACT PROPERTY ASSIGNMENT\n,,I\n" + step(PRESS)
+        for inclusions in (", ALL EXTERIOR\n", "\nUPPER_BOTTOM, CUBE_TOP\n"):
+            general = head + f"*CONTACT INCLUSIONS{inclusions}" + law
+            for gap, height in ((-0.05, 1), (0.05, 1.05), (0, 1)):
+                self.assertEqual(self.foot(MODEL + apart(gap) + general)[0], [height] * 4)
+                self.assertEqual(self.findings(MODEL + apart(gap) + general, True), [])
+            self.told(MODEL + apart(-0.4) + general, "pass each other")
+
     def test_tied_pairs(self):
         pair = "*SURFACE INTERACTION, NAME=I\n*CONTACT PAIR, INTERACTION=I, TIED, ADJUST={}\nUPPER_BOTTOM, CUBE_TOP\n" + step(PRESS)
         self.told(MODEL + apart(0.05) + pair.format(0.01), "TIED: 4 slave nodes")
