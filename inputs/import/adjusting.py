@@ -54,6 +54,7 @@ class Adjusting:
             contact["search_distance"] = tolerance
         elif distances[tied].max() > 0.5 * reach and not contact["moves"]:
             contact["search_distance"] = float(f"{2 * distances[tied].max():.3g}")
+        self.report_cut_faces(contact, slave, set(nodes[tied].tolist()), set(nodes[far].tolist()))
         if not given and distances[tied].max() > CALCULIX * size:
             self.model.note(
                 card,
@@ -63,6 +64,17 @@ class Adjusting:
             )
         if contact["moves"]:
             self.move(nodes, places, tied)
+
+    def report_cut_faces(self, contact, slave, tied, far):
+        """Faces of which some nodes are tied and others lie beside the master."""
+        beside = {n for key in slave if tied & set(self.bodies.nodes(key)) for n in self.bodies.nodes(key)} - tied - far
+        if beside:
+            self.model.note(
+                contact["card"],
+                f"{len(beside)} slave nodes lie beside the master, on faces of which others are tied: the deck bonds the parts of those faces that lie "
+                "opposite, where nodes alone are tied in the file",
+                contact["line"],
+            )
 
     def adjust_pair(self, contact, slave, master):
         """A value moves nodes that overlap or are nearer than it, a set its nodes: without strain, as in both programs."""

@@ -84,6 +84,11 @@ class Adjust(Meanings):
         self.assertEqual(result.deck["contacts"][0]["search_distance"], 0.1)
         self.told(tilted, "1 of 4 slave nodes are farther away")
 
+    def test_ties_across_the_border_of_the_master(self):
+        text = self.tie(0.05, ", POSITION TOLERANCE=0.1", apart(0.05).replace("12,1,0,", "12,1.5,0,").replace("13,1,1,", "13,1.5,1,"))
+        self.assertEqual(self.foot(text)[0], [1, 1.05, 1.05, 1])
+        self.told(text, "2 slave nodes lie beside the master", changes=False)
+
     def test_general_contact_takes_overlaps_away(self):
         head, law = "*SURFACE INTERACTION, NAME=I\n*CONTACT\n", "*CONTACT PROPERTY ASSIGNMENT\n,,I\n" + step(PRESS)
         for inclusions in (", ALL EXTERIOR\n", "\nUPPER_BOTTOM, CUBE_TOP\n"):
