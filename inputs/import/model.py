@@ -65,7 +65,7 @@ class Scope:
         self.node_sets, self.element_sets = {}, {}
         self.surfaces, self.node_surfaces = {}, {}  # one name may stand for one of each
         self.sections = []  # (card, scope)
-        self.turned = False  # an instance that is
+        self.turned, self.shift = False, np.zeros(3)  # how an instance is placed
 
     def set_of(self, sets, name):
         return sets.setdefault(name.upper(), SetDefinition(name))
@@ -104,7 +104,7 @@ class Model:
 
     def nodes_of(self, card, line, word, scope=None, repeated=False):
         """Indices of a node's number or of a set; repeated: as often as the set holds them."""
-        scope, word = self._scope(card, scope or self.assembly, word)
+        scope, word = self._scope(card, scope or card.scope or self.assembly, word)
         if is_number(word):
             if int(word) not in scope.nodes:
                 raise card.error(f"there is no node {word}", line)
@@ -112,7 +112,7 @@ class Model:
         return self._members(card, line, scope, scope.node_sets, word, self.nodes_of, "nodes", repeated)
 
     def elements_of(self, card, line, word, scope=None, repeated=False):
-        scope, word = self._scope(card, scope or self.assembly, word)
+        scope, word = self._scope(card, scope or card.scope or self.assembly, word)
         if is_number(word):
             if int(word) not in scope.elements:
                 raise card.error(f"there is no element {word}", line)
@@ -173,7 +173,7 @@ class Model:
         return [known[n] for n in range(first, last + 1, step) if n in known]
 
     def surface(self, card, line, name, scope=None):
-        scope, word = self._scope(card, scope or self.assembly, name)
+        scope, word = self._scope(card, scope or card.scope or self.assembly, name)
         for surfaces in (scope.surfaces, scope.node_surfaces):
             if word.upper() in surfaces:
                 return surfaces[word.upper()]
@@ -283,11 +283,12 @@ class Builder:
             if own.name in self.MESH:
                 self.mesh_card(own, scope, None)
             else:
-                self.model.cards.append(own)
+                self.model.cards.append(dataclasses.replace(own, scope=scope))
         moves = [[card.value(w, line, 0.0) for w in words] for line, words in card.rows()]
         if any(len(m) not in (0, 1, 2, 3, 7) for m in moves) or len(moves) > 2:
             raise card.error("expected a line with a translation and one with a rotation (two points and an angle)")
         scope.turned = any(len(m) == 7 for m in moves)
+        scope.shift = sum((np.array((*m, 0, 0, 0)[:3]) for m in moves if len(m) < 7), np.zeros(3))
         points = np.array(self.model.points[first:], dtype=float).reshape(-1, 3)
         for move in moves:
             points = rotated(points, move) if len(move) == 7 else points + np.array((*move, 0, 0, 0)[:3])

@@ -62,12 +62,19 @@ def expands(material):
     return any(material.get("orthotropic", {}).get("thermal_expansion", ())) or bool(material.get("thermal_expansion"))
 
 
-def axes_of(model, name, section):
-    """The entry of the deck's `axes` for an *ORIENTATION; `section` is the card that names it."""
-    found = [c for c in model.cards if c.name == "ORIENTATION" and c.need("NAME").upper() == name.upper()]
+def orientation_of(model, name, section, scope):
+    """The *ORIENTATION that a section names: that of its own instance, or of the assembly."""
+    named = [c for c in model.cards if c.name == "ORIENTATION" and c.need("NAME").upper() == name.upper()]
+    found = [c for c in named if c.scope is not None and c.scope is scope] or [c for c in named if c.scope is None]
     if not found:
         raise section.error(f'there is no *ORIENTATION "{name}"')
-    card = found[-1]
+    if len(found) > 1:
+        raise found[-1].error(f'the *ORIENTATION "{name}" is given twice')
+    return found[0]
+
+
+def axes_of(model, card):
+    """The entry of the deck's `axes` for an *ORIENTATION; that of a part moves with its instance."""
     system = card.get("SYSTEM", "RECTANGULAR").upper()
     if system not in ("RECTANGULAR", "CYLINDRICAL") or card.get("DEFINITION", "COORDINATES").upper() != "COORDINATES":
         raise card.error("the directions of a material are translated for SYSTEM=RECTANGULAR and CYLINDRICAL with coordinates of points")
@@ -79,7 +86,7 @@ def axes_of(model, name, section):
     if system == "CYLINDRICAL":
         if angle:
             raise card.error("an additional rotation of cylindrical directions has no counterpart")
-        return {"axis": numbers(b - a), "point": numbers(a)}
+        return {"axis": numbers(b - a), "point": numbers(a if card.scope is None else a + card.scope.shift)}
     origin = np.array((rows[0] + [0.0] * 3)[6:9])
     if origin.any():
         model.note(card, "a third point, the origin of the two, as in Abaqus; CalculiX knows none")
@@ -118,9 +125,11 @@ def of_section(model, card, scope, materials, name):
         return name
     if scope is not None and scope.turned:
         raise card.error(f'the instance "{scope.name}" is turned, and with it the directions of its material: give the part where it stands')
-    key = f"{name}@{orientation.upper()}"
+    at = orientation_of(model, orientation, card, scope)
+    key = f"{name}@{orientation.upper()}" + (f"@{at.scope.name}" if at.scope is not None else "")
     if key not in materials:
         known = [k for k in materials if k.startswith(name + "@")]
-        label = material["name"] if not known else f'{material["name"]}_{orientation}'
-        materials[key] = {**material, "name": label, "axes": (orientation, axes_of(model, orientation, card))}
+        of = orientation if at.scope is None else f"{at.scope.name}.{orientation}"
+        label = material["name"] if not known else f'{material["name"]}_{of}'
+        materials[key] = {**material, "name": label, "axes": (of, axes_of(model, at))}
     return key

@@ -21,6 +21,7 @@ class Card:
     data: list = dataclasses.field(default_factory=list)  # (line, fields)
     spelt: str = ""  # the keyword for people: in capitals, with its blanks
     order: int = 0  # among all cards
+    scope: object = None  # of a card of a part, where an instance has it: that instance
 
     def get(self, key, default=""):
         return self.parameters.get(key, default)

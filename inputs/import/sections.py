@@ -37,9 +37,9 @@ class Sections:
         deck["dimension"] = self.bodies.dimension if self.plane else 3
         used = [m for m in self.materials if m in self.used]
         deck["materials"] = {}
-        label = {}
+        label, taken = {}, set()
         for m in used:
-            label[m] = clean(self.materials[m]["name"])
+            label[m] = unique(clean(self.materials[m]["name"]), taken)
             material = deck["materials"][label[m]] = {
                 k: self.materials[m][k]
                 for k in ("young_modulus", "poisson_ratio", "density", "thermal_expansion")

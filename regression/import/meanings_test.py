@@ -261,6 +261,43 @@ class Steps(Meanings):
         self.told(held + step("*DLOAD\n1, P2, 2.\n"), "before the first step")
 
 
+class Parts(Meanings):
+    WOOD = "*MATERIAL, NAME=WOOD\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n11,6,4,.35,.4,.3,.7,.8\n.06\n"
+
+    def part(self, name, orientation):
+        return f"*PART, NAME={name}\n{CUBE}*ORIENTATION, NAME=G{orientation}\n*SOLID SECTION, ELSET=CUBE, MATERIAL=WOOD, ORIENTATION=G\n*END PART\n"
+
+    def axes(self, text):
+        deck = self.translate(text + self.WOOD + step("")).deck
+        return {body: deck["axes"][deck["materials"][entry["material"]]["orthotropic"]["axes"]] for body, entry in deck["bodies"].items()}
+
+    def test_orientations_of_parts_are_their_own(self):
+        text = self.part("P", "\n0,1,0, 0,0,1") + self.part("Q", "\n0,0,1, 1,0,0")
+        for p in ("P", "Q"):
+            text += f"*INSTANCE, NAME={p}1, PART={p}\n{2 if p == 'P' else 4},0,0\n*END INSTANCE\n"
+        self.assertEqual(self.axes(text), {"P1": {"x": [0, 1, 0], "y": [0, 0, 1]}, "Q1": {"x": [0, 0, 1], "y": [1, 0, 0]}})
+
+    def test_cylinders_move_with_their_instance(self):
+        text = self.part("P", ", SYSTEM=CYLINDRICAL\n0,0,0, 0,0,1")
+        for k in (1, 2):
+            text += f"*INSTANCE, NAME=I{k}, PART=P\n{3 * k},0,0\n*END INSTANCE\n"
+        found = self.axes(text)
+        self.assertEqual([found[f"I{k}"]["point"] for k in (1, 2)], [[3, 0, 0], [6, 0, 0]])
+
+    def test_one_material_with_and_without_directions(self):
+        text = CUBE + SECOND.replace("MATERIAL=STEEL", "MATERIAL=WOOD, ORIENTATION=G") + "*SOLID SECTION, ELSET=CUBE, MATERIAL=WOOD\n"
+        deck = self.translate(text + "*ORIENTATION, NAME=G\n0,1,0, 0,0,1\n" + self.WOOD + step("")).deck
+        of = {body: deck["materials"][entry["material"]]["orthotropic"].get("axes") for body, entry in deck["bodies"].items()}
+        self.assertEqual(of, {"CUBE": None, "UPPER": "G"})
+
+    def test_sets_of_parts(self):
+        """A spring of a part finds its elements there; the assembly has a set of the same name."""
+        part = f"*PART, NAME=P\n{CUBE}*ELEMENT, TYPE=SPRINGA, ELSET=S\n77, 5, 3\n*SPRING, ELSET=S\n\n12.5\n*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n*END PART\n"
+        text = part + "*INSTANCE, NAME=A, PART=P\n*END INSTANCE\n*INSTANCE, NAME=B, PART=P\n3,0,0\n*END INSTANCE\n*ELSET, ELSET=S, INSTANCE=A\n1\n"
+        springs = self.deck(text + STEEL.replace("*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n", "") + step("*DLOAD\nA.CUBE, P2, 1.\n"))["springs"]
+        self.assertEqual({name: s["points"][0] for name, s in springs.items()}, {"A.spring.77": [0, 0, 1], "B.spring.77": [3, 0, 1]})
+
+
 class Others(Meanings):
     def test_thickness_is_told(self):
         plate = (
