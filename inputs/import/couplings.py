@@ -122,6 +122,9 @@ class Couplings:
             owner = turns.get(node, node)
             if owner in names and any(values) and self.transmits(node, axis, entry):
                 kind, a = ("moment", axis - 1 if node in turns else axis - 4) if node in turns or axis > 3 else ("force", axis - 1)
+                if a > 2 or self.plane and (a == 2) != (kind == "moment"):
+                    self.model.leave_out(entry.card, f"degree of freedom {axis} of a reference node", entry.line)
+                    continue
                 direction = self.direction(node, a, entry)
                 if direction is None:
                     continue
@@ -143,7 +146,9 @@ class Couplings:
                 continue
             rotation = node in turns or axis > 3
             a = axis - 1 if node in turns or axis <= 3 else axis - 4
-            if self.plane and ((a == 2) != rotation):
+            if a > 2 or self.plane and ((a == 2) != rotation):
+                if any(values):
+                    self.model.leave_out(entry.card, f"degree of freedom {axis} of a reference node", entry.line)
                 continue
             base = self.largest(values)
             course = tuple(self.factors(values, base))

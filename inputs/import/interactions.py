@@ -41,11 +41,15 @@ class Interactions:
                 self.read_clearance(card)
             elif card.name == "CYCLICSYMMETRYMODEL":
                 self.read_cyclic(card)
+        used = []  # cyclic models
         for card in model.cards:
             if card.name == "CONTACTPAIR":
                 self.read_pair(card)
             elif card.name == "TIE":
-                self.read_tie(card)
+                self.read_tie(card, used)
+        for card in [c for c in model.cards if c.name == "CYCLICSYMMETRYMODEL"]:
+            if self.cyclic[card.get("TIE").upper()] not in used:
+                model.leave_out(card, "belongs to no *TIE, CYCLIC SYMMETRY")
         self.read_general()
 
     def read_law(self, card, law):
@@ -155,7 +159,7 @@ class Interactions:
                 contact["friction"], contact["tied_pair"] = {"bonded": True}, True
             self.contacts.append(contact)
 
-    def read_tie(self, card):
+    def read_tie(self, card, used):
         cyclic = "CYCLICSYMMETRY" in card.parameters
         if "MULTISTAGE" in card.parameters or "FLUIDPERIODIC" in card.parameters:
             self.model.leave_out(card, "MULTISTAGE and FLUID PERIODIC")
@@ -171,6 +175,7 @@ class Interactions:
                     self.model.leave_out(card, "has no *CYCLIC SYMMETRY MODEL", line)
                     continue
                 contact["cyclic"] = found
+                used.append(found)
             else:
                 contact["tied"], contact["moves"] = True, card.get("ADJUST", "YES").upper() != "NO"
                 if card.get("POSITIONTOLERANCE"):

@@ -194,6 +194,12 @@ class Couplings(Meanings):
         held = self.HEAD + self.GRIP + "*DISTRIBUTING\n1, 3\n" + step("*BOUNDARY\n50, 4, 6\n*CLOAD\n50, 1, 7.\n")
         self.assertEqual([s for s in self.deck(held)["supports"] if "coupling" in s], [])
 
+    def test_degrees_of_freedom_of_reference_nodes(self):
+        rigid = self.HEAD + "*NODE\n51, .5, .5, 2.\n*RIGID BODY, NSET=TOP, REF NODE=50, ROT NODE=51\n"
+        for load in ("*CLOAD\n51, 5, 1.\n", "*CLOAD\n50, 7, 1.\n", "*BOUNDARY\n50, 11, 11, 0.1\n"):
+            self.told(rigid + step(load), "of a reference node")
+        self.assertEqual(self.findings(rigid + step("*BOUNDARY\n51, 1, 6\n*CLOAD\n50, 1, 1.\n"), True), [])
+
     def test_reference_nodes(self):
         both = self.HEAD + self.GRIP + "*KINEMATIC\n1, 3\n" + self.GRIP.replace("GRIP", "SIDE") + "*{}\n1, 3\n" + step("*CLOAD\n50, 1, 7.\n")
         result = self.translate(both.format("KINEMATIC"))
@@ -322,6 +328,7 @@ class Others(Meanings):
         rigid += "*RIGID BODY, NSET=TOP, REF NODE=9{}\n" + step("*CLOAD\n9, 3, 1.\n")
         self.told(rigid.format(", POSITION=CENTER OF MASS"), "POSITION")
         self.assertEqual(self.findings(rigid.format(", POSITION=INPUT"), True), [])
+        self.told(MODEL + "*CYCLIC SYMMETRY MODEL, N=4, TIE=T\n0,0,0, 0,0,1\n" + step("*DLOAD\n1, P2, 1.\n"), "belongs to no *TIE")
         springs = MODEL + "*ELEMENT, TYPE=SPRINGA, ELSET=STRUT\n77, 5, 3\n*SPRING, ELSET=STRUT\n\n1.,,0.\n5.,,100.\n" + step("*DLOAD\nCUBE, P2, 1.\n")
         self.told(springs, "temperature")
 
