@@ -152,8 +152,7 @@ class Adjusting:
         """Of the slave's nodes: the nearest places on faces of the master that lie opposite, signed gaps, distances, and whether there is such a
         place not beside the master."""
         looks = {}
-        for key in slave:
-            normal = self.normal(key)
+        for key, normal in zip(slave, projection.middle_normals([self.face(key) for key in slave])):
             for n in self.bodies.nodes(key):
                 looks.setdefault(n, []).append(normal)
         nodes = np.array(sorted(looks))
@@ -177,13 +176,6 @@ class Adjusting:
         shape, nodes = self.bodies.shape(key), self.bodies.nodes(key)
         middle = np.mean([self.model.points[n] for n in self.model.elements[key[0]].nodes], axis=0)
         return shape, [self.model.points[n] for n in nodes], middle
-
-    def normal(self, key):
-        """The outward unit normal at the middle of a face."""
-        shape, nodes, behind = self.face(key)
-        middle = np.mean(nodes, axis=0)
-        _, normal = projection.nearest_of_faces(shape, np.array([nodes], dtype=float), middle[None])
-        return normal[0] if normal[0] @ (middle - behind) > 0 else -normal[0]
 
     def sizes(self, slave, master):
         """(mean size of the master's faces, how far contact of the deck reaches by itself): tenth of the smaller side, or the longest face."""

@@ -19,7 +19,8 @@ EXPONENTS = {
 }
 STEPS, CLOSE = 30, 1e-12  # of Gauss and Newton; the last step in reference coordinates
 
-OPPOSITE = -0.3  # cosine
+OPPOSITE = -0.3  # cosine of directions that lie opposite
+BULGE, AT_ONCE = 1.1, 500  # how far faces reach beyond their nodes; points that are looked for together
 
 
 class Functions:
@@ -78,19 +79,42 @@ def solve(shape, nodes, points):
     return r, np.einsum("pn,pnc->pc", functions.values(r), nodes)
 
 
-def nearest_of_faces(shape, nodes, points):
-    """Of each face the point nearest to the point with the same number. Returns places and unit normals there (of the order of the nodes)."""
-    r, places = solve(shape, nodes, points)
+def normals_at(shape, nodes, r):
+    """Unit normals of faces at reference points, one of each, as the order of the nodes has them."""
     tangents = FUNCTIONS[shape].derivatives(r) @ nodes
     if elements.family(shape) == "line":
         normals = np.column_stack((tangents[:, 0, 1], -tangents[:, 0, 0], np.zeros(len(r))))
     else:
         normals = np.cross(tangents[:, 0], tangents[:, 1])
+    return normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+
+
+def outward(normals, nodes, behind):
+    """The same normals, those that point to the places behind their faces the other way round."""
+    return normals * np.where(np.einsum("pc,pc->p", normals, nodes.mean(axis=1) - behind) < 0, -1, 1)[:, None]
+
+
+def by_shape(faces):
+    """(shape, nodes, places behind them) of the faces of each shape, in order."""
+    for shape in sorted({face[0] for face in faces}):
+        yield shape, *(np.array([face[i] for face in faces if face[0] == shape], dtype=float) for i in (1, 2))
+
+
+def middle_normals(faces):
+    """Outward unit normals at the middles of faces as nearest() has them. Shape (faces, 3)."""
+    of = {shape: iter(Group(shape, *rest).normals) for shape, *rest in by_shape(faces)}
+    return np.array([next(of[face[0]]) for face in faces])
+
+
+def nearest_of_faces(shape, nodes, points):
+    """Of each face the point nearest to the point with the same number. Returns places and unit normals there (of the order of the nodes)."""
+    r, places = solve(shape, nodes, points)
+    if elements.family(shape) != "line":
         for edge in edges(shape):
             _, on_edge = solve(f"line{len(edge)}", nodes[:, edge], points)
             nearer = np.linalg.norm(points - on_edge, axis=1) < np.linalg.norm(points - places, axis=1)
             places = np.where(nearer[:, None], on_edge, places)
-    return places, normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+    return places, normals_at(shape, nodes, r)
 
 
 def edges(shape):
@@ -100,38 +124,68 @@ def edges(shape):
     return [[*pair, elements.CORNERS[of] + k] if second else list(pair) for k, pair in enumerate(elements.EDGES[of])]
 
 
-def candidates(boxes, points, reach):
-    """(face, point) where the point is within `reach` of the face's box. boxes: lowest and highest corners, (faces, 3) each."""
-    low, high = boxes[0] - reach, boxes[1] + reach
-    axis = int(np.argmax(np.ptp(points, axis=0)))
-    order = np.argsort(points[:, axis], kind="stable")
-    line = points[order, axis]
-    found = []
-    for face, (first, last) in enumerate(zip(np.searchsorted(line, low[:, axis]), np.searchsorted(line, high[:, axis], "right"))):
-        near = order[first:last]
-        near = near[np.all((points[near] >= low[face]) & (points[near] <= high[face]), axis=1)]
-        found.append(np.column_stack((np.full(len(near), face), near)))
-    return np.concatenate(found) if found else np.zeros((0, 2), int)
+class Group:
+    """Faces of one shape, with what finds those that may be nearest to a point."""
+
+    def __init__(self, shape, nodes, behind):
+        self.shape, self.nodes, self.behind = shape, nodes, behind
+        self.centers = nodes.mean(axis=1)
+        self.radii = BULGE * np.linalg.norm(nodes - self.centers[:, None], axis=2).max(axis=1)
+        r = np.tile(np.mean(CORNERS[elements.family(shape)], axis=0), (len(nodes), 1))
+        self.normals = outward(normals_at(shape, nodes, r), nodes, behind)
+
+    def candidates(self, points, looks, reach):
+        """(face, point) of all faces that may be the nearest one within `reach` of a point."""
+        around = np.linalg.norm(np.maximum(points.min(axis=0) - self.centers, self.centers - points.max(axis=0)).clip(0), axis=1)
+        faces = np.flatnonzero(around <= self.radii + reach)
+        if not len(faces):
+            return np.zeros((0, 2), int)
+        axis = int(np.argmax(np.ptp(points, axis=0)))
+        order = np.argsort(points[:, axis], kind="stable")
+        line, far = points[order, axis], self.radii[faces] + reach
+        first, last = (np.searchsorted(line, self.centers[faces, axis] + sign * far, side) for sign, side in ((-1, "left"), (1, "right")))
+        pairs = np.column_stack((np.repeat(faces, last - first), order[np.concatenate([np.arange(a, b) for a, b in zip(first, last)])]))
+        off = np.linalg.norm(points[pairs[:, 1]] - self.centers[pairs[:, 0]], axis=1)
+        radii = self.radii[pairs[:, 0]]
+        kept = sure = off <= radii + reach
+        if looks is not None:  # on both sides of the limit, for faces are curved
+            cosine = np.einsum("pkc,pc->pk", looks[pairs[:, 1]], self.normals[pairs[:, 0]]).min(axis=1)
+            kept, sure = kept & (cosine <= OPPOSITE + 0.3), sure & (cosine <= OPPOSITE - 0.3)
+        most = np.full(len(points), np.inf)
+        np.minimum.at(most, pairs[sure, 1], (off + radii)[sure])
+        return pairs[kept & (off - radii <= most[pairs[:, 1]])]
+
+    def nearest(self, points, looks, reach):
+        """(numbers of points, places, normals, distances) of the nearest places within `reach`, one for each point that has any."""
+        pairs = self.candidates(points, looks, reach)
+        own, place = self.nodes[pairs[:, 0]], points[pairs[:, 1]]
+        at, normal = nearest_of_faces(self.shape, own, place) if len(pairs) else (place, place)
+        normal = outward(normal, own, self.behind[pairs[:, 0]])
+        distance = np.linalg.norm(at - place, axis=1)
+        kept = distance <= reach
+        if looks is not None:
+            kept &= np.einsum("pkc,pc->pk", looks[pairs[:, 1]], normal).min(axis=1) <= OPPOSITE
+        order = np.flatnonzero(kept)[np.lexsort((distance[kept], pairs[kept, 1]))]
+        found, first = np.unique(pairs[order, 1], return_index=True)
+        return found, at[order[first]], normal[order[first]], distance[order[first]]
 
 
 def nearest(faces, points, reach, looks=None):
     """The nearest places on faces within `reach` of points (n, 3). faces: (shape, places of the nodes, a point behind the face) of each;
-    looks: directions of each point (n, any, 3), to one of which a face has to be opposite; zeros are none. Returns places (n, 3), outward unit normals there (n, 3) and distances (n), infinite where no face is that near."""
+    looks: directions of each point (n, any, 3), to one of which a face has to be opposite; zeros are none.
+    Returns places (n, 3), outward unit normals there (n, 3) and distances (n), infinite where no face is that near."""
     places, normals, distances = np.zeros((len(points), 3)), np.zeros((len(points), 3)), np.full(len(points), np.inf)
-    for shape in sorted({face[0] for face in faces}):
-        nodes = np.array([face[1] for face in faces if face[0] == shape], dtype=float)
-        behind = np.array([face[2] for face in faces if face[0] == shape], dtype=float)
-        pairs = candidates((nodes.min(axis=1), nodes.max(axis=1)), points, reach)
-        if not len(pairs):
-            continue
-        at, normal = nearest_of_faces(shape, nodes[pairs[:, 0]], points[pairs[:, 1]])
-        inward = np.einsum("pc,pc->p", normal, nodes[pairs[:, 0]].mean(axis=1) - behind[pairs[:, 0]]) < 0
-        normal[inward] *= -1
-        distance = np.linalg.norm(at - points[pairs[:, 1]], axis=1)
-        if looks is not None:
-            distance[np.einsum("pkc,pc->pk", looks[pairs[:, 1]], normal).min(axis=1) > OPPOSITE] = np.inf
-        for k in np.argsort(-distance, kind="stable"):  # the nearest one is the last
-            point = pairs[k, 1]
-            if distance[k] <= min(reach, distances[point]):
-                places[point], normals[point], distances[point] = at[k], normal[k], distance[k]
-    return places, normals, distances
+    groups = [Group(*group) for group in by_shape(faces)]
+    radius = min(reach, min((group.radii.mean() for group in groups), default=reach))
+    left = np.argsort(points[:, int(np.argmax(np.ptp(points, axis=0)))], kind="stable")
+    while True:
+        for some in np.array_split(left, 1 + len(left) // AT_ONCE):
+            for group in groups:
+                found, at, normal, distance = group.nearest(points[some], None if looks is None else looks[some], radius)
+                better = distance < distances[some[found]]
+                own = some[found[better]]
+                places[own], normals[own], distances[own] = at[better], normal[better], distance[better]
+        left = left[np.isinf(distances[left])]
+        if radius >= reach or not len(left):
+            return places, normals, distances
+        radius = min(reach, 4 * radius)
