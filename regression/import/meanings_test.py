@@ -298,7 +298,8 @@ class Parts(Meanings):
 
     def test_sets_of_parts(self):
         """A spring of a part finds its elements there; the assembly has a set of the same name."""
-        part = f"*PART, NAME=P\n{CUBE}*ELEMENT, TYPE=SPRINGA, ELSET=S\n77, 5, 3\n*SPRING, ELSET=S\n\n12.5\n*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n*END PART\n"
+        part = f"*PART, NAME=P\n{CUBE}*ELEMENT, TYPE=SPRINGA, ELSET=S\n77, 5, 3\n*SPRING, ELSET=S\n\n12.5\n"
+        part += "*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n*END PART\n"
         text = part + "*INSTANCE, NAME=A, PART=P\n*END INSTANCE\n*INSTANCE, NAME=B, PART=P\n3,0,0\n*END INSTANCE\n*ELSET, ELSET=S, INSTANCE=A\n1\n"
         springs = self.deck(text + STEEL.replace("*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL\n", "") + step("*DLOAD\nA.CUBE, P2, 1.\n"))["springs"]
         self.assertEqual({name: s["points"][0] for name, s in springs.items()}, {"A.spring.77": [0, 0, 1], "B.spring.77": [3, 0, 1]})
