@@ -72,6 +72,7 @@ FACES = {
 }
 SOLIDS = {4: "tet4", 10: "tet10", 6: "prism6", 15: "prism15", 8: "hex8", 20: "hex20"}
 FLAT = {3: "tri3", 6: "tri6", 4: "quad4", 8: "quad8"}
+POINTS = {"prism6": 2, "prism15": 9}  # of integration, fewer than those of the program
 FAMILIES = {"C3D": "3", "CPE": "plane_strain", "CPS": "plane_stress", "CAX": "axisymmetric"}
 
 
@@ -104,6 +105,8 @@ def kind(name):
             formulation = "incompatible"
     if "R" in suffix:
         notes.append("full integration instead of reduced" + (", with incompatible modes" if formulation == "incompatible" else ""))
+    if shape in POINTS:
+        notes.append(f"full integration, where Abaqus and CalculiX take {POINTS[shape]} points: coarse meshes are stiffer")
     if "H" in suffix:
         formulation = "bbar" if shape in ("hex8", "quad4", "prism6") else formulation
         notes.append("displacements alone instead of a hybrid element")

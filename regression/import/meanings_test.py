@@ -314,6 +314,10 @@ class Others(Meanings):
         self.told(plate.format(0.4), "a thickness of 0.4", changes=False)
         self.assertEqual(self.findings(plate.format(1.0), False), [])
 
+    def test_prisms_are_integrated_in_full(self):
+        head = CUBE[: CUBE.index("*ELEMENT")] + "*ELEMENT, TYPE=C3D6, ELSET=CUBE\n1,1,2,3,5,6,7\n"
+        self.told(head + MODEL[len(CUBE) :] + step("*DLOAD\n1, P2, 1.\n"), "take 2 points", changes=False)
+
     def test_what_is_refused(self):
         for text, why in (
             (MODEL + "*BOUNDARY\nTOP\n", "a degree of freedom"),
