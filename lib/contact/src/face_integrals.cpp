@@ -214,13 +214,25 @@ void Integrator::integrate_facet(std::size_t facet)
   each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
 }
 
-std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_facets)
+// All of a face in one piece.
+void Integrator::integrate_face(std::size_t face)
 {
   begin(face);
-  in_facets = in_facets || moved(face);
   const auto first = static_cast<std::size_t>(secondary_.first_facet[face]),
              end = static_cast<std::size_t>(secondary_.first_facet[face + 1]);
   for (std::size_t facet = first; facet < end; ++facet) integrate_facet(facet);
+}
+
+double Integrator::covered_part(std::size_t face)
+{
+  integrate_face(face);
+  return piece_->covered.sum() / piece_->whole.sum();
+}
+
+std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_facets)
+{
+  integrate_face(face);
+  in_facets = in_facets || moved(face);
   const double covered = piece_->covered.sum(), whole = piece_->whole.sum();
   if (covered > 0 && covered < (1 - 1e-6) * whole) {
     cut(face, in_facets);

@@ -26,6 +26,8 @@ class Integrator {
   std::span<const PieceIntegrals> integrate(std::size_t face, bool in_facets);
   /// The same where a rigid obstacle lies opposite all of the face, which has no nodes.
   std::span<const PieceIntegrals> integrate_whole(std::size_t face, bool in_facets);
+  /// The part of a face that the primary side covers within reach.
+  double covered_part(std::size_t face);
 
  private:
   void begin(std::size_t face);
@@ -33,6 +35,7 @@ class Integrator {
   void forget_nodes();
   template <class Use>
   void each_common(std::size_t facet, const Use& use);
+  void integrate_face(std::size_t face);
   void integrate_facet(std::size_t facet);
   void cut(std::size_t face, bool in_facets);
   double slits(std::size_t face) const;

@@ -15,6 +15,9 @@
 
 namespace mortise::contact {
 
+/// Two directions orthogonal to a normal, in columns; in 2 dimensions the second is 0.
+Eigen::Matrix<double, 3, 2> tangent_plane(const Point& normal, int dimension);
+
 /// The nodes of one side that a row pushes on, in the tangent plane of its direction.
 class Spread {
  public:

@@ -22,10 +22,13 @@ class Mortar : public Discretization {
     const bool in_facets = sides_.mesh_gaps && sides_.rays.nearest_within(face);
     if (!sides_.obstacle) return faces.add(face, integrator_.integrate(face, in_facets));
     faces.add(face, integrator_.integrate_whole(face, in_facets));
-    const auto surface_nodes = faces.surface_nodes_of(face);
-    if (!std::all_of(surface_nodes.begin(), surface_nodes.end(),
-                     [&](Local p) { return sides_.rays.meets(static_cast<std::size_t>(p)); }))
+    if (!meets_all(face))
       for (const std::size_t i : faces.pieces(face)) faces.piece(i).covered.setZero();
+  }
+
+  bool covers(std::size_t face) override
+  {
+    return sides_.obstacle ? meets_all(face) : integrator_.covered_part(face) > 1 - slit;
   }
 
   void make_functions(std::span<const char> kept) override
@@ -55,6 +58,13 @@ class Mortar : public Discretization {
   double rise(const CutFaces::Function& function) override { return sides_.faces.piece(function.piece).rise[function.k]; }
 
  private:
+  bool meets_all(std::size_t face)
+  {
+    const auto surface_nodes = sides_.faces.surface_nodes_of(face);
+    return std::all_of(surface_nodes.begin(), surface_nodes.end(),
+                       [&](Local p) { return sides_.rays.meets(static_cast<std::size_t>(p)); });
+  }
+
   Integrator integrator_;
 };
 
