@@ -108,11 +108,11 @@ class Builder {
   }
 
   // All of its work: afterwards the others tell what it found.
-  void add_rows(constraint::Contacts& contacts, const Communicator& comm)
+  void add_rows(constraint::Contacts& contacts, const SupportDirectory& supports, const Communicator& comm)
   {
-    const std::size_t first = contacts.nodes.size();
-    const auto between = take_places_between(nearest_, secondary_, nodes_, faces_, share_.own,
-                                             [&](std::size_t face) { return discretization_->covers(face); });
+    const auto cover = [&](std::size_t face) { return discretization_->cover(face); };
+    between_.emplace(take_places_between(nearest_, secondary_, nodes_, faces_, share_.own, cover, comm), secondary_, share_.own,
+                     comm);
     for (const std::size_t f : faces_.round()) discretization_->add_face(f);
     faces_.number_corners();
     chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, seams_end(), bonded(), dimension_);
@@ -126,8 +126,8 @@ class Builder {
       if (own(p) && chosen_.kept[p]) add_place(p, contacts);
     // Tresca's bound is an area's, which belongs to the nodes.
     const bool tangents = options_.law != Law::frictionless && options_.law != Law::tresca;
-    const auto gap = [&](const PlaceBetween& place, const Point& direction) { return gap_between(place, direction); };
-    add_rows_between(between, first, {index_, dimension_, tangents, gap}, contacts, comm);
+    between_->add_to(contacts, supports, {index_, secondary_.kinematics, rotation_of(options_), tangents},
+                     [&](const PlaceBetween& place) { return gap_between(place); });
   }
 
  private:
@@ -237,6 +237,7 @@ class Builder {
       writer_.add(terms_, d, normal, point.gap, contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), normal);
     }
+    between_->note(point, terms_, d, secondary_, primary_);
     contacts.nodes.push_back(std::move(point));
     contacts.bonded.push_back(bonded());
   }
@@ -336,16 +337,16 @@ class Builder {
     };
   }
 
-  // The bound of the row of a place between nodes.
-  double gap_between(const PlaceBetween& place, const Point& direction)
+  RowsBetween::Gap gap_between(const PlaceBetween& place)
   {
     const auto p = place.surface_node;
+    const Point direction = rays_.direction(p, place.at, place.normal);
     const auto gap_of = [&](const Rays::GapOf& start) {
       return without_rounding(p, true, rays_.gap(p, place.where, direction, start), place.at, direction);
     };
     const double mesh_gap = gap_of({}), gap = starts_in_mesh() ? mesh_gap : gap_of(start());
     if (std::isfinite(gap)) note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, 0, place.at);
-    return gap - options_.interference;
+    return {direction, mesh_gap, gap - options_.interference};
   }
 
   const Options& options_;
@@ -363,6 +364,7 @@ class Builder {
   bool mesh_gaps_;
   std::vector<NearestPoint> nearest_;  // of each surface node, or none
   std::optional<OnePart> one_part_;    // once one is asked
+  std::optional<RowsBetween> between_;
   std::unique_ptr<Discretization> discretization_;
   OneSurface one_surface_;
   InitialGap initial_gap_;
@@ -395,7 +397,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
       at_seam = answer(unbonded_nodes, ask(share.secondary.node_id, comm), comm);
     Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, at_seam, curved, kinematics, comm);
     builder.set_touching(touching_gap(sizes[c].extent, sizes[c].secondary_face));
-    builder.add_rows(contacts, comm);
+    builder.add_rows(contacts, directory, comm);
     if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
     if (options.cyclic && options.law == Law::bonded)
       require_one_surface(pairs[c], sizes[c], builder.widest_gap(), builder.covered_area(), comm);

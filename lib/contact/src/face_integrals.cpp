@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nearest_points.hpp"
+#include "one_part.hpp"
 
 namespace mortise::contact {
 
@@ -223,10 +224,15 @@ void Integrator::integrate_face(std::size_t face)
   for (std::size_t facet = first; facet < end; ++facet) integrate_facet(facet);
 }
 
-double Integrator::covered_part(std::size_t face)
+Cover Integrator::cover(std::size_t face)
 {
   integrate_face(face);
-  return piece_->covered.sum() / piece_->whole.sum();
+  if (piece_->nodes.empty()) return {};
+  if (body_of_.empty()) body_of_ = connected_parts(primary_);
+  const auto body = [&](Local node) { return body_of_[static_cast<std::size_t>(node)]; };
+  const Local first = body(piece_->nodes[0]);
+  const bool one = std::ranges::all_of(piece_->nodes, [&](Local node) { return body(node) == first; });
+  return {piece_->covered.sum() / piece_->whole.sum(), one ? first : -1};
 }
 
 std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_facets)

@@ -9,6 +9,7 @@
 #include "covered_face.hpp"
 #include "nearest_points.hpp"
 #include "pieces.hpp"
+#include "places_between.hpp"
 #include "surface_nodes.hpp"
 #include "tree.hpp"
 
@@ -26,8 +27,8 @@ class Integrator {
   std::span<const PieceIntegrals> integrate(std::size_t face, bool in_facets);
   /// The same where a rigid obstacle lies opposite all of the face, which has no nodes.
   std::span<const PieceIntegrals> integrate_whole(std::size_t face, bool in_facets);
-  /// The part of a face that the primary side covers within reach.
-  double covered_part(std::size_t face);
+  /// What the primary side covers of a face within reach.
+  Cover cover(std::size_t face);
 
  private:
   void begin(std::size_t face);
@@ -66,6 +67,7 @@ class Integrator {
   CoveredFace covered_face_;           // at work, if it is cut
   std::optional<CoveredBasis> basis_;  // if it has points of its own
   std::vector<int> met_;
+  std::vector<Local> body_of_;  // of each primary node, once it is asked for
 };
 
 /// One coefficient of the rows before they are divided by D: secondary or primary node, value.

@@ -26,9 +26,10 @@ class Mortar : public Discretization {
       for (const std::size_t i : faces.pieces(face)) faces.piece(i).covered.setZero();
   }
 
-  bool covers(std::size_t face) override
+  Cover cover(std::size_t face) override
   {
-    return sides_.obstacle ? meets_all(face) : integrator_.covered_part(face) > 1 - slit;
+    if (!sides_.obstacle) return integrator_.cover(face);
+    return meets_all(face) ? Cover{1, 0} : Cover{};
   }
 
   void make_functions(std::span<const char> kept) override

@@ -1,58 +1,34 @@
 #include "rows_between.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <tuple>
 
 #include "base/dense.hpp"
 #include "by_node.hpp"
 #include "moments.hpp"
+#include "rows.hpp"
 
 namespace mortise::contact {
 
 namespace {
 
-constexpr double one_normal = 0.75;         // cosine: rows on the other side of a kink say nothing here
-constexpr double largest_weights = 3;       // the sum of their sizes: more is an extrapolation
-constexpr double least_weight = 1e-9;       // of the largest
-constexpr double negligible_entry = 1e-12;  // of a row, where the largest are of size 1
+constexpr double one_normal = 0.75;    // cosine: rows on the other side of a kink say nothing here
+constexpr double largest_weights = 2;  // the sum of their sizes: more is an extrapolation
+constexpr double least_weight = 1e-9;  // less is none
+// What a node that is covered all round may lack of its cover and of the weight of its row.
+constexpr double of_cover = 0.01, of_weight = 1e-9;
 
-using Packed = std::array<double, 3>;
-
-Packed packed(const Point& p)
+std::array<double, 3> packed(const Point& p)
 {
   return {p[0], p[1], p[2]};
 }
-Point unpacked(const Packed& a)
+Point unpacked(const std::array<double, 3>& a)
 {
   return {a[0], a[1], a[2]};
 }
 
-// A contact node on its way to the places round it.
-struct Neighbour {
-  Global node;
-  int number;  // among those at the node
-  int tangents;
-  double weight, area, gap;
-  Packed normal, at;
-  std::array<Packed, 2> axes;
-  std::array<double, 3> held;  // of each row, what supports add to its bound
-};
-
-// An entry of one of its rows, or of what supports hold of it.
-struct NeighbourEntry {
-  Global node;
-  int number, row;
-  Global of;  // of free entries
-  int component;
-  double value;
-  int support = -1;  // of held ones
-  Packed at{};
-};
-
-// The nodes of this rank that places of others ask for. Collective.
+// The nodes of this rank that places of others ask for, ascending. Collective.
 std::vector<Global> asked_for(std::span<const PlaceBetween> places, const std::vector<Global>& own, const Communicator& comm)
 {
   struct Asked {
@@ -63,136 +39,11 @@ std::vector<Global> asked_for(std::span<const PlaceBetween> places, const std::v
     for (const Global node : place.round) wanted.push_back({node});
   std::vector<Global> result;
   for (const auto& asked : answer(by_node<Asked>(wanted, comm), ask(own, comm), comm)) result.push_back(asked.node);
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  result.erase(std::ranges::unique(result).begin(), result.end());
   return result;
 }
 
-// The contact nodes that places are between, with their rows.
-class Neighbours {
- public:
-  // Collective.
-  Neighbours(std::span<const PlaceBetween> places, std::size_t first, const constraint::Contacts& contacts, const Communicator& comm)
-  {
-    std::vector<Global> own, wanted;
-    for (std::size_t i = first; i < contacts.nodes.size(); ++i) own.push_back(contacts.nodes[i].node);
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
-    const auto asked = asked_for(places, own, comm);
-    std::vector<Neighbour> nodes;
-    std::vector<NeighbourEntry> entries;
-    for (std::size_t i = first; i < contacts.nodes.size(); ++i)
-      if (std::binary_search(asked.begin(), asked.end(), contacts.nodes[i].node)) pack(contacts, i, nodes, entries);
-    for (const auto& place : places) wanted.insert(wanted.end(), place.round.begin(), place.round.end());
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-    nodes_ = answer(by_node<Neighbour>(nodes, comm), ask(wanted, comm), comm);
-    entries_ = answer(by_node<NeighbourEntry>(entries, comm), ask(wanted, comm), comm);
-    std::sort(nodes_.begin(), nodes_.end(), [](const Neighbour& a, const Neighbour& b) { return key(a) < key(b); });
-    std::stable_sort(entries_.begin(), entries_.end(), [](const NeighbourEntry& a, const NeighbourEntry& b) {
-      return std::tuple(a.node, a.number, a.row) < std::tuple(b.node, b.number, b.row);
-    });
-  }
-
-  // Those at these nodes that look the way of a normal.
-  std::vector<const Neighbour*> at(std::span<const Global> nodes, const Point& normal) const
-  {
-    std::vector<const Neighbour*> result;
-    for (const Global node : nodes) {
-      auto known = std::lower_bound(nodes_.begin(), nodes_.end(), node, [](const Neighbour& a, Global n) { return a.node < n; });
-      for (; known != nodes_.end() && known->node == node; ++known)
-        if (unpacked(known->normal).dot(normal) > one_normal) result.push_back(&*known);
-    }
-    return result;
-  }
-
-  std::span<const NeighbourEntry> entries(const Neighbour& node, int row) const
-  {
-    const auto wanted = std::tuple(node.node, node.number, row);
-    const auto key_of = [](const NeighbourEntry& e) { return std::tuple(e.node, e.number, e.row); };
-    const auto begin =
-        std::lower_bound(entries_.begin(), entries_.end(), wanted, [&](const auto& e, const auto& k) { return key_of(e) < k; });
-    auto end = begin;
-    while (end != entries_.end() && key_of(*end) == wanted) ++end;
-    return {begin, end};
-  }
-
- private:
-  static std::pair<Global, int> key(const Neighbour& node) { return {node.node, node.number}; }
-
-  static void pack(const constraint::Contacts& contacts, std::size_t i, std::vector<Neighbour>& nodes,
-                   std::vector<NeighbourEntry>& entries)
-  {
-    const auto& from = contacts.nodes[i];
-    Neighbour to{from.node,           0, static_cast<int>(from.tangents.size()), from.weight, from.area, from.gap, packed(from.normal),
-                packed(from.at), {}, {}};
-    for (const auto& other : nodes)
-      if (other.node == from.node) ++to.number;
-    std::transform(from.tangents.begin(), from.tangents.end(), to.axes.begin(), packed);
-    const auto rows = from.tangents.size() + 1;
-    auto held = std::lower_bound(contacts.prescribed.begin(), contacts.prescribed.end(), from.row,
-                                 [](const constraint::PrescribedEntry& e, std::size_t row) { return e.row < row; });
-    for (std::size_t r = 0; r < rows; ++r) {
-      to.held[r] = contacts.rows.bound[from.row + r] - (r == 0 ? from.gap : 0.0);
-      const auto number = static_cast<int>(r);
-      for (const auto& e : contacts.rows[from.row + r])
-        entries.push_back({from.node, to.number, number, e.node, e.component, e.coefficient});
-      for (; held != contacts.prescribed.end() && held->row == from.row + r; ++held)
-        entries.push_back({from.node, to.number, number, 0, held->component, held->coefficient, held->support, held->at});
-    }
-    nodes.push_back(to);
-  }
-
-  std::vector<Neighbour> nodes_;
-  std::vector<NeighbourEntry> entries_;
-};
-
-// A row at work: a sum of others.
-class RowSum {
- public:
-  explicit RowSum(const Neighbours& known) : known_(known) {}
-
-  void add(const Neighbour& node, int row, double part)
-  {
-    bound_ += part * node.held[static_cast<std::size_t>(row)];
-    for (auto entry : known_.entries(node, row)) {
-      entry.value *= part;
-      (entry.support < 0 ? free_ : held_).push_back(entry);
-    }
-  }
-
-  // Appends the row <= gap + what supports add.
-  void close(double gap, constraint::Contacts& contacts)
-  {
-    const auto row = contacts.rows.size();
-    merge(free_, [](const NeighbourEntry& e) { return std::tuple(e.of, e.component); });
-    for (const auto& e : free_)
-      if (std::abs(e.value) > negligible_entry) contacts.rows.entries.push_back({e.of, e.component, e.value});
-    merge(held_, [](const NeighbourEntry& e) { return std::tuple(e.support, e.component, e.at); });
-    for (const auto& e : held_) contacts.prescribed.push_back({row, e.component, e.support, e.value, e.at});
-    contacts.rows.close(gap + bound_);
-  }
-
- private:
-  template <class Key>
-  static void merge(std::vector<NeighbourEntry>& entries, const Key& key)
-  {
-    std::stable_sort(entries.begin(), entries.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    std::size_t end = 0;
-    for (const auto& e : entries) {
-      if (end > 0 && key(entries[end - 1]) == key(e))
-        entries[end - 1].value += e.value;
-      else
-        entries[end++] = e;
-    }
-    entries.resize(end);
-  }
-
-  const Neighbours& known_;
-  std::vector<NeighbourEntry> free_, held_;
-  double bound_ = 0;
-};
-
-// Polynomials up to an order at a place, in rows.
+// Polynomials up to an order at points, in rows.
 Eigen::MatrixXd polynomials_at(const Eigen::Matrix2Xd& x, int dimension, int order)
 {
   const auto s = x.row(0).array(), t = x.row(1).array();
@@ -209,28 +60,22 @@ Eigen::MatrixXd polynomials_at(const Eigen::Matrix2Xd& x, int dimension, int ord
   return p;
 }
 
-// The tangential rows of a place, along directions in which most of the others' can move.
-void add_tangents(const Neighbours& known, std::span<const std::pair<const Neighbour*, double>> used, constraint::ContactNode& node,
-                  int dimension, constraint::Contacts& contacts)
+// The nodes of one side that terms speak of.
+template <class Terms>
+Side nodes_of(const Terms& terms, bool on_primary, fem::Kinematics kinematics)
 {
-  constexpr double most = 0.5;
-  const auto axes = tangent_plane(node.normal, dimension);
-  for (int a = 0; a + 1 < dimension; ++a) {
-    const Point tangent = axes.col(a);
-    RowSum row(known);
-    double moves = 0, all = 0;
-    for (const auto& [other, part] : used) {
-      all += std::abs(part);
-      for (int k = 0; k < other->tangents; ++k) {
-        const double along = tangent.dot(unpacked(other->axes[static_cast<std::size_t>(k)]));
-        row.add(*other, k + 1, part * along);
-        moves += std::abs(part) * along * along;
-      }
-    }
-    if (moves < most * all) continue;
-    row.close(0, contacts);
-    node.tangents.push_back(tangent);
+  std::vector<std::pair<Global, Point>> nodes;
+  for (const auto& term : terms)
+    if (term.on_primary == on_primary) nodes.emplace_back(term.of, unpacked(term.x));
+  std::ranges::sort(nodes, {}, [](const auto& node) { return node.first; });
+  nodes.erase(std::ranges::unique(nodes, {}, [](const auto& node) { return node.first; }).begin(), nodes.end());
+  Side side;
+  side.kinematics = kinematics;
+  for (const auto& [id, x] : nodes) {
+    side.node_id.push_back(id);
+    side.points.push_back(x);
   }
+  return side;
 }
 
 }  // namespace
@@ -248,78 +93,131 @@ Eigen::VectorXd weights_between(const Eigen::Matrix2Xd& x, int dimension)
   return {};
 }
 
-std::vector<PlaceBetween> take_places_between(std::vector<NearestPoint>& nearest, const Side& secondary,
-                                              const SurfaceNodes& surface_nodes, const CutFaces& faces, const std::vector<char>& own,
-                                              const std::function<bool(std::size_t face)>& covered)
+RowsBetween::RowsBetween(std::vector<PlaceBetween> places, const Side& secondary, const std::vector<char>& own,
+                         const Communicator& comm)
+    : places_(std::move(places)), comm_(comm), any_(comm.any(!places_.empty()))
 {
-  std::vector<PlaceBetween> result;
-  std::vector<std::vector<std::size_t>> faces_at;  // of each node, once it is needed
-  std::map<std::size_t, bool> whole;
-  for (std::size_t p = 0; p < nearest.size(); ++p) {
-    if (!nearest[p].moved()) continue;
-    const Rays::FacetPoint where{nearest[p].facet, nearest[p].shape};
-    const auto face = static_cast<std::size_t>(secondary.face_of[where.facet]);
-    if (secondary.second_order(face)) continue;
-    const auto known = whole.try_emplace(face, false);
-    if (known.second) known.first->second = covered(face);
-    if (!known.first->second) continue;
-    nearest[p] = {};
-    const auto node = static_cast<std::size_t>(surface_nodes.all[p].node);
-    if (!own[node]) continue;
-    if (faces_at.empty()) {
-      faces_at.resize(secondary.points.size());
-      for (const std::size_t f : faces.round())
-        for (const Local n : secondary.faces[f]) faces_at[static_cast<std::size_t>(n)].push_back(f);
+  if (!any_) return;
+  std::vector<Global> mine;
+  for (std::size_t n = 0; n < own.size(); ++n)
+    if (own[n]) mine.push_back(secondary.node_id[n]);
+  asked_ = asked_for(places_, mine, comm);
+}
+
+void RowsBetween::note(const constraint::ContactNode& node, std::span<const Term> terms, double d, const Side& secondary,
+                       const Side& primary)
+{
+  if (!std::ranges::binary_search(asked_, node.node)) return;
+  const auto number = static_cast<int>(std::ranges::count(nodes_, node.node, &Neighbour::node));
+  nodes_.push_back({node.node, number, node.weight, node.area, node.cover, packed(node.normal), packed(node.at)});
+  for (const auto& term : terms) {
+    const Side& side = term.on_primary ? primary : secondary;
+    const auto at = static_cast<std::size_t>(term.node);
+    terms_.push_back({node.node, number, term.on_primary, side.node_id[at], term.value / d, packed(side.points[at])});
+  }
+}
+
+// Those at these nodes that look the way of a normal.
+std::vector<const RowsBetween::Neighbour*> RowsBetween::at(std::span<const Global> nodes, const Point& normal) const
+{
+  std::vector<const Neighbour*> result;
+  for (const Global node : nodes)
+    for (const auto& known : std::ranges::equal_range(nodes_, node, {}, &Neighbour::node))
+      if (unpacked(known.normal).dot(normal) > one_normal) result.push_back(&known);
+  return result;
+}
+
+// Those round a place, and their weights in its row: of nodes that are covered all round, which alone say what is at their
+// places; if they are too few, of the corners of its facet, as its shape functions are.
+RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimension) const
+{
+  Weighted result;
+  const auto candidates = at(place.round, place.normal);
+  std::vector<const Neighbour*> whole;
+  for (const auto* node : candidates)
+    if (node->cover > 1 - of_cover && std::abs(node->weight - 1) < of_weight) whole.push_back(node);
+  const auto axes = tangent_plane(place.normal, dimension);
+  Eigen::Matrix2Xd x(2, static_cast<Eigen::Index>(whole.size()));
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    x.col(static_cast<Eigen::Index>(i)) = axes.transpose() * (unpacked(whole[i]->at) - place.at) / place.size;
+  const Eigen::VectorXd w = whole.empty() ? Eigen::VectorXd() : weights_between(x, dimension);
+  for (Eigen::Index i = 0; i < w.size(); ++i)
+    if (std::abs(w[i]) > least_weight) result.emplace_back(whole[static_cast<std::size_t>(i)], w[i]);
+  if (!result.empty()) return result;
+  double sum = 0;
+  for (const auto* node : candidates)
+    if (const auto corner = std::ranges::find(place.corners, node->node); corner != place.corners.end()) {
+      result.emplace_back(node, std::max(place.where.shape[corner - place.corners.begin()], 0.0));
+      sum += result.back().second;
     }
-    PlaceBetween place{p, secondary.node_id[node], where, Point::Zero(), Point::Zero(), secondary.geometry(where.facet).size(), {}};
-    for (std::size_t c = 0; c < secondary.facets[where.facet].size(); ++c) {
-      const auto corner = static_cast<std::size_t>(secondary.facets[where.facet][c]);
-      place.at += where.shape[static_cast<Eigen::Index>(c)] * secondary.points[corner];
-      place.normal += where.shape[static_cast<Eigen::Index>(c)] * surface_nodes.normal(secondary, where.facet, c);
-      for (const std::size_t f : faces_at[corner])
-        for (const Local n : secondary.faces[f]) place.round.push_back(secondary.node_id[static_cast<std::size_t>(n)]);
+  if (!(sum > 0)) return {};
+  for (auto& part : result) part.second /= sum;
+  return result;
+}
+
+// The terms of a row that is a sum of others, one a node, those of the secondary side first.
+std::vector<Term> RowsBetween::sum_of(const Weighted& nodes, const Side& secondary, const Side& primary) const
+{
+  std::vector<Term> all, result;
+  for (const auto& [node, w] : nodes)
+    for (const auto& term : std::ranges::equal_range(terms_, std::pair(node->node, node->number), {},
+                                                     [](const SentTerm& t) { return std::pair(t.node, t.number); })) {
+      const auto& ids = term.on_primary ? primary.node_id : secondary.node_id;
+      const auto at = std::ranges::lower_bound(ids, term.of) - ids.begin();
+      all.push_back({static_cast<Local>(at), term.on_primary, w / node->weight * term.value});
     }
-    place.normal.normalize();
-    std::sort(place.round.begin(), place.round.end());
-    place.round.erase(std::unique(place.round.begin(), place.round.end()), place.round.end());
-    result.push_back(std::move(place));
+  const auto key = [](const Term& t) { return std::pair(t.on_primary, t.node); };
+  std::ranges::stable_sort(all, {}, key);
+  for (const auto& term : all) {
+    if (!result.empty() && key(result.back()) == key(term))
+      result.back().value += term.value;
+    else
+      result.push_back(term);
   }
   return result;
 }
 
-void add_rows_between(std::span<const PlaceBetween> places, std::size_t first, const RowsBetween& what,
-                      constraint::Contacts& contacts, const Communicator& comm)
+void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory& supports, const Setting& setting,
+                         const GapAt& gap_at)
 {
-  if (!comm.any(!places.empty())) return;
-  const Neighbours known(places, first, contacts, comm);
-  for (const auto& place : places) {
-    const auto round = known.at(place.round, place.normal);
-    const auto count = static_cast<Eigen::Index>(round.size());
-    const auto axes = tangent_plane(place.normal, what.dimension);
-    Eigen::Matrix2Xd x(2, count);
-    for (Eigen::Index i = 0; i < count; ++i)
-      x.col(i) = axes.transpose() * (unpacked(round[static_cast<std::size_t>(i)]->at) - place.at) / place.size;
-    const Eigen::VectorXd w = count > 0 ? weights_between(x, what.dimension) : Eigen::VectorXd();
-    if (w.size() == 0) continue;
+  if (!any_) return;
+  std::vector<Global> wanted;
+  for (const auto& place : places_) wanted.insert(wanted.end(), place.round.begin(), place.round.end());
+  std::ranges::sort(wanted);
+  wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+  const auto asked = ask(wanted, comm_);
+  nodes_ = answer(by_node<Neighbour>(nodes_, comm_), asked, comm_);
+  terms_ = answer(by_node<SentTerm>(terms_, comm_), asked, comm_);
+  std::ranges::sort(nodes_, {}, [](const Neighbour& n) { return std::pair(n.node, n.number); });
+  std::ranges::stable_sort(terms_, {}, [](const SentTerm& t) { return std::pair(t.node, t.number); });
 
-    constraint::ContactNode node{what.contact, place.node, 0, Point::Zero(), {}, contacts.rows.size()};
+  const Side secondary = nodes_of(terms_, false, setting.kinematics), primary = nodes_of(terms_, true, setting.kinematics);
+  const SupportedNodes held(supports, secondary.node_id, comm_), primary_held(supports, primary.node_id, comm_);
+  const int dimension = fem::dimension(setting.kinematics);
+  RowWriter writer(secondary, primary, held, primary_held, dimension, setting.rotation);
+  for (const auto& place : places_) {
+    constraint::ContactNode node{setting.contact, place.node, 0, Point::Zero(), {}, contacts.rows.size()};
     node.at = place.at;
-    RowSum normal_row(known);
-    std::vector<std::pair<const Neighbour*, double>> used;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const auto& other = *round[static_cast<std::size_t>(i)];
-      if (std::abs(w[i]) < least_weight * w.maxCoeff()) continue;
-      used.emplace_back(&other, w[i] / other.weight);
-      normal_row.add(other, 0, used.back().second);
-      node.normal += w[i] * unpacked(other.normal);
-      node.area += w[i] * other.area;
-      node.parts.push_back({other.node, w[i], unpacked(other.normal)});
+    const auto weighted = round(place, dimension);
+    for (const auto& [other, w] : weighted) {
+      node.area += w * other->area;
+      node.parts.push_back({other->node, w, unpacked(other->normal)});
     }
-    node.normal.normalize();
-    node.gap = what.gap(place, node.normal);
-    if (!std::isfinite(node.gap)) continue;
-    normal_row.close(node.gap, contacts);
-    if (what.tangents) add_tangents(known, used, node, what.dimension, contacts);
+    auto terms = sum_of(weighted, secondary, primary);
+    const Gap gap = gap_at(place);
+    if (terms.empty() || !std::isfinite(gap.mesh) || !writer.moves(terms, 1, gap.direction)) continue;
+    node.normal = gap.direction;
+    node.gap = gap.bound;
+    if (setting.tangents) {
+      node.tangents = directions(node.normal, {false, false, false}, {}, dimension).tangents;
+      std::erase_if(node.tangents, [&](const Point& tangent) { return !writer.moves(terms, 1, tangent); });
+      writer.leave_what_moves(terms, 1, node.normal, node.tangents);
+    }
+    const bool rings = setting.kinematics == fem::Kinematics::axisymmetric;  // these do not turn
+    const Moments moments = rings ? Moments() : Moments(terms, 1, node.normal, gap.mesh, &place.at, secondary, primary, dimension);
+    writer.add(terms, 1, node.normal, node.gap, contacts);
+    for (const auto& tangent : node.tangents)
+      writer.add(terms, 1, tangent, 0, contacts, rings ? std::vector<Term>() : moments.couple(tangent), node.normal);
     contacts.nodes.push_back(std::move(node));
     contacts.bonded.push_back(false);
   }

@@ -8,7 +8,7 @@ namespace mortise::feti {
 
 namespace {
 
-constexpr double compliance_between_nodes = 1e-3;  // where that of a node by itself is 1
+constexpr double compliance_between_nodes = 1;
 
 
 // All nodes that rows with several entries act on.
