@@ -256,7 +256,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   append(result,
          post::long_slides(pairs, state.rows->constraints.contacts, contact.points, decomposition, state.displacement, comm));
   append(result, post::large_pressures(contact.surfaces, pairs, softest, names, comm));
-  append(result, post::narrow_contacts(contact.surfaces, pairs, comm));
+  append(result, post::narrow_contacts(contact.surfaces, contact.points, pairs, comm));
   append(result, post::scattered_contacts(contact.surfaces, pairs, softest, comm));
   append(result, post::lost_moments(results.moments, pairs, results.balance.acting));
   append(result, post::frictions_across_gaps(contact.points, pairs, results.balance.acting, comm));

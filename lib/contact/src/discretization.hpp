@@ -10,6 +10,7 @@
 #include "face_integrals.hpp"
 #include "nearest_points.hpp"
 #include "opposite.hpp"
+#include "places_between.hpp"
 
 namespace mortise::contact {
 
@@ -36,6 +37,8 @@ class Discretization {
 
   /// Adds the next face of faces.round() in pieces, with their integrals over what meets the other side.
   virtual void add_face(std::size_t face) = 0;
+  /// What the other side covers of a face, if places between its nodes can have rows of their own. Before faces are added.
+  virtual Cover cover(std::size_t /*face*/) { return {}; }
   /// Turns the integrals of all pieces into functions of the surface nodes that are `kept`; those of the others become 0.
   virtual void make_functions(std::span<const char> kept) = 0;
   /// Adds what one function, once made, adds to the row of its surface node.

@@ -20,6 +20,7 @@
 #include "one_surface.hpp"
 #include "opposite.hpp"
 #include "rows.hpp"
+#include "rows_between.hpp"
 #include "sector_cuts.hpp"
 #include "share.hpp"
 #include "support_conflicts.hpp"
@@ -107,8 +108,11 @@ class Builder {
   }
 
   // All of its work: afterwards the others tell what it found.
-  void add_rows(constraint::Contacts& contacts)
+  void add_rows(constraint::Contacts& contacts, const SupportDirectory& supports, const Communicator& comm)
   {
+    const auto cover = [&](std::size_t face) { return discretization_->cover(face); };
+    between_.emplace(take_places_between(nearest_, secondary_, nodes_, faces_, share_.own, cover, comm), secondary_, share_.own,
+                     comm);
     for (const std::size_t f : faces_.round()) discretization_->add_face(f);
     faces_.number_corners();
     chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, seams_end(), bonded(), dimension_);
@@ -120,6 +124,10 @@ class Builder {
     faces_.sort_by_nodes();
     for (std::size_t p = 0; p < faces_.places(); ++p)
       if (own(p) && chosen_.kept[p]) add_place(p, contacts);
+    // Tresca's bound is an area's, which belongs to the nodes.
+    const bool tangents = options_.law != Law::frictionless && options_.law != Law::tresca;
+    between_->add_to(contacts, supports, {index_, secondary_.kinematics, rotation_of(options_), tangents},
+                     [&](const PlaceBetween& place) { return gap_between(place); });
   }
 
  private:
@@ -210,9 +218,10 @@ class Builder {
     point.at = at;
     const double room = points_.room(p);
     point.cover = room < 1 ? std::min(chosen_.cover[p], 0.5 * room) : chosen_.cover[p];
+    const bool nearest = at_nearest_place(p);
     const double mean = (normal.dot(separation) - rise / d) / weight,
-                 mesh_gap = without_rounding(p, points_.gap(p, normal, mean), at, normal);
-    const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, starting_gap_at(p, normal, mean), at, normal);
+                 mesh_gap = without_rounding(p, nearest, points_.gap(p, normal, mean), at, normal);
+    const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, nearest, starting_gap_at(p, normal, mean), at, normal);
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     if (prescribed) {
@@ -228,6 +237,7 @@ class Builder {
       writer_.add(terms_, d, normal, point.gap, contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), normal);
     }
+    between_->note(point, terms_, d, secondary_, primary_);
     contacts.nodes.push_back(std::move(point));
     contacts.bonded.push_back(bonded());
   }
@@ -298,10 +308,10 @@ class Builder {
   // Of places that coordinates say are the same the gap is 0: bodies that touch without a load press with nothing then. Nor is an
   // overlap where a side comes nearest that is next to nothing of what the sides come nearer there, or of what stands out of a
   // facet: surfaces are known no better.
-  double without_rounding(std::size_t p, double gap, const Point& at, const Point& direction)
+  double without_rounding(std::size_t p, bool nearest, double gap, const Point& at, const Point& direction)
   {
     constexpr double of_surfaces = 0.02;
-    if (gap < 0 && at_nearest_place(p)) {
+    if (gap < 0 && nearest) {
       if (const double at_node = rays_.meet(p).gap; std::isfinite(at_node) && -gap < of_surfaces * (at_node - gap)) return 0;
       if (!options_.obstacle && -gap < of_surfaces * rays_.rise_of(rays_.met_from(p, at, direction))) return 0;
     }
@@ -315,12 +325,28 @@ class Builder {
   // That which the contact starts with; the terms are those of the surface node.
   double starting_gap_at(std::size_t p, const Point& direction, double mean)
   {
-    return points_.gap(p, direction, starting_gap(options_, mean, one_surface_.holds(faces_.surface_node(p), terms_)),
-                       [&](std::size_t surface_node, const Opposite& opposite) {
-                         return starting_gap(
-                             options_, opposite.gap,
-                             one_surface_.anywhere() && one_surface_.holds(surface_node, face_of(opposite.facet)));
-                       });
+    return points_.gap(p, direction, starting_gap(options_, mean, one_surface_.holds(faces_.surface_node(p), terms_)), start());
+  }
+
+  // The same where a line from a surface node meets something.
+  Rays::GapOf start() const
+  {
+    return [this](std::size_t surface_node, const Opposite& opposite) {
+      return starting_gap(options_, opposite.gap,
+                          one_surface_.anywhere() && one_surface_.holds(surface_node, face_of(opposite.facet)));
+    };
+  }
+
+  RowsBetween::Gap gap_between(const PlaceBetween& place)
+  {
+    const auto p = place.surface_node;
+    const Point direction = rays_.direction(p, place.at, place.normal);
+    const auto gap_of = [&](const Rays::GapOf& start) {
+      return without_rounding(p, true, rays_.gap(p, place.where, direction, start), place.at, direction);
+    };
+    const double mesh_gap = gap_of({}), gap = starts_in_mesh() ? mesh_gap : gap_of(start());
+    if (std::isfinite(gap)) note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, 0, place.at);
+    return {direction, mesh_gap, gap - options_.interference};
   }
 
   const Options& options_;
@@ -338,6 +364,7 @@ class Builder {
   bool mesh_gaps_;
   std::vector<NearestPoint> nearest_;  // of each surface node, or none
   std::optional<OnePart> one_part_;    // once one is asked
+  std::optional<RowsBetween> between_;
   std::unique_ptr<Discretization> discretization_;
   OneSurface one_surface_;
   InitialGap initial_gap_;
@@ -370,7 +397,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
       at_seam = answer(unbonded_nodes, ask(share.secondary.node_id, comm), comm);
     Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, at_seam, curved, kinematics, comm);
     builder.set_touching(touching_gap(sizes[c].extent, sizes[c].secondary_face));
-    builder.add_rows(contacts);
+    builder.add_rows(contacts, directory, comm);
     if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
     if (options.cyclic && options.law == Law::bonded)
       require_one_surface(pairs[c], sizes[c], builder.widest_gap(), builder.covered_area(), comm);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nearest_points.hpp"
+#include "one_part.hpp"
 
 namespace mortise::contact {
 
@@ -214,13 +215,30 @@ void Integrator::integrate_facet(std::size_t facet)
   each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
 }
 
-std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_facets)
+// All of a face in one piece.
+void Integrator::integrate_face(std::size_t face)
 {
   begin(face);
-  in_facets = in_facets || moved(face);
   const auto first = static_cast<std::size_t>(secondary_.first_facet[face]),
              end = static_cast<std::size_t>(secondary_.first_facet[face + 1]);
   for (std::size_t facet = first; facet < end; ++facet) integrate_facet(facet);
+}
+
+Cover Integrator::cover(std::size_t face)
+{
+  integrate_face(face);
+  if (piece_->nodes.empty()) return {};
+  if (body_of_.empty()) body_of_ = connected_parts(primary_);
+  const auto body = [&](Local node) { return body_of_[static_cast<std::size_t>(node)]; };
+  const Local first = body(piece_->nodes[0]);
+  const bool one = std::ranges::all_of(piece_->nodes, [&](Local node) { return body(node) == first; });
+  return {piece_->covered.sum() / piece_->whole.sum(), one ? first : -1};
+}
+
+std::span<const PieceIntegrals> Integrator::integrate(std::size_t face, bool in_facets)
+{
+  integrate_face(face);
+  in_facets = in_facets || moved(face);
   const double covered = piece_->covered.sum(), whole = piece_->whole.sum();
   if (covered > 0 && covered < (1 - 1e-6) * whole) {
     cut(face, in_facets);

@@ -9,6 +9,7 @@
 #include "covered_face.hpp"
 #include "nearest_points.hpp"
 #include "pieces.hpp"
+#include "places_between.hpp"
 #include "surface_nodes.hpp"
 #include "tree.hpp"
 
@@ -26,6 +27,8 @@ class Integrator {
   std::span<const PieceIntegrals> integrate(std::size_t face, bool in_facets);
   /// The same where a rigid obstacle lies opposite all of the face, which has no nodes.
   std::span<const PieceIntegrals> integrate_whole(std::size_t face, bool in_facets);
+  /// What the primary side covers of a face within reach.
+  Cover cover(std::size_t face);
 
  private:
   void begin(std::size_t face);
@@ -33,6 +36,7 @@ class Integrator {
   void forget_nodes();
   template <class Use>
   void each_common(std::size_t facet, const Use& use);
+  void integrate_face(std::size_t face);
   void integrate_facet(std::size_t facet);
   void cut(std::size_t face, bool in_facets);
   double slits(std::size_t face) const;
@@ -63,6 +67,7 @@ class Integrator {
   CoveredFace covered_face_;           // at work, if it is cut
   std::optional<CoveredBasis> basis_;  // if it has points of its own
   std::vector<int> met_;
+  std::vector<Local> body_of_;  // of each primary node, once it is asked for
 };
 
 /// One coefficient of the rows before they are divided by D: secondary or primary node, value.

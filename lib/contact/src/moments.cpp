@@ -25,6 +25,13 @@ Point resultant(std::span<const Term> terms, double d, const Side& side)
   return result;
 }
 
+void add(const Eigen::VectorXd& change, double d, std::span<Term> terms)
+{
+  for (Eigen::Index k = 0; k < change.size(); ++k) terms[static_cast<std::size_t>(k)].value += d * change[k];
+}
+
+}  // namespace
+
 Eigen::Matrix<double, 3, 2> tangent_plane(const Point& normal, int dimension)
 {
   Eigen::Matrix<double, 3, 2> axes = Eigen::Matrix<double, 3, 2>::Zero();
@@ -36,13 +43,6 @@ Eigen::Matrix<double, 3, 2> tangent_plane(const Point& normal, int dimension)
   }
   return axes;
 }
-
-void add(const Eigen::VectorXd& change, double d, std::span<Term> terms)
-{
-  for (Eigen::Index k = 0; k < change.size(); ++k) terms[static_cast<std::size_t>(k)].value += d * change[k];
-}
-
-}  // namespace
 
 Spread::Spread(std::span<const Term> terms, double d, const Side& side, const Eigen::Matrix<double, 3, 2>& axes)
 {

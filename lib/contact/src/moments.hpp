@@ -15,6 +15,9 @@
 
 namespace mortise::contact {
 
+/// Two directions orthogonal to a normal, in columns; in 2 dimensions the second is 0.
+Eigen::Matrix<double, 3, 2> tangent_plane(const Point& normal, int dimension);
+
 /// The nodes of one side that a row pushes on, in the tangent plane of its direction.
 class Spread {
  public:
@@ -37,6 +40,7 @@ class Spread {
 /// The terms of one row, and what they lack.
 class Moments {
  public:
+  Moments() = default;
   /// Changes `terms` (merged, those of the secondary side first; sums of coefficients are kept) by the least, relative to their
   /// size: the secondary ones so that the row acts `at` that point, but along `normal`, if it is one other than their own; the
   /// primary ones so that s lies along `normal`: then neither side's rotations are felt by the normal row more than by the other.

@@ -22,10 +22,14 @@ class Mortar : public Discretization {
     const bool in_facets = sides_.mesh_gaps && sides_.rays.nearest_within(face);
     if (!sides_.obstacle) return faces.add(face, integrator_.integrate(face, in_facets));
     faces.add(face, integrator_.integrate_whole(face, in_facets));
-    const auto surface_nodes = faces.surface_nodes_of(face);
-    if (!std::all_of(surface_nodes.begin(), surface_nodes.end(),
-                     [&](Local p) { return sides_.rays.meets(static_cast<std::size_t>(p)); }))
+    if (!meets_all(face))
       for (const std::size_t i : faces.pieces(face)) faces.piece(i).covered.setZero();
+  }
+
+  Cover cover(std::size_t face) override
+  {
+    if (!sides_.obstacle) return integrator_.cover(face);
+    return meets_all(face) ? Cover{1, 0} : Cover{};
   }
 
   void make_functions(std::span<const char> kept) override
@@ -55,6 +59,13 @@ class Mortar : public Discretization {
   double rise(const CutFaces::Function& function) override { return sides_.faces.piece(function.piece).rise[function.k]; }
 
  private:
+  bool meets_all(std::size_t face)
+  {
+    const auto surface_nodes = sides_.faces.surface_nodes_of(face);
+    return std::all_of(surface_nodes.begin(), surface_nodes.end(),
+                       [&](Local p) { return sides_.rays.meets(static_cast<std::size_t>(p)); });
+  }
+
   Integrator integrator_;
 };
 

@@ -136,7 +136,8 @@ class Search {
   {
     const auto place = holds(p, shift);
     if (!place || !nearest(*place)) return {};
-    return {true, shift.norm() < least_step * size_ ? Point(Point::Zero()) : Point(part_within(*place) * shift)};
+    return {true, shift.norm() < least_step * size_ ? Point(Point::Zero()) : Point(part_within(*place) * shift), place->facet,
+            place->shape};
   }
 
   std::size_t surface_node(std::size_t facet, std::size_t corner) const

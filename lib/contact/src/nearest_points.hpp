@@ -18,6 +18,8 @@ class Rays;
 struct NearestPoint {
   bool found = false;           ///< there is one, and no other node is nearer to it
   Point shift = Point::Zero();  ///< the tangential step to it; zero where the node is that place
+  std::size_t facet = 0;        ///< where it lies, of the secondary side,
+  Eigen::Vector4d shape = Eigen::Vector4d::Zero();  ///< and the facet's shape functions there
   bool moved() const { return !shift.isZero(0); }
 };
 

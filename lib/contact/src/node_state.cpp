@@ -22,15 +22,18 @@ auto key(const NodeState& state)
 
 void join(NodeState& to, const NodeState& corner)
 {
-  if (to.area + corner.area > 0) to.closed = (to.area * to.closed + corner.area * corner.closed) / (to.area + corner.area);
+  if (corner.area == 0)
+    to.closed = std::max(to.closed, corner.closed);
+  else
+    to.closed = (to.area * to.closed + corner.area * corner.closed) / (to.area + corner.area);
   to.area += corner.area;
   to.force += corner.force;
   for (std::size_t c = 0; c < 3; ++c) to.traction[c] += corner.traction[c];
   if (to.status == static_cast<int>(Status::open)) to.status = corner.status;
 }
 
-// A corner of the primary side has a row, but no place in the output: what presses there counts with the node beside it, on the
-// same side of a kink. `nodes` are sorted.
+// A corner of the primary side, or a place between nodes, has a row, but no place in the output: what presses there counts with
+// the node beside it, or with the nodes round it, on the same side of a kink. `nodes` are sorted.
 void join_corners(std::vector<NodeState>& nodes)
 {
   constexpr double one_normal = 0.9;  // cosine
@@ -55,6 +58,20 @@ void join_corners(std::vector<NodeState>& nodes)
   nodes = std::move(joined);
 }
 
+// What a place between nodes gives one of them. Those that bear next to nothing of it are not closed for it.
+NodeState part_of(const NodeState& place, const constraint::Part& part)
+{
+  constexpr double bears = 0.1;
+  NodeState result = place;
+  result.node = part.node;
+  result.normal = {part.normal[0], part.normal[1], part.normal[2]};
+  result.area = result.cover = 0;
+  result.force *= part.part;
+  for (double& traction : result.traction) traction *= part.part;
+  if (part.part < bears) result.status = static_cast<int>(Status::open), result.closed = 0;
+  return result;
+}
+
 }  // namespace
 
 std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Communicator& comm)
@@ -62,18 +79,21 @@ std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Comm
   std::vector<NodeState> mine;
   for (const auto& p : points) {
     const auto &n = p.normal, &f = p.force_on_secondary, &s = p.slip;
-    mine.push_back({p.node,
-                    p.contact,
-                    0,
-                    static_cast<int>(p.status),
-                    p.area,
-                    p.cover,
-                    p.force,
-                    p.gap,
-                    {n[0], n[1], n[2]},
-                    {f[0], f[1], f[2]},
-                    {s[0], s[1], s[2]}});
-    mine.back().closed = p.status == Status::open ? 0 : 1;
+    const NodeState state{p.node,
+                          p.contact,
+                          0,
+                          static_cast<int>(p.status),
+                          p.area,
+                          p.cover,
+                          p.force,
+                          p.gap,
+                          {n[0], n[1], n[2]},
+                          {f[0], f[1], f[2]},
+                          {s[0], s[1], s[2]},
+                          0,
+                          p.status == Status::open ? 0.0 : 1.0};
+    if (p.parts.empty()) mine.push_back(state);
+    for (const auto& part : p.parts) mine.push_back(part_of(state, part));
   }
   auto nodes = by_node<NodeState>(mine, comm);
   std::stable_sort(nodes.begin(), nodes.end(), [](const NodeState& a, const NodeState& b) {

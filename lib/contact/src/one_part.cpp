@@ -5,6 +5,20 @@
 
 namespace mortise::contact {
 
+std::vector<Local> connected_parts(const Side& side)
+{
+  std::vector<Local> parent(side.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Local n) {
+    while (parent[static_cast<std::size_t>(n)] != n) n = parent[static_cast<std::size_t>(n)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(n)])];
+    return n;
+  };
+  for (std::size_t f = 0; f < side.faces.size(); ++f)
+    for (const Local n : side.faces[f]) parent[static_cast<std::size_t>(root(n))] = root(side.faces[f][0]);
+  for (Local n = 0; n < static_cast<Local>(parent.size()); ++n) parent[static_cast<std::size_t>(n)] = root(n);
+  return parent;
+}
+
 OnePart::OnePart(const Side& primary)
     : primary_(primary), first_(primary.points.size() + 1, 0), faces_(primary.faces.nodes.size())
 {

@@ -8,6 +8,9 @@
 
 namespace mortise::contact {
 
+/// Of each node of a side the number of the part that it belongs to: faces that share a node are of one.
+std::vector<Local> connected_parts(const Side& side);
+
 class OnePart {
  public:
   explicit OnePart(const Side& primary);

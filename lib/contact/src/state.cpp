@@ -20,6 +20,7 @@ ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std
   state.area = point.weight * point.area;
   state.cover = point.cover;
   state.normal = point.normal;
+  state.parts = point.parts;
   state.force = point.weight * multipliers[0];
   state.force_on_secondary = -state.force * point.normal;
   state.gap = (bound - jumps[0]) / point.weight;

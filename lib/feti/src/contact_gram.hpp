@@ -1,4 +1,4 @@
-// B D^-1 B' on the contact rows: the identity, but for rows that share nodes. Rows that hang together in this way (those of one
+// B D^-1 B' on the contact rows, and what rows give way by: the identity, but for rows that share nodes. Rows that hang together in this way (those of one
 // contact, or of contacts that meet) make a block, which stands whole on one rank, that of its first row; no rank holds more.
 #pragma once
 

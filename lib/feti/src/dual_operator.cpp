@@ -9,6 +9,7 @@ void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp,
     auto forces = jump_.apply_transpose(*x.getVector(column));
     clusters_.apply_inverse(forces);
     Vector jumps = jump_.apply(forces);
+    view(jumps) += jump_.compliance().cwiseProduct(view(*x.getVector(column)));
     if (springs_) springs_->add_compliance(1, *x.getVector(column), jumps);
     y.getVectorNonConst(column)->update(alpha, jumps, beta);
   }

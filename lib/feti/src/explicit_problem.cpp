@@ -55,6 +55,16 @@ std::vector<double> columns_on_root(const DirichletElimination& elimination, con
   return on_root(std::move(columns), comm);
 }
 
+// Of each row that gives way: its number and its compliance. Collective.
+std::vector<double> compliance_on_root(const DirichletElimination& elimination, const JumpOperator& jump, const Communicator& comm)
+{
+  std::vector<double> giving;
+  for (Eigen::Index i = 0; i < jump.compliance().size(); ++i)
+    if (const Global number = elimination.number()[static_cast<std::size_t>(i)]; number >= 0 && jump.compliance()[i] > 0)
+      giving.insert(giving.end(), {static_cast<double>(number), jump.compliance()[i]});
+  return on_root(std::move(giving), comm);
+}
+
 // The numbers of the rows of springs, on every rank. Collective.
 std::vector<int> rows_of_springs(const DirichletElimination& elimination, const ElasticRows& springs)
 {
@@ -109,6 +119,7 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
   const auto parts = parts_on_root(*elimination_, problem.jump().blocks().size(), comm);
   const auto columns = columns_on_root(*elimination_, g, comm);
   const qp::FeasibleSet set = whole_set();
+  const auto giving = compliance_on_root(*elimination_, problem.jump(), comm);
   const auto* springs = problem.springs();
   const auto spring_rows = springs ? rows_of_springs(*elimination_, *springs) : std::vector<int>();
   collectively(comm, [&] {
@@ -116,6 +127,8 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
     WholeMatrices whole(static_cast<Eigen::Index>(elimination_->count()), g.rows());
     whole.set_columns(columns);
     whole.add_parts(parts);
+    for (std::size_t i = 0; i < giving.size(); i += 2)
+      whole.w(static_cast<Eigen::Index>(giving[i]), static_cast<Eigen::Index>(giving[i])) += giving[i + 1];
     if (springs) whole.w(spring_rows, spring_rows) += springs->compliance();
     newton_ = std::make_unique<qp::CondensedNewton>(std::move(whole.w), std::move(whole.h), std::move(whole.c), set);
     separated_ = newton_->separated();

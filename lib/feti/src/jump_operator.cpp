@@ -8,6 +8,9 @@ namespace mortise::feti {
 
 namespace {
 
+constexpr double compliance_between_nodes = 1;
+
+
 // All nodes that rows with several entries act on.
 std::vector<Global> nodes_of(const constraint::Contacts& contacts, std::span<const constraint::MeanMotion> mean_motions,
                              const constraint::Springs& springs)
@@ -83,6 +86,11 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   rows.add(extra);
   ranges_.end = rows.size();
   scale_ = Eigen::Map<const Eigen::VectorXd>(rows.scale().data(), ranges_.end);
+  compliance_ = Eigen::VectorXd::Zero(ranges_.end);
+  for (const auto& node : contacts.nodes)
+    if (!node.parts.empty())
+      compliance_.segment(ranges_.contacts + static_cast<Local>(node.row), static_cast<Local>(node.tangents.size() + 1))
+          .setConstant(compliance_between_nodes);
   update_rhs(prescribed, skew_supports, contacts, mean_motions);
 
   const auto pieces = rows.receive();

@@ -135,6 +135,7 @@ double Preconditioner::energy(const Vector& r)
         fixed[static_cast<std::size_t>(k)] = true;
     sum += relaxed_energy(subdomains_[s]->original(), fixed, std::move(u[s]));
   }
+  sum += view(right).cwiseAbs2().dot(jump_.compliance());
   return comm_.sum(sum) + (springs_ ? springs_->energy(r) : 0);
 }
 
@@ -164,6 +165,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
         }
       }
     Vector result = jump_.apply(forces);
+    view(result) += jump_.compliance().cwiseProduct(view(right));
     if (gram_) gram_->apply_inverse(result);
     if (springs_) springs_->add_stiffness(1, *in, result);
     const auto extra = jump_.ranges().end - jump_.ranges().extra;

@@ -60,6 +60,13 @@ struct SentNode {
   double area, weight, gap, cover;
   Vector3 normal, at;
   std::array<Vector3, 2> tangents;
+  std::size_t parts;
+};
+
+struct SentPart {
+  Global node;
+  double part;
+  Vector3 normal;
 };
 
 struct SentRow {
@@ -81,6 +88,7 @@ SentNode pack(const constraint::ContactNode& from, bool bonded)
   to.normal = array(from.normal);
   to.at = array(from.at);
   std::transform(from.tangents.begin(), from.tangents.end(), to.tangents.begin(), array);
+  to.parts = from.parts.size();
   return to;
 }
 
@@ -121,6 +129,7 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
   const auto size = static_cast<std::size_t>(comm.size());
   const auto ranks = ranks_of(std::span(contacts.nodes), decomposition, directory, comm);
   ByRank<SentNode> points(size);
+  ByRank<SentPart> parts(size);
   ByRank<SentRow> rows(size);
   ByRank<constraint::Entry> entries(size);
   ByRank<constraint::PrescribedEntry> prescribed(size);  // their rows are counted among those that go to the same rank
@@ -133,6 +142,7 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
     const auto to = ranks[i];
     node_of[i] = points[to].size();
     points[to].push_back(pack(p, contacts.bonded[i]));
+    for (const auto& part : p.parts) parts[to].push_back({part.node, part.part, array(part.normal)});
     for (std::size_t r = p.row; r <= p.row + p.tangents.size(); ++r) {
       const auto row = contacts.rows[r];
       position_of[r] = {to, rows[to].size()};
@@ -160,6 +170,7 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
   }
 
   const auto points_in = comm.exchange(points);
+  const auto parts_in = comm.exchange(parts);
   const auto rows_in = comm.exchange(rows);
   const auto entries_in = comm.exchange(entries);
   const auto prescribed_in = comm.exchange(prescribed);
@@ -181,8 +192,10 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
     }
     auto row = rows_in[from].begin();
     auto entry = entries_in[from].begin();
+    auto part = parts_in[from].begin();
     for (const auto& p : points_in[from]) {
-      result.nodes.push_back(unpack(p, result.rows.size()));
+      auto& node = result.nodes.emplace_back(unpack(p, result.rows.size()));
+      for (std::size_t k = 0; k < p.parts; ++k, ++part) node.parts.push_back({part->node, part->part, point(part->normal)});
       result.bonded.push_back(p.bonded);
       for (int r = 0; r <= p.tangent_count; ++r, ++row) {
         const auto end = entry + static_cast<std::ptrdiff_t>(row->entries);

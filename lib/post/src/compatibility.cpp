@@ -56,6 +56,7 @@ Openings openings(const feti::DualProblem& problem, const std::vector<Eigen::Vec
   Openings largest;
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     const auto& node = contacts.nodes[i];
+    if (!node.parts.empty()) continue;  // these give way
     const auto& rows = problem.node_rows()[i];
     const double weight = std::max(node.weight, 1.0);
     const auto opening = [&](int k) { return (jumps[rows.normal + k] - bound[node.row + static_cast<std::size_t>(k)]) / weight; };

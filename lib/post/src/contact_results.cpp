@@ -19,7 +19,7 @@ ContactResults contact_results(const feti::DualProblem& problem, const Vector& l
                                const std::vector<Eigen::VectorXd>& displacement, std::span<const contact::Pair> pairs)
 {
   const auto& comm = problem.communicator();
-  const Eigen::VectorXd forces = problem.forces(lambda), jumps = problem.jumps(displacement);
+  const Eigen::VectorXd forces = problem.forces(lambda), jumps = problem.jumps(displacement) - problem.jump().given_way(lambda);
   const auto& contacts = problem.constraints().contacts;
   const auto bound = contact_bounds(problem, nu);
   std::vector<double> largest(pairs.size(), 0.0);  // pressure of each contact

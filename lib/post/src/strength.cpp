@@ -72,9 +72,18 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
   return worst(std::move(result), "contacts");
 }
 
-std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
+std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces,
+                                     std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
                                      const Communicator& comm)
 {
+  constexpr double most = 0.5;
+  std::vector<double> forces(2 * pairs.size(), 0.0);  // that act between nodes, all
+  for (const auto& p : points) {
+    const auto c = 2 * static_cast<std::size_t>(p.contact);
+    forces[c + 1] += std::abs(p.force);
+    if (!p.parts.empty()) forces[c] += std::abs(p.force);
+  }
+  comm.sum_in_place(forces);
   std::vector<Found> peaks(pairs.size());
   std::vector<double> faces(pairs.size(), 0.0);  // that are pressed at all corners
   for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -92,7 +101,8 @@ std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surf
   comm.sum_in_place(faces);
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    if (!(peaks[c].value > 0) || faces[c] > 0) continue;
+    const bool between_nodes = forces[2 * c] > most * forces[2 * c + 1];
+    if (!(peaks[c].value > 0) || (faces[c] > 0 && !between_nodes)) continue;
     Warning w{
         "narrow_contact",
         fmt::format(

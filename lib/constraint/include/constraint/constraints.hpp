@@ -80,6 +80,13 @@ struct SkewSupport {
   }
 };
 
+/// What a row between nodes pushes on one of them with.
+struct Part {
+  Global node;
+  double part;   ///< of its multiplier
+  Point normal;  ///< of the node's own row
+};
+
 /// A node of the secondary side that carries multipliers, or one side of a kink at that node.
 struct ContactNode {
   int contact;                  ///< index into the deck's contacts
@@ -94,6 +101,7 @@ struct ContactNode {
   /// Part of its surroundings that lies opposite the primary side. Where the node was moved, at most half of the part that is
   /// left of the way to the next nodes: that of a surface which goes on beyond its border.
   double cover = 1;
+  std::vector<Part> parts = {};  ///< of a place between nodes, whose row is a combination of theirs: these, and what they bear
 };
 
 /// An entry of a contact row that a support holds: it stands in the row's bound instead, and what the row's multiplier pushes

@@ -22,6 +22,7 @@ struct ContactNodeState {
   double gap = 0;                            ///< a length, >= 0 up to the solver's tolerance
   Point slip = Point::Zero();                ///< tangential jump, secondary minus primary side, a length
   Status status = Status::open;
+  std::vector<constraint::Part> parts = {};  ///< ContactNode::parts
 };
 
 /// The state of a contact node. `multipliers`: forces, normal, then tangential. `jumps`: row . u in the same order, of tangential

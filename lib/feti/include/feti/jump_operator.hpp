@@ -55,6 +55,14 @@ class JumpOperator {
   /// force() and multiplier() of all owned rows.
   Eigen::VectorXd forces(const Vector& lambda) const { return view(lambda).cwiseProduct(scale_); }
   Vector multipliers(const Eigen::VectorXd& forces) const;
+  /// How far each owned row gives way under its multiplier: F gets these on its diagonal. Rows between contact nodes give way a
+  /// little, for without it they depend on those of the nodes; the others do not.
+  const Eigen::VectorXd& compliance() const { return compliance_; }
+  /// And in lengths, under these multipliers.
+  Eigen::VectorXd given_way(const Vector& lambda) const
+  {
+    return view(lambda).cwiseProduct(compliance_).cwiseQuotient(scale_);
+  }
   /// B u as jumps of the rows as they were given, in lengths. Collective.
   Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
   /// c, scaled, of the owned rows: B u = c, B u <= c.
@@ -99,6 +107,7 @@ class JumpOperator {
   Ranges ranges_;
   std::pair<Global, Global> contact_rows_;
   Eigen::VectorXd scale_;  // of each owned row: that of B over that which was given; 1 for gluing
+  Eigen::VectorXd compliance_;
   Eigen::VectorXd bound_;
   std::vector<Block> blocks_;
 };

@@ -1,8 +1,8 @@
 // Preconditioners of the dual operator: approximations of its inverse that are sums over subdomains,
 //
-//     M = C B D^-1 S D^-1 B' C,   C = (B D^-1 B')^-1,
+//     M = C (B D^-1 S D^-1 B' + E) C,   C = (B D^-1 B' + E)^-1,
 //
-// where D is the stiffness of the nodes, so that M F is near the identity (B is orthonormal in D^-1, and C the identity, but for
+// where E is what rows give way by (JumpOperator::compliance()), D is the stiffness of the nodes, so that M F is near the identity (B is orthonormal in D^-1, and C the identity, but for
 // contact rows that share nodes; of these only those that are free on the active set at hand count) [Klawonn and Widlund, Comm.
 // Pure Appl. Math. 54 (2001)], and S acts on the nodes of each subdomain that rows of B touch: their block K_bb of the stiffness
 // matrix (lumped) or the Schur complement K_bb - K_bi K_ii^-1 K_ib (Dirichlet; free surfaces move like the inside, or thin parts

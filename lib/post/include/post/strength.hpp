@@ -21,7 +21,8 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
 
 /// "narrow_contact": a contact presses, but on no face of its secondary side at all corners, so that it is narrower than these
 /// faces: its area, its pressures and how far bodies approach are those of the mesh. Collective.
-std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
+std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces,
+                                     std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
                                      const Communicator& comm);
 
 /// "scattered_contact": a secondary side of smaller faces and more than four times the other side's Young's modulus presses on

@@ -1,0 +1,109 @@
+#include "places_between.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "by_node.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+// A surface node whose place is between nodes.
+struct Taken {
+  Global node;
+  std::array<double, 3> normal;
+};
+
+class Selection {
+ public:
+  Selection(const Side& secondary, const SurfaceNodes& surface_nodes, const CutFaces& faces,
+            const std::function<Cover(std::size_t face)>& cover)
+      : secondary_(secondary), nodes_(surface_nodes), cover_(cover), faces_at_(secondary.points.size())
+  {
+    for (const std::size_t f : faces.round())
+      for (const Local n : secondary.faces[f]) faces_at_[static_cast<std::size_t>(n)].push_back(f);
+  }
+
+  // Whether one body covers the face of a facet as a whole, and no other what is round its corners.
+  bool one_body_covers(std::size_t facet)
+  {
+    const auto face = static_cast<std::size_t>(secondary_.face_of[facet]);
+    if (secondary_.second_order(face)) return false;
+    const Cover here = cover_of(face);
+    if (here.part < 1 - slit || here.body < 0) return false;
+    return std::ranges::all_of(secondary_.facets[facet], [&](Local corner) {
+      return std::ranges::all_of(faces_at_[static_cast<std::size_t>(corner)], [&](std::size_t f) {
+        const Cover beside = cover_of(f);
+        return beside.part == 0 || beside.body == here.body;
+      });
+    });
+  }
+
+  PlaceBetween place(std::size_t p, const NearestPoint& nearest) const
+  {
+    const auto id = [&](Local n) { return secondary_.node_id[static_cast<std::size_t>(n)]; };
+    PlaceBetween place{p,  id(nodes_.all[p].node), {nearest.facet, nearest.shape}, Point::Zero(), Point::Zero(),
+                       secondary_.geometry(nearest.facet).size(), {}, {}};
+    const auto corners = secondary_.facets[nearest.facet];
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const auto corner = static_cast<std::size_t>(corners[c]);
+      place.at += nearest.shape[static_cast<Eigen::Index>(c)] * secondary_.points[corner];
+      place.normal += nearest.shape[static_cast<Eigen::Index>(c)] * nodes_.normal(secondary_, nearest.facet, c);
+      place.corners.push_back(id(corners[c]));
+      for (const std::size_t f : faces_at_[corner])
+        for (const Local n : secondary_.faces[f]) place.round.push_back(id(n));
+    }
+    place.normal.normalize();
+    std::ranges::sort(place.round);
+    place.round.erase(std::ranges::unique(place.round).begin(), place.round.end());
+    return place;
+  }
+
+ private:
+  const Cover& cover_of(std::size_t face)
+  {
+    const auto [known, first] = covers_.try_emplace(face);
+    if (first) known->second = cover_(face);
+    return known->second;
+  }
+
+  const Side& secondary_;
+  const SurfaceNodes& nodes_;
+  const std::function<Cover(std::size_t face)>& cover_;
+  std::vector<std::vector<std::size_t>> faces_at_;  // of each node
+  std::map<std::size_t, Cover> covers_;             // of the faces that were asked about
+};
+
+}  // namespace
+
+std::vector<PlaceBetween> take_places_between(std::vector<NearestPoint>& nearest, const Side& secondary,
+                                              const SurfaceNodes& surface_nodes, const CutFaces& faces, const std::vector<char>& own,
+                                              const std::function<Cover(std::size_t face)>& cover, const Communicator& comm)
+{
+  constexpr double same = 0.999;        // cosine of normals
+  constexpr double beside_node = 0.85;  // of its shape function: such a node may as well stand in for the place
+  std::vector<PlaceBetween> result;
+  if (!comm.any(std::ranges::any_of(nearest, &NearestPoint::moved))) return result;
+  Selection selection(secondary, surface_nodes, faces, cover);
+  // The rank of a node sees all faces round the place; the others are told.
+  std::vector<Taken> mine;
+  for (std::size_t p = 0; p < nearest.size(); ++p) {
+    const auto& node = surface_nodes.all[p];
+    if (!own[static_cast<std::size_t>(node.node)] || !nearest[p].moved() || nearest[p].shape.maxCoeff() > beside_node ||
+        !selection.one_body_covers(nearest[p].facet))
+      continue;
+    result.push_back(selection.place(p, nearest[p]));
+    mine.push_back({result.back().node, {node.normal[0], node.normal[1], node.normal[2]}});
+  }
+  const auto taken = answer(by_node<Taken>(mine, comm), ask(secondary.node_id, comm), comm);
+  for (std::size_t p = 0; p < nearest.size(); ++p) {
+    const auto& node = surface_nodes.all[p];
+    const auto here = std::ranges::equal_range(taken, secondary.node_id[static_cast<std::size_t>(node.node)], {}, &Taken::node);
+    if (std::ranges::any_of(here, [&](const Taken& t) { return Point(t.normal[0], t.normal[1], t.normal[2]).dot(node.normal) > same; }))
+      nearest[p] = {};
+  }
+  return result;
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,40 @@
+// Which places between nodes, where the other side comes nearest, have rows of their own beside those of the nodes.
+//
+// Those in faces of first order that one body of the other side covers as a whole: all nodes round the place then have rows that
+// mean one body. Elsewhere, as opposite rollers smaller than a face, and where the place is next to a node, the multiplier of the
+// nearest node moves to the place.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "cut_faces.hpp"
+#include "nearest_points.hpp"
+#include "opposite.hpp"
+
+namespace mortise::contact {
+
+struct PlaceBetween {
+  std::size_t surface_node;  ///< the nearest
+  Global node;               ///< there
+  Rays::FacetPoint where;
+  Point at, normal;            ///< of the secondary side
+  double size;                 ///< of the facet
+  std::vector<Global> corners; ///< of the facet
+  std::vector<Global> round;   ///< nodes of the faces round these, ascending
+};
+
+/// What the other side covers of a face.
+struct Cover {
+  double part = 0;  ///< of its area
+  int body = -1;    ///< of the other side, one that hangs together; -1: several, or none
+};
+
+/// Takes such places out of `nearest`: their nodes keep rows of their own. Returns those whose nodes are this rank's `own`.
+/// Collective.
+std::vector<PlaceBetween> take_places_between(std::vector<NearestPoint>& nearest, const Side& secondary,
+                                              const SurfaceNodes& surface_nodes, const CutFaces& faces, const std::vector<char>& own,
+                                              const std::function<Cover(std::size_t face)>& cover, const Communicator& comm);
+
+}  // namespace mortise::contact

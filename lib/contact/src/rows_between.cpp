@@ -1,0 +1,226 @@
+#include "rows_between.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "base/dense.hpp"
+#include "by_node.hpp"
+#include "moments.hpp"
+#include "rows.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+constexpr double one_normal = 0.75;    // cosine: rows on the other side of a kink say nothing here
+constexpr double largest_weights = 2;  // the sum of their sizes: more is an extrapolation
+constexpr double least_weight = 1e-9;  // less is none
+// What a node that is covered all round may lack of its cover and of the weight of its row.
+constexpr double of_cover = 0.01, of_weight = 1e-9;
+
+std::array<double, 3> packed(const Point& p)
+{
+  return {p[0], p[1], p[2]};
+}
+Point unpacked(const std::array<double, 3>& a)
+{
+  return {a[0], a[1], a[2]};
+}
+
+// The nodes of this rank that places of others ask for, ascending. Collective.
+std::vector<Global> asked_for(std::span<const PlaceBetween> places, const std::vector<Global>& own, const Communicator& comm)
+{
+  struct Asked {
+    Global node;
+  };
+  std::vector<Asked> wanted;
+  for (const auto& place : places)
+    for (const Global node : place.round) wanted.push_back({node});
+  std::vector<Global> result;
+  for (const auto& asked : answer(by_node<Asked>(wanted, comm), ask(own, comm), comm)) result.push_back(asked.node);
+  result.erase(std::ranges::unique(result).begin(), result.end());
+  return result;
+}
+
+// Polynomials up to an order at points, in rows.
+Eigen::MatrixXd polynomials_at(const Eigen::Matrix2Xd& x, int dimension, int order)
+{
+  const auto s = x.row(0).array(), t = x.row(1).array();
+  const bool plane = dimension == 3;
+  Eigen::MatrixXd p((order == 2 ? 3 : 2) + (plane ? (order == 2 ? 3 : 1) : 0), x.cols());
+  Eigen::Index row = 0;
+  p.row(row++).setOnes();
+  p.row(row++) = s;
+  if (plane) p.row(row++) = t;
+  if (order < 2) return p;
+  p.row(row++) = s * s;
+  if (plane) p.row(row++) = s * t;
+  if (plane) p.row(row++) = t * t;
+  return p;
+}
+
+// The nodes of one side that terms speak of.
+template <class Terms>
+Side nodes_of(const Terms& terms, bool on_primary, fem::Kinematics kinematics)
+{
+  std::vector<std::pair<Global, Point>> nodes;
+  for (const auto& term : terms)
+    if (term.on_primary == on_primary) nodes.emplace_back(term.of, unpacked(term.x));
+  std::ranges::sort(nodes, {}, [](const auto& node) { return node.first; });
+  nodes.erase(std::ranges::unique(nodes, {}, [](const auto& node) { return node.first; }).begin(), nodes.end());
+  Side side;
+  side.kinematics = kinematics;
+  for (const auto& [id, x] : nodes) {
+    side.node_id.push_back(id);
+    side.points.push_back(x);
+  }
+  return side;
+}
+
+}  // namespace
+
+Eigen::VectorXd weights_between(const Eigen::Matrix2Xd& x, int dimension)
+{
+  constexpr double exact = 1e-6;
+  const Eigen::VectorXd nearness = (-0.5 * x.colwise().squaredNorm().array()).exp();
+  for (const int order : {2, 1}) {
+    const Eigen::MatrixXd p = polynomials_at(x, dimension, order);
+    const Eigen::VectorXd wanted = Eigen::VectorXd::Unit(p.rows(), 0);
+    const Eigen::VectorXd w = nearness.cwiseProduct(dense::minimum_norm(p * nearness.asDiagonal(), wanted).col(0));
+    if ((p * w - wanted).lpNorm<Eigen::Infinity>() < exact && w.lpNorm<1>() < largest_weights) return w;
+  }
+  return {};
+}
+
+RowsBetween::RowsBetween(std::vector<PlaceBetween> places, const Side& secondary, const std::vector<char>& own,
+                         const Communicator& comm)
+    : places_(std::move(places)), comm_(comm), any_(comm.any(!places_.empty()))
+{
+  if (!any_) return;
+  std::vector<Global> mine;
+  for (std::size_t n = 0; n < own.size(); ++n)
+    if (own[n]) mine.push_back(secondary.node_id[n]);
+  asked_ = asked_for(places_, mine, comm);
+}
+
+void RowsBetween::note(const constraint::ContactNode& node, std::span<const Term> terms, double d, const Side& secondary,
+                       const Side& primary)
+{
+  if (!std::ranges::binary_search(asked_, node.node)) return;
+  const auto number = static_cast<int>(std::ranges::count(nodes_, node.node, &Neighbour::node));
+  nodes_.push_back({node.node, number, node.weight, node.area, node.cover, packed(node.normal), packed(node.at)});
+  for (const auto& term : terms) {
+    const Side& side = term.on_primary ? primary : secondary;
+    const auto at = static_cast<std::size_t>(term.node);
+    terms_.push_back({node.node, number, term.on_primary, side.node_id[at], term.value / d, packed(side.points[at])});
+  }
+}
+
+// Those at these nodes that look the way of a normal.
+std::vector<const RowsBetween::Neighbour*> RowsBetween::at(std::span<const Global> nodes, const Point& normal) const
+{
+  std::vector<const Neighbour*> result;
+  for (const Global node : nodes)
+    for (const auto& known : std::ranges::equal_range(nodes_, node, {}, &Neighbour::node))
+      if (unpacked(known.normal).dot(normal) > one_normal) result.push_back(&known);
+  return result;
+}
+
+// Those round a place, and their weights in its row: of nodes that are covered all round, which alone say what is at their
+// places; if they are too few, of the corners of its facet, as its shape functions are.
+RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimension) const
+{
+  Weighted result;
+  const auto candidates = at(place.round, place.normal);
+  std::vector<const Neighbour*> whole;
+  for (const auto* node : candidates)
+    if (node->cover > 1 - of_cover && std::abs(node->weight - 1) < of_weight) whole.push_back(node);
+  const auto axes = tangent_plane(place.normal, dimension);
+  Eigen::Matrix2Xd x(2, static_cast<Eigen::Index>(whole.size()));
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    x.col(static_cast<Eigen::Index>(i)) = axes.transpose() * (unpacked(whole[i]->at) - place.at) / place.size;
+  const Eigen::VectorXd w = whole.empty() ? Eigen::VectorXd() : weights_between(x, dimension);
+  for (Eigen::Index i = 0; i < w.size(); ++i)
+    if (std::abs(w[i]) > least_weight) result.emplace_back(whole[static_cast<std::size_t>(i)], w[i]);
+  if (!result.empty()) return result;
+  double sum = 0;
+  for (const auto* node : candidates)
+    if (const auto corner = std::ranges::find(place.corners, node->node); corner != place.corners.end()) {
+      result.emplace_back(node, std::max(place.where.shape[corner - place.corners.begin()], 0.0));
+      sum += result.back().second;
+    }
+  if (!(sum > 0)) return {};
+  for (auto& part : result) part.second /= sum;
+  return result;
+}
+
+// The terms of a row that is a sum of others, one a node, those of the secondary side first.
+std::vector<Term> RowsBetween::sum_of(const Weighted& nodes, const Side& secondary, const Side& primary) const
+{
+  std::vector<Term> all, result;
+  for (const auto& [node, w] : nodes)
+    for (const auto& term : std::ranges::equal_range(terms_, std::pair(node->node, node->number), {},
+                                                     [](const SentTerm& t) { return std::pair(t.node, t.number); })) {
+      const auto& ids = term.on_primary ? primary.node_id : secondary.node_id;
+      const auto at = std::ranges::lower_bound(ids, term.of) - ids.begin();
+      all.push_back({static_cast<Local>(at), term.on_primary, w / node->weight * term.value});
+    }
+  const auto key = [](const Term& t) { return std::pair(t.on_primary, t.node); };
+  std::ranges::stable_sort(all, {}, key);
+  for (const auto& term : all) {
+    if (!result.empty() && key(result.back()) == key(term))
+      result.back().value += term.value;
+    else
+      result.push_back(term);
+  }
+  return result;
+}
+
+void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory& supports, const Setting& setting,
+                         const GapAt& gap_at)
+{
+  if (!any_) return;
+  std::vector<Global> wanted;
+  for (const auto& place : places_) wanted.insert(wanted.end(), place.round.begin(), place.round.end());
+  std::ranges::sort(wanted);
+  wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+  const auto asked = ask(wanted, comm_);
+  nodes_ = answer(by_node<Neighbour>(nodes_, comm_), asked, comm_);
+  terms_ = answer(by_node<SentTerm>(terms_, comm_), asked, comm_);
+  std::ranges::sort(nodes_, {}, [](const Neighbour& n) { return std::pair(n.node, n.number); });
+  std::ranges::stable_sort(terms_, {}, [](const SentTerm& t) { return std::pair(t.node, t.number); });
+
+  const Side secondary = nodes_of(terms_, false, setting.kinematics), primary = nodes_of(terms_, true, setting.kinematics);
+  const SupportedNodes held(supports, secondary.node_id, comm_), primary_held(supports, primary.node_id, comm_);
+  const int dimension = fem::dimension(setting.kinematics);
+  RowWriter writer(secondary, primary, held, primary_held, dimension, setting.rotation);
+  for (const auto& place : places_) {
+    constraint::ContactNode node{setting.contact, place.node, 0, Point::Zero(), {}, contacts.rows.size()};
+    node.at = place.at;
+    const auto weighted = round(place, dimension);
+    for (const auto& [other, w] : weighted) {
+      node.area += w * other->area;
+      node.parts.push_back({other->node, w, unpacked(other->normal)});
+    }
+    auto terms = sum_of(weighted, secondary, primary);
+    const Gap gap = gap_at(place);
+    if (terms.empty() || !std::isfinite(gap.mesh) || !writer.moves(terms, 1, gap.direction)) continue;
+    node.normal = gap.direction;
+    node.gap = gap.bound;
+    if (setting.tangents) {
+      node.tangents = directions(node.normal, {false, false, false}, {}, dimension).tangents;
+      std::erase_if(node.tangents, [&](const Point& tangent) { return !writer.moves(terms, 1, tangent); });
+      writer.leave_what_moves(terms, 1, node.normal, node.tangents);
+    }
+    const bool rings = setting.kinematics == fem::Kinematics::axisymmetric;  // these do not turn
+    const Moments moments = rings ? Moments() : Moments(terms, 1, node.normal, gap.mesh, &place.at, secondary, primary, dimension);
+    writer.add(terms, 1, node.normal, node.gap, contacts);
+    for (const auto& tangent : node.tangents)
+      writer.add(terms, 1, tangent, 0, contacts, rings ? std::vector<Term>() : moments.couple(tangent), node.normal);
+    contacts.nodes.push_back(std::move(node));
+    contacts.bonded.push_back(false);
+  }
+}
+
+}  // namespace mortise::contact
