@@ -139,12 +139,21 @@ void carry_slip(const constraint::Contacts& from, constraint::Contacts& to)
     const auto found = old.find(key);
     if (found == old.end()) continue;
     const auto &a = from.nodes[found->second], &b = to.nodes[i];
-    change_tangents(
-        a, b, [&](std::size_t t) { return from.slipped[a.row + 1 + t]; },
-        [&](std::size_t t, double slip) {
-          to.slipped[b.row + 1 + t] = slip;
-          to.rows.bound[b.row + 1 + t] += slip;
-        });
+    const auto take = [&](std::size_t t, double slip) {
+      to.slipped[b.row + 1 + t] = slip;
+      to.rows.bound[b.row + 1 + t] += slip;
+    };
+    // What a row without entries gave way by is slip once the node is let go.
+    for (const bool held : {true, false})
+      change_tangents(
+          a, b,
+          [&](std::size_t t) {
+            const auto row = a.row + 1 + t;
+            return from.slipped[row] - (!held && from.rows[row].empty() ? from.rows.bound[row] : 0);
+          },
+          [&](std::size_t t, double slip) {
+            if (to.rows[b.row + 1 + t].empty() == held) take(t, slip);
+          });
   }
 }
 

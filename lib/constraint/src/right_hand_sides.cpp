@@ -17,12 +17,10 @@ bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed,
   if (comm.min(static_cast<long long>(same)) == 0) return false;
   constraints.prescribed = std::move(prescribed);
   auto& contacts = constraints.contacts;
-  const auto moved = [&](const PrescribedEntry& entry) {
+  for (const auto& entry : contacts.prescribed) {
     const auto support = static_cast<std::size_t>(entry.support), c = static_cast<std::size_t>(entry.component);
-    return entry.coefficient * (value(supports[support], c) - value(before[support], c));
-  };
-  for (const auto& entry : contacts.prescribed) contacts.rows.bound[entry.row] -= moved(entry);
-  for (const auto& entry : contacts.held_entries) contacts.held[entry.row].slip += moved(entry);
+    contacts.rows.bound[entry.row] -= entry.coefficient * (value(supports[support], c) - value(before[support], c));
+  }
   return true;
 }
 

@@ -198,12 +198,13 @@ class Builder {
         index_, secondary_.node_id[static_cast<std::size_t>(node_here.node)], d, normal, {}, contacts.rows.size()};
     if (bonded() && !options_.preload) conflicts_.note_tear(terms_, d, normal);
     const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
+    Few<Point, 2> held;                                         // tangents along which supports hold both
     if (!prescribed && options_.law != Law::frictionless) {
       for (const auto& tangent : tangents(p, normal))
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
       if (!bonded()) {
         writer_.leave_what_moves(terms_, d, normal, point.tangents);
-        for (const auto& held : other_tangents(normal, point.tangents)) writer_.add_held(terms_, d, held, contacts);
+        for (const auto& tangent : other_tangents(normal, point.tangents, dimension_)) held.push_back(tangent);
       }
     }
 
@@ -237,6 +238,10 @@ class Builder {
       writer_.add(terms_, d, normal, point.gap, contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), normal);
     }
+    for (const auto& tangent : held) {
+      writer_.add_held(terms_, d, tangent, contacts);
+      point.tangents.push_back(tangent);
+    }
     between_->note(point, terms_, d, secondary_, primary_);
     contacts.nodes.push_back(std::move(point));
     contacts.bonded.push_back(bonded());
@@ -249,21 +254,9 @@ class Builder {
   {
     Few<Point, 2> result = free_tangents(p, normal);
     if (options_.cyclic || options_.obstacle || (bonded() && !chosen_.held_through[p])) return result;
-    for (const auto& tangent : other_tangents(normal, result))
+    for (const auto& tangent : other_tangents(normal, result, dimension_))
       if (!primary_held(p, tangent)) result.push_back(tangent);
     return result;
-  }
-
-  // What the tangents of a normal lack of all directions in the surface.
-  template <class Tangents>
-  Few<Point, 2> other_tangents(const Point& normal, const Tangents& tangents) const
-  {
-    Few<Point, 2> others;
-    if (dimension_ == 2 && tangents.empty()) others.push_back(Point(-normal[1], normal[0], 0));
-    if (dimension_ == 3 && tangents.size() == 1) others.push_back(normal.cross(tangents[0]).normalized());
-    if (dimension_ == 3 && tangents.empty())
-      for (const auto& tangent : directions(normal, {false, false, false}, {}, 3).tangents) others.push_back(tangent);
-    return others;
   }
 
   // Whether supports hold the primary side along a direction where a surface node meets it.

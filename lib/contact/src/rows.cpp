@@ -151,10 +151,15 @@ void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, do
 
 void RowWriter::add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts)
 {
-  const auto row = contacts.held.size();
-  contacts.held.push_back({contacts.nodes.size(), prescribed_part(terms, d, axis)});
-  for (const auto& c : coefficients(terms, d, axis))
-    if (c.prescribed) contacts.held_entries.push_back({row, c.component, c.prescribed->support, c.value, c.prescribed->at});
+  const auto row = contacts.rows.size();
+  double bound = 0;
+  take_skew_supports(terms, d, axis, bound, contacts);
+  for (const auto& c : coefficients(terms, d, axis)) {
+    if (!c.prescribed) continue;
+    bound -= c.value * c.prescribed->value;
+    contacts.prescribed.push_back({row, c.component, c.prescribed->support, c.value, c.prescribed->at});
+  }
+  contacts.rows.close(bound);
 }
 
 }  // namespace mortise::contact

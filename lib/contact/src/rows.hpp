@@ -38,7 +38,7 @@ class RowWriter {
   /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
   void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
            std::span<const Term> couple = {}, const Point& couple_axis = Point::Zero());
-  /// Appends a direction that has no row to those of the contact node that comes next.
+  /// Appends a row along which nothing moves but supports: what they make of it stands in its bound.
   void add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts);
 
  private:

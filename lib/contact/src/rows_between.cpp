@@ -208,16 +208,22 @@ void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory&
     if (terms.empty() || !std::isfinite(gap.mesh) || !writer.moves(terms, 1, gap.direction)) continue;
     node.normal = gap.direction;
     node.gap = gap.bound;
+    std::vector<Point> fixed;  // tangents along which supports hold both sides
     if (setting.tangents) {
       node.tangents = directions(node.normal, {false, false, false}, {}, dimension).tangents;
       std::erase_if(node.tangents, [&](const Point& tangent) { return !writer.moves(terms, 1, tangent); });
       writer.leave_what_moves(terms, 1, node.normal, node.tangents);
+      fixed = other_tangents(node.normal, node.tangents, dimension);
     }
     const bool rings = setting.kinematics == fem::Kinematics::axisymmetric;  // these do not turn
     const Moments moments = rings ? Moments() : Moments(terms, 1, node.normal, gap.mesh, &place.at, secondary, primary, dimension);
     writer.add(terms, 1, node.normal, node.gap, contacts);
     for (const auto& tangent : node.tangents)
       writer.add(terms, 1, tangent, 0, contacts, rings ? std::vector<Term>() : moments.couple(tangent), node.normal);
+    for (const auto& tangent : fixed) {
+      writer.add_held(terms, 1, tangent, contacts);
+      node.tangents.push_back(tangent);
+    }
     contacts.nodes.push_back(std::move(node));
     contacts.bonded.push_back(false);
   }

@@ -90,4 +90,11 @@ Directions directions(const Point& normal, const std::array<bool, 3>& prescribed
   return result;
 }
 
+std::vector<Point> other_tangents(const Point& normal, std::span<const Point> tangents, int dimension)
+{
+  if (tangents.size() + 1 >= static_cast<std::size_t>(dimension)) return {};
+  if (tangents.size() == 1) return {normal.cross(tangents[0]).normalized()};
+  return directions(normal, {false, false, false}, {}, dimension).tangents;
+}
+
 }  // namespace mortise::contact

@@ -48,5 +48,7 @@ struct Directions {
 };
 Directions directions(const Point& normal, const std::array<bool, 3>& prescribed,
                       std::span<const constraint::SkewSupport> skew_supports, int dimension);
+/// What the tangents of a normal lack of all directions in the surface.
+std::vector<Point> other_tangents(const Point& normal, std::span<const Point> tangents, int dimension);
 
 }  // namespace mortise::contact

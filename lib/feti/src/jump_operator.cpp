@@ -8,8 +8,7 @@ namespace mortise::feti {
 
 namespace {
 
-constexpr double compliance_between_nodes = 1;
-
+constexpr double compliance_of_node = 1;  // where the stiffness of a node is 1
 
 // All nodes that rows with several entries act on.
 std::vector<Global> nodes_of(const constraint::Contacts& contacts, std::span<const constraint::MeanMotion> mean_motions,
@@ -88,9 +87,9 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   scale_ = Eigen::Map<const Eigen::VectorXd>(rows.scale().data(), ranges_.end);
   compliance_ = Eigen::VectorXd::Zero(ranges_.end);
   for (const auto& node : contacts.nodes)
-    if (!node.parts.empty())
-      compliance_.segment(ranges_.contacts + static_cast<Local>(node.row), static_cast<Local>(node.tangents.size() + 1))
-          .setConstant(compliance_between_nodes);
+    for (std::size_t r = node.row; r <= node.row + node.tangents.size(); ++r)
+      if (!node.parts.empty() || contacts.rows[r].empty())
+        compliance_[ranges_.contacts + static_cast<Local>(r)] = compliance_of_node;
   update_rhs(prescribed, skew_supports, contacts, mean_motions);
 
   const auto pieces = rows.receive();

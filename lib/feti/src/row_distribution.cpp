@@ -133,14 +133,10 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
   ByRank<SentRow> rows(size);
   ByRank<constraint::Entry> entries(size);
   ByRank<constraint::PrescribedEntry> prescribed(size);  // their rows are counted among those that go to the same rank
-  ByRank<constraint::HeldDirection> held(size);  // and so are their nodes
-  ByRank<constraint::PrescribedEntry> held_entries(size);
   std::vector<std::pair<std::size_t, std::size_t>> position_of(contacts.rows.size());  // rank, row among those that go there
-  std::vector<std::size_t> node_of(contacts.nodes.size());                              // among those that go there
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     const auto& p = contacts.nodes[i];
     const auto to = ranks[i];
-    node_of[i] = points[to].size();
     points[to].push_back(pack(p, contacts.bonded[i]));
     for (const auto& part : p.parts) parts[to].push_back({part.node, part.part, array(part.normal)});
     for (std::size_t r = p.row; r <= p.row + p.tangents.size(); ++r) {
@@ -155,40 +151,17 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
     entry.row = row;
     prescribed[to].push_back(entry);
   }
-  std::vector<std::pair<std::size_t, std::size_t>> position_of_held(contacts.held.size());
-  for (std::size_t i = 0; i < contacts.held.size(); ++i) {
-    auto direction = contacts.held[i];
-    const auto to = ranks[direction.node];
-    direction.node = node_of[direction.node];
-    position_of_held[i] = {to, held[to].size()};
-    held[to].push_back(direction);
-  }
-  for (auto entry : contacts.held_entries) {
-    const auto [to, direction] = position_of_held[entry.row];
-    entry.row = direction;
-    held_entries[to].push_back(entry);
-  }
 
   const auto points_in = comm.exchange(points);
   const auto parts_in = comm.exchange(parts);
   const auto rows_in = comm.exchange(rows);
   const auto entries_in = comm.exchange(entries);
   const auto prescribed_in = comm.exchange(prescribed);
-  const auto held_in = comm.exchange(held);
-  const auto held_entries_in = comm.exchange(held_entries);
   constraint::Contacts result;
   for (std::size_t from = 0; from < size; ++from) {
     for (auto entry : prescribed_in[from]) {
       entry.row += result.rows.size();
       result.prescribed.push_back(entry);
-    }
-    for (auto entry : held_entries_in[from]) {
-      entry.row += result.held.size();
-      result.held_entries.push_back(entry);
-    }
-    for (auto direction : held_in[from]) {
-      direction.node += result.nodes.size();
-      result.held.push_back(direction);
     }
     auto row = rows_in[from].begin();
     auto entry = entries_in[from].begin();

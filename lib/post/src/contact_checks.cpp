@@ -157,41 +157,4 @@ std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeS
   return worst(std::move(result), "contacts");
 }
 
-std::vector<Warning> frictions_of_supports(const constraint::Contacts& contacts, std::span<const contact::ContactNodeState> points,
-                                           std::span<const contact::Pair> pairs, double displacement, double forces,
-                                           const Communicator& comm)
-{
-  constexpr double rounding = 1e-9;
-  std::vector<char> dragged(points.size(), 0);
-  for (const auto& direction : contacts.held)
-    if (std::abs(direction.slip) > rounding * displacement) dragged[direction.node] = 1;
-  std::vector<double> sums(2 * pairs.size(), 0.0);  // normal forces of dragged nodes, of all nodes
-  std::vector<Found> largest(pairs.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto c = static_cast<std::size_t>(points[i].contact);
-    if (contacts.bonded[i] || points[i].status == contact::Status::open) continue;
-    sums[2 * c + 1] += points[i].force;
-    if (!dragged[i]) continue;
-    sums[2 * c] += points[i].force;
-    largest[c].take(points[i].force, contacts.nodes[i].at);
-  }
-  comm.sum_in_place(sums);
-  largest = largest_of_ranks(largest, comm);
-  std::vector<Warning> result;
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const double uncounted = sums[2 * c], all = sums[2 * c + 1];
-    if (!(uncounted > part_of_forces * all) || uncounted < nothing_beside * forces) continue;
-    result.push_back(about(
-        pairs[c], "friction_of_supports",
-        fmt::format("friction is not counted at nodes of contact {} that bear {:.4g} of {:.4g} of its normal forces, the largest "
-                    "at {}: supports drag them along something that is rigid or held as well. Reactions and forces of the "
-                    "contact lack it, and so does what the nodes do across the drag, and after the support lets go",
-                    pairs[c].options.name, uncounted, all, spell(largest[c].at)),
-        "let the support hold nodes that are not in the contact, or make the other side a body that gives way", uncounted,
-        part_of_forces * all));
-    result.back().at = largest[c].at;
-  }
-  return worst(std::move(result), "contacts");
-}
-
 }  // namespace mortise::post

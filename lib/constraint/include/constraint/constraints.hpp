@@ -114,20 +114,13 @@ struct PrescribedEntry {
   std::array<double, 3> at{};  ///< the node's place
 };
 
-/// A direction in the surface at a contact node that has no row, since supports hold both sides along it.
-struct HeldDirection {
-  std::size_t node;  ///< of Contacts::nodes
-  double slip;       ///< the tangential jump that supports make there, a length
-};
-
 /// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the node in length units, with the
 /// coefficient of the secondary node n (normal row) or t (tangential): (u_s - sum_j m_j u_j) . n <= gap. Its multiplier is a
-/// force. Rows have no entries at prescribed components, so they are independent of the supports.
+/// force. Rows have no entries at prescribed components, so they are independent of the supports. A tangential row along which
+/// supports hold both sides has no entries at all: the slip stands in its bound, and friction goes straight into the supports.
 struct Contacts {
   Rows rows;
   std::vector<PrescribedEntry> prescribed;
-  std::vector<HeldDirection> held;            ///< of contacts with friction
-  std::vector<PrescribedEntry> held_entries;  ///< what components of supports add to their slip; `row` numbers `held`
   std::vector<ContactNode> nodes;
   std::vector<bool> bonded;  ///< for each node: all its rows are equalities
   /// Of each row: the tangential jump at the end of the load step before, from which friction counts. Part of the row's bound.

@@ -55,8 +55,9 @@ class JumpOperator {
   /// force() and multiplier() of all owned rows.
   Eigen::VectorXd forces(const Vector& lambda) const { return view(lambda).cwiseProduct(scale_); }
   Vector multipliers(const Eigen::VectorXd& forces) const;
-  /// How far each owned row gives way under its multiplier: F gets these on its diagonal. Rows between contact nodes give way a
-  /// little, for without it they depend on those of the nodes; the others do not.
+  /// How far each owned row gives way under its multiplier: F gets these on its diagonal. Rows between contact nodes give way
+  /// as a node does, for without it they depend on those of the nodes; and so do rows without entries, of friction between what
+  /// supports hold. The others do not.
   const Eigen::VectorXd& compliance() const { return compliance_; }
   /// And in lengths, under these multipliers.
   Eigen::VectorXd given_way(const Vector& lambda) const

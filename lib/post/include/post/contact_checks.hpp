@@ -34,12 +34,4 @@ std::vector<Warning> lost_moments(std::span<const ContactMoment> moments, std::s
 std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> points,
                                            std::span<const contact::Pair> pairs, double forces, const Communicator& comm);
 
-/// "friction_of_supports": supports alone drag contact nodes along what is rigid or held as well, and these nodes bear more than a
-/// hundredth of the normal forces of a contact with friction. They have no row in that direction, so the friction there is no
-/// part of the forces of contact and supports. `points` as of contact_results(), `displacement` the largest, `forces` as in
-/// lost_moments(). Collective.
-std::vector<Warning> frictions_of_supports(const constraint::Contacts& contacts, std::span<const contact::ContactNodeState> points,
-                                           std::span<const contact::Pair> pairs, double displacement, double forces,
-                                           const Communicator& comm);
-
 }  // namespace mortise::post
