@@ -127,6 +127,20 @@ std::vector<const RowsBetween::Neighbour*> RowsBetween::at(std::span<const Globa
   return result;
 }
 
+// What is left between w and the shape functions of the facet sees the surface curve. It counts a little more, so that the row of a
+// place is clearly closed and not pressed where the nodes round it touch; how far bodies approach as a whole stays exact.
+void RowsBetween::curve_more(const PlaceBetween& place, std::span<const Neighbour* const> nodes, Eigen::VectorXd& w)
+{
+  constexpr double more = 0.2;
+  Eigen::VectorXd flat = Eigen::VectorXd::Zero(w.size());
+  for (std::size_t c = 0; c < place.corners.size(); ++c) {
+    const auto corner = std::ranges::find(nodes, place.corners[c], &Neighbour::node);
+    if (corner == nodes.end()) return;
+    flat[corner - nodes.begin()] = place.where.shape[static_cast<Eigen::Index>(c)];
+  }
+  w += more * (w - flat);
+}
+
 // Those round a place, and their weights in its row: of nodes that are covered all round, which alone say what is at their
 // places; if they are too few, of the corners of its facet, as its shape functions are.
 RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimension) const
@@ -140,7 +154,8 @@ RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimensio
   Eigen::Matrix2Xd x(2, static_cast<Eigen::Index>(whole.size()));
   for (std::size_t i = 0; i < whole.size(); ++i)
     x.col(static_cast<Eigen::Index>(i)) = axes.transpose() * (unpacked(whole[i]->at) - place.at) / place.size;
-  const Eigen::VectorXd w = whole.empty() ? Eigen::VectorXd() : weights_between(x, dimension);
+  Eigen::VectorXd w = whole.empty() ? Eigen::VectorXd() : weights_between(x, dimension);
+  if (w.size() > 0) curve_more(place, whole, w);
   for (Eigen::Index i = 0; i < w.size(); ++i)
     if (std::abs(w[i]) > least_weight) result.emplace_back(whole[static_cast<std::size_t>(i)], w[i]);
   if (!result.empty()) return result;

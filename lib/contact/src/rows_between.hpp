@@ -70,6 +70,7 @@ class RowsBetween {
   using Weighted = std::vector<std::pair<const Neighbour*, double>>;
 
   std::vector<const Neighbour*> at(std::span<const Global> nodes, const Point& normal) const;
+  static void curve_more(const PlaceBetween& place, std::span<const Neighbour* const> nodes, Eigen::VectorXd& w);
   Weighted round(const PlaceBetween& place, int dimension) const;
   std::vector<Term> sum_of(const Weighted& nodes, const Side& secondary, const Side& primary) const;
 
