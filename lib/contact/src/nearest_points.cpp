@@ -24,6 +24,8 @@ constexpr double parallel = 0.3;
 // opposite each other: steps end where they are rounding, and a place that is not known to `known` is none.
 constexpr double exact = 1e-15, known = 1e-10;
 constexpr int most_steps = 60;
+// Of shape functions: what a place in a facet may lie outside of it by rounding, and by what planes of two facets differ by.
+constexpr double within = 1e-6, between_planes = 0.02;
 
 // Corners of facets by surface node.
 struct Corner {
@@ -221,17 +223,37 @@ class Search {
     return inverse;
   }
 
-  // The facet round a node that a step from it leads into.
+  // The facet round a node that a step from it leads into. A step along the edge between two of them may miss both, which lie in
+  // other planes: it is in the one that it misses less.
   std::optional<Place> holds(std::size_t p, const Point& shift) const
   {
     std::optional<Place> best;
-    double least = -1e-6;
+    double least = -between_planes;
     for (const auto& [facet, corner] : round(p)) {
       const auto shape = shape_beside(side_, facet, corner, shift);
       const double smallest = shape.head(static_cast<Eigen::Index>(side_.facets[facet].size())).minCoeff();
+      if (smallest < -within && !beside_shared_edge(p, {facet, corner, shape})) continue;
       if (smallest >= least && (!best || smallest > least)) best = {facet, corner, shape}, least = smallest;
     }
     return best;
+  }
+
+  // Whether a place outside of a facet round a node lies across edges at the node alone, which other facets have as well.
+  bool beside_shared_edge(std::size_t p, const Place& place) const
+  {
+    const auto nodes = side_.facets[place.facet];
+    const std::size_t count = nodes.size(), after = (place.corner + 1) % count, before = (place.corner + count - 1) % count;
+    if (count == 2) return false;
+    const auto shape = [&](std::size_t k) { return place.shape[static_cast<Eigen::Index>(k)]; };
+    const double opposite = count == 4 ? shape((place.corner + 2) % 4) : 0;
+    const double along_first = shape(after) + opposite, along_last = shape(before) + opposite;
+    const auto shared = [&](Local node) {
+      return std::ranges::any_of(round(p), [&](const Corner& other) {
+        return other.facet != place.facet && std::ranges::find(side_.facets[other.facet], node) != side_.facets[other.facet].end();
+      });
+    };
+    const bool far = count == 4 ? std::max(along_first, along_last) > 1 + within : shape(place.corner) < -within;
+    return !far && (along_first >= -within || shared(nodes[before])) && (along_last >= -within || shared(nodes[after]));
   }
 
   // Whether no other node of the facet is nearer; of two at the same distance the one with the smaller number.

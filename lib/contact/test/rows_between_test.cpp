@@ -34,7 +34,7 @@ double bilinear(const Field& f, const Point& at)
 TEST(RowsBetween, SeeFieldsOfSecondOrderAtThePlaceAndPushBothSidesThere)
 {
   const Communicator comm;
-  for (const auto& [a, b] : {std::pair{3.5, 2.5}, {3.5, 2.5 + 0.2}, {3.3, 2.6}}) {
+  for (const auto& [a, b] : {std::pair{3.5, 2.5}, {3.5, 2.5 + 0.2}, {3.3, 2.6}, {3.5, 2.0}, {3.4, 3.0}, {4.0, 2.5}}) {
     const auto pair = crown(a, b, Law::coulomb, false, comm);
     const auto contacts = discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm);
     long long found = 0;
