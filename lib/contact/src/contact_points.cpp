@@ -27,6 +27,13 @@ std::pair<Point, Point> ContactPoints::at(std::size_t p)
   return {node + shift / d, (surface_node.normal + tilt / d).normalized()};
 }
 
+bool ContactPoints::means_field(std::size_t p)
+{
+  return faces_.is_corner(p) || !rays_.at_middle(p) || std::ranges::all_of(faces_.at(p), [&](const CutFaces::Function& function) {
+    return !faces_.piece(function.piece).point_facet.empty();
+  });
+}
+
 double ContactPoints::room(std::size_t p)
 {
   if (faces_.is_corner(p)) return 0;

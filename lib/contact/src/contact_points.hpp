@@ -24,6 +24,10 @@ class ContactPoints {
   /// the other side comes nearest, or into what is covered.
   std::pair<Point, Point> at(std::size_t place);
 
+  /// Whether a place's row means the field there: at a middle node of a face of second order that is one piece it means a control
+  /// value, see multiplier_basis().
+  bool means_field(std::size_t place);
+
   /// How much is left of the way from its node to the next ones, in the direction in which the point was moved from the node into
   /// what is covered: 1 at the node, little where the covered strip is narrow. 0 at a corner of the primary side.
   double room(std::size_t place);

@@ -35,8 +35,9 @@ class Discretization {
   explicit Discretization(const TwoSides& sides) : sides_(sides) {}
   virtual ~Discretization() = default;
 
-  /// Adds the next face of faces.round() in pieces, with their integrals over what meets the other side.
-  virtual void add_face(std::size_t face) = 0;
+  /// Adds the next face of faces.round() in pieces, with their integrals over what meets the other side; `in_facets`: of each of
+  /// its facets in any case.
+  virtual void add_face(std::size_t face, bool in_facets) = 0;
   /// What the other side covers of a face, if places between its nodes can have rows of their own. Before faces are added.
   virtual Cover cover(std::size_t /*face*/) { return {}; }
   /// Turns the integrals of all pieces into functions of the surface nodes that are `kept`; those of the others become 0.

@@ -111,9 +111,9 @@ class Builder {
   void add_rows(constraint::Contacts& contacts, const SupportDirectory& supports, const Communicator& comm)
   {
     const auto cover = [&](std::size_t face) { return discretization_->cover(face); };
-    between_.emplace(take_places_between(nearest_, secondary_, nodes_, faces_, share_.own, cover, comm), secondary_, share_.own,
-                     comm);
-    for (const std::size_t f : faces_.round()) discretization_->add_face(f);
+    auto between = take_places_between(nearest_, secondary_, nodes_, faces_, share_.own, cover, comm);
+    for (const std::size_t f : faces_.round()) discretization_->add_face(f, between.in_facets[f] != 0);
+    between_.emplace(std::move(between.places), secondary_, share_.own, comm);
     faces_.number_corners();
     chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, seams_end(), bonded(), dimension_);
     if (bonded() && !options_.preload && !options_.obstacle)
@@ -242,7 +242,7 @@ class Builder {
       writer_.add_held(terms_, d, tangent, contacts);
       point.tangents.push_back(tangent);
     }
-    between_->note(point, terms_, d, secondary_, primary_);
+    between_->note(point, points_.means_field(p), terms_, d, secondary_, primary_);
     contacts.nodes.push_back(std::move(point));
     contacts.bonded.push_back(bonded());
   }

@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t enough = 6;
 // Heights below this part of the distances are rounding.
 constexpr double plane_surface = 1e-10;
-// How far a slope that the nodes do not determine is held where it is; what they determine is found all the same, step by step.
+// How far what the nodes do not determine is held: a slope where it is, a curvature at 0. What they determine is found all the same,
+// step by step. Both are the same in all directions: nothing that is found along one leaks into another that is not determined.
 constexpr double held_slope = 0.01, held_curvature = 1e-6;
 constexpr int steps = 8;
 constexpr double settled = 1e-13;
@@ -106,7 +107,7 @@ Point fitted(const std::vector<Point>& d, const Point& start)
     for (Eigen::Index c = 0; c < 5; ++c) {
       scale[c] = std::max(rows.col(c).norm(), 1e-30 / length);
       rows.col(c) /= scale[c];
-      rows(count + c, c) = c < 2 ? held_slope : held_curvature;
+      rows(count + c, c) = (c < 2 ? held_slope : c == 3 ? std::sqrt(2.0) * held_curvature : held_curvature) / scale[c];
     }
     const Eigen::Matrix<double, 5, 1> found = dense::least_squares(rows, heights);
     const Eigen::VectorXd left = rows.topRows(count) * found - heights.head(count);

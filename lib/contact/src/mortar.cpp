@@ -16,10 +16,10 @@ class Mortar : public Discretization {
   {
   }
 
-  void add_face(std::size_t face) override
+  void add_face(std::size_t face, bool in_facets) override
   {
     auto& faces = sides_.faces;
-    const bool in_facets = sides_.mesh_gaps && sides_.rays.nearest_within(face);
+    in_facets = in_facets || (sides_.mesh_gaps && sides_.rays.nearest_within(face));
     if (!sides_.obstacle) return faces.add(face, integrator_.integrate(face, in_facets));
     faces.add(face, integrator_.integrate_whole(face, in_facets));
     if (!meets_all(face))

@@ -15,10 +15,10 @@ class NodeToSegment : public Discretization {
   }
 
   // A function is taken out if one of the nodes whose values it sees meets nothing.
-  void add_face(std::size_t face) override
+  void add_face(std::size_t face, bool in_facets) override
   {
     auto& faces = sides_.faces;
-    faces.add(face, integrator_.integrate_whole(face, sides_.mesh_gaps && sides_.rays.nearest_within(face)));
+    faces.add(face, integrator_.integrate_whole(face, in_facets || (sides_.mesh_gaps && sides_.rays.nearest_within(face))));
     const auto surface_nodes = faces.surface_nodes_of(face);
     for (const std::size_t i : faces.pieces(face)) {
       const auto piece = faces.piece(i);

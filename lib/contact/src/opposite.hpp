@@ -71,6 +71,9 @@ class Rays {
   /// How far the smooth surface stands out of the facet that is met, where it is met; 0 where nothing is.
   double rise_of(const Opposite& met) const;
 
+  /// Whether a surface node is in the middle of an edge or a face, where rows see control values.
+  bool at_middle(std::size_t surface_node) const { return face_of_middle_[surface_node].first >= 0; }
+
   /// Takes another gap than that of the meshes where a line from a surface node meets something.
   using GapOf = std::function<double(std::size_t surface_node, const Opposite&)>;
   /// The gap along a direction of contact at a surface node, as the rows see it: in the middle of edges and faces as a control

@@ -15,6 +15,11 @@ struct Taken {
   std::array<double, 3> normal;
 };
 
+// A node that faces of second order round a place have in common.
+struct Corner {
+  Global node;
+};
+
 class Selection {
  public:
   Selection(const Side& secondary, const SurfaceNodes& surface_nodes, const CutFaces& faces,
@@ -29,7 +34,6 @@ class Selection {
   bool one_body_covers(std::size_t facet)
   {
     const auto face = static_cast<std::size_t>(secondary_.face_of[facet]);
-    if (secondary_.second_order(face)) return false;
     const Cover here = cover_of(face);
     if (here.part < 1 - slit || here.body < 0) return false;
     return std::ranges::all_of(secondary_.facets[facet], [&](Local corner) {
@@ -77,32 +81,42 @@ class Selection {
 
 }  // namespace
 
-std::vector<PlaceBetween> take_places_between(std::vector<NearestPoint>& nearest, const Side& secondary,
-                                              const SurfaceNodes& surface_nodes, const CutFaces& faces, const std::vector<char>& own,
-                                              const std::function<Cover(std::size_t face)>& cover, const Communicator& comm)
+PlacesBetween take_places_between(std::vector<NearestPoint>& nearest, const Side& secondary, const SurfaceNodes& surface_nodes,
+                                  const CutFaces& faces, const std::vector<char>& own,
+                                  const std::function<Cover(std::size_t face)>& cover, const Communicator& comm)
 {
   constexpr double same = 0.999;        // cosine of normals
   constexpr double beside_node = 0.85;  // of its shape function: such a node may as well stand in for the place
-  std::vector<PlaceBetween> result;
+  PlacesBetween result{{}, std::vector<char>(secondary.faces.size(), 0)};
   if (!comm.any(std::ranges::any_of(nearest, &NearestPoint::moved))) return result;
   Selection selection(secondary, surface_nodes, faces, cover);
   // The rank of a node sees all faces round the place; the others are told.
   std::vector<Taken> mine;
+  std::vector<Corner> corners;
   for (std::size_t p = 0; p < nearest.size(); ++p) {
     const auto& node = surface_nodes.all[p];
     if (!own[static_cast<std::size_t>(node.node)] || !nearest[p].moved() || nearest[p].shape.maxCoeff() > beside_node ||
         !selection.one_body_covers(nearest[p].facet))
       continue;
-    result.push_back(selection.place(p, nearest[p]));
-    mine.push_back({result.back().node, {node.normal[0], node.normal[1], node.normal[2]}});
+    result.places.push_back(selection.place(p, nearest[p]));
+    const auto& place = result.places.back();
+    mine.push_back({place.node, {node.normal[0], node.normal[1], node.normal[2]}});
+    if (secondary.second_order(static_cast<std::size_t>(secondary.face_of[nearest[p].facet])))
+      for (const Global corner : place.corners) corners.push_back({corner});
   }
-  const auto taken = answer(by_node<Taken>(mine, comm), ask(secondary.node_id, comm), comm);
+  const auto asked = ask(secondary.node_id, comm);
+  const auto taken = answer(by_node<Taken>(mine, comm), asked, comm);
   for (std::size_t p = 0; p < nearest.size(); ++p) {
     const auto& node = surface_nodes.all[p];
     const auto here = std::ranges::equal_range(taken, secondary.node_id[static_cast<std::size_t>(node.node)], {}, &Taken::node);
     if (std::ranges::any_of(here, [&](const Taken& t) { return Point(t.normal[0], t.normal[1], t.normal[2]).dot(node.normal) > same; }))
       nearest[p] = {};
   }
+  const auto common = answer(by_node<Corner>(corners, comm), asked, comm);
+  for (const std::size_t f : faces.round())
+    result.in_facets[f] = secondary.second_order(f) && std::ranges::any_of(secondary.faces[f], [&](Local n) {
+      return std::ranges::binary_search(common, secondary.node_id[static_cast<std::size_t>(n)], {}, &Corner::node);
+    });
   return result;
 }
 

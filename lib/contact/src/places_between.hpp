@@ -1,8 +1,9 @@
 // Which places between nodes, where the other side comes nearest, have rows of their own beside those of the nodes.
 //
-// Those in faces of first order that one body of the other side covers as a whole: all nodes round the place then have rows that
-// mean one body. Elsewhere, as opposite rollers smaller than a face, and where the place is next to a node, the multiplier of the
-// nearest node moves to the place.
+// Those in faces that one body of the other side covers as a whole: all nodes round the place then have rows that mean one body.
+// Faces of second order round the place are cut into their facets, so that the rows mean the field at their nodes and not control
+// values. Elsewhere, as opposite rollers smaller than a face, and where the place is next to a node, the multiplier of the nearest
+// node moves to the place.
 #pragma once
 
 #include <functional>
@@ -31,10 +32,14 @@ struct Cover {
   int body = -1;    ///< of the other side, one that hangs together; -1: several, or none
 };
 
-/// Takes such places out of `nearest`: their nodes keep rows of their own. Returns those whose nodes are this rank's `own`.
-/// Collective.
-std::vector<PlaceBetween> take_places_between(std::vector<NearestPoint>& nearest, const Side& secondary,
-                                              const SurfaceNodes& surface_nodes, const CutFaces& faces, const std::vector<char>& own,
-                                              const std::function<Cover(std::size_t face)>& cover, const Communicator& comm);
+struct PlacesBetween {
+  std::vector<PlaceBetween> places;  ///< those whose nodes are this rank's own
+  std::vector<char> in_facets;       ///< of each face of the secondary side: of second order and round a place
+};
+
+/// Takes such places out of `nearest`: their nodes keep rows of their own. Collective.
+PlacesBetween take_places_between(std::vector<NearestPoint>& nearest, const Side& secondary,
+                                  const SurfaceNodes& surface_nodes, const CutFaces& faces, const std::vector<char>& own,
+                                  const std::function<Cover(std::size_t face)>& cover, const Communicator& comm);
 
 }  // namespace mortise::contact

@@ -104,12 +104,12 @@ RowsBetween::RowsBetween(std::vector<PlaceBetween> places, const Side& secondary
   asked_ = asked_for(places_, mine, comm);
 }
 
-void RowsBetween::note(const constraint::ContactNode& node, std::span<const Term> terms, double d, const Side& secondary,
-                       const Side& primary)
+void RowsBetween::note(const constraint::ContactNode& node, bool means_field, std::span<const Term> terms, double d,
+                       const Side& secondary, const Side& primary)
 {
   if (!std::ranges::binary_search(asked_, node.node)) return;
   const auto number = static_cast<int>(std::ranges::count(nodes_, node.node, &Neighbour::node));
-  nodes_.push_back({node.node, number, node.weight, node.area, node.cover, packed(node.normal), packed(node.at)});
+  nodes_.push_back({node.node, number, means_field, node.weight, node.area, node.cover, packed(node.normal), packed(node.at)});
   for (const auto& term : terms) {
     const Side& side = term.on_primary ? primary : secondary;
     const auto at = static_cast<std::size_t>(term.node);
@@ -141,15 +141,15 @@ void RowsBetween::curve_more(const PlaceBetween& place, std::span<const Neighbou
   w += more * (w - flat);
 }
 
-// Those round a place, and their weights in its row: of nodes that are covered all round, which alone say what is at their
-// places; if they are too few, of the corners of its facet, as its shape functions are.
+// Those round a place, and their weights in its row: of nodes that are covered all round and have no control values, which alone
+// say what is at their places; if they are too few, of the corners of its facet, as its shape functions are.
 RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimension) const
 {
   Weighted result;
   const auto candidates = at(place.round, place.normal);
   std::vector<const Neighbour*> whole;
   for (const auto* node : candidates)
-    if (node->cover > 1 - of_cover && std::abs(node->weight - 1) < of_weight) whole.push_back(node);
+    if (node->means_field && node->cover > 1 - of_cover && std::abs(node->weight - 1) < of_weight) whole.push_back(node);
   const auto axes = tangent_plane(place.normal, dimension);
   Eigen::Matrix2Xd x(2, static_cast<Eigen::Index>(whole.size()));
   for (std::size_t i = 0; i < whole.size(); ++i)

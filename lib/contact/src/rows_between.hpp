@@ -45,8 +45,10 @@ class RowsBetween {
   /// `comm` must outlive it. Collective.
   RowsBetween(std::vector<PlaceBetween> places, const Side& secondary, const std::vector<char>& own, const Communicator& comm);
 
-  /// Takes up the terms of a contact node of this rank, if a place asks for them, divided by `d`.
-  void note(const constraint::ContactNode& node, std::span<const Term> terms, double d, const Side& secondary, const Side& primary);
+  /// Takes up the terms of a contact node of this rank, if a place asks for them, divided by `d`; `means_field`: their row means
+  /// the field at the node, see ContactPoints.
+  void note(const constraint::ContactNode& node, bool means_field, std::span<const Term> terms, double d, const Side& secondary,
+            const Side& primary);
   /// Appends the rows, once all nodes are noted. Collective.
   void add_to(constraint::Contacts& contacts, const SupportDirectory& supports, const Setting& setting, const GapAt& gap_at);
 
@@ -55,6 +57,7 @@ class RowsBetween {
   struct Neighbour {
     Global node;
     int number;  // among those at the node
+    bool means_field;
     double weight, area, cover;
     std::array<double, 3> normal, at;
   };
