@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,16 @@
 #include "base/types.hpp"
 
 namespace mortise::contact {
+
+/// A point on its way, and after it.
+inline std::array<double, 3> packed(const Point& p)
+{
+  return {p[0], p[1], p[2]};
+}
+inline Point unpacked(const std::array<double, 3>& a)
+{
+  return {a[0], a[1], a[2]};
+}
 
 /// Of all ranks' entries, which have a member `node`, those of this rank's nodes, ascending; those of one node in the order of
 /// the ranks. Collective.

@@ -19,15 +19,6 @@ constexpr double least_weight = 1e-9;  // less is none
 // What a node that is covered all round may lack of its cover and of the weight of its row.
 constexpr double of_cover = 0.01, of_weight = 1e-9;
 
-std::array<double, 3> packed(const Point& p)
-{
-  return {p[0], p[1], p[2]};
-}
-Point unpacked(const std::array<double, 3>& a)
-{
-  return {a[0], a[1], a[2]};
-}
-
 // The nodes of this rank that places of others ask for, ascending. Collective.
 std::vector<Global> asked_for(std::span<const PlaceBetween> places, const std::vector<Global>& own, const Communicator& comm)
 {

@@ -37,6 +37,26 @@ ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std
   return state;
 }
 
+std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> points, std::span<const constraint::ContactNode> nodes)
+{
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto take = [](ContactNodeState& state, double part) {
+      state.area *= part, state.force *= part, state.force_on_secondary *= part;
+    };
+    double own = 1;
+    for (const auto& image : nodes[i].images) {
+      auto state = points[i];
+      state.node = image.node;
+      for (Point* vector : {&state.normal, &state.force_on_secondary, &state.slip}) *vector = image.rotation * *vector;
+      take(state, image.part);
+      own -= image.part;
+      points.push_back(std::move(state));
+    }
+    if (!nodes[i].images.empty()) take(points[i], own);
+  }
+  return points;
+}
+
 std::vector<Resultant> resultants(std::span<const ContactNodeState> points, std::size_t contacts, const Communicator& comm)
 {
   constexpr std::size_t width = 8;

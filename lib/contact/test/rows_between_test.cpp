@@ -92,6 +92,53 @@ TEST(RowsBetween, LeaveThoseOfTheNodesAsTheyAre)
   }
 }
 
+// Round a place faces of second order are seen facet by facet, so that rows mean the field at the nodes.
+TEST(RowsBetween, OfFacesOfSecondOrderSeeLinearFieldsAndTheGapThere)
+{
+  const Communicator comm;
+  const Global middles = 500;
+  for (const auto type : {mesh::CellType::tri6, mesh::CellType::quad8, mesh::CellType::quad9})
+    for (const auto& [a, b] : {std::pair{3.4, 2.6}, {3.5, 2.75}, {3.25, 2.25}, {3.1, 2.7}}) {
+      const bool triangles = type == mesh::CellType::tri6;
+      auto pair = crown(a, b, Law::frictionless, triangles, comm);
+      pair.secondary = second_order(pair.secondary, type, Eigen::Matrix3d::Identity(), middles);
+      const auto height = [&](const Point& x) {
+        return 0.5 * curvature * ((x[0] - a) * (x[0] - a) + (x[1] - b) * (x[1] - b));
+      };
+      for (auto& x : pair.secondary.points) x[2] = height(x);
+      const auto at = nodes_of(pair, comm);
+      const auto contacts = discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm);
+      long long found = 0;
+      for (const auto& node : contacts.nodes) {
+        if (node.parts.empty()) {  // none has moved; those round the place have the gap there and no control value
+          EXPECT_LT((node.at - at.at(node.node)).norm(), 1e-12);
+          if ((node.at - Point(a, b, 0)).head<2>().norm() < 0.6) {
+            EXPECT_NEAR(node.gap, height(node.at), 1e-3 * curvature);
+          }
+          continue;
+        }
+        ++found;
+        EXPECT_LT((node.at - Point(a, b, 0)).head<2>().norm(), 1e-3);
+        EXPECT_NEAR(node.gap, 0, 1e-3 * curvature);
+        double parts = 0;
+        for (const auto& part : node.parts) parts += part.part;
+        EXPECT_NEAR(parts, 1, 1e-12);
+        for (std::size_t k = 0; k < 3; ++k) {
+          double own = 0, other = 0;
+          for (const auto& e : contacts.rows[node.row]) {
+            if (e.component != 2) continue;
+            const auto& x = at.at(e.node);
+            (e.node >= primary_ids ? other : own) += e.coefficient * fields[k](x[0], x[1]);
+          }
+          const double here = node.normal[2] * fields[k](node.at[0], node.at[1]);
+          EXPECT_NEAR(own, here, 1e-6) << "field " << k;
+          EXPECT_NEAR(other, -here, 1e-6) << "field " << k;
+        }
+      }
+      EXPECT_EQ(comm.sum(found), 1) << a << " " << b;
+    }
+}
+
 // Tresca's bound is an area's, which the nodes have already.
 TEST(RowsBetween, HaveNoFrictionOfTresca)
 {

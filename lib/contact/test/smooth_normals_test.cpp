@@ -53,6 +53,29 @@ TEST(SmoothNormals, AreExactOnCylindersAndSpheresWhateverTheFaces)
   }
 }
 
+// A side one cell long, as of a slice: nothing says how it curves along its axis, so it does not.
+TEST(SmoothNormals, OfASideOneCellLongDoNotTiltAlongIt)
+{
+  const Communicator comm;
+  const auto half = [](double radius) {
+    return [radius](double x, double y) { return Point(radius * std::cos(x), radius * std::sin(x), y); };
+  };
+  for (const int n : {4, 8, 15})
+    for (const double length : {0.05, 0.575, 3.0}) {
+      const Grid grid{n, 1, 0, std::numbers::pi, 0, length, true};
+      auto other = grid;
+      other.up = false, other.first_id = primary_ids;
+      const auto pair = make_pair(surface(grid, half(1), comm), surface(other, half(1.01), comm), Law::frictionless);
+      const auto nodes = nodes_of(pair, comm);
+      const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+      EXPECT_EQ(rows.rows.size(), static_cast<std::size_t>(2 * (n + 1)));
+      for (const auto& row : rows.rows) {
+        const auto& x = nodes.at(row.node);
+        EXPECT_LT((row.normal - Point(x[0], x[1], 0)).norm(), 1e-6) << n << " faces, length " << length << ", at " << x.transpose();
+      }
+    }
+}
+
 // Half the size, an eighth of the error.
 TEST(SmoothNormals, AreOfThirdOrderOnOtherSurfaces)
 {

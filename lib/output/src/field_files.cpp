@@ -81,7 +81,7 @@ void FieldFiles::write_tables(const EvaluatedState& found, bool last, const Comm
   };
   append(cell_tables(found.decomposition, found.results, comm));
   tables.push_back(multiplier_table(found.problem, found.state.solved.solution.x));
-  if (!found.state.rows->pairs.empty()) tables.push_back(contact_table(found.results.contact.points, comm));
+  if (!found.state.rows->pairs.empty()) tables.push_back(contact_table(found.results.contact.shown, comm));
   append(interior_tables(found.decomposition, found.probes, found.results.interior, comm));
   const auto name = last ? std::string("results.h5") : fmt::format("results.{}.h5", volume_.frames.size() + 1);
   io::write_results(deck_.output.directory + "/" + name, tables, comm);
