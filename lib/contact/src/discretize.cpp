@@ -7,7 +7,7 @@
 #include <optional>
 #include <tuple>
 
-#include "across_cuts.hpp"
+#include "across_bonds.hpp"
 #include "by_node.hpp"
 #include "contact/cyclic.hpp"
 #include "contact/mortar.hpp"
@@ -401,7 +401,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (!is_bonded(pairs[c])) add(c);
   if (std::none_of(pairs.begin(), pairs.end(), is_bonded)) return contacts;
-  join_across_cuts(pairs, contacts, comm);
+  join_across_bonds(pairs, contacts, comm);
   for (const auto& point : contacts.nodes) unbonded_nodes.push_back({point.node});
   unbonded_nodes = by_node<UnbondedNode>(unbonded_nodes, comm);
   for (std::size_t c = 0; c < pairs.size(); ++c)

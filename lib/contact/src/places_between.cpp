@@ -85,8 +85,10 @@ PlacesBetween take_places_between(std::vector<NearestPoint>& nearest, const Side
                                   const CutFaces& faces, const std::vector<char>& own,
                                   const std::function<Cover(std::size_t face)>& cover, const Communicator& comm)
 {
-  constexpr double same = 0.999;        // cosine of normals
-  constexpr double beside_node = 0.85;  // of its shape function: such a node may as well stand in for the place
+  constexpr double same = 0.999;  // cosine of normals
+  // Of its shape function: such a node may as well stand in for the place. In facets of faces of second order, among neighbours
+  // whose functions are those of whole faces, it would bear a tenth too much.
+  constexpr double beside_node = 0.85, beside_node_of_second_order = 0.995;
   PlacesBetween result{{}, std::vector<char>(secondary.faces.size(), 0)};
   if (!comm.any(std::ranges::any_of(nearest, &NearestPoint::moved))) return result;
   Selection selection(secondary, surface_nodes, faces, cover);
@@ -95,13 +97,15 @@ PlacesBetween take_places_between(std::vector<NearestPoint>& nearest, const Side
   std::vector<Corner> corners;
   for (std::size_t p = 0; p < nearest.size(); ++p) {
     const auto& node = surface_nodes.all[p];
-    if (!own[static_cast<std::size_t>(node.node)] || !nearest[p].moved() || nearest[p].shape.maxCoeff() > beside_node ||
+    const bool second_order = secondary.second_order(static_cast<std::size_t>(secondary.face_of[nearest[p].facet]));
+    const double beside = second_order ? beside_node_of_second_order : beside_node;
+    if (!own[static_cast<std::size_t>(node.node)] || !nearest[p].moved() || nearest[p].shape.maxCoeff() > beside ||
         !selection.one_body_covers(nearest[p].facet))
       continue;
     result.places.push_back(selection.place(p, nearest[p]));
     const auto& place = result.places.back();
     mine.push_back({place.node, {node.normal[0], node.normal[1], node.normal[2]}});
-    if (secondary.second_order(static_cast<std::size_t>(secondary.face_of[nearest[p].facet])))
+    if (second_order)
       for (const Global corner : place.corners) corners.push_back({corner});
   }
   const auto asked = ask(secondary.node_id, comm);

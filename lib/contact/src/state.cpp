@@ -46,6 +46,7 @@ std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> points, 
     double own = 1;
     for (const auto& image : nodes[i].images) {
       auto state = points[i];
+      state.contact = image.contact;
       state.node = image.node;
       for (Point* vector : {&state.normal, &state.force_on_secondary, &state.slip}) *vector = image.rotation * *vector;
       take(state, image.part);

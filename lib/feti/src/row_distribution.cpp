@@ -60,13 +60,20 @@ struct SentNode {
   double area, weight, gap, cover;
   Vector3 normal, at;
   std::array<Vector3, 2> tangents;
-  std::size_t parts;
+  std::size_t parts, images;
 };
 
 struct SentPart {
   Global node;
   double part;
   Vector3 normal;
+};
+
+struct SentImage {
+  int contact;
+  Global node;
+  double part;
+  std::array<Vector3, 3> axes;  // the rotation's columns
 };
 
 struct SentRow {
@@ -89,6 +96,19 @@ SentNode pack(const constraint::ContactNode& from, bool bonded)
   to.at = array(from.at);
   std::transform(from.tangents.begin(), from.tangents.end(), to.tangents.begin(), array);
   to.parts = from.parts.size();
+  to.images = from.images.size();
+  return to;
+}
+
+SentImage pack(const constraint::Image& from)
+{
+  return {from.contact, from.node, from.part, {array(from.rotation.col(0)), array(from.rotation.col(1)), array(from.rotation.col(2))}};
+}
+
+constraint::Image unpack(const SentImage& from)
+{
+  constraint::Image to{from.contact, from.node, from.part, {}};
+  for (Eigen::Index c = 0; c < 3; ++c) to.rotation.col(c) = point(from.axes[static_cast<std::size_t>(c)]);
   return to;
 }
 
@@ -130,6 +150,7 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
   const auto ranks = ranks_of(std::span(contacts.nodes), decomposition, directory, comm);
   ByRank<SentNode> points(size);
   ByRank<SentPart> parts(size);
+  ByRank<SentImage> images(size);
   ByRank<SentRow> rows(size);
   ByRank<constraint::Entry> entries(size);
   ByRank<constraint::PrescribedEntry> prescribed(size);  // their rows are counted among those that go to the same rank
@@ -139,6 +160,7 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
     const auto to = ranks[i];
     points[to].push_back(pack(p, contacts.bonded[i]));
     for (const auto& part : p.parts) parts[to].push_back({part.node, part.part, array(part.normal)});
+    for (const auto& image : p.images) images[to].push_back(pack(image));
     for (std::size_t r = p.row; r <= p.row + p.tangents.size(); ++r) {
       const auto row = contacts.rows[r];
       position_of[r] = {to, rows[to].size()};
@@ -154,6 +176,7 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
 
   const auto points_in = comm.exchange(points);
   const auto parts_in = comm.exchange(parts);
+  const auto images_in = comm.exchange(images);
   const auto rows_in = comm.exchange(rows);
   const auto entries_in = comm.exchange(entries);
   const auto prescribed_in = comm.exchange(prescribed);
@@ -166,9 +189,11 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
     auto row = rows_in[from].begin();
     auto entry = entries_in[from].begin();
     auto part = parts_in[from].begin();
+    auto image = images_in[from].begin();
     for (const auto& p : points_in[from]) {
       auto& node = result.nodes.emplace_back(unpack(p, result.rows.size()));
       for (std::size_t k = 0; k < p.parts; ++k, ++part) node.parts.push_back({part->node, part->part, point(part->normal)});
+      for (std::size_t k = 0; k < p.images; ++k, ++image) node.images.push_back(unpack(*image));
       result.bonded.push_back(p.bonded);
       for (int r = 0; r <= p.tangent_count; ++r, ++row) {
         const auto end = entry + static_cast<std::ptrdiff_t>(row->entries);

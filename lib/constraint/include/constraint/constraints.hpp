@@ -87,8 +87,9 @@ struct Part {
   Point normal;  ///< of the node's own row
 };
 
-/// The part of a row that stands at the other cut of a sector: what the row pushes with there is its own, rotated.
+/// The part of a row that stands across a bond, also at the other cut of a sector: what it pushes with there is its own, rotated.
 struct Image {
+  int contact;  ///< ContactNode::contact there
   Global node;
   double part;
   Eigen::Matrix3d rotation;
@@ -109,7 +110,7 @@ struct ContactNode {
   /// left of the way to the next nodes: that of a surface which goes on beyond its border.
   double cover = 1;
   std::vector<Part> parts = {};  ///< of a place between nodes, whose row is a combination of theirs: these, and what they bear
-  std::vector<Image> images = {};  ///< of a contact that ends in the cuts of a sector: the nodes whose rows this one is as well
+  std::vector<Image> images = {};  ///< of a contact that goes on across a bond: the nodes whose rows this one is as well
 };
 
 /// An entry of a contact row that a support holds: it stands in the row's bound instead, and what the row's multiplier pushes

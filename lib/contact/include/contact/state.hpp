@@ -33,8 +33,8 @@ struct ContactNodeState {
 ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std::span<const double> multipliers,
                           std::span<const double> jumps, double bound, double slip_bound, double negligible_pressure);
 
-/// The states of contact nodes, and after them of their images at the other cut of a sector, each with its own part of the area
-/// and of the force. `points` are those of `nodes`.
+/// The states of contact nodes, and after them of their images across a bond, each with its own part of the area and of the force.
+/// `points` are those of `nodes`.
 std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> points, std::span<const constraint::ContactNode> nodes);
 
 /// Totals of one contact, over all ranks.

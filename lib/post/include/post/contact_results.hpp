@@ -10,7 +10,7 @@ namespace mortise::post {
 
 struct ContactResults {
   std::vector<contact::ContactNodeState> points;  ///< of this rank's contact nodes
-  std::vector<contact::ContactNodeState> shown;   ///< these with their images at the other cut of a sector
+  std::vector<contact::ContactNodeState> shown;   ///< these with their images across bonds
   std::vector<contact::Resultant> resultants;     ///< of each contact
   std::vector<contact::SurfaceState> surfaces;    ///< of each contact, its secondary side on this rank
   std::vector<double> tensions;                   ///< of each contact: the largest tension, force over area at one point

@@ -1,4 +1,4 @@
-#include "across_cuts.hpp"
+#include "across_bonds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,24 +13,24 @@ namespace mortise::contact {
 
 namespace {
 
-constexpr double same_node_of_cut = 1e-3, beside_edge = 0.05;  // of the distance between nodes
-constexpr double same_normal_at_cut = 0.99;                   // cosine
+constexpr double same_node_of_bond = 1e-3, beside_edge = 0.05;  // of the distance between nodes
+constexpr double same_normal_at_bond = 0.99;                    // cosine
 constexpr double nothing_of_row = 1e-9;
 
-// A node of a cut.
-struct CutNode {
+// A node of a bond.
+struct BondNode {
   Global node;
-  int cut;   // index of the pair
+  int bond;  // index of the pair
   int side;  // 1 the secondary one, 0 the primary one
 };
 
-// A contact node on a cut, on its way to all ranks. Its place and directions are those on the secondary side of the cut: of nodes
+// A contact node on a bond, on its way to all ranks. Its place and directions are those on the secondary side of the bond: of nodes
 // of the primary side they are rotated.
 struct Candidate {
-  int contact, cut, side;
+  int contact, bond, side;
   int rank, index;  // of its rank's contact nodes
   Global node;
-  int corner;  // of the primary side, beside the node
+  enum class Kind : int { node, corner, between } kind;  // itself, a corner of the primary side beside it, a place between nodes
   int tangents;
   double area, weight, gap;
   std::array<double, 3> at, normal;
@@ -47,37 +47,50 @@ struct SentEntry {
   std::array<double, 3> at;
 };
 
-// What a node on the primary side of a cut takes over of one on the secondary side.
+// What a node on the primary side of a bond takes over of one on the secondary side.
 struct HandedOver {
   const Candidate* from;
   const Candidate* to;
   double part;  // of the row of `from`
 };
 
-// The nodes of a contact at one cut, on both of its sides.
-class EdgeAtCut {
+// The contact nodes at one bond, on both of its sides.
+class EdgeAtBond {
  public:
+  explicit EdgeAtBond(std::span<const Pair> pairs) : pairs_(pairs) {}
+
   void add(const Candidate& c) { (c.side == 1 ? from_ : to_).push_back(&c); }
 
+  // A place between nodes that has a row on both sides needs one alone, made of the nodes of one side.
   void share_out(std::vector<HandedOver>& result) const
   {
     for (const auto* from : from_) {
-      const auto shares = shares_of(*from);
-      const bool fit = !shares.empty() && std::ranges::all_of(shares, [](const HandedOver& s) { return same_rows(*s.from, *s.to); });
-      if (fit) result.insert(result.end(), shares.begin(), shares.end());
+      auto shares = shares_of(*from);
+      if (from->kind == Candidate::Kind::between)
+        for (auto& s : shares) s.part = 0;
+      if (std::ranges::all_of(shares, [](const HandedOver& s) { return same_rows(*s.from, *s.to); }))
+        result.insert(result.end(), shares.begin(), shares.end());
     }
   }
 
  private:
+  // Parts of a contact that goes on may be contacts of their own.
+  bool same_law(const Candidate& a, const Candidate& b) const
+  {
+    const auto& one = pairs_[static_cast<std::size_t>(a.contact)].options;
+    const auto& other = pairs_[static_cast<std::size_t>(b.contact)].options;
+    return a.contact == b.contact || (one.law == other.law && one.friction == other.friction);
+  }
+
   static bool same_rows(const Candidate& a, const Candidate& b)
   {
     if (a.rank == b.rank && a.index == b.index) return false;  // on the axis
-    if (a.tangents != b.tangents || unpacked(a.normal).dot(unpacked(b.normal)) < same_normal_at_cut) return false;
-    for (int t = 0; t < b.tangents; ++t) {
+    if (a.tangents != b.tangents || unpacked(a.normal).dot(unpacked(b.normal)) < same_normal_at_bond) return false;
+    const auto tangents = static_cast<std::size_t>(b.tangents);
+    for (std::size_t t = 0; t < tangents; ++t) {
       double square = 0;
-      for (int s = 0; s < a.tangents; ++s)
-        square += std::pow(unpacked(b.tangent[static_cast<std::size_t>(t)]).dot(unpacked(a.tangent[static_cast<std::size_t>(s)])), 2);
-      if (square < same_normal_at_cut) return false;
+      for (std::size_t s = 0; s < tangents; ++s) square += std::pow(unpacked(b.tangent[t]).dot(unpacked(a.tangent[s])), 2);
+      if (square < same_normal_at_bond) return false;
     }
     return true;
   }
@@ -88,14 +101,18 @@ class EdgeAtCut {
     const Point x = unpacked(from.at);
     std::vector<std::pair<double, const Candidate*>> near;
     for (const auto* to : to_)
-      if (to->corner == from.corner && unpacked(to->normal).dot(unpacked(from.normal)) > same_normal_at_cut) near.emplace_back((unpacked(to->at) - x).norm(), to);
-    std::ranges::sort(near, {}, [](const auto& n) { return std::pair(n.first, n.second->node); });
+      if (to->kind == from.kind && same_law(from, *to) &&
+          unpacked(to->normal).dot(unpacked(from.normal)) > same_normal_at_bond)
+        near.emplace_back((unpacked(to->at) - x).norm(), to);
+    std::ranges::sort(near, {}, [&](const auto& n) {
+      return std::tuple(n.first, n.second->contact != from.contact, n.second->contact, n.second->node);
+    });
     if (near.empty()) return {};
     const Point first = unpacked(near[0].second->at);
     double next = std::sqrt(from.area);  // one node alone: the edge of a plane model
     if (near.size() > 1) next = (unpacked(near[1].second->at) - first).norm();
-    if (near[0].first <= same_node_of_cut * next) return {{&from, near[0].second, 1}};
-    if (from.corner) return {};
+    if (near[0].first <= same_node_of_bond * next) return {{&from, near[0].second, 1}};
+    if (from.kind != Candidate::Kind::node) return {};
     for (std::size_t i = 1; i < near.size(); ++i) {
       const Point along = unpacked(near[i].second->at) - first;
       const double t = (x - first).dot(along) / along.squaredNorm();
@@ -105,7 +122,8 @@ class EdgeAtCut {
     return {};
   }
 
-  std::vector<const Candidate*> from_, to_;  // on the secondary side of the cut and on the primary one
+  std::span<const Pair> pairs_;
+  std::vector<const Candidate*> from_, to_;  // on the secondary side of the bond and on the primary one
 };
 
 // The rows of one contact node, to be added to.
@@ -132,6 +150,12 @@ NodeOfRank key_of(const Candidate& c)
   return {c.rank, c.index};
 }
 
+// A pretension section parts by more than nothing.
+bool is_bond(const Pair& pair)
+{
+  return pair.options.law == Law::bonded && !pair.options.preload && pair.primary;
+}
+
 class Joining {
  public:
   Joining(std::span<const Pair> pairs, constraint::Contacts& contacts, const Communicator& comm)
@@ -142,40 +166,40 @@ class Joining {
   void run()
   {
     candidates_ = comm_.all_gather(own_candidates());
-    std::map<std::pair<int, int>, EdgeAtCut> edges;
-    for (const auto& c : candidates_) edges[{c.contact, c.cut}].add(c);
+    std::map<int, EdgeAtBond> edges;
+    for (const auto& c : candidates_) edges.try_emplace(c.bond, pairs_).first->second.add(c);
     std::vector<HandedOver> shares;
-    for (const auto& [key, edge] : edges) edge.share_out(shares);
-    // Each gives to one cut, and not to who gives.
-    std::map<NodeOfRank, int> cut_of;
-    for (const auto& s : shares) cut_of.emplace(key_of(*s.from), s.from->cut);
+    for (const auto& [bond, edge] : edges) edge.share_out(shares);
+    // Each gives to one bond, and not to who gives.
+    std::map<NodeOfRank, int> bond_of;
+    for (const auto& s : shares) bond_of.emplace(key_of(*s.from), s.from->bond);
     std::set<NodeOfRank> kept;
     for (const auto& s : shares)
-      if (cut_of.contains(key_of(*s.to))) kept.insert(key_of(*s.from));
-    std::erase_if(shares, [&](const HandedOver& s) { return kept.contains(key_of(*s.from)) || cut_of.at(key_of(*s.from)) != s.from->cut; });
+      if (bond_of.contains(key_of(*s.to))) kept.insert(key_of(*s.from));
+    std::erase_if(shares, [&](const HandedOver& s) {
+      return kept.contains(key_of(*s.from)) || bond_of.at(key_of(*s.from)) != s.from->bond;
+    });
     if (shares.empty()) return;
     for (const auto& s : shares) {
       given_.insert({key_of(*s.from), s.from});
-      taken_[key_of(*s.to)].push_back(s);
+      if (s.part > 0) taken_[key_of(*s.to)].push_back(s);
     }
     sent_ = comm_.all_gather(sent_rows());
     rebuild();
   }
 
  private:
-  // Of the secondary nodes of the cuts and their images.
-  std::vector<CutNode> nodes_of_cuts() const
+  std::vector<BondNode> nodes_of_bonds() const
   {
-    std::vector<CutNode> result;
+    std::vector<BondNode> result;
     for (std::size_t c = 0; c < pairs_.size(); ++c) {
-      if (!is_cut(c)) continue;
+      if (!is_bond(pairs_[c])) continue;
       for (const Global node : pairs_[c].secondary.node_id) result.push_back({node, static_cast<int>(c), 1});
       for (const Global node : pairs_[c].primary->node_id) result.push_back({node, static_cast<int>(c), 0});
     }
     return result;
   }
 
-  bool is_cut(std::size_t c) const { return pairs_[c].options.cyclic && pairs_[c].options.law == Law::bonded; }
 
   std::vector<Candidate> own_candidates() const
   {
@@ -183,32 +207,39 @@ class Joining {
     for (const auto& node : contacts_.nodes) nodes.push_back(node.node);
     std::ranges::sort(nodes);
     nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-    auto cuts = answer(by_node<CutNode>(nodes_of_cuts(), comm_), ask(nodes, comm_), comm_);
-    const auto key = [](const CutNode& n) { return std::tuple(n.node, n.cut, n.side); };
-    std::ranges::sort(cuts, {}, key);
-    cuts.erase(std::ranges::unique(cuts, {}, key).begin(), cuts.end());
+    auto bonds = answer(by_node<BondNode>(nodes_of_bonds(), comm_), ask(nodes, comm_), comm_);
+    const auto key = [](const BondNode& n) { return std::tuple(n.node, n.bond, n.side); };
+    std::ranges::sort(bonds, {}, key);
+    bonds.erase(std::ranges::unique(bonds, {}, key).begin(), bonds.end());
     std::vector<Candidate> result;
     for (std::size_t i = 0; i < contacts_.nodes.size(); ++i) {
       const auto& node = contacts_.nodes[i];
       const auto& options = pairs_[static_cast<std::size_t>(node.contact)].options;
-      if (contacts_.bonded[i] || options.cyclic || !node.parts.empty()) continue;
-      for (const auto& cut : std::ranges::equal_range(cuts, node.node, {}, &CutNode::node))
-        result.push_back(candidate(static_cast<int>(i), cut));
+      if (contacts_.bonded[i] || options.cyclic) continue;
+      for (const auto& bond : std::ranges::equal_range(bonds, node.node, {}, &BondNode::node))
+        result.push_back(candidate(static_cast<int>(i), bond));
     }
     return result;
   }
 
-  Candidate candidate(int index, const CutNode& cut) const
+  Candidate candidate(int index, const BondNode& bond) const
   {
     const auto& node = contacts_.nodes[static_cast<std::size_t>(index)];
-    mesh::Motion motion;
-    if (cut.side == 0) motion = *rotation_of(pairs_[static_cast<std::size_t>(cut.cut)].options);
-    Candidate c{node.contact, cut.cut,     cut.side, comm_.rank(), index, node.node, node.cover == 0,
-                static_cast<int>(node.tangents.size()), node.area, node.weight, node.gap, {}, {}, {}};
+    const auto motion = bond.side == 0 ? motion_of(bond.bond) : mesh::Motion();
+    using enum Candidate::Kind;
+    const auto kind = !node.parts.empty() ? between : node.cover == 0 ? corner : Candidate::Kind::node;
+    Candidate c{node.contact, bond.bond, bond.side, comm_.rank(), index, node.node, kind, static_cast<int>(node.tangents.size()),
+                node.area, node.weight, node.gap, {}, {}, {}};
     c.at = packed(motion(node.at));
     c.normal = packed(motion.rotation * node.normal);
     for (std::size_t t = 0; t < node.tangents.size(); ++t) c.tangent[t] = packed(motion.rotation * node.tangents[t]);
     return c;
+  }
+
+  // Of the primary side of a bond.
+  mesh::Motion motion_of(int bond) const
+  {
+    return rotation_of(pairs_[static_cast<std::size_t>(bond)].options).value_or(mesh::Motion());
   }
 
   // What supports hold of the rows of a node.
@@ -266,7 +297,7 @@ class Joining {
         for (std::size_t t = 0; t < node.tangents.size() && e.row > 0; ++t)
           rows.add(e, t + 1, part * unpacked(s.to->tangent[t]).dot(unpacked(s.from->tangent[static_cast<std::size_t>(e.row - 1)])));
       }
-      node.images.push_back({s.from->node, part, rotation_of(pairs_[static_cast<std::size_t>(s.from->cut)].options)->rotation});
+      node.images.push_back({s.from->contact, s.from->node, part, motion_of(s.from->bond).rotation});
     }
     node.area = area;
     return node;
@@ -326,10 +357,9 @@ class Joining {
 
 }  // namespace
 
-void join_across_cuts(std::span<const Pair> pairs, constraint::Contacts& contacts, const Communicator& comm)
+void join_across_bonds(std::span<const Pair> pairs, constraint::Contacts& contacts, const Communicator& comm)
 {
-  const bool any = std::ranges::any_of(pairs, [](const Pair& p) { return p.options.cyclic && p.options.law == Law::bonded; });
-  if (any) Joining(pairs, contacts, comm).run();
+  if (std::ranges::any_of(pairs, is_bond)) Joining(pairs, contacts, comm).run();
 }
 
 }  // namespace mortise::contact
