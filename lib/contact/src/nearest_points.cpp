@@ -24,6 +24,11 @@ constexpr double parallel = 0.3;
 // opposite each other: steps end where they are rounding, and a place that is not known to `known` is none.
 constexpr double exact = 1e-15, known = 1e-10;
 constexpr int most_steps = 60;
+// By how much n + m has to change over one facet alone, whose nodes say less than those of all round a node.
+constexpr double bent = 1e-3;
+// Of what n + m changes by along an edge of the border: how far it may point inside there, where both bodies end in a plane of
+// symmetry, or the other side comes nearer and nearer beyond.
+constexpr double inside_border = 0.05;
 // Of shape functions: what a place in a facet may lie outside of it by rounding, and by what planes of two facets differ by.
 constexpr double within = 1e-6, between_planes = 0.02;
 
@@ -56,6 +61,10 @@ class Search {
     size_ = 0;
     for (const auto& at : round(p)) size_ = std::max(size_, side_.geometry(at.facet).size());
     if (const auto found = step_from_node(p); found.found) return found;
+    for (const auto& at : round(p))
+      if (const auto found = step_into(p, at); found.found) return found;
+    for (const auto& at : round(p))
+      if (const auto found = step_along_border(p, at); found.found) return found;
     return looks_for_nodes(p) ? step_to_node(p) : NearestPoint();
   }
 
@@ -70,20 +79,85 @@ class Search {
   {
     const auto at_node = rays_.tilt(p);
     if (!at_node) return {};
-    const auto inverse = inverse_change(p, *at_node, rays_.own_normal(p));
+    const auto inverse = inverse_change(p, round(p), *at_node, rays_.own_normal(p), flat);
     if (!inverse) return {};
-    Point shift = -(*inverse * at_node->difference);
-    if (!(shift.norm() < longest_step * size_)) return {};
+    const Point shift = -(*inverse * at_node->difference);
+    return shift.norm() < longest_step * size_ ? step_on(p, shift, *inverse) : NearestPoint();
+  }
+
+  // The same with what n + m changes by in one facet: a bump may be little wider than that.
+  NearestPoint step_into(std::size_t p, const Corner& at)
+  {
+    if (side_.facets.type[at.facet] == mesh::CellType::line2) return {};
+    const auto at_node = rays_.tilt(p);
+    if (!at_node) return {};
+    const auto inverse = inverse_change(p, std::span(&at, 1), *at_node, rays_.own_normal(p), bent);
+    if (!inverse) return {};
+    const Point shift = -(*inverse * at_node->difference);
+    const Eigen::Vector4d shape = shape_beside(side_, at.facet, at.corner, shift);
+    return shape.head(static_cast<Eigen::Index>(side_.facets[at.facet].size())).minCoeff() > 0 ? step_on(p, shift, *inverse) : NearestPoint();
+  }
+
+  NearestPoint step_on(std::size_t p, Point shift, const Eigen::Matrix3d& inverse)
+  {
     double last = shift.norm();
     for (int i = 0; i < most_steps && last > exact * size_; ++i) {
       const auto place = holds(p, shift);
       const auto here = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
       if (!here) return {};
-      const Point change = -(*inverse * here->difference);
+      const Point change = -(inverse * here->difference);
       shift += change;
       last = change.norm();
     }
     return last < known * size_ ? accepted(p, shift) : NearestPoint();
+  }
+
+  // Along the edges of a facet from a node that the border has, where n + m has nothing along them: by secants between both ends.
+  NearestPoint step_along_border(std::size_t p, const Corner& at)
+  {
+    const auto nodes = side_.facets[at.facet];
+    const std::size_t count = nodes.size();
+    if (count == 2) return {};
+    for (const std::size_t end : {(at.corner + 1) % count, (at.corner + count - 1) % count}) {
+      if (shared(p, at.facet, nodes[end])) continue;
+      if (const auto found = step_along_edge(p, at, end); found.found) return found;
+    }
+    return {};
+  }
+
+  NearestPoint step_along_edge(std::size_t p, const Corner& at, std::size_t end)
+  {
+    const auto geometry = side_.geometry(at.facet);
+    const Point edge = geometry.nodes[end] - geometry.nodes[at.corner];
+    Point inside = -geometry.nodes[at.corner] - edge / 2;
+    for (const auto& x : geometry.nodes) inside += x / static_cast<double>(geometry.nodes.size());
+    inside -= inside.dot(edge) / edge.squaredNorm() * edge;
+    const auto first = rays_.tilt(p), last = rays_.tilt(surface_node(at.facet, end));
+    if (!first || !last) return {};
+    double from = 0, to = 1, at_from = first->difference.dot(edge), at_to = last->difference.dot(edge);
+    const double change = at_to - at_from, length = edge.norm();
+    if (!(at_from <= 0) || !(at_to > 0) || !(change > bent * length) || !(change > parallel * first->curvature * length * length))
+      return {};
+    double s = 0, step = 1;
+    Rays::Tilt here = *first;
+    for (int i = 0; i < most_steps && step > exact; ++i) {
+      const double next = i % 3 == 2 ? (from + to) / 2 : from - at_from * (to - from) / (at_to - at_from);
+      step = std::abs(next - s), s = next;
+      Eigen::Vector4d shape = Eigen::Vector4d::Zero();
+      shape[static_cast<Eigen::Index>(at.corner)] = 1 - s, shape[static_cast<Eigen::Index>(end)] = s;
+      const auto found = rays_.tilt(p, at.facet, shape);
+      if (!found) return {};
+      here = *found;
+      const double slope = here.difference.dot(edge);
+      if (slope == 0) break;
+      if (slope < 0)
+        from = s, at_from = slope;
+      else
+        to = s, at_to = slope;
+      if (to - from < exact) break;
+    }
+    if (here.difference.dot(inside.normalized()) < -inside_border * change / length) return {};
+    return accepted(p, s * edge);
   }
 
   // Whether there are nodes of the primary side between those of the secondary one, or it ends there.
@@ -150,7 +224,8 @@ class Search {
 
   // The inverse of H in (n + m)(x) = (n + m)(x_p) + H (x - x_p) in the tangent plane, of least squares over the neighbours; zero
   // in directions in which the sides count as parallel or come nearer and nearer. None if there is no other.
-  std::optional<Eigen::Matrix3d> inverse_change(std::size_t p, const Rays::Tilt& at_node, const Point& normal)
+  std::optional<Eigen::Matrix3d> inverse_change(std::size_t p, std::span<const Corner> corners, const Rays::Tilt& at_node,
+                                                const Point& normal, double least)
   {
     const bool line = side_.facets.type[round(p)[0].facet] == mesh::CellType::line2;
     const Point first = line ? Point(-normal[1], normal[0], 0) : normal.unitOrthogonal();
@@ -158,7 +233,7 @@ class Search {
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();  // unknowns H_11, H_12, H_22
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     const Point& origin = side_.points[static_cast<std::size_t>(nodes_.all[p].node)];
-    for (const auto& [facet, corner] : round(p)) {
+    for (const auto& [facet, corner] : corners) {
       const auto count = side_.facets[facet].size();
       for (std::size_t k = 0; k < count; ++k) {
         if (k == corner) continue;
@@ -182,7 +257,7 @@ class Search {
       const Eigen::Vector3d h = factor.solve(right);
       change << h[0], h[1], h[1], h[2];
     }
-    return inverse_of(change, first, second, at_node.curvature);
+    return inverse_of(change, first, second, at_node.curvature, least);
   }
 
   // The same by differences at a step from the node.
@@ -203,18 +278,18 @@ class Search {
       const Point slope = (there->difference - here.difference) / step;
       change.col(i) = Eigen::Vector2d(slope.dot(first), slope.dot(second));
     }
-    return inverse_of(0.5 * (change + change.transpose()), first, second, here.curvature);
+    return inverse_of(0.5 * (change + change.transpose()), first, second, here.curvature, flat);
   }
 
   std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix2d& change, const Point& first, const Point& second,
-                                            double curvature) const
+                                            double curvature, double least) const
   {
     const auto eigen = dense::plane_eigenpairs(change);
     Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
     bool any = false;
     for (Eigen::Index i = 0; i < 2; ++i) {
       const double value = eigen.values[i];
-      if (!(value > parallel * curvature) || !(value * size_ > flat)) continue;
+      if (!(value > parallel * curvature) || !(value * size_ > least)) continue;
       const Point direction = eigen.vectors(0, i) * first + eigen.vectors(1, i) * second;
       inverse += direction * direction.transpose() / value;
       any = true;
@@ -247,13 +322,17 @@ class Search {
     const auto shape = [&](std::size_t k) { return place.shape[static_cast<Eigen::Index>(k)]; };
     const double opposite = count == 4 ? shape((place.corner + 2) % 4) : 0;
     const double along_first = shape(after) + opposite, along_last = shape(before) + opposite;
-    const auto shared = [&](Local node) {
-      return std::ranges::any_of(round(p), [&](const Corner& other) {
-        return other.facet != place.facet && std::ranges::find(side_.facets[other.facet], node) != side_.facets[other.facet].end();
-      });
-    };
     const bool far = count == 4 ? std::max(along_first, along_last) > 1 + within : shape(place.corner) < -within;
-    return !far && (along_first >= -within || shared(nodes[before])) && (along_last >= -within || shared(nodes[after]));
+    return !far && (along_first >= -within || shared(p, place.facet, nodes[before])) &&
+           (along_last >= -within || shared(p, place.facet, nodes[after]));
+  }
+
+  // Whether a facet shares its edge from a node to another one with a facet round the node.
+  bool shared(std::size_t p, std::size_t facet, Local node) const
+  {
+    return std::ranges::any_of(round(p), [&](const Corner& other) {
+      return other.facet != facet && std::ranges::find(side_.facets[other.facet], node) != side_.facets[other.facet].end();
+    });
   }
 
   // Whether no other node of the facet is nearer; of two at the same distance the one with the smaller number.

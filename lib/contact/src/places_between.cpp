@@ -9,6 +9,8 @@ namespace mortise::contact {
 
 namespace {
 
+constexpr double beside_edge_of_facet = 0.05;  // a shape function
+
 // A surface node whose place is between nodes.
 struct Taken {
   Global node;
@@ -55,6 +57,8 @@ class Selection {
       place.at += nearest.shape[static_cast<Eigen::Index>(c)] * secondary_.points[corner];
       place.normal += nearest.shape[static_cast<Eigen::Index>(c)] * nodes_.normal(secondary_, nearest.facet, c);
       place.corners.push_back(id(corners[c]));
+      // On an edge or next to it the nodes round that, so that those on both of its sides count alike.
+      if (nearest.shape[static_cast<Eigen::Index>(c)] < beside_edge_of_facet) continue;
       for (const std::size_t f : faces_at_[corner])
         for (const Local n : secondary_.faces[f]) place.round.push_back(id(n));
     }
