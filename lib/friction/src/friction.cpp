@@ -50,6 +50,7 @@ struct Solver::Run {
   double response = 1;                   // how much of a change of bounds the normal forces answer with; 1: unknown
   int step = 0, outer = 0, preconditionings = 0;
   bool converged = false;
+  std::string limit;  // of products, that ended it
 
   void count(const qp::Solution& found)
   {
@@ -100,11 +101,42 @@ void Solver::follow_law(Run& run)
   if (!found->feasible) return;
   run.bounds = slip_bounds(problem_, laws_, &found->x);
   run.change = change_of_bounds(run.bounds, radii(problem_.set()), *found);
-  // Where the error decides, what the bounds would still change counts in it.
-  run.converged = found->converged && (run.goal.allowed_error || run.change <= options_.tolerance) &&
-                  balances(problem_, run.bounds, found->x);
+  run.converged = obeys_law(*found, run.bounds, run.change, run);
   run.solution = std::move(found);
   run.solved = true;
+}
+
+// Of bounds and forces that were found together. Where the error decides, what the bounds would still change counts in it.
+bool Solver::obeys_law(const qp::Solution& found, const std::vector<double>& bounds, double change, const Run& run) const
+{
+  return found.converged && (run.goal.allowed_error || change <= options_.tolerance) && balances(problem_, bounds, found.x);
+}
+
+// Once more together from the beginning, where neither that nor the fixed point converges, by steps that may be shortened.
+void Solver::follow_cautiously(const qp::Solution* start, Run& run)
+{
+  if (hessian_.exhausted()) run.limit = budget_.reason();
+  if (run.converged || patience_ || !budget_.left()) return;
+  budget_.change_algorithm();
+  const auto before = radii(problem_.set());
+  const qp::SlipLaw law{problem_.set(), [this](const Vector* x) { return slip_bounds(problem_, laws_, x); }, true};
+  std::optional<qp::Solution> from;
+  if (start) from = *start;
+  auto found = algorithm_->solve(law, from, run.goal, run.watch);
+  if (!found) return;
+  run.count(*found);
+  if (found->feasible) {
+    auto bounds = slip_bounds(problem_, laws_, &found->x);
+    const double change = change_of_bounds(bounds, radii(problem_.set()), *found);
+    if (obeys_law(*found, bounds, change, run)) {
+      run.bounds = std::move(bounds);
+      run.change = change;
+      run.solution = std::move(found);
+      run.solved = run.converged = true;
+      return;
+    }
+  }
+  problem_.set().set_radii(before);
 }
 
 // One Tresca problem; false if it is infeasible.
@@ -295,7 +327,9 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   if (coulomb) {
     follow_law(run);
     if (!run.solved || !patience_) fixed_point(run);
-    if (run.solved && (run.converged || !hessian_.exhausted())) judge_by_law(problem_, laws_, hessian_, *run.solution);
+    follow_cautiously(start, run);
+    const bool spent = !run.limit.empty() || hessian_.exhausted();
+    if (run.solved && (run.converged || !spent)) judge_by_law(problem_, laws_, hessian_, *run.solution);
   } else {
     run.step = 1;
     if (!solve_tresca(run.goal, run)) nothing_found(problem_, problem_.set(), run.escape, run.proven);
@@ -309,6 +343,8 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   result.gave_up = patience_ && !result.converged && budget_.left();
   if (!result.converged && hessian_.exhausted())
     result.limit = budget_.reason();
+  else if (!result.converged && !run.limit.empty())
+    result.limit = run.limit;
   else if (!result.converged && coulomb && run.step >= options_.max_steps)
     result.limit = "friction_loop.max_steps";
   result.applications = hessian_.count() - before;

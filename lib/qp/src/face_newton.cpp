@@ -32,6 +32,8 @@ constexpr double few_recycled = 60;     // so many,
 constexpr double least_kept = 10;       // in any case
 constexpr int max_updates = 2;          // updates of slip bounds by a projection's own normal forces
 constexpr int max_retreats = 8;         // of slip bounds
+constexpr double least_part = 0.05;     // of the way, where bounds follow: less is none
+constexpr double first_rise = 3;        // over the last residuals, as long as these are few
 constexpr int max_retreats_to_z = 2;    // quarters of the way back, before the step becomes a gradient projection
 constexpr double least_size = 0.01;  // of ||A||^1/2 ||x||_A: where b asks for nearly nothing, ||P b|| is no measure of residuals
 
@@ -65,6 +67,7 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   Solution result(feasible.point, Vector(map), feasible.nu);
   if (!feasible.found) return infeasible(std::move(result), feasible);
   preconditionings_ = 0;
+  if (slip_bound_update && slip_bound_update->cautious) recycled_directions_.clear();  // they would lead where they have led before
   find_norm(start, observer);
 
   Run run{start, goal, slip_bound_update, observer, std::move(result), State(map), ContactForces(problem_)};
@@ -85,7 +88,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     evaluate(trial);
     improve_soft_start(run, trial);
     safeguard(run, trial);
-    const Projection natural = accept(run, trial);
+    Judged judged = draw_back(run, trial);
+    const Projection natural = accept(run, trial, std::move(judged));
     report(run, "outer", true);
     run.result.converged = is_solved(run, natural);
     if (run.result.converged || gives_up(run)) {
@@ -150,9 +154,15 @@ FaceNewton::Trial FaceNewton::project_step(Run& run)
     to.assign(*run.beyond);
   else
     to.update(-step, run.state.gy, 1);
+  return project_step(run, to, run.first() ? nullptr : &run.state.y);
+}
+
+// The same to a given place; bounds that follow the solution begin at those of `radii_at`, if that is given.
+FaceNewton::Trial FaceNewton::project_step(Run& run, const Vector& to, const Vector* radii_at)
+{
   const auto* bounds = run.slip_bound_update;
-  const bool follow = bounds && !run.first();
-  if (follow) bounds->update(run.state.y, true);
+  const bool follow = bounds && radii_at;
+  if (follow) bounds->update(*radii_at, true);
   Projection next = projector_(to, run.nu);
   // The normal forces that the projection changes change the bounds once more.
   for (int pass = 0; follow && next.found && pass < max_updates; ++pass) {
@@ -163,7 +173,7 @@ FaceNewton::Trial FaceNewton::project_step(Run& run)
     bounds->retreat();
     next = projector_(to, run.nu);
   }
-  return {std::move(next), step, Vector(run.state.y.getMap())};
+  return {std::move(next), step_length / norm_, Vector(run.state.y.getMap())};
 }
 
 // A first step along which the curvature is small says that there is a better start: the step is taken again from there.
@@ -239,9 +249,48 @@ void FaceNewton::safeguard(Run& run, Trial& trial)
   }
 }
 
-// z becomes the trial's point. Returns the natural projection there, ||z - P_C(z - a g)|| / a being the residual; sets that, the
-// mismatch of radii and, if it is wanted, the error.
-Projection FaceNewton::accept(Run& run, const Trial& trial)
+// The natural projection at the trial's point x, ||x - P_C(x - a g)|| / a being the residual.
+FaceNewton::Judged FaceNewton::judge(const Run& run, const Trial& trial)
+{
+  const auto& x = trial.next.point;
+  Vector to(x, Teuchos::Copy);
+  to.update(-1 / norm_, trial.gradient, 1);
+  Projection natural = projector_(to, Eigen::VectorXd(trial.next.nu / (norm_ * trial.step)));
+  to.update(1, x, -1, natural.point, 0);
+  return {std::move(natural), to.norm2() * norm_,
+          run.slip_bound_update ? run.slip_bound_update->update(x, false) * norm_ / step_length : 0.0};
+}
+
+// Where bounds follow the solution no energy falls, but a residual that rises above all of the last ones tells of an active set
+// that was picked badly, whose solution is far away: goes back towards z then [Grippo, Lampariello and Lucidi, A nonmonotone line
+// search technique for Newton's method, SIAM J. Numer. Anal. 23 (1986)].
+FaceNewton::Judged FaceNewton::draw_back(Run& run, Trial& trial)
+{
+  Judged judged = judge(run, trial);
+  if (!run.slip_bound_update || !run.slip_bound_update->cautious) return judged;
+  const auto& [z, g, y, gy] = run.state;
+  Vector at(z.getMap()), to(z.getMap());
+  const double allowed = run.highest() * (2 * run.last_residuals.size() < Run::remembered ? first_rise : 1.0);
+  while (run.moved && run.beyond && judged.worst() > allowed && trial.part_of_way > 0 && !problem_.hessian.exhausted()) {
+    const double part = trial.part_of_way > least_part ? trial.part_of_way * 0.25 : 0;
+    at.update(1 - part, z, part, y, 0);
+    to.update(1 - part, *run.beyond_z, part, *run.beyond, 0);
+    Trial next = project_step(run, to, &at);
+    if (!next.next.found) break;
+    next.part_of_way = part;
+    trial = std::move(next);
+    evaluate(trial);
+    judged = judge(run, trial);
+    ++run.result.safeguards;
+  }
+  if (run.last_residuals.size() == Run::remembered) run.last_residuals.pop_front();
+  if (std::isfinite(judged.worst())) run.last_residuals.push_back(judged.worst());
+  return judged;
+}
+
+// z becomes the trial's point. Returns the natural projection there; sets the residual, the mismatch of radii and, if it is
+// wanted, the error.
+Projection FaceNewton::accept(Run& run, const Trial& trial, Judged judged)
 {
   auto& z = run.state.z;
   auto& result = run.result;
@@ -251,12 +300,9 @@ Projection FaceNewton::accept(Run& run, const Trial& trial)
   run.nu = trial.next.nu * (step_length / norm_ / trial.step);
   run.active = problem_.set.active(view(std::as_const(z)));
 
-  Vector to(z, Teuchos::Copy);
-  to.update(-1 / norm_, run.state.g, 1);
-  Projection natural = projector_(to, Eigen::VectorXd(run.nu / step_length));
-  to.update(1, z, -1, natural.point, 0);
-  run.residual = to.norm2() * norm_;
-  run.mismatch = run.slip_bound_update ? run.slip_bound_update->update(z, false) * norm_ / step_length : 0.0;
+  Projection natural = std::move(judged.natural);
+  run.residual = judged.residual;
+  run.mismatch = judged.mismatch;
   result.nu = natural.nu * norm_;
   ++result.outer_iterations;
   run.size = std::max(run.size, rounding_of_motions(run, natural));
@@ -281,7 +327,8 @@ void FaceNewton::minimise(Run& run, const Trial& trial)
   run.moved = unconstrained_ ? descend_alone(active_set, enough, watch, run.state)
                              : descend(active_set, enough, weight, trusted, watch, run.state);
   if (follow) {
-    run.beyond.emplace(long_gradient_step(active_set, run.state));
+    run.beyond.emplace(long_gradient_step(active_set, run.state.y, run.state.gy));
+    run.beyond_z.emplace(long_gradient_step(active_set, run.state.z, run.state.g));
     run.nu.setZero();  // it has gone into that
   }
 }
@@ -290,15 +337,15 @@ void FaceNewton::minimise(Run& run, const Trial& trial)
 // set says what x is and short where x is free. What y takes out of Omega is made up for by forces at all points of a subdomain,
 // as if they were nearer by as much over the length of the step: the longer it is, the fewer points without force are caught.
 // Along free unknowns it would only carry on what conjugate residuals have left.
-Vector FaceNewton::long_gradient_step(const ActiveSet& active_set, const State& state) const
+Vector FaceNewton::long_gradient_step(const ActiveSet& active_set, const Vector& y, const Vector& gy) const
 {
   const double step = step_length / norm_;
-  Vector reaction(state.gy, Teuchos::Copy);
+  Vector reaction(gy, Teuchos::Copy);
   const Vector residual = active_set.reduce(reaction);
-  Vector beyond(state.y, Teuchos::Copy);
+  Vector beyond(y, Teuchos::Copy);
   beyond.update(-longer_step * step, reaction, (longer_step - 1) * step, residual, 1);
   // Slip that goes back sticks first: nobody crosses the disc to slip in the opposite direction.
-  const auto from = view(std::as_const(state.y));
+  const auto from = view(y);
   auto to = view(beyond);
   for (const auto& disc : problem_.set.discs()) {
     if (!(disc.coefficient > 0)) continue;

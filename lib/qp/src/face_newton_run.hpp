@@ -1,7 +1,9 @@
 // What one solve of face Newton holds, and hands from step to step.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 #include "qp/face_newton.hpp"
@@ -55,7 +57,9 @@ struct FaceNewton::Run {
   Eigen::VectorXd nu = {};            // a start for the next projection
   FeasibleSet::Active active = {};    // how many constraints are
   bool moved = false;                 // y differs from z
-  std::optional<Vector> beyond = {};  // y after a longer step, where bounds follow the solution
+  // y and z after a longer step, where bounds follow the solution.
+  std::optional<Vector> beyond = {}, beyond_z = {};
+  std::deque<double> last_residuals = {};  // worst() of some steps, there
   double active_set_tolerance = 0;
   double first_error = 0, allowed = -1;  // negative: not asked for yet
   bool doubtful = false;                 // a small residual beside a large error
@@ -63,7 +67,22 @@ struct FaceNewton::Run {
   int since_best = 0;  // active sets
 
   double worst() const { return std::max(residual, mismatch); }
+  // The largest of the last residuals; infinite as long as there are none.
+  double highest() const
+  {
+    if (last_residuals.empty()) return std::numeric_limits<double>::infinity();
+    return *std::max_element(last_residuals.begin(), last_residuals.end());
+  }
+  static constexpr std::size_t remembered = 10;
   bool first() const { return result.outer_iterations == 0; }
+};
+
+// How far a point is from a solution: the natural projection there, its residual and what radii would change, as a residual.
+struct FaceNewton::Judged {
+  Projection natural;
+  double residual, mismatch;
+
+  double worst() const { return std::max(residual, mismatch); }
 };
 
 // The point of C that comes next, and what led there.

@@ -21,7 +21,7 @@ class FollowedRadii {
   }
   SlipBoundUpdate slip_bound_update()
   {
-    return {[this](const Vector& x, bool apply) { return update(x, apply); }, [this] { retreat(); }};
+    return {[this](const Vector& x, bool apply) { return update(x, apply); }, [this] { retreat(); }, law_.cautious};
   }
 
  private:

@@ -76,6 +76,10 @@ TEST(ErrorBound, SmallResidualsAreBelievedWithSmallErrorsAlone)
   EXPECT_TRUE(believable(0.4, 0, x, {}, goal));
   EXPECT_FALSE(believable(0.6, 0, x, {}, goal));
   EXPECT_TRUE(believable(0.6, 0.7, x, {}, goal));  // rounding
+  goal.residual = 1e-6;
+  EXPECT_TRUE(believable(0.004, 0, x, {}, goal));
+  EXPECT_FALSE(believable(0.02, 0, x, {}, goal));
+  EXPECT_TRUE(believable(0.02, 0, x, {}, goal, true));  // nothing makes it smaller
 
   // A solution that is a million times smaller than its problem asks for more products, or it is none.
   Goal loose{1e-3}, strict{1e-3};

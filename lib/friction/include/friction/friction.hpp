@@ -76,6 +76,8 @@ class Solver {
   struct Run;
   Run begin(const qp::Solution* start, const Accuracy& accuracy);
   void follow_law(Run& run);
+  void follow_cautiously(const qp::Solution* start, Run& run);
+  bool obeys_law(const qp::Solution& found, const std::vector<double>& bounds, double change, const Run& run) const;
   bool solve_tresca(const qp::Goal& goal, Run& run);
   bool contacts_at_rest(const Run& run);
   bool at_rest(const std::vector<double>& wanted, double tolerance, Run& run);

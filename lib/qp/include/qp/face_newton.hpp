@@ -17,6 +17,8 @@ struct SlipBoundUpdate {
   std::function<double(const Vector& x, bool apply)> update;
   /// Goes half way back to earlier radii, because the updated ones leave no feasible point.
   std::function<void()> retreat;
+  /// Whether steps are shortened that make the residual larger than it has been of late.
+  bool cautious = false;
 };
 
 /// A sequence of similar problems, one after the other: recycled directions stay. Refers to the problem and to the
@@ -49,12 +51,16 @@ class FaceNewton {
   };
   struct Run;    // one solve
   struct Trial;  // a point to go on from
+  struct Judged;
   // The steps of solve(), in their order.
   void find_norm(const std::optional<Solution>& start, const Observer& observer);
   Trial project_step(Run& run);
+  Trial project_step(Run& run, const Vector& to, const Vector* radii_at);
   void improve_soft_start(Run& run, Trial& trial);
   void safeguard(Run& run, Trial& trial);
-  Projection accept(Run& run, const Trial& trial);
+  Judged judge(const Run& run, const Trial& trial);
+  Judged draw_back(Run& run, Trial& trial);
+  Projection accept(Run& run, const Trial& trial, Judged judged);
   double rounding_of_motions(const Run& run, const Projection& natural) const;
   void find_error(Run& run, const Projection& natural);
   bool is_compatible(const Run& run) const;
@@ -74,7 +80,7 @@ class FaceNewton {
   void measure_discs();
   bool soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const;
   bool improve_start(State& state, double energy);
-  Vector long_gradient_step(const ActiveSet& active_set, const State& state) const;
+  Vector long_gradient_step(const ActiveSet& active_set, const Vector& y, const Vector& gy) const;
   void recycle(const ActiveSet& active_set, const Vector& direction, const Vector& product, bool step);
   bool descend_alone(const ActiveSet& active_set, double goal, const std::function<void()>& report, State& state);
   bool descend(const ActiveSet& active_set, double goal, double weight, bool trusted, const std::function<void()>& report,

@@ -22,6 +22,8 @@ struct SlipLaw {
   FeasibleSet& set;  ///< that of the problem
   /// The radii that the law gives at x; without x those to begin with, before any force is known. One for each disc of `set`.
   std::function<std::vector<double>(const Vector* x)> radii;
+  /// Whether steps that make the residual larger than it has been of late are shortened: more of them, for where nothing else ends.
+  bool cautious = false;
 };
 
 /// Half way from `radii`, which leave no feasible point, back to those `before`: twice as large where these were infinite.
