@@ -226,8 +226,8 @@ class Joining {
   {
     const auto& node = contacts_.nodes[static_cast<std::size_t>(index)];
     const auto motion = bond.side == 0 ? motion_of(bond.bond) : mesh::Motion();
-    using enum Candidate::Kind;
-    const auto kind = !node.parts.empty() ? between : node.cover == 0 ? corner : Candidate::Kind::node;
+    using Kind = Candidate::Kind;
+    const Kind kind = !node.parts.empty() ? Kind::between : node.cover == 0 ? Kind::corner : Kind::node;
     Candidate c{node.contact, bond.bond, bond.side, comm_.rank(), index, node.node, kind, static_cast<int>(node.tangents.size()),
                 node.area, node.weight, node.gap, {}, {}, {}};
     c.at = packed(motion(node.at));

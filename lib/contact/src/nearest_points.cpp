@@ -95,7 +95,8 @@ class Search {
     if (!inverse) return {};
     const Point shift = -(*inverse * at_node->difference);
     const Eigen::Vector4d shape = shape_beside(side_, at.facet, at.corner, shift);
-    return shape.head(static_cast<Eigen::Index>(side_.facets[at.facet].size())).minCoeff() > 0 ? step_on(p, shift, *inverse) : NearestPoint();
+    const bool inside = shape.head(static_cast<Eigen::Index>(side_.facets[at.facet].size())).minCoeff() > 0;
+    return inside ? step_on(p, shift, *inverse) : NearestPoint();
   }
 
   NearestPoint step_on(std::size_t p, Point shift, const Eigen::Matrix3d& inverse)

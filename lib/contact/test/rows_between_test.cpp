@@ -1,8 +1,11 @@
 // Rows at places between nodes, where the other side comes nearest.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "surfaces.hpp"
 
@@ -137,6 +140,58 @@ TEST(RowsBetween, OfFacesOfSecondOrderSeeLinearFieldsAndTheGapThere)
       }
       EXPECT_EQ(comm.sum(found), 1) << a << " " << b;
     }
+}
+
+// The places between nodes over all ranks, ascending, and their gaps.
+std::vector<std::pair<Point, double>> places_of(const Pair& pair, const Communicator& comm)
+{
+  const auto contacts = discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm);
+  std::vector<std::array<double, 4>> mine;
+  for (const auto& node : contacts.nodes)
+    if (!node.parts.empty()) mine.push_back({node.at[0], node.at[1], node.at[2], node.gap});
+  mine = comm.all_gather(mine);
+  std::ranges::sort(mine);
+  std::vector<std::pair<Point, double>> result;
+  for (const auto& place : mine) result.emplace_back(Point(place[0], place[1], place[2]), place[3]);
+  return result;
+}
+
+// Bumps of two and a half faces, each with its top in the middle of a face: what normals change by all round a node says nothing.
+TEST(RowsBetween, AreFoundOnBumpsLittleWiderThanAFace)
+{
+  const Communicator comm;
+  const double height = 0.01;
+  const auto bumps = [&](double x, double y) {
+    return Point(x, y, height * (1 - std::pow(std::sin(std::numbers::pi * x) * std::sin(std::numbers::pi * y), 2)));
+  };
+  const auto flat = [](double x, double y) { return Point(x, y, 0); };
+  for (const bool triangles : {false, true}) {
+    const auto places = places_of(make_pair(surface({10, 10, 0, 2, 0, 2, false, triangles}, bumps, comm),
+                                            surface({7, 7, 0, 2, 0, 2, true, false, primary_ids}, flat, comm), Law::frictionless),
+                                  comm);
+    for (const double x : {0.5, 1.5})
+      for (const double y : {0.5, 1.5})
+        EXPECT_EQ(std::ranges::count_if(places, [&](const auto& p) { return std::hypot(p.first[0] - x, p.first[1] - y) < 0.02; }), 1)
+            << x << " " << y;
+    for (const auto& [at, gap] : places) EXPECT_LT(std::abs(gap), 0.05 * height) << at.transpose();
+  }
+}
+
+// Half of a round side that ends in a plane of symmetry, nearest in the middle of an edge there.
+TEST(RowsBetween, AreFoundOnEdgesOfTheBorder)
+{
+  const Communicator comm;
+  const auto round = [](double x, double y) { return Point(x, y, (x * x + y * y) / 10); };
+  const auto flat = [](double x, double y) { return Point(x, y, 0); };
+  for (const bool swapped : {false, true}) {
+    const Grid grid{2, 3, 0, 4.0 / 3, -1, 1, false}, other{2, 3, 0, 4.0 / 3, -1, 1, true, false, primary_ids};
+    auto pair = make_pair(surface(grid, round, comm), surface(other, flat, comm), Law::frictionless);
+    if (swapped) pair = make_pair(*pair.primary, pair.secondary, Law::frictionless);
+    const auto places = places_of(pair, comm);
+    ASSERT_EQ(places.size(), 1U);
+    EXPECT_LT(places[0].first.head<2>().norm(), 1e-6);
+    EXPECT_NEAR(places[0].second, 0, 1e-3);
+  }
 }
 
 // Tresca's bound is an area's, which the nodes have already.
