@@ -18,7 +18,7 @@ struct Taken {
 };
 
 // A node that faces of second order round a place have in common.
-struct Corner {
+struct PlaceCorner {
   Global node;
 };
 
@@ -98,7 +98,7 @@ PlacesBetween take_places_between(std::vector<NearestPoint>& nearest, const Side
   Selection selection(secondary, surface_nodes, faces, cover);
   // The rank of a node sees all faces round the place; the others are told.
   std::vector<Taken> mine;
-  std::vector<Corner> corners;
+  std::vector<PlaceCorner> corners;
   for (std::size_t p = 0; p < nearest.size(); ++p) {
     const auto& node = surface_nodes.all[p];
     const bool second_order = secondary.second_order(static_cast<std::size_t>(secondary.face_of[nearest[p].facet]));
@@ -120,10 +120,10 @@ PlacesBetween take_places_between(std::vector<NearestPoint>& nearest, const Side
     if (std::ranges::any_of(here, [&](const Taken& t) { return Point(t.normal[0], t.normal[1], t.normal[2]).dot(node.normal) > same; }))
       nearest[p] = {};
   }
-  const auto common = answer(by_node<Corner>(corners, comm), asked, comm);
+  const auto common = answer(by_node<PlaceCorner>(corners, comm), asked, comm);
   for (const std::size_t f : faces.round())
     result.in_facets[f] = secondary.second_order(f) && std::ranges::any_of(secondary.faces[f], [&](Local n) {
-      return std::ranges::binary_search(common, secondary.node_id[static_cast<std::size_t>(n)], {}, &Corner::node);
+      return std::ranges::binary_search(common, secondary.node_id[static_cast<std::size_t>(n)], {}, &PlaceCorner::node);
     });
   return result;
 }
