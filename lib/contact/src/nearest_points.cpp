@@ -79,19 +79,19 @@ class Search {
   {
     const auto at_node = rays_.tilt(p);
     if (!at_node) return {};
-    const auto inverse = inverse_change(p, round(p), *at_node, rays_.own_normal(p), flat);
+    const auto inverse = inverse_change(p, round(p), *at_node, rays_.own_normal(p), flat, false);
     if (!inverse) return {};
     const Point shift = -(*inverse * at_node->difference);
     return shift.norm() < longest_step * size_ ? step_on(p, shift, *inverse) : NearestPoint();
   }
 
-  // The same with what n + m changes by in one facet: a bump may be little wider than that.
+  // The same with what n + m changes by in one facet, where it grows all round: a bump may be little wider than that.
   NearestPoint step_into(std::size_t p, const Corner& at)
   {
     if (side_.facets.type[at.facet] == mesh::CellType::line2) return {};
     const auto at_node = rays_.tilt(p);
     if (!at_node) return {};
-    const auto inverse = inverse_change(p, std::span(&at, 1), *at_node, rays_.own_normal(p), bent);
+    const auto inverse = inverse_change(p, std::span(&at, 1), *at_node, rays_.own_normal(p), bent, true);
     if (!inverse) return {};
     const Point shift = -(*inverse * at_node->difference);
     const Eigen::Vector4d shape = shape_beside(side_, at.facet, at.corner, shift);
@@ -226,7 +226,7 @@ class Search {
   // The inverse of H in (n + m)(x) = (n + m)(x_p) + H (x - x_p) in the tangent plane, of least squares over the neighbours; zero
   // in directions in which the sides count as parallel or come nearer and nearer. None if there is no other.
   std::optional<Eigen::Matrix3d> inverse_change(std::size_t p, std::span<const Corner> corners, const Rays::Tilt& at_node,
-                                                const Point& normal, double least)
+                                                const Point& normal, double least, bool all_round)
   {
     const bool line = side_.facets.type[round(p)[0].facet] == mesh::CellType::line2;
     const Point first = line ? Point(-normal[1], normal[0], 0) : normal.unitOrthogonal();
@@ -258,7 +258,7 @@ class Search {
       const Eigen::Vector3d h = factor.solve(right);
       change << h[0], h[1], h[1], h[2];
     }
-    return inverse_of(change, first, second, at_node.curvature, least);
+    return inverse_of(change, first, second, at_node.curvature, least, all_round);
   }
 
   // The same by differences at a step from the node.
@@ -279,18 +279,21 @@ class Search {
       const Point slope = (there->difference - here.difference) / step;
       change.col(i) = Eigen::Vector2d(slope.dot(first), slope.dot(second));
     }
-    return inverse_of(0.5 * (change + change.transpose()), first, second, here.curvature, flat);
+    return inverse_of(0.5 * (change + change.transpose()), first, second, here.curvature, flat, false);
   }
 
   std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix2d& change, const Point& first, const Point& second,
-                                            double curvature, double least) const
+                                            double curvature, double least, bool all_round) const
   {
     const auto eigen = dense::plane_eigenpairs(change);
     Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
     bool any = false;
     for (Eigen::Index i = 0; i < 2; ++i) {
       const double value = eigen.values[i];
-      if (!(value > parallel * curvature) || !(value * size_ > least)) continue;
+      if (!(value > parallel * curvature) || !(value * size_ > least)) {
+        if (all_round) return std::nullopt;
+        continue;
+      }
       const Point direction = eigen.vectors(0, i) * first + eigen.vectors(1, i) * second;
       inverse += direction * direction.transpose() / value;
       any = true;
