@@ -79,7 +79,8 @@ class EdgeAtBond {
   {
     const auto& one = pairs_[static_cast<std::size_t>(a.contact)].options;
     const auto& other = pairs_[static_cast<std::size_t>(b.contact)].options;
-    return a.contact == b.contact || (one.law == other.law && one.friction == other.friction);
+    return a.contact == b.contact ||
+           (one.law == other.law && one.friction == other.friction && one.interference == other.interference);
   }
 
   static bool same_rows(const Candidate& a, const Candidate& b)

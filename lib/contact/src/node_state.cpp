@@ -20,23 +20,24 @@ auto key(const NodeState& state)
   return std::tie(state.node, state.contact, state.side);
 }
 
-void join(NodeState& to, const NodeState& corner)
+void join(NodeState& to, const NodeState& other)
 {
-  if (corner.area == 0)
-    to.closed = std::max(to.closed, corner.closed);
+  if (other.area == 0)
+    to.closed = std::max(to.closed, other.closed);
   else
-    to.closed = (to.area * to.closed + corner.area * corner.closed) / (to.area + corner.area);
-  to.area += corner.area;
-  to.force += corner.force;
-  for (std::size_t c = 0; c < 3; ++c) to.traction[c] += corner.traction[c];
-  if (to.status == static_cast<int>(Status::open)) to.status = corner.status;
+    to.closed = (to.area * to.closed + other.area * other.closed) / (to.area + other.area);
+  to.area += other.area;
+  to.force += other.force;
+  for (std::size_t c = 0; c < 3; ++c) to.traction[c] += other.traction[c];
+  if (to.status == static_cast<int>(Status::open)) to.status = other.status;
 }
 
 // A corner of the primary side, or a place between nodes, has a row, but no place in the output: what presses there counts with
-// the node beside it, or with the nodes round it, on the same side of a kink. `nodes` are sorted.
-void join_corners(std::vector<NodeState>& nodes)
+// the node beside it, or with the nodes round it, on the same side of a kink. Nor have several rows that a node is the image of:
+// they are one. `nodes` are sorted.
+void join_rows(std::vector<NodeState>& nodes)
 {
-  constexpr double one_normal = 0.9;  // cosine
+  constexpr double one_normal = 0.9, same_normal = 0.99;  // cosines
   const auto dot = [](const NodeState& a, const NodeState& b) {
     return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2];
   };
@@ -47,8 +48,9 @@ void join_corners(std::vector<NodeState>& nodes)
     for (const bool corners : {false, true})
       for (std::size_t i = first; i < end; ++i) {
         if ((nodes[i].cover == 0) != corners) continue;
+        const double least = corners ? one_normal : same_normal;
         const auto to = std::find_if(joined.begin() + static_cast<std::ptrdiff_t>(begin), joined.end(),
-                                     [&](const NodeState& other) { return corners && dot(other, nodes[i]) > one_normal; });
+                                     [&](const NodeState& other) { return dot(other, nodes[i]) > least; });
         if (to == joined.end())
           joined.push_back(nodes[i]);
         else
@@ -99,7 +101,7 @@ std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Comm
   std::stable_sort(nodes.begin(), nodes.end(), [](const NodeState& a, const NodeState& b) {
     return std::tie(a.node, a.contact, a.normal) < std::tie(b.node, b.contact, b.normal);
   });
-  join_corners(nodes);
+  join_rows(nodes);
   for (std::size_t i = 1; i < nodes.size(); ++i)
     if (!before(nodes[i - 1], nodes[i])) nodes[i].side = nodes[i - 1].side + 1;
   return nodes;
