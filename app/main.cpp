@@ -32,7 +32,7 @@ std::optional<ExitStatus> solve_load_steps(const model::Model& model, const post
   auto rows = analysis::make_rows(model, states.front(), {}, context);
   report.rows(model, rows, probes, approach);
   const auto copies = model.congruent();
-  const auto memory = analysis::foresee_memory(model, copies, context.comm);
+  const auto memory = analysis::foresee_memory(model, copies, report.only_checks(), context.comm);
   report.memory(model, rows, memory);
   analysis::require(memory, model);
   if (report.only_checks()) return ExitStatus::solved;

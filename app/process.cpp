@@ -3,10 +3,12 @@
 #include <dlfcn.h>
 
 #include <Tpetra_Core.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <new>
+#include <optional>
 
 #include "base/timer.hpp"
 #include "machine.hpp"
@@ -25,21 +27,42 @@ ExitStatus shown(ExitStatus status)
   return status == ExitStatus::solved ? ExitStatus::machine : status;
 }
 
-// CHOLMOD starts threads of its own unless OpenMP, where some library has brought it, is told not to.
+// Shows, on the root, what needs no deck; nothing if the command line has one to solve.
+std::optional<ExitStatus> show_text(const Parsed& parsed, bool root = true)
+{
+  if (!parsed.command_line) {
+    if (root) (parsed.status == 0 ? std::cout : std::cerr) << parsed.text;
+    return shown(static_cast<ExitStatus>(parsed.status));
+  }
+  if (!parsed.command_line->schema) return {};
+  if (root) std::cout << model::deck_schema();
+  return shown(ExitStatus::solved);
+}
+
+// CHOLMOD starts threads of its own unless OpenMP, where some library has brought it, is told not to; VTK, to find the range of a
+// field.
 void forbid_threads()
 {
+  setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);
   if (auto* limit = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"))) limit(0);
 }
 
-// A rank that no launcher started needs no daemon of MPI beside it, and no folder in the temporary one, which may be full.
+// Whether no launcher has started this rank beside others.
+bool alone()
+{
+  const auto variables = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK"};
+  return std::none_of(variables.begin(), variables.end(), [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+// Such a rank needs no daemon of MPI beside it, and no folder in the temporary one, which may be full.
 void be_alone()
 {
-  for (const char* launched : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK"})
-    if (std::getenv(launched)) return;
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-  // Nor does it look for graphics cards, which brings the libraries of X11 and OpenCL.
+  // Nor does it look for graphics cards, which brings the libraries of X11 and OpenCL, for other devices, or at each processor in
+  // turn, on which it would run for that.
   setenv("HWLOC_PLUGINS_BLACKLIST", "hwloc_gl.so,hwloc_opencl.so,hwloc_pci.so,hwloc_xml_libxml.so", 0);
+  setenv("HWLOC_COMPONENTS", "-linuxio,-x86", 0);
 }
 
 // Run before the libraries set themselves up, which takes a while, may fail for lack of memory, and opens files.
@@ -55,9 +78,13 @@ void prepare_process(int, char**, char**)
 
 int run_process(int argc, char** argv, ExitStatus (*solve)(const CommandLine&, const Context&))
 {
+  const Parsed parsed = parse_command_line(argc, argv);
+  if (alone()) {
+    if (const auto status = show_text(parsed)) return static_cast<int>(*status);  // MPI is not needed for that
+    be_alone();
+  }
   reserve_memory();
   setenv("OMPI_MCA_opal_signal", "", 0);  // faults are ours to tell
-  be_alone();
   expect_mpi();
   int no_arguments = 1;  // but the program's name: Kokkos would answer --help and take other options for its own
   const Tpetra::ScopeGuard tpetra(&no_arguments, &argv);
@@ -65,15 +92,7 @@ int run_process(int argc, char** argv, ExitStatus (*solve)(const CommandLine&, c
   forbid_threads();
   const Communicator comm;
   require_messages(comm);
-  const Parsed parsed = parse_command_line(argc, argv);
-  if (!parsed.command_line) {
-    if (comm.root()) (parsed.status == 0 ? std::cout : std::cerr) << parsed.text;
-    return static_cast<int>(shown(static_cast<ExitStatus>(parsed.status)));
-  }
-  if (parsed.command_line->schema) {
-    if (comm.root()) std::cout << model::deck_schema();
-    return static_cast<int>(shown(ExitStatus::solved));
-  }
+  if (const auto status = show_text(parsed, comm.root())) return static_cast<int>(*status);
   try {
     Timers timers;
     Log log(comm, stdout);

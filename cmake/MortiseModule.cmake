@@ -18,6 +18,13 @@ if(MORTISE_ARCH)
     target_compile_options(mortise_options INTERFACE -mno-avx512f -Wno-array-bounds -Wno-stringop-overread -Wno-stringop-overflow)
   endif()
 endif()
+# A library that is loaded to look in itself first (gmsh's, lib/mesh) has to share variables such as std::cout with the program, which
+# therefore keeps no copies of its own of other libraries' variables. The sanitizers' libraries do not go with that.
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag(-mno-direct-extern-access MORTISE_HAS_NO_COPIES)
+if(MORTISE_HAS_NO_COPIES AND NOT MORTISE_SANITIZE)
+  target_compile_options(mortise_options INTERFACE -mno-direct-extern-access)
+endif()
 if(MORTISE_SANITIZE)
   target_compile_options(mortise_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
   target_link_options(mortise_options INTERFACE -fsanitize=address,undefined)

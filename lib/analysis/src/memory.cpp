@@ -20,7 +20,8 @@ constexpr double dirichlet_part = 0.8;           // of a factor: the preconditio
 constexpr double constraints_of_subdomain = 45;  // averages that join a subdomain to others of its cluster, each a vector of it
 // V, K, D and what they are made of, for each pair of unknowns at nodes, in a plane and in space.
 constexpr double numbers_of_plane_operators = 8, numbers_of_boundary_operators = 16;
-constexpr double margin = 0.9;  // of what is available
+constexpr double bytes_an_entry = 12;  // of a sparse matrix
+constexpr double margin = 0.9;         // of what is available
 
 // Sum over the ranks that share this rank's memory. Collective.
 double sum_on_machine(double x, const Communicator& comm)
@@ -39,7 +40,7 @@ double of_nested_dissection(double unknowns, int dimension)
   return dimension == 3 ? std::pow(unknowns, 4.0 / 3) : unknowns * std::log2(unknowns + 1);
 }
 
-Memory foresee_memory(const model::Model& model, const std::vector<partition::CopyOf>& copies, const Communicator& comm)
+Memory foresee_memory(const model::Model& model, const std::vector<partition::CopyOf>& copies, bool exact, const Communicator& comm)
 {
   const auto& deck = model.deck();
   const auto& decomposition = model.decomposition();
@@ -47,7 +48,7 @@ Memory foresee_memory(const model::Model& model, const std::vector<partition::Co
   const auto unknowns = [&](std::size_t s) {
     return static_cast<double>(decomposition.subdomains[s].mesh.node_count()) * dimension;
   };
-  double all = 0, surfaces = 0, scaled = 0, matrices = 0;
+  double all = 0, surfaces = 0, scaled = 0, matrices = 0, squares = 0;
   double dense = 0, making = 0;  // bytes of boundary elements, kept and for a moment
   constexpr auto none = static_cast<std::size_t>(-1);
   std::size_t largest = none;
@@ -64,28 +65,36 @@ Memory foresee_memory(const model::Model& model, const std::vector<partition::Co
     if (largest == none || unknowns(s) > unknowns(largest)) largest = s;
     scaled += of_nested_dissection(unknowns(s), dimension);
     matrices += unknowns(s);
+    squares += unknowns(s) * unknowns(s);
   }
-  double factors = 0, held = bytes_an_unknown * all + 0.5 * bytes_a_multiplier * surfaces;
+  const double times = deck.solver.subdomains.preconditioner == "dirichlet" ? 1 + dirichlet_part : 1.0;
+  double others = bytes_an_unknown * all + 0.5 * bytes_a_multiplier * surfaces + dense + making;
+  if (decomposition.clustered()) others += constraints_of_subdomain * sizeof(double) * matrices;
+  // `sparse`: of the factors, `twice`: of the largest, of which there are two copies while it is factorized; `entries`: of K.
+  const auto with = [&](double sparse, double twice, double entries) {
+    const double held = others + sparse + twice + bytes_an_entry * entries;
+    Memory memory;
+    memory.factors = comm.sum(dense + sparse);
+    memory.total = comm.sum(held + static_cast<double>(peak_memory()));
+    memory.excess = comm.max(sum_on_machine(held, comm) - margin * available_memory());
+    return memory;
+  };
+  if (!exact) {
+    const double most = largest == none ? 0 : unknowns(largest);
+    const auto full = with(times * sizeof(double) * squares, sizeof(double) * most * most, 0.5 * squares);
+    if (full.excess <= 0) return full;
+  }
+  double sparse = 0, bytes = 0, entries = 0;
   collectively(comm, [&] {
-    factors = dense;
-    held += dense + making;
     if (largest == none) return;
     const auto& subdomain = decomposition.subdomains[largest];
     const auto lower = model.stiffness(subdomain);
-    const auto bytes = static_cast<double>(feti::ElasticSubdomain::foreseen_factor_bytes(
+    bytes = static_cast<double>(feti::ElasticSubdomain::foreseen_factor_bytes(
         lower, fem::rigid_motions(subdomain.mesh.points, deck.kinematics), subdomain.mesh.points, dimension));
-    const double once = scaled / of_nested_dissection(unknowns(largest), dimension);
-    const double sparse = bytes * once * (deck.solver.subdomains.preconditioner == "dirichlet" ? 1 + dirichlet_part : 1.0);
-    // While the largest is factorized there are two copies of it.
-    if (decomposition.clustered()) held += constraints_of_subdomain * sizeof(double) * matrices;
-    factors += sparse;
-    held += sparse + bytes + 12.0 * static_cast<double>(lower.nonZeros()) * matrices / unknowns(largest);
+    sparse = times * bytes * scaled / of_nested_dissection(unknowns(largest), dimension);
+    entries = static_cast<double>(lower.nonZeros()) * matrices / unknowns(largest);
   });
-  Memory memory;
-  memory.factors = comm.sum(factors);
-  memory.total = comm.sum(held + static_cast<double>(peak_memory()));
-  memory.excess = comm.max(sum_on_machine(held, comm) - margin * available_memory());
-  return memory;
+  return with(sparse, bytes, entries);
 }
 
 void require(const Memory& memory, const model::Model& model)

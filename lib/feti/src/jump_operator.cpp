@@ -167,7 +167,8 @@ SparseMatrix JumpOperator::gather_columns(const std::vector<Columns>& parts, int
   for_each_part([&](std::size_t row, int start, const auto& column) {
     if (rank[row] == comm.rank()) return;
     for (int i = 0; i < column.size(); ++i)
-      send[static_cast<std::size_t>(rank[row])].push_back({touched[static_cast<Teuchos::Ordinal>(row)], start + i, column[i]});
+      if (column[i] != 0)
+        send[static_cast<std::size_t>(rank[row])].push_back({touched[static_cast<Teuchos::Ordinal>(row)], start + i, column[i]});
   });
   const auto received = comm.exchange(send);
 
@@ -175,7 +176,7 @@ SparseMatrix JumpOperator::gather_columns(const std::vector<Columns>& parts, int
   const auto width = static_cast<Eigen::Index>(rows_->getNodeNumElements());
   Eigen::VectorXi count = Eigen::VectorXi::Zero(width);
   for_each_part([&](std::size_t row, int, const auto& column) {
-    if (rank[row] == comm.rank()) count[owned[row]] += static_cast<int>(column.size());
+    if (rank[row] == comm.rank()) count[owned[row]] += static_cast<int>((column.array() != 0).count());
   });
   for (const auto& part : received)
     for (const auto& entry : part) ++count[rows_->getLocalElement(entry.row)];
@@ -183,7 +184,8 @@ SparseMatrix JumpOperator::gather_columns(const std::vector<Columns>& parts, int
   result.reserve(count);
   for_each_part([&](std::size_t row, int start, const auto& column) {
     if (rank[row] != comm.rank()) return;
-    for (int i = 0; i < column.size(); ++i) result.insert(start + i, owned[row]) = column[i];
+    for (int i = 0; i < column.size(); ++i)
+      if (column[i] != 0) result.insert(start + i, owned[row]) = column[i];
   });
   for (const auto& part : received)
     for (const auto& entry : part) result.insert(entry.index, rows_->getLocalElement(entry.row)) = entry.value;
