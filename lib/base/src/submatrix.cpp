@@ -1,6 +1,7 @@
 #include "base/submatrix.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace mortise {
 
@@ -52,21 +53,32 @@ Eigen::VectorXd product_by_blocks(const SparseMatrix& lower, const Eigen::Vector
 
 }  // namespace
 
+// Entries come column by column and in each by ascending rows: first those above the diagonal, by columns of `lower`, then its own.
 SparseMatrix submatrix(const SparseMatrix& lower, const std::vector<int>& rows, const std::vector<int>& columns, bool only_lower)
 {
   const auto row_place = places(rows, lower.rows()), column_place = places(columns, lower.cols());
-  std::vector<Eigen::Triplet<double>> triplets;
-  const auto add = [&](Eigen::Index i, Eigen::Index j, double value) {
-    const int row = row_place[static_cast<std::size_t>(i)], column = column_place[static_cast<std::size_t>(j)];
-    if (row >= 0 && column >= 0 && (!only_lower || row >= column)) triplets.emplace_back(row, column, value);
+  const auto for_each = [&](const auto& take) {
+    const auto add = [&](Eigen::Index i, Eigen::Index j, double value) {
+      const int row = row_place[static_cast<std::size_t>(i)], column = column_place[static_cast<std::size_t>(j)];
+      if (row >= 0 && column >= 0 && (!only_lower || row >= column)) take(row, column, value);
+    };
+    for (int j = 0; j < lower.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+        add(it.row(), j, it.value());
+        if (it.row() != j) add(j, it.row(), it.value());
+      }
   };
-  for (int j = 0; j < lower.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-      add(it.row(), j, it.value());
-      if (it.row() != j) add(j, it.row(), it.value());
-    }
   SparseMatrix result(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
-  result.setFromTriplets(triplets.begin(), triplets.end());
+  int* const start = result.outerIndexPtr();
+  for_each([&](int, int column, double) { ++start[column + 1]; });
+  std::partial_sum(start, start + columns.size() + 1, start);
+  result.resizeNonZeros(start[columns.size()]);
+  std::vector<int> next(start, start + columns.size());
+  for_each([&](int row, int column, double value) {
+    const int at = next[static_cast<std::size_t>(column)]++;
+    result.innerIndexPtr()[at] = row;
+    result.valuePtr()[at] = value;
+  });
   return result;
 }
 

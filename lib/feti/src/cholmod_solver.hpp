@@ -45,6 +45,7 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
   // The arrays of the CRS matrix, read as the compressed columns of its transpose.
   SparseMatrix lower() const;
 
+  SparseMatrix lower_;  // from the symbolic to the numeric factorization
   int block_;
   bool tiled_;
   std::unique_ptr<Cholesky> factor_;

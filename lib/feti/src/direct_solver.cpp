@@ -42,15 +42,17 @@ SparseMatrix CholmodSolver<Matrix, Vector>::lower() const
 template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::symbolicFactorization_impl()
 {
-  factor_ = std::make_unique<Cholesky>(lower(), block_);
+  lower_ = lower();
+  factor_ = std::make_unique<Cholesky>(lower_, block_);
   return 0;
 }
 
 template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::numericFactorization_impl()
 {
-  if (!factor_->factorize(lower()))
-    throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain is not positive definite");
+  const bool positive = factor_->factorize(lower_);
+  lower_ = {};
+  if (!positive) throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain is not positive definite");
   if (tiled_) factor_->prepare_for_many_solves();
   this->setNnzLU(factor_->factor_bytes() / sizeof(double));
   this->matrixA_ = Teuchos::null;

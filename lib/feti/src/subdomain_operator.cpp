@@ -139,7 +139,8 @@ class SparseInterface : public InterfaceStiffness {
  public:
   SparseInterface(const SparseMatrix& stiffness, const std::vector<int>& unknowns, bool condensed,
                   const std::string& factorization, int dimension)
-      : lower_(submatrix(stiffness, unknowns, unknowns, true))
+      : lower_(submatrix(stiffness, unknowns, unknowns, true)),
+        column_block_(has_column_blocks(lower_, dimension) ? dimension : 1)
   {
     if (!condensed) return;
     std::vector<int> all(static_cast<std::size_t>(stiffness.rows())), inside;
@@ -152,7 +153,8 @@ class SparseInterface : public InterfaceStiffness {
 
   Eigen::MatrixXd apply(const Eigen::MatrixXd& u) const override
   {
-    Eigen::MatrixXd f = lower_.selfadjointView<Eigen::Lower>() * u;
+    Eigen::MatrixXd f(u.rows(), u.cols());
+    for (Eigen::Index c = 0; c < u.cols(); ++c) f.col(c) = symmetric_product(lower_, column_block_, u.col(c));
     if (!interior_) return f;
     Eigen::MatrixXd inner = coupling_ * u;
     std::vector<double*> columns;
@@ -163,7 +165,8 @@ class SparseInterface : public InterfaceStiffness {
   }
 
  private:
-  SparseMatrix lower_;     // K_bb
+  SparseMatrix lower_;  // K_bb
+  int column_block_;
   SparseMatrix coupling_;  // K_ib
   std::unique_ptr<DirectSolver> interior_;
 };

@@ -22,6 +22,11 @@ namespace {
 // Parts of one body that share nodes, but no face, part there.
 void warn_of_torn_bodies(const RawMesh& raw, const Groups& groups, const std::vector<int>& part, Assembly& assembly)
 {
+  std::map<int, int> of_label;
+  bool several = false;  // parts of one label: else they are torn nowhere
+  for (std::size_t c = 0; c < part.size(); ++c)
+    several = several || of_label.emplace(groups.label[c], part[c]).first->second != part[c];
+  if (!several) return;
   std::map<std::pair<Local, int>, int> first_part;  // node of the file and label -> part
   std::map<int, std::size_t> torn;                  // group -> nodes
   for (std::size_t c = 0; c < raw.cells.size(); ++c)
@@ -52,9 +57,9 @@ void warn_of_scattered_volumes(const Groups& groups, const Options& options, con
 // The body of each cell, numbered in the order of their smallest cells: connected parts, and surfaces with those of their
 // cavities
 // (`enclosed`, as close_surfaces() gives it).
-std::vector<int> parts_of(const RawMesh& raw, const Groups& groups, const std::vector<int>& enclosed)
+std::vector<int> parts_of(const Neighbours& neighbours, const Groups& groups, const std::vector<int>& enclosed)
 {
-  auto part = connected_parts(face_neighbours(raw.cells), groups.label);
+  auto part = connected_parts(neighbours, groups.label);
   std::map<int, int> of_surface, order;
   for (std::size_t c = 0; c < part.size(); ++c) {
     if (enclosed[c] >= 0) part[c] = of_surface.emplace(enclosed[c], part[c]).first->second;
@@ -82,6 +87,7 @@ Assembly separate(const RawMesh& raw, const Groups& groups, const std::vector<in
   std::vector<std::vector<Local>> cells_of(static_cast<std::size_t>(parts));
   for (std::size_t c = 0; c < part.size(); ++c) cells_of[static_cast<std::size_t>(part[c])].push_back(static_cast<Local>(c));
   std::vector<int> numbered(groups.names.size(), 0);
+  std::vector<Local> place(raw.points.size());  // of a node of the file among those of the body
   Mesh& mesh = assembly.mesh;
   for (const int p : order) {
     const auto g = static_cast<std::size_t>(group_of[static_cast<std::size_t>(p)]);
@@ -93,16 +99,15 @@ Assembly separate(const RawMesh& raw, const Groups& groups, const std::vector<in
       used.insert(used.end(), raw.cells[static_cast<std::size_t>(c)].begin(), raw.cells[static_cast<std::size_t>(c)].end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    const auto base = static_cast<Local>(mesh.points.size());
     for (const Local n : used) {
+      place[static_cast<std::size_t>(n)] = static_cast<Local>(mesh.points.size());
       mesh.node_id.push_back(static_cast<Global>(mesh.points.size()));
       mesh.points.push_back(raw.points[static_cast<std::size_t>(n)]);
       original.push_back(n);
     }
     for (const Local c : cells) {
       std::vector<Local> cell;
-      for (const Local n : raw.cells[static_cast<std::size_t>(c)])
-        cell.push_back(base + static_cast<Local>(std::lower_bound(used.begin(), used.end(), n) - used.begin()));
+      for (const Local n : raw.cells[static_cast<std::size_t>(c)]) cell.push_back(place[static_cast<std::size_t>(n)]);
       mesh.cell_id.push_back(static_cast<Global>(mesh.cells.size()));
       mesh.cells.add(raw.cells.type[static_cast<std::size_t>(c)], cell);
       mesh.cell_body.push_back(static_cast<int>(assembly.catalogue.bodies.size()) - 1);
@@ -227,8 +232,10 @@ Assembly assemble(RawMesh raw, const Options& options, int dimension)
   resolve_repeated_nodes(raw, options.file, dimension);
   orient(raw, options, dimension);
   const Groups groups = group(raw, options);
-  require_conforming(options.file, raw, groups, dimension);
-  const auto part = parts_of(raw, groups, close_surfaces(raw, groups.label, options.file, dimension));
+  const auto faces = sorted_faces(raw.cells);
+  require_conforming(options.file, raw, faces, groups, dimension);
+  const auto part = parts_of(face_neighbours(faces, raw.cells.size()), groups,
+                             close_surfaces(raw, groups.label, options.file, dimension));
   std::vector<Local> original;
   std::vector<int> solid_of_cell;
   Assembly assembly = separate(raw, groups, part, options, dimension, original, solid_of_cell);

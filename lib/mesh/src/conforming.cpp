@@ -100,9 +100,10 @@ class FaceCheck {
 
 }  // namespace
 
-void require_conforming(const std::string& file, const RawMesh& raw, const Groups& groups, int dimension)
+void require_conforming(const std::string& file, const RawMesh& raw, std::span<const CellFace> faces, const Groups& groups,
+                        int dimension)
 {
-  auto all = sorted_faces(raw.cells);
+  std::vector<CellFace> all(faces.begin(), faces.end());
   std::erase_if(all,
                 [&](const CellFace& face) { return !is_solid(raw.cells.type[static_cast<std::size_t>(face.cell)], dimension); });
   const FaceCheck check(file, raw, groups);

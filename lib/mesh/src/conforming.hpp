@@ -1,9 +1,11 @@
 // Which cells are to be one body, and whether they fit together there.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "mesh/topology.hpp"
 #include "raw_mesh.hpp"
 
 namespace mortise::mesh {
@@ -18,7 +20,8 @@ struct Groups {
 Groups group(const RawMesh& raw, const Options& options);
 
 /// Throws Error(bad_input), which names the file and a place, where cells of one group that share a face see it as faces of
-/// different kinds, or lie on the same side of it. The cells are the right way round (orient.hpp).
-void require_conforming(const std::string& file, const RawMesh& raw, const Groups& groups, int dimension);
+/// different kinds, or lie on the same side of it. The cells are the right way round (orient.hpp); `faces` is their sorted_faces().
+void require_conforming(const std::string& file, const RawMesh& raw, std::span<const CellFace> faces, const Groups& groups,
+                        int dimension);
 
 }  // namespace mortise::mesh

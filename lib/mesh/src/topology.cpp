@@ -71,20 +71,29 @@ std::vector<CellFace> border_faces(const Cells& cells)
 
 Neighbours face_neighbours(const Cells& cells)
 {
-  const auto all = sorted_faces(cells);
-  std::vector<std::pair<Local, Local>> pairs;
-  for (std::size_t i = 0; i + 1 < all.size(); ++i)
-    if (all[i].corners == all[i + 1].corners) {
-      pairs.emplace_back(all[i].cell, all[i + 1].cell);
-      pairs.emplace_back(all[i + 1].cell, all[i].cell);
-    }
-  std::sort(pairs.begin(), pairs.end());
+  return face_neighbours(sorted_faces(cells), cells.size());
+}
+
+Neighbours face_neighbours(std::span<const CellFace> faces, std::size_t cells)
+{
+  const auto for_each_pair = [&](const auto& take) {
+    for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+      if (faces[i].corners == faces[i + 1].corners) {
+        take(faces[i].cell, faces[i + 1].cell);
+        take(faces[i + 1].cell, faces[i].cell);
+      }
+  };
   Neighbours result;
-  std::size_t next = 0;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    for (; next < pairs.size() && pairs[next].first == static_cast<Local>(c); ++next) result.cells.push_back(pairs[next].second);
-    result.offset.push_back(static_cast<Local>(result.cells.size()));
-  }
+  result.offset.assign(cells + 1, 0);
+  for_each_pair([&](Local cell, Local) { ++result.offset[static_cast<std::size_t>(cell) + 1]; });
+  std::partial_sum(result.offset.begin(), result.offset.end(), result.offset.begin());
+  result.cells.resize(static_cast<std::size_t>(result.offset.back()));
+  auto next = result.offset;
+  for_each_pair([&](Local cell, Local other) {
+    result.cells[static_cast<std::size_t>(next[static_cast<std::size_t>(cell)]++)] = other;
+  });
+  for (std::size_t c = 0; c < cells; ++c)
+    std::sort(result.cells.begin() + result.offset[c], result.cells.begin() + result.offset[c + 1]);
   return result;
 }
 

@@ -35,6 +35,8 @@ struct Neighbours {
 };
 /// The neighbours of all cells of one mesh: the graph that partitions are cut from.
 Neighbours face_neighbours(const Cells& cells);
+/// The same of so many cells, from their sorted_faces().
+Neighbours face_neighbours(std::span<const CellFace> faces, std::size_t cells);
 
 /// Connected parts of the graph, where cells are connected only if `label` agrees: the part of each cell, numbered in the order
 /// of their smallest cells.
