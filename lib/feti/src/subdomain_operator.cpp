@@ -139,8 +139,7 @@ class SparseInterface : public InterfaceStiffness {
  public:
   SparseInterface(const SparseMatrix& stiffness, const std::vector<int>& unknowns, bool condensed,
                   const std::string& factorization, int dimension)
-      : lower_(submatrix(stiffness, unknowns, unknowns, true)),
-        column_block_(has_column_blocks(lower_, dimension) ? dimension : 1)
+      : lower_(submatrix(stiffness, unknowns, unknowns, true))
   {
     if (!condensed) return;
     std::vector<int> all(static_cast<std::size_t>(stiffness.rows())), inside;
@@ -153,8 +152,7 @@ class SparseInterface : public InterfaceStiffness {
 
   Eigen::MatrixXd apply(const Eigen::MatrixXd& u) const override
   {
-    Eigen::MatrixXd f(u.rows(), u.cols());
-    for (Eigen::Index c = 0; c < u.cols(); ++c) f.col(c) = symmetric_product(lower_, column_block_, u.col(c));
+    Eigen::MatrixXd f = lower_.selfadjointView<Eigen::Lower>() * u;
     if (!interior_) return f;
     Eigen::MatrixXd inner = coupling_ * u;
     std::vector<double*> columns;
@@ -165,8 +163,7 @@ class SparseInterface : public InterfaceStiffness {
   }
 
  private:
-  SparseMatrix lower_;  // K_bb
-  int column_block_;
+  SparseMatrix lower_;     // K_bb
   SparseMatrix coupling_;  // K_ib
   std::unique_ptr<DirectSolver> interior_;
 };

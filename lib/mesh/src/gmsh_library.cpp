@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "base/error.hpp"
@@ -21,12 +22,14 @@ std::string file_of_library()
 }
 
 // gmsh's libraries look for their 100,000 symbols among themselves first. The program's own libraries, as many again, would be asked
-// before them, which took two thirds of the time of loading.
+// before them, which took two thirds of the time of loading. Where a library was loaded before the program it is to be asked first.
+int own_symbols_first()
+{
 #ifdef MORTISE_DEEP_BIND
-constexpr int own_symbols_first = RTLD_DEEPBIND;
-#else
-constexpr int own_symbols_first = 0;
+  if (std::getenv("LD_PRELOAD") == nullptr) return RTLD_DEEPBIND;
 #endif
+  return 0;
+}
 
 }  // namespace
 
@@ -34,7 +37,7 @@ const GmshLibrary& library()
 {
   static const GmshLibrary* const loaded = [] {
     const auto file = file_of_library();
-    void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | own_symbols_first);
+    void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | own_symbols_first());
     void* const get = handle == nullptr ? nullptr : dlsym(handle, "mortise_gmsh_library");
     if (get == nullptr) throw Error(ExitStatus::machine, fmt::format("cannot load gmsh's library: {}", dlerror()));
     return reinterpret_cast<GetGmshLibrary*>(get)();

@@ -44,12 +44,7 @@ Eigen::VectorXd EqualityConstraint::apply(const Vector& x) const
 
 void EqualityConstraint::add_transpose(double alpha, const Eigen::VectorXd& nu, Vector& y) const
 {
-  auto values = view(y);
-  for (Eigen::Index column = 0; column < g_.cols(); ++column) {
-    double sum = 0;
-    for (SparseMatrix::InnerIterator it(g_, column); it; ++it) sum += it.value() * nu[it.row()];
-    values[column] += alpha * sum;
-  }
+  view(y) += alpha * (g_.transpose() * nu);
 }
 
 Eigen::VectorXd EqualityConstraint::project(Vector& x) const
