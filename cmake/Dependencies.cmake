@@ -14,9 +14,22 @@ find_package(HDF5 REQUIRED COMPONENTS C)
 if(NOT HDF5_IS_PARALLEL)
   message(FATAL_ERROR "HDF5 was found without MPI: install libhdf5-openmpi-dev")
 endif()
+# Its static library, where there is one: the shared one brings 35 others for files in the cloud, a tenth of the time of a run of 1,000
+# unknowns.
+set(hdf5_libraries)
+foreach(library ${HDF5_C_LIBRARIES})
+  string(REGEX REPLACE "libhdf5\\.so$" "libhdf5.a" static ${library})
+  if(EXISTS ${static})
+    set(library ${static})
+  endif()
+  list(APPEND hdf5_libraries ${library})
+endforeach()
 add_library(mortise_hdf5 INTERFACE)
 target_include_directories(mortise_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
-target_link_libraries(mortise_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
+target_link_libraries(mortise_hdf5 INTERFACE ${hdf5_libraries})
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+  target_link_options(mortise_hdf5 INTERFACE -Wl,--as-needed)
+endif()
 
 find_package(VTK 9 REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
 
