@@ -17,7 +17,7 @@ constexpr double one_normal = 0.75;    // cosine: rows on the other side of a ki
 constexpr double largest_weights = 2;  // the sum of their sizes: more is an extrapolation
 constexpr double least_weight = 1e-9;  // less is none
 // What a node that is covered all round may lack of its cover and of the weight of its row.
-constexpr double of_cover = 0.01, of_weight = 1e-9;
+constexpr double of_cover = 0.01, of_weight = 1e-3;
 
 // The nodes of this rank that places of others ask for, ascending. Collective.
 std::vector<Global> asked_for(std::span<const PlaceBetween> places, const std::vector<Global>& own, const Communicator& comm)
@@ -51,6 +51,22 @@ Eigen::MatrixXd polynomials_at(const Eigen::Matrix2Xd& x, int dimension, int ord
   return p;
 }
 
+// S such that x' S^-1 x = 1 is an ellipse as large as the facet, within a square one the circle with its edge as radius; `axes`: of
+// the plane, of a line the second is 0.
+Eigen::Matrix2d size_of_facet(std::span<const Point> corners, const Eigen::Matrix<double, 3, 2>& axes)
+{
+  const double part = 1.0 / static_cast<double>(corners.size());
+  Point centre = Point::Zero();
+  for (const auto& x : corners) centre += part * x;
+  Eigen::Matrix2d result = Eigen::Matrix2d::Zero();
+  for (const auto& x : corners) {
+    const Eigen::Vector2d d = axes.transpose() * (x - centre);
+    result += 4 * part * d * d.transpose();
+  }
+  if (axes.col(1).isZero(0)) result(1, 1) = 1;
+  return result;
+}
+
 // The nodes of one side that terms speak of.
 template <class Terms>
 Side nodes_of(const Terms& terms, bool on_primary, fem::Kinematics kinematics)
@@ -79,7 +95,8 @@ Eigen::VectorXd weights_between(const Eigen::Matrix2Xd& x, int dimension)
     const Eigen::MatrixXd p = polynomials_at(x, dimension, order);
     const Eigen::VectorXd wanted = Eigen::VectorXd::Unit(p.rows(), 0);
     const Eigen::VectorXd w = nearness.cwiseProduct(dense::minimum_norm(p * nearness.asDiagonal(), wanted).col(0));
-    if ((p * w - wanted).lpNorm<Eigen::Infinity>() < exact && w.lpNorm<1>() < largest_weights) return w;
+    if ((p * w - wanted).lpNorm<Eigen::Infinity>() < exact && w.lpNorm<1>() < largest_weights)
+      return w / w.sum();
   }
   return {};
 }
@@ -141,11 +158,14 @@ RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimensio
   std::vector<const Neighbour*> whole;
   for (const auto* node : candidates)
     if (node->means_field && node->cover > 1 - of_cover && std::abs(node->weight - 1) < of_weight) whole.push_back(node);
-  const auto axes = tangent_plane(place.normal, dimension);
+  const bool on_border = !place.edge.isZero(0);
+  auto axes = tangent_plane(place.normal, dimension);
+  if (on_border) axes << place.edge, Point::Zero();
   Eigen::Matrix2Xd x(2, static_cast<Eigen::Index>(whole.size()));
   for (std::size_t i = 0; i < whole.size(); ++i)
-    x.col(static_cast<Eigen::Index>(i)) = axes.transpose() * (unpacked(whole[i]->at) - place.at) / place.size;
-  Eigen::VectorXd w = whole.empty() ? Eigen::VectorXd() : weights_between(x, dimension);
+    x.col(static_cast<Eigen::Index>(i)) = axes.transpose() * (unpacked(whole[i]->at) - place.at);
+  x = size_of_facet(place.facet, axes).llt().matrixL().solve(x);
+  Eigen::VectorXd w = whole.empty() ? Eigen::VectorXd() : weights_between(x, on_border ? 2 : dimension);
   if (w.size() > 0) curve_more(place, whole, w);
   for (Eigen::Index i = 0; i < w.size(); ++i)
     if (std::abs(w[i]) > least_weight) result.emplace_back(whole[static_cast<std::size_t>(i)], w[i]);

@@ -85,7 +85,7 @@ class RowsBetween {
   std::vector<SentTerm> terms_;     // of these
 };
 
-/// Weights w of N points (2 x N, coordinates from a place, in units of the distance that counts as near; in one dimension the
+/// Weights w of N points (2 x N, coordinates from a place, in units of the facet's size; in one dimension the
 /// second are 0) with sum w_i p(x_i) = p(0) for polynomials of second order, or of first if points do not tell those apart; those
 /// of which sum w_i^2 exp |x_i|^2 is least. Empty if there are none that interpolate.
 Eigen::VectorXd weights_between(const Eigen::Matrix2Xd& x, int dimension);
