@@ -95,8 +95,7 @@ Eigen::VectorXd weights_between(const Eigen::Matrix2Xd& x, int dimension)
     const Eigen::MatrixXd p = polynomials_at(x, dimension, order);
     const Eigen::VectorXd wanted = Eigen::VectorXd::Unit(p.rows(), 0);
     const Eigen::VectorXd w = nearness.cwiseProduct(dense::minimum_norm(p * nearness.asDiagonal(), wanted).col(0));
-    if ((p * w - wanted).lpNorm<Eigen::Infinity>() < exact && w.lpNorm<1>() < largest_weights)
-      return w / w.sum();
+    if ((p * w - wanted).lpNorm<Eigen::Infinity>() < exact && w.lpNorm<1>() < largest_weights) return w;
   }
   return {};
 }
@@ -169,13 +168,12 @@ RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimensio
   if (w.size() > 0) curve_more(place, whole, w);
   for (Eigen::Index i = 0; i < w.size(); ++i)
     if (std::abs(w[i]) > least_weight) result.emplace_back(whole[static_cast<std::size_t>(i)], w[i]);
-  if (!result.empty()) return result;
+  if (result.empty())
+    for (const auto* node : candidates)
+      if (const auto corner = std::ranges::find(place.corners, node->node); corner != place.corners.end())
+        result.emplace_back(node, std::max(place.where.shape[corner - place.corners.begin()], 0.0));
   double sum = 0;
-  for (const auto* node : candidates)
-    if (const auto corner = std::ranges::find(place.corners, node->node); corner != place.corners.end()) {
-      result.emplace_back(node, std::max(place.where.shape[corner - place.corners.begin()], 0.0));
-      sum += result.back().second;
-    }
+  for (const auto& part : result) sum += part.second;
   if (!(sum > 0)) return {};
   for (auto& part : result) part.second /= sum;
   return result;

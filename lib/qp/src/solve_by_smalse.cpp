@@ -41,7 +41,8 @@ Solution smalse_to_goal(const Problem& problem, std::optional<Solution> start, c
     found.error = error_bound(problem, found, preconditioner);
     if (!found.converged) return found;
     if (!goal.allowed_error || tolerance <= tolerances::finest) {
-      found.converged = believable(found.error, rounding_of_error(problem, found.hessian_norm), found.x, found.nu, goal);
+      found.converged = believable(found.error, rounding_of_error(problem, found.hessian_norm), found.x, found.nu, goal,
+                                   tolerance <= tolerances::rounding);
       if (found.converged || tolerance <= tolerances::rounding) return found;
       tolerance *= 0.1;
     } else {
