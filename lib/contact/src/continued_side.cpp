@@ -315,6 +315,17 @@ FacesAtBonds::FacesAtBonds(std::span<const Pair> pairs, fem::Kinematics kinemati
     }
 }
 
+std::vector<std::vector<Local>> FacesAtBonds::held_together(const Side& side, const Communicator& comm) const
+{
+  if (at_bond_.empty()) return {};
+  std::map<int, std::vector<Local>> of_bond;
+  for (const auto& n : answer(nodes_, ask(side.node_id, comm), comm))
+    of_bond[n.bond].push_back(static_cast<Local>(std::ranges::lower_bound(side.node_id, n.node) - side.node_id.begin()));
+  std::vector<std::vector<Local>> result;
+  for (auto& [bond, nodes] : of_bond) result.push_back(std::move(nodes));
+  return result;
+}
+
 void FacesAtBonds::append_to(Side& side, const Communicator& comm) const
 {
   if (at_bond_.empty()) return;

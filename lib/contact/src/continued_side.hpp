@@ -20,6 +20,8 @@ class FacesAtBonds {
   /// Collective.
   FacesAtBonds(std::span<const Pair> pairs, fem::Kinematics kinematics, const Communicator& comm);
 
+  /// Of each bond the nodes of a side that it holds together. Collective.
+  std::vector<std::vector<Local>> held_together(const Side& side, const Communicator& comm) const;
   /// Appends to a side, to its points and facets alone, those that go on from it: they have nodes in common with it, once they are
   /// moved across the bond. Collective.
   void append_to(Side& side, const Communicator& comm) const;

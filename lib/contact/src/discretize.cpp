@@ -73,9 +73,11 @@ class Builder {
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, options.obstacle, reach),
         mesh_gaps_(options.law != Law::bonded && !options.clearance),
         nearest_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<NearestPoint>()),
+        bonded_nodes_(at_bonds.held_together(primary_, comm)),
         discretization_(make_discretization(
             options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
-                                     options.obstacle.has_value(), reach, mesh_gaps_, options.law != Law::bonded, nearest_})),
+                                     options.obstacle.has_value(), reach, mesh_gaps_, options.law != Law::bonded, nearest_,
+                                     bonded_nodes_})),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
         points_(secondary_, nodes_, faces_, rays_, nearest_),
@@ -361,6 +363,7 @@ class Builder {
   std::vector<NearestPoint> nearest_;  // of each surface node, or none
   std::optional<OnePart> one_part_;    // once one is asked
   std::optional<RowsBetween> between_;
+  std::vector<std::vector<Local>> bonded_nodes_;  // of the primary side
   std::unique_ptr<Discretization> discretization_;
   OneSurface one_surface_;
   InitialGap initial_gap_;
