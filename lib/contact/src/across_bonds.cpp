@@ -37,10 +37,10 @@ struct Candidate {
   std::array<std::array<double, 3>, 2> tangent;
 };
 
-// A coefficient of its rows, or what a support holds of them, or their bounds.
+// A coefficient of its rows, or what a support holds of them, or their bounds; of a place between nodes, what one of them bears.
 struct SentEntry {
   int rank, index, row;
-  enum class Kind : int { entry, prescribed, bound } kind;
+  enum class Kind : int { entry, prescribed, bound, part } kind;
   Global node;
   int component, support;
   double value;
@@ -61,13 +61,10 @@ class EdgeAtBond {
 
   void add(const Candidate& c) { (c.side == 1 ? from_ : to_).push_back(&c); }
 
-  // A place between nodes that has a row on both sides needs one alone, made of the nodes of one side.
   void share_out(std::vector<HandedOver>& result) const
   {
     for (const auto* from : from_) {
-      auto shares = shares_of(*from);
-      if (from->kind == Candidate::Kind::between)
-        for (auto& s : shares) s.part = 0;
+      const auto shares = shares_of(*from);
       if (std::ranges::all_of(shares, [](const HandedOver& s) { return same_rows(*s.from, *s.to); }))
         result.insert(result.end(), shares.begin(), shares.end());
     }
@@ -183,7 +180,7 @@ class Joining {
     if (shares.empty()) return;
     for (const auto& s : shares) {
       given_.insert({key_of(*s.from), s.from});
-      if (s.part > 0) taken_[key_of(*s.to)].push_back(s);
+      taken_[key_of(*s.to)].push_back(s);
     }
     sent_ = comm_.all_gather(sent_rows());
     rebuild();
@@ -267,6 +264,8 @@ class Joining {
     for (const auto& p : prescribed_of(node))
       result.push_back({comm_.rank(), index, static_cast<int>(p.row - node.row), SentEntry::Kind::prescribed, 0, p.component,
                         p.support, p.coefficient, p.at});
+    for (const auto& part : node.parts)
+      result.push_back({comm_.rank(), index, 0, SentEntry::Kind::part, part.node, 0, 0, part.part, {}});
     return result;
   }
 
@@ -293,12 +292,15 @@ class Joining {
     for (const auto& s : shares) {
       const double part = s.part * s.from->area / area;
       node.weight += part * s.from->weight, node.gap += part * s.from->gap;
+      const bool between = s.from->kind == Candidate::Kind::between;
+      const auto rotation = motion_of(s.from->bond).rotation;
+      if (!between) node.images.push_back({s.from->contact, s.from->node, part, rotation});
       for (const auto& e : std::ranges::equal_range(sent_, key_of(*s.from), {}, sender)) {
+        if (e.kind == SentEntry::Kind::part) node.images.push_back({s.from->contact, e.node, part * e.value, rotation});
         if (e.row == 0) rows.add(e, 0, part);
         for (std::size_t t = 0; t < node.tangents.size() && e.row > 0; ++t)
           rows.add(e, t + 1, part * unpacked(s.to->tangent[t]).dot(unpacked(s.from->tangent[static_cast<std::size_t>(e.row - 1)])));
       }
-      node.images.push_back({s.from->contact, s.from->node, part, motion_of(s.from->bond).rotation});
     }
     node.area = area;
     return node;

@@ -8,7 +8,7 @@
 //
 // a none, and the bond keeps its multiplier at a. Where the meshes do not match, a lies between two nodes of the contact's edge and
 // is shared between them, w being the linear functions there. Constant pressures pass as before: all that a's row pushes is pushed
-// by others with the same pressure. A place between nodes that has a row on both sides keeps one.
+// by others with the same pressure. So are the rows of a place between nodes; its images are the nodes that bear it across the bond.
 #pragma once
 
 #include <span>

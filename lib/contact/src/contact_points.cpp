@@ -36,6 +36,7 @@ bool ContactPoints::means_field(std::size_t p)
 
 double ContactPoints::room(std::size_t p)
 {
+  constexpr double nothing = 1e-3;  // of the way to the next nodes: so much sides that end together may lie beside each other
   if (faces_.is_corner(p)) return 0;
   const Local own = nodes_.all[faces_.surface_node(p)].node;
   const Point& node = secondary_.points[static_cast<std::size_t>(own)];
@@ -50,7 +51,8 @@ double ContactPoints::room(std::size_t p)
       for (const Local n : corners)
         farthest = std::max(farthest, (secondary_.points[static_cast<std::size_t>(n)] - node).dot(shift));
     }
-  return length * length < farthest ? 1 - length * length / farthest : length > 0 ? 0 : 1;
+  if (length * length <= nothing * farthest) return 1;
+  return length * length < farthest ? 1 - length * length / farthest : 0;
 }
 
 std::pair<Point, Point> ContactPoints::point_at(const Rays::FacetPoint& place) const

@@ -28,6 +28,7 @@ struct TwoSides {
   bool mesh_gaps;                            ///< the contact starts with the gaps of the meshes
   bool corners;                              ///< those of the primary side have rows of their own
   const std::vector<NearestPoint>& nearest;  ///< of each surface node, or none
+  const std::vector<std::vector<Local>>& bonded;  ///< nodes of the primary side that each bond holds together
 };
 
 class Discretization {

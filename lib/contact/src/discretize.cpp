@@ -13,6 +13,7 @@
 #include "contact/mortar.hpp"
 #include "contact_nodes.hpp"
 #include "contact_points.hpp"
+#include "continued_side.hpp"
 #include "cut_faces.hpp"
 #include "discretization.hpp"
 #include "moments.hpp"
@@ -52,8 +53,8 @@ class Builder {
  public:
   // `unbonded_nodes`: those of share.secondary, ascending. All arguments outlive it. Collective.
   Builder(const Options& options, const Share& share, double reach, int index, const SupportDirectory& supports,
-          const std::vector<UnbondedNode>& unbonded_nodes, const CurvedFaces& curved, fem::Kinematics kinematics,
-          const Communicator& comm)
+          const FacesAtBonds& at_bonds, const std::vector<UnbondedNode>& unbonded_nodes, const CurvedFaces& curved,
+          fem::Kinematics kinematics, const Communicator& comm)
       : options_(options),
         index_(index),
         reach_(reach),
@@ -63,20 +64,22 @@ class Builder {
         secondary_(share.secondary),
         primary_(share.primary),
         unbonded_nodes_(unbonded_nodes),
-        nodes_(find_surface_nodes(secondary_)),
-        primary_nodes_(find_surface_nodes(primary_)),
+        supports_(supports, secondary_.node_id, comm),
+        primary_supports_(supports, primary_.node_id, comm),
+        nodes_(find_surface_nodes(secondary_, supports_, at_bonds, comm)),
+        primary_nodes_(find_surface_nodes(primary_, primary_supports_, at_bonds, comm)),
         faces_(secondary_, nodes_, share.own),
         tree_(tree_of_facets(primary_)),
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, options.obstacle, reach),
         mesh_gaps_(options.law != Law::bonded && !options.clearance),
         nearest_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<NearestPoint>()),
+        bonded_nodes_(at_bonds.held_together(primary_, comm)),
         discretization_(make_discretization(
             options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
-                                     options.obstacle.has_value(), reach, mesh_gaps_, options.law != Law::bonded, nearest_})),
+                                     options.obstacle.has_value(), reach, mesh_gaps_, options.law != Law::bonded, nearest_,
+                                     bonded_nodes_})),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
-        supports_(supports, secondary_.node_id, comm),
-        primary_supports_(supports, primary_.node_id, comm),
         points_(secondary_, nodes_, faces_, rays_, nearest_),
         writer_(secondary_, primary_, supports_, primary_supports_, dimension_, rotation_of(options)),
         conflicts_(primary_, writer_, dimension_)
@@ -351,6 +354,7 @@ class Builder {
   const Share& share_;
   const Side &secondary_, &primary_;
   const std::vector<UnbondedNode>& unbonded_nodes_;
+  SupportedNodes supports_, primary_supports_;
   SurfaceNodes nodes_, primary_nodes_;
   CutFaces faces_;  // once dual, those near have their share of the rows
   Tree tree_;       // of the primary facets
@@ -359,10 +363,10 @@ class Builder {
   std::vector<NearestPoint> nearest_;  // of each surface node, or none
   std::optional<OnePart> one_part_;    // once one is asked
   std::optional<RowsBetween> between_;
+  std::vector<std::vector<Local>> bonded_nodes_;  // of the primary side
   std::unique_ptr<Discretization> discretization_;
   OneSurface one_surface_;
   InitialGap initial_gap_;
-  SupportedNodes supports_, primary_supports_;
   ContactPoints points_;
   RowWriter writer_;
   SupportConflicts conflicts_;
@@ -382,6 +386,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
   const SupportDirectory directory(prescribed, skew_supports, comm);
   std::vector<UnbondedNode> unbonded_nodes;  // this rank's nodes by number, not by place; see by_node()
   const CurvedFaces curved(curved_faces, comm);
+  const FacesAtBonds at_bonds(pairs, kinematics, comm);
   if (initial_gaps) initial_gaps->assign(pairs.size(), {});
   const auto add = [&](std::size_t c) {
     const auto& options = pairs[c].options;
@@ -389,7 +394,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
     std::vector<UnbondedNode> at_seam;
     if (options.law == Law::bonded && comm.any(!unbonded_nodes.empty()))
       at_seam = answer(unbonded_nodes, ask(share.secondary.node_id, comm), comm);
-    Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, at_seam, curved, kinematics, comm);
+    Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, at_bonds, at_seam, curved, kinematics, comm);
     builder.set_touching(touching_gap(sizes[c].extent, sizes[c].secondary_face));
     builder.add_rows(contacts, directory, comm);
     if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);

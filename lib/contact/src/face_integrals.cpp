@@ -36,7 +36,7 @@ Eigen::Vector4d whole_of(const FaceGeometry& face)
 
 Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary,
                        const SurfaceNodes& primary_nodes, const Tree& tree, double reach, bool corners,
-                       const std::vector<NearestPoint>& nearest)
+                       const std::vector<NearestPoint>& nearest, std::span<const std::vector<Local>> bonded)
     : secondary_(secondary),
       secondary_nodes_(secondary_nodes),
       primary_(primary),
@@ -45,7 +45,8 @@ Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_node
       reach_(reach),
       nearest_(nearest),
       slot_(primary.points.size(), -1),
-      covered_face_(secondary, primary, corners)
+      covered_face_(secondary, primary, corners),
+      bonded_(bonded)
 {
 }
 
@@ -228,7 +229,7 @@ Cover Integrator::cover(std::size_t face)
 {
   integrate_face(face);
   if (piece_->nodes.empty()) return {};
-  if (body_of_.empty()) body_of_ = connected_parts(primary_);
+  if (body_of_.empty()) body_of_ = connected_parts(primary_, bonded_);
   const auto body = [&](Local node) { return body_of_[static_cast<std::size_t>(node)]; };
   const Local first = body(piece_->nodes[0]);
   const bool one = std::ranges::all_of(piece_->nodes, [&](Local node) { return body(node) == first; });

@@ -19,9 +19,10 @@ namespace mortise::contact {
 class Integrator {
  public:
   /// All of which must outlive it. `tree` has the facets of the primary side; `nearest` are those of nearest_points(). `corners`:
-  /// those of the common base have rows of their own.
+  /// those of the common base have rows of their own. `bonded`: see TwoSides.
   Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
-             const Tree& tree, double reach, bool corners, const std::vector<NearestPoint>& nearest);
+             const Tree& tree, double reach, bool corners, const std::vector<NearestPoint>& nearest,
+             std::span<const std::vector<Local>> bonded);
   /// Everything on the primary side that a face looks at within reach: one piece, or those of its facets; `in_facets`: of these
   /// in any case. Valid until the next call.
   std::span<const PieceIntegrals> integrate(std::size_t face, bool in_facets);
@@ -67,6 +68,7 @@ class Integrator {
   CoveredFace covered_face_;           // at work, if it is cut
   std::optional<CoveredBasis> basis_;  // if it has points of its own
   std::vector<int> met_;
+  std::span<const std::vector<Local>> bonded_;
   std::vector<Local> body_of_;  // of each primary node, once it is asked for
 };
 

@@ -12,7 +12,7 @@ class Mortar : public Discretization {
   explicit Mortar(const TwoSides& sides)
       : Discretization(sides),
         integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.reach,
-                    sides.corners, sides.nearest)
+                    sides.corners, sides.nearest, sides.bonded)
   {
   }
 

@@ -29,6 +29,9 @@ constexpr double bent = 1e-3;
 // Of what n + m changes by along an edge of the border: how far it may point inside there, where both bodies end in a plane of
 // symmetry, or the other side comes nearer and nearer beyond.
 constexpr double inside_border = 0.05;
+// The same of what points across the border at all, both ways, where the place is looked for on it first: the faces on one side of
+// it say nothing of what lies on the other.
+constexpr double across_border = 1e-3;
 // Of shape functions: what a place in a facet may lie outside of it by rounding, and by what planes of two facets differ by.
 constexpr double within = 1e-6, between_planes = 0.02;
 
@@ -60,11 +63,13 @@ class Search {
     if (round(p).empty()) return {};
     size_ = 0;
     for (const auto& at : round(p)) size_ = std::max(size_, side_.geometry(at.facet).size());
+    for (const auto& at : round(p))
+      if (const auto found = step_along_border(p, at, true); found.found) return found;
     if (const auto found = step_from_node(p); found.found) return found;
     for (const auto& at : round(p))
       if (const auto found = step_into(p, at); found.found) return found;
     for (const auto& at : round(p))
-      if (const auto found = step_along_border(p, at); found.found) return found;
+      if (const auto found = step_along_border(p, at, false); found.found) return found;
     return looks_for_nodes(p) ? step_to_node(p) : NearestPoint();
   }
 
@@ -114,19 +119,20 @@ class Search {
   }
 
   // Along the edges of a facet from a node that the border has, where n + m has nothing along them: by secants between both ends.
-  NearestPoint step_along_border(std::size_t p, const Corner& at)
+  // `symmetric`: where it has nothing across them either.
+  NearestPoint step_along_border(std::size_t p, const Corner& at, bool symmetric)
   {
     const auto nodes = side_.facets[at.facet];
     const std::size_t count = nodes.size();
     if (count == 2) return {};
     for (const std::size_t end : {(at.corner + 1) % count, (at.corner + count - 1) % count}) {
       if (shared(p, at.facet, nodes[end])) continue;
-      if (const auto found = step_along_edge(p, at, end); found.found) return found;
+      if (const auto found = step_along_edge(p, at, end, symmetric); found.found) return found;
     }
     return {};
   }
 
-  NearestPoint step_along_edge(std::size_t p, const Corner& at, std::size_t end)
+  NearestPoint step_along_edge(std::size_t p, const Corner& at, std::size_t end, bool symmetric)
   {
     const auto geometry = side_.geometry(at.facet);
     const Point edge = geometry.nodes[end] - geometry.nodes[at.corner];
@@ -139,6 +145,9 @@ class Search {
     const double change = at_to - at_from, length = edge.norm();
     if (!(at_from <= 0) || !(at_to > 0) || !(change > bent * length) || !(change > parallel * first->curvature * length * length))
       return {};
+    inside.normalize();
+    const auto across = [&](const Rays::Tilt& tilt) { return std::abs(tilt.difference.dot(inside)) > across_border * change / length; };
+    if (symmetric && (across(*first) || across(*last))) return {};
     double s = 0, step = 1;
     Rays::Tilt here = *first;
     for (int i = 0; i < most_steps && step > exact; ++i) {
@@ -157,7 +166,7 @@ class Search {
         to = s, at_to = slope;
       if (to - from < exact) break;
     }
-    if (here.difference.dot(inside.normalized()) < -inside_border * change / length) return {};
+    if (here.difference.dot(inside) < -inside_border * change / length) return {};
     return accepted(p, s * edge);
   }
 

@@ -63,7 +63,6 @@ void join_rows(std::vector<NodeState>& nodes)
 // What a place between nodes gives one of them. Those that bear next to nothing of it are not closed for it.
 NodeState part_of(const NodeState& place, const constraint::Part& part)
 {
-  constexpr double bears = 0.1;
   NodeState result = place;
   result.node = part.node;
   result.normal = {part.normal[0], part.normal[1], part.normal[2]};

@@ -22,6 +22,9 @@ struct NodeState {
   double closed = 0;                             ///< part of its area that counts as closed
 };
 
+/// Less of what presses at a place between nodes does not close a node.
+inline constexpr double bears = 0.1;
+
 /// Those of this rank's own nodes, ascending by node, contact and side. What presses on a corner of the primary side counts with
 /// the node beside it. Collective.
 std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Communicator& comm);

@@ -10,7 +10,7 @@ class NodeToSegment : public Discretization {
   explicit NodeToSegment(const TwoSides& sides)
       : Discretization(sides),
         integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.reach, false,
-                    none_)
+                    none_, sides.bonded)
   {
   }
 

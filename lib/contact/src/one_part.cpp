@@ -5,16 +5,20 @@
 
 namespace mortise::contact {
 
-std::vector<Local> connected_parts(const Side& side)
+std::vector<Local> connected_parts(const Side& side, std::span<const std::vector<Local>> bonded)
 {
   std::vector<Local> parent(side.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](Local n) {
-    while (parent[static_cast<std::size_t>(n)] != n) n = parent[static_cast<std::size_t>(n)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(n)])];
+    while (parent[static_cast<std::size_t>(n)] != n)
+      n = parent[static_cast<std::size_t>(n)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(n)])];
     return n;
   };
-  for (std::size_t f = 0; f < side.faces.size(); ++f)
-    for (const Local n : side.faces[f]) parent[static_cast<std::size_t>(root(n))] = root(side.faces[f][0]);
+  const auto join = [&](std::span<const Local> nodes) {
+    for (const Local n : nodes) parent[static_cast<std::size_t>(root(n))] = root(nodes[0]);
+  };
+  for (std::size_t f = 0; f < side.faces.size(); ++f) join(side.faces[f]);
+  for (const auto& nodes : bonded) join(nodes);
   for (Local n = 0; n < static_cast<Local>(parent.size()); ++n) parent[static_cast<std::size_t>(n)] = root(n);
   return parent;
 }

@@ -1,6 +1,7 @@
 // A multiplier that acts at one place pushes on the one body that is there.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "face_integrals.hpp"
@@ -8,8 +9,9 @@
 
 namespace mortise::contact {
 
-/// Of each node of a side the number of the part that it belongs to: faces that share a node are of one.
-std::vector<Local> connected_parts(const Side& side);
+/// Of each node of a side the number of the part that it belongs to: faces that share a node are of one, and so are nodes that are
+/// `bonded`.
+std::vector<Local> connected_parts(const Side& side, std::span<const std::vector<Local>> bonded);
 
 class OnePart {
  public:

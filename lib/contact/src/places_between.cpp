@@ -9,7 +9,8 @@ namespace mortise::contact {
 
 namespace {
 
-constexpr double beside_edge_of_facet = 0.05;  // a shape function
+constexpr double beside_edge_of_facet = 0.05, on_edge_of_facet = 1e-6;  // shape functions
+constexpr double straight_border = 0.7;                                 // cosine: beyond a corner is another border
 
 // A surface node whose place is between nodes.
 struct Taken {
@@ -26,10 +27,18 @@ class Selection {
  public:
   Selection(const Side& secondary, const SurfaceNodes& surface_nodes, const CutFaces& faces,
             const std::function<Cover(std::size_t face)>& cover)
-      : secondary_(secondary), nodes_(surface_nodes), cover_(cover), faces_at_(secondary.points.size())
+      : secondary_(secondary),
+        nodes_(surface_nodes),
+        cover_(cover),
+        faces_at_(secondary.points.size()),
+        facets_at_(secondary.points.size())
   {
-    for (const std::size_t f : faces.round())
+    for (const std::size_t f : faces.round()) {
       for (const Local n : secondary.faces[f]) faces_at_[static_cast<std::size_t>(n)].push_back(f);
+      for (auto facet = static_cast<std::size_t>(secondary.first_facet[f]);
+           facet < static_cast<std::size_t>(secondary.first_facet[f + 1]); ++facet)
+        for (const Local n : secondary.facets[facet]) facets_at_[static_cast<std::size_t>(n)].push_back(facet);
+    }
   }
 
   // Whether one body covers the face of a facet as a whole, and no other what is round its corners.
@@ -50,25 +59,67 @@ class Selection {
   {
     const auto id = [&](Local n) { return secondary_.node_id[static_cast<std::size_t>(n)]; };
     PlaceBetween place{p,  id(nodes_.all[p].node), {nearest.facet, nearest.shape}, Point::Zero(), Point::Zero(),
-                       secondary_.geometry(nearest.facet).size(), {}, {}};
+                       {}, {}, {}};
     const auto corners = secondary_.facets[nearest.facet];
     for (std::size_t c = 0; c < corners.size(); ++c) {
       const auto corner = static_cast<std::size_t>(corners[c]);
       place.at += nearest.shape[static_cast<Eigen::Index>(c)] * secondary_.points[corner];
       place.normal += nearest.shape[static_cast<Eigen::Index>(c)] * nodes_.normal(secondary_, nearest.facet, c);
       place.corners.push_back(id(corners[c]));
+      place.facet.push_back(at(corners[c]));
       // On an edge or next to it the nodes round that, so that those on both of its sides count alike.
       if (nearest.shape[static_cast<Eigen::Index>(c)] < beside_edge_of_facet) continue;
       for (const std::size_t f : faces_at_[corner])
         for (const Local n : secondary_.faces[f]) place.round.push_back(id(n));
     }
     place.normal.normalize();
+    if (const auto [a, b] = border_edge(nearest); a >= 0) {
+      place.edge = (at(b) - at(a)).normalized();
+      place.round = {id(a), id(b)};
+      for (const auto& [end, direction] : {std::pair(a, Point(-place.edge)), std::pair(b, place.edge)})
+        if (const Local n = next_on_border(end, direction); n >= 0) place.round.push_back(id(n));
+    }
     std::ranges::sort(place.round);
     place.round.erase(std::ranges::unique(place.round).begin(), place.round.end());
     return place;
   }
 
  private:
+  const Point& at(Local n) const { return secondary_.points[static_cast<std::size_t>(n)]; }
+
+  // The edge of the border that a place is on, or -1.
+  std::pair<Local, Local> border_edge(const NearestPoint& nearest) const
+  {
+    const auto corners = secondary_.facets[nearest.facet];
+    Few<Local, 4> ends;
+    for (std::size_t c = 0; c < corners.size(); ++c)
+      if (nearest.shape[static_cast<Eigen::Index>(c)] > on_edge_of_facet) ends.push_back(corners[c]);
+    if (corners.size() == 2 || ends.size() != 2 || facets_with(ends[0], ends[1]) != 1) return {-1, -1};
+    return {ends[0], ends[1]};
+  }
+
+  // How many facets have the edge from a to b.
+  long facets_with(Local a, Local b) const
+  {
+    return std::ranges::count_if(facets_at_[static_cast<std::size_t>(a)], [&](std::size_t facet) {
+      const auto corners = secondary_.facets[facet];
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        const Local next = corners[(c + 1) % corners.size()];
+        if ((corners[c] == a && next == b) || (corners[c] == b && next == a)) return true;
+      }
+      return false;
+    });
+  }
+
+  // The node that the border goes on to from another, along a direction, or -1.
+  Local next_on_border(Local from, const Point& direction) const
+  {
+    for (const std::size_t facet : facets_at_[static_cast<std::size_t>(from)])
+      for (const Local n : secondary_.facets[facet])
+        if (n != from && (at(n) - at(from)).normalized().dot(direction) > straight_border && facets_with(from, n) == 1) return n;
+    return -1;
+  }
+
   const Cover& cover_of(std::size_t face)
   {
     const auto [known, first] = covers_.try_emplace(face);
@@ -79,7 +130,7 @@ class Selection {
   const Side& secondary_;
   const SurfaceNodes& nodes_;
   const std::function<Cover(std::size_t face)>& cover_;
-  std::vector<std::vector<std::size_t>> faces_at_;  // of each node
+  std::vector<std::vector<std::size_t>> faces_at_, facets_at_;  // of each node
   std::map<std::size_t, Cover> covers_;             // of the faces that were asked about
 };
 

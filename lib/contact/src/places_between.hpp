@@ -21,9 +21,10 @@ struct PlaceBetween {
   Global node;               ///< there
   Rays::FacetPoint where;
   Point at, normal;            ///< of the secondary side
-  double size;                 ///< of the facet
   std::vector<Global> corners; ///< of the facet
-  std::vector<Global> round;   ///< nodes of the faces round these, ascending
+  std::vector<Point> facet;    ///< where these are
+  std::vector<Global> round;   ///< nodes of the faces round these, ascending; of a place on an edge of the border those along it
+  Point edge = Point::Zero();  ///< the direction of the border, if the place is on it
 };
 
 /// What the other side covers of a face.

@@ -16,8 +16,9 @@ namespace {
 constexpr double one_normal = 0.75;    // cosine: rows on the other side of a kink say nothing here
 constexpr double largest_weights = 2;  // the sum of their sizes: more is an extrapolation
 constexpr double least_weight = 1e-9;  // less is none
-// What a node that is covered all round may lack of its cover and of the weight of its row.
-constexpr double of_cover = 0.01, of_weight = 1e-9;
+// A node's row means the field at its place, also where that was moved, if this part of its surroundings is covered, and if it
+// stands in for no others to speak of.
+constexpr double least_cover_of_node = 0.4, of_weight = 1e-3;
 
 // The nodes of this rank that places of others ask for, ascending. Collective.
 std::vector<Global> asked_for(std::span<const PlaceBetween> places, const std::vector<Global>& own, const Communicator& comm)
@@ -34,21 +35,36 @@ std::vector<Global> asked_for(std::span<const PlaceBetween> places, const std::v
   return result;
 }
 
-// Polynomials up to an order at points, in rows.
-Eigen::MatrixXd polynomials_at(const Eigen::Matrix2Xd& x, int dimension, int order)
+// Polynomials of second order at points, in rows, those of first order first.
+Eigen::MatrixXd polynomials_at(const Eigen::Matrix2Xd& x, int dimension)
 {
   const auto s = x.row(0).array(), t = x.row(1).array();
   const bool plane = dimension == 3;
-  Eigen::MatrixXd p((order == 2 ? 3 : 2) + (plane ? (order == 2 ? 3 : 1) : 0), x.cols());
+  Eigen::MatrixXd p(plane ? 6 : 3, x.cols());
   Eigen::Index row = 0;
   p.row(row++).setOnes();
   p.row(row++) = s;
   if (plane) p.row(row++) = t;
-  if (order < 2) return p;
   p.row(row++) = s * s;
   if (plane) p.row(row++) = s * t;
   if (plane) p.row(row++) = t * t;
   return p;
+}
+
+// S such that x' S^-1 x = 1 is an ellipse as large as the facet, within a square one the circle with its edge as radius; `axes`: of
+// the plane, of a line the second is 0.
+Eigen::Matrix2d size_of_facet(std::span<const Point> corners, const Eigen::Matrix<double, 3, 2>& axes)
+{
+  const double part = 1.0 / static_cast<double>(corners.size());
+  Point centre = Point::Zero();
+  for (const auto& x : corners) centre += part * x;
+  Eigen::Matrix2d result = Eigen::Matrix2d::Zero();
+  for (const auto& x : corners) {
+    const Eigen::Vector2d d = axes.transpose() * (x - centre);
+    result += 4 * part * d * d.transpose();
+  }
+  if (axes.col(1).isZero(0)) result(1, 1) = 1;
+  return result;
 }
 
 // The nodes of one side that terms speak of.
@@ -73,13 +89,19 @@ Side nodes_of(const Terms& terms, bool on_primary, fem::Kinematics kinematics)
 
 Eigen::VectorXd weights_between(const Eigen::Matrix2Xd& x, int dimension)
 {
-  constexpr double exact = 1e-6;
+  constexpr double exact = 1e-6, nearly = 1e-3;
   const Eigen::VectorXd nearness = (-0.5 * x.colwise().squaredNorm().array()).exp();
-  for (const int order : {2, 1}) {
-    const Eigen::MatrixXd p = polynomials_at(x, dimension, order);
-    const Eigen::VectorXd wanted = Eigen::VectorXd::Unit(p.rows(), 0);
-    const Eigen::VectorXd w = nearness.cwiseProduct(dense::minimum_norm(p * nearness.asDiagonal(), wanted).col(0));
-    if ((p * w - wanted).lpNorm<Eigen::Infinity>() < exact && w.lpNorm<1>() < largest_weights) return w;
+  const Eigen::MatrixXd p = polynomials_at(x, dimension);
+  const Eigen::Index n = x.cols(), linear = dimension, all = p.rows();
+  // Where nodes do not tell those of second order apart, what is left of them is small beside the weights.
+  for (const double left : {0.0, nearly}) {
+    Eigen::MatrixXd conditions = Eigen::MatrixXd::Zero(all, n + all - linear);
+    conditions.leftCols(n) = p * nearness.asDiagonal();
+    conditions.bottomRightCorner(all - linear, all - linear).diagonal().setConstant(left);
+    const Eigen::VectorXd found = dense::minimum_norm(conditions, Eigen::VectorXd::Unit(all, 0)).col(0);
+    const Eigen::VectorXd w = nearness.cwiseProduct(found.head(n));
+    const Eigen::VectorXd sums = p * w - Eigen::VectorXd::Unit(all, 0);
+    if (sums.head(left == 0 ? all : linear).lpNorm<Eigen::Infinity>() < exact && w.lpNorm<1>() < largest_weights) return w;
   }
   return {};
 }
@@ -132,7 +154,7 @@ void RowsBetween::curve_more(const PlaceBetween& place, std::span<const Neighbou
   w += more * (w - flat);
 }
 
-// Those round a place, and their weights in its row: of nodes that are covered all round and have no control values, which alone
+// Those round a place, and their weights in its row: of nodes that are covered and have no control values, which alone
 // say what is at their places; if they are too few, of the corners of its facet, as its shape functions are.
 RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimension) const
 {
@@ -140,22 +162,24 @@ RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimensio
   const auto candidates = at(place.round, place.normal);
   std::vector<const Neighbour*> whole;
   for (const auto* node : candidates)
-    if (node->means_field && node->cover > 1 - of_cover && std::abs(node->weight - 1) < of_weight) whole.push_back(node);
-  const auto axes = tangent_plane(place.normal, dimension);
+    if (node->means_field && node->cover > least_cover_of_node && std::abs(node->weight - 1) < of_weight) whole.push_back(node);
+  const bool on_border = !place.edge.isZero(0);
+  auto axes = tangent_plane(place.normal, dimension);
+  if (on_border) axes << place.edge, Point::Zero();
   Eigen::Matrix2Xd x(2, static_cast<Eigen::Index>(whole.size()));
   for (std::size_t i = 0; i < whole.size(); ++i)
-    x.col(static_cast<Eigen::Index>(i)) = axes.transpose() * (unpacked(whole[i]->at) - place.at) / place.size;
-  Eigen::VectorXd w = whole.empty() ? Eigen::VectorXd() : weights_between(x, dimension);
+    x.col(static_cast<Eigen::Index>(i)) = axes.transpose() * (unpacked(whole[i]->at) - place.at);
+  x = size_of_facet(place.facet, axes).llt().matrixL().solve(x);
+  Eigen::VectorXd w = whole.empty() ? Eigen::VectorXd() : weights_between(x, on_border ? 2 : dimension);
   if (w.size() > 0) curve_more(place, whole, w);
   for (Eigen::Index i = 0; i < w.size(); ++i)
     if (std::abs(w[i]) > least_weight) result.emplace_back(whole[static_cast<std::size_t>(i)], w[i]);
-  if (!result.empty()) return result;
+  if (result.empty())
+    for (const auto* node : candidates)
+      if (const auto corner = std::ranges::find(place.corners, node->node); corner != place.corners.end())
+        result.emplace_back(node, std::max(place.where.shape[corner - place.corners.begin()], 0.0));
   double sum = 0;
-  for (const auto* node : candidates)
-    if (const auto corner = std::ranges::find(place.corners, node->node); corner != place.corners.end()) {
-      result.emplace_back(node, std::max(place.where.shape[corner - place.corners.begin()], 0.0));
-      sum += result.back().second;
-    }
+  for (const auto& part : result) sum += part.second;
   if (!(sum > 0)) return {};
   for (auto& part : result) part.second /= sum;
   return result;

@@ -85,9 +85,10 @@ class RowsBetween {
   std::vector<SentTerm> terms_;     // of these
 };
 
-/// Weights w of N points (2 x N, coordinates from a place, in units of the distance that counts as near; in one dimension the
-/// second are 0) with sum w_i p(x_i) = p(0) for polynomials of second order, or of first if points do not tell those apart; those
-/// of which sum w_i^2 exp |x_i|^2 is least. Empty if there are none that interpolate.
+/// Weights w of N points (2 x N, coordinates from a place, in units of the facet's size; in one dimension the second are 0) with
+/// sum w_i p(x_i) = p(0) for polynomials of second order; where points do not tell those apart for polynomials of first order, and
+/// the others as nearly as they can. Of such weights those of which sum w_i^2 exp |x_i|^2 is least. Empty if there are none that
+/// interpolate.
 Eigen::VectorXd weights_between(const Eigen::Matrix2Xd& x, int dimension);
 
 }  // namespace mortise::contact

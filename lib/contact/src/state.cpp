@@ -48,6 +48,10 @@ std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> points, 
       auto state = points[i];
       state.contact = image.contact;
       state.node = image.node;
+      if (!state.parts.empty()) {
+        state.parts = {{image.node, 1, image.rotation * state.normal}};
+        if (image.part < bears / 2) state.status = Status::open;
+      }
       for (Point* vector : {&state.normal, &state.force_on_secondary, &state.slip}) *vector = image.rotation * *vector;
       take(state, image.part);
       own -= image.part;

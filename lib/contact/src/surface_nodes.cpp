@@ -168,7 +168,7 @@ double Bulge::quadratic(const Eigen::Vector4d& shape) const
   return result;
 }
 
-SurfaceNodes find_surface_nodes(const Side& side)
+SurfaceNodes surface_nodes_of_facets(const Side& side)
 {
   // The corners of facets round each node, in the order of the facets, and the normal and its weight there.
   const std::size_t nodes = side.points.size(), count = side.facets.nodes.size();
@@ -219,12 +219,23 @@ SurfaceNodes find_surface_nodes(const Side& side)
   const SurfaceNodes means = surface_nodes;
   const auto border = continue_curvature(side, surface_nodes);
   if (side.kinematics == fem::Kinematics::solid) fit_normals(side, means, border, surface_nodes);
+  return surface_nodes;
+}
+
+void number_nodes_of_faces(const Side& side, SurfaceNodes& surface_nodes)
+{
   surface_nodes.of_node.resize(side.faces.nodes.size());
   for (std::size_t f = 0; f < side.facets.size(); ++f)
     for (std::size_t k = 0; k < side.facets[f].size(); ++k)
       surface_nodes
           .of_node[static_cast<std::size_t>(side.faces.offset[static_cast<std::size_t>(side.face_of[f])] + side.corners[f][k])] =
           surface_nodes.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k];
+}
+
+SurfaceNodes find_surface_nodes(const Side& side)
+{
+  auto surface_nodes = surface_nodes_of_facets(side);
+  number_nodes_of_faces(side, surface_nodes);
   return surface_nodes;
 }
 

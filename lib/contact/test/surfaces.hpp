@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "contact/cyclic.hpp"
 #include "contact/mortar.hpp"
 
 namespace mortise::contact {
@@ -171,6 +172,44 @@ inline Pair make_pair(const mesh::Surface& secondary, const mesh::Surface& prima
   Options options;
   options.law = law;
   return {options, secondary, std::make_shared<const mesh::Surface>(primary)};
+}
+
+// The faces below the edge of a side in the plane where a coordinate is 0, which look out of the body; new nodes from `first_id` on.
+// On rank 0.
+inline mesh::Surface cut_below(const mesh::Surface& side, int coordinate, Global first_id, const Communicator& comm)
+{
+  mesh::Surface result;
+  std::map<Global, Point> edge;
+  for (std::size_t n = 0; n < side.points.size(); ++n)
+    if (side.points[n][coordinate] == 0) edge[side.node_id[n]] = side.points[n];
+  std::vector<double> flat;
+  for (const auto& [id, x] : edge) flat.insert(flat.end(), {static_cast<double>(id), x[0], x[1], x[2]});
+  flat = comm.all_gather(flat);
+  if (!comm.root()) return result;
+  for (std::size_t i = 0; i < flat.size(); i += 4) edge[static_cast<Global>(flat[i])] = Point(flat[i + 1], flat[i + 2], flat[i + 3]);
+  for (const auto& [id, x] : edge) result.node_id.push_back(id), result.points.push_back(x);
+  const auto count = static_cast<Local>(edge.size());
+  for (Local n = 0; n < count; ++n) {
+    result.node_id.push_back(first_id + n);
+    result.points.push_back(result.points[static_cast<std::size_t>(n)] - Point(0, 0, 1));
+    if (n + 1 == count) continue;
+    std::vector<Local> face{n, n + 1, n + 1 + count, n + count};
+    if (coordinate == 1) std::ranges::reverse(face);
+    result.faces.add(mesh::CellType::quad4, face);
+    result.face_id.push_back(first_id + n);
+    result.body.push_back(0);
+  }
+  return result;
+}
+
+// A bond of the cuts x = 0 and y = 0 below a side that is a quarter of the whole.
+inline Pair bond_of_quarter(const mesh::Surface& side, const Communicator& comm)
+{
+  Options cut;
+  cut.law = Law::bonded;
+  cut.cyclic.emplace();
+  cut.cyclic->angle = 90;
+  return {cut, cut_below(side, 0, 300000, comm), std::make_shared<const mesh::Surface>(rotated(cut_below(side, 1, 400000, comm), cut))};
 }
 
 }  // namespace mortise::contact

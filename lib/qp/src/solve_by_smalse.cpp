@@ -39,9 +39,17 @@ Solution smalse_to_goal(const Problem& problem, std::optional<Solution> start, c
     found.outer_iterations = outer += found.outer_iterations;
     if (!found.feasible) return found;
     found.error = error_bound(problem, found, preconditioner);
-    if (!found.converged) return found;
+    const auto believed = [&](bool rounding) {
+      return believable(found.error, rounding_of_error(problem, found.hessian_norm), found.x, found.nu, goal, rounding);
+    };
+    if (!found.converged) {
+      // Finer than the goal, and no steps make the residual smaller: what is left of it is rounding.
+      found.converged = !goal.allowed_error && tolerance < goal.residual && !problem.hessian.exhausted() &&
+                        std::max(found.projected_gradient, found.equality) <= goal.residual && believed(true);
+      return found;
+    }
     if (!goal.allowed_error || tolerance <= tolerances::finest) {
-      found.converged = believable(found.error, rounding_of_error(problem, found.hessian_norm), found.x, found.nu, goal);
+      found.converged = believed(tolerance <= tolerances::rounding);
       if (found.converged || tolerance <= tolerances::rounding) return found;
       tolerance *= 0.1;
     } else {
