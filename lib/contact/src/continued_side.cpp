@@ -18,8 +18,8 @@ namespace {
 // Facets that share nodes with the border, and those that share nodes with them: a normal asks for no others.
 constexpr int rings_beyond = 2;
 constexpr double same_node_across = 1e-3;  // of the shortest edge there
-// Of what the faces at a node lean from a right angle with a plane: more of it at the node itself is no symmetry.
-constexpr double leaning = 0.5;
+// Of what the faces on both sides of a border differ: more of it between the normals of the sides alone is a kink.
+constexpr double of_a_kink = 0.5;
 
 // A face of a contact next to a bond, and a node of it, on their way.
 struct SentFaceAtBond {
@@ -63,6 +63,47 @@ std::vector<double> shortest_edges(const Side& side)
   return result;
 }
 
+// The corners of facets at each node: facets, and its place in them.
+using Corners = std::vector<std::vector<std::pair<std::size_t, std::size_t>>>;
+Corners corners_of_nodes(const Side& side)
+{
+  Corners result(side.points.size());
+  for (std::size_t f = 0; f < side.facets.size(); ++f)
+    for (std::size_t k = 0; k < side.facets[f].size(); ++k) result[static_cast<std::size_t>(side.facets[f][k])].emplace_back(f, k);
+  return result;
+}
+
+// What the normals of a side are at a node: its faces', and those of its surface nodes there.
+struct NormalsAt {
+  std::vector<Point> faces, node;
+};
+NormalsAt normals_at(const Side& side, const SurfaceNodes& surface_nodes, const Corners::value_type& corners)
+{
+  NormalsAt result;
+  for (const auto& [f, k] : corners) {
+    result.faces.push_back(side.geometry(f).normal());
+    result.node.push_back(surface_nodes.normal(side, f, k));
+  }
+  return result;
+}
+
+// How far the normals of a are from the nearest of b at most.
+double apart(const std::vector<Point>& a, const std::vector<Point>& b)
+{
+  double most = 0;
+  for (const auto& n : a) {
+    double least = 2;
+    for (const auto& m : b) least = std::min(least, (n - m).norm());
+    most = std::max(most, least);
+  }
+  return most;
+}
+
+bool goes_on(const NormalsAt& a, const NormalsAt& b)
+{
+  return apart(a.node, b.node) <= of_a_kink * std::max(apart(a.faces, b.faces), rounding);
+}
+
 // A plane of symmetry, and which points of a side lie in it.
 struct SymmetryPlane {
   Point normal;
@@ -76,11 +117,8 @@ struct SymmetryPlane {
 class SymmetryPlanes {
  public:
   SymmetryPlanes(const Side& side, const SurfaceNodes& surface_nodes, const SupportedNodes& supports)
-      : side_(side), nodes_(surface_nodes), supports_(supports), corners_(side.points.size())
+      : side_(side), nodes_(surface_nodes), supports_(supports), corners_(corners_of_nodes(side))
   {
-    for (std::size_t f = 0; f < side.facets.size(); ++f)
-      for (std::size_t k = 0; k < side.facets[f].size(); ++k)
-        corners_[static_cast<std::size_t>(side.facets[f][k])].emplace_back(f, k);
     for (std::size_t f = 0; f < side.facets.size(); ++f) add_border_of(f);
   }
 
@@ -146,7 +184,7 @@ class SymmetryPlanes {
       faces = std::max(faces, std::abs(side_.geometry(f).normal().dot(direction)));
       node = std::max(node, std::abs(nodes_.normal(side_, f, k).dot(direction)));
     }
-    return faces < leaning && node <= leaning * faces;
+    return faces < 0.5 && node <= of_a_kink * faces;
   }
 
   // The edge from a to b, or the end a = b of a curve.
@@ -173,7 +211,7 @@ class SymmetryPlanes {
   const Side& side_;
   const SurfaceNodes& nodes_;
   const SupportedNodes& supports_;
-  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> corners_;  // of each node: facets, and its place in them
+  Corners corners_;
   std::vector<SymmetryPlane> planes_;
 };
 
@@ -308,10 +346,10 @@ FacesAtBonds::FacesAtBonds(std::span<const Pair> pairs, fem::Kinematics kinemati
       auto& moved = at_bond_[c][static_cast<std::size_t>(at_side)];
       moved.faces = assemble(its_nodes, its_faces, kinematics);
       for (const Global id : moved.faces.node_id) moved.in_bond.push_back(static_cast<char>(in_bond.at(id)));
-      const auto rotation = rotation_of(pairs[c].options);
-      if (!rotation) continue;
-      for (auto& x : moved.faces.points)
-        x = at_side == 0 ? (*rotation)(x) : Point(rotation->rotation.transpose() * (x - rotation->translation));
+      if (const auto rotation = rotation_of(pairs[c].options))
+        for (auto& x : moved.faces.points)
+          x = at_side == 0 ? (*rotation)(x) : Point(rotation->rotation.transpose() * (x - rotation->translation));
+      moved.surface_nodes = find_surface_nodes(moved.faces);
     }
 }
 
@@ -326,47 +364,52 @@ std::vector<std::vector<Local>> FacesAtBonds::held_together(const Side& side, co
   return result;
 }
 
-void FacesAtBonds::append_to(Side& side, const Communicator& comm) const
+void FacesAtBonds::append_to(Side& whole, const Side& side, const SurfaceNodes& alone, const Communicator& comm) const
 {
   if (at_bond_.empty()) return;
-  const auto ids = side.node_id;
   std::map<std::pair<int, int>, std::vector<Local>> at;  // the side's nodes, by bond and side of it
-  for (const auto& n : answer(nodes_, ask(ids, comm), comm))
-    at[{n.bond, n.side}].push_back(static_cast<Local>(std::ranges::lower_bound(ids, n.node) - ids.begin()));
+  for (const auto& n : answer(nodes_, ask(side.node_id, comm), comm))
+    at[{n.bond, n.side}].push_back(static_cast<Local>(std::ranges::lower_bound(side.node_id, n.node) - side.node_id.begin()));
+  if (at.empty()) return;
+  const Corners corners = corners_of_nodes(side);
   for (const auto& [bond, nodes] : at) {
     const auto& beyond = at_bond_[static_cast<std::size_t>(bond.first)][static_cast<std::size_t>(1 - bond.second)];
+    const auto& points = beyond.faces.points;
     const auto edges = shortest_edges(beyond.faces);
+    const Corners corners_beyond = corners_of_nodes(beyond.faces);
     std::vector<Box> boxes;
     for (const Local n : nodes) {
       const Point& x = side.points[static_cast<std::size_t>(n)];
       boxes.emplace_back(x, x);
     }
     const Tree tree(std::move(boxes));
-    std::vector<Local> local(beyond.faces.points.size(), -1);
+    std::vector<Local> local(points.size(), -1);
     std::vector<char> common(local.size(), 0);
     for (std::size_t n = 0; n < local.size(); ++n) {
       if (!beyond.in_bond[n]) continue;
-      const Point& x = beyond.faces.points[n];
       double nearest = same_node_across * edges[n];
-      for (const int i : tree.candidates(grown(Box(x, x), nearest))) {
-        const Local found = nodes[static_cast<std::size_t>(i)];
-        if (const double distance = (side.points[static_cast<std::size_t>(found)] - x).norm(); distance <= nearest)
-          nearest = distance, local[n] = found, common[n] = 1;
+      for (const int i : tree.candidates(grown(Box(points[n], points[n]), nearest))) {
+        const auto found = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
+        const double distance = (side.points[found] - points[n]).norm();
+        if (distance > nearest || !goes_on(normals_at(side, alone, corners[found]),
+                                           normals_at(beyond.faces, beyond.surface_nodes, corners_beyond[n])))
+          continue;
+        nearest = distance, local[n] = static_cast<Local>(found), common[n] = 1;
       }
     }
     const auto chosen = facets_round(beyond.faces.facets, common);
     for (std::size_t f = 0; f < chosen.size(); ++f) {
       if (!chosen[f]) continue;
-      std::vector<Local> corners;
+      std::vector<Local> facet;
       for (const Local n : beyond.faces.facets[f]) {
         auto& here = local[static_cast<std::size_t>(n)];
         if (here < 0) {
-          here = static_cast<Local>(side.points.size());
-          side.points.push_back(beyond.faces.points[static_cast<std::size_t>(n)]);
+          here = static_cast<Local>(whole.points.size());
+          whole.points.push_back(points[static_cast<std::size_t>(n)]);
         }
-        corners.push_back(here);
+        facet.push_back(here);
       }
-      side.facets.add(beyond.faces.facets.type[f], corners);
+      whole.facets.add(beyond.faces.facets.type[f], facet);
     }
   }
 }
@@ -375,9 +418,9 @@ SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports
                                 const Communicator& comm)
 {
   Side whole;
-  whole.kinematics = side.kinematics, whole.node_id = side.node_id, whole.points = side.points, whole.facets = side.facets;
-  at_bonds.append_to(whole, comm);
+  whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets;
   auto alone = find_surface_nodes(side);
+  at_bonds.append_to(whole, side, alone, comm);
   SymmetryPlanes planes(side, alone, supports);
   for (auto& plane : planes.all()) {
     find_appended(whole, plane);

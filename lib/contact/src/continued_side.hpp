@@ -22,9 +22,9 @@ class FacesAtBonds {
 
   /// Of each bond the nodes of a side that it holds together. Collective.
   std::vector<std::vector<Local>> held_together(const Side& side, const Communicator& comm) const;
-  /// Appends to a side, to its points and facets alone, those that go on from it: they have nodes in common with it, once they are
-  /// moved across the bond. Collective.
-  void append_to(Side& side, const Communicator& comm) const;
+  /// Appends to `whole`, to its points and facets alone, those that go on from a side without a kink: they have nodes in common
+  /// with it, once they are moved across the bond. `alone`: the side's surface nodes. Collective.
+  void append_to(Side& whole, const Side& side, const SurfaceNodes& alone, const Communicator& comm) const;
 
  private:
   // A node on the secondary (1) or the primary (0) side of a bond.
@@ -36,6 +36,7 @@ class FacesAtBonds {
   struct Moved {
     Side faces;
     std::vector<char> in_bond;
+    SurfaceNodes surface_nodes;
   };
 
   std::vector<BondNode> nodes_;                // this rank's by number, see by_node()
@@ -43,8 +44,9 @@ class FacesAtBonds {
 };
 
 /// The surface nodes of a side, with the normals that they have on what it goes on in: across bonds, and beyond planes of symmetry.
-/// A plane is one if edges of the border lie in it, supports hold their nodes along its normal, and the side alone meets it nearly
-/// at a right angle, its normal leaning by less than half of what its faces do. Collective.
+/// A plane is one if edges of the border lie in it, and supports hold their nodes along its normal. Where the normals of both parts
+/// alone, or of the side alone and of its image, differ by more than half of what their faces do, there is a kink, and the side
+/// ends. Collective.
 SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports, const FacesAtBonds& at_bonds,
                                 const Communicator& comm);
 
