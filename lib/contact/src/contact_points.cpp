@@ -36,22 +36,25 @@ bool ContactPoints::means_field(std::size_t p)
 
 double ContactPoints::room(std::size_t p)
 {
-  constexpr double nothing = 1e-3;  // of the way to the next nodes: so much sides that end together may lie beside each other
+  constexpr double nothing = 1e-3;  // of the size of facets: so much sides that end together may lie beside each other
   if (faces_.is_corner(p)) return 0;
   const Local own = nodes_.all[faces_.surface_node(p)].node;
   const Point& node = secondary_.points[static_cast<std::size_t>(own)];
   const Point shift = nearest_place(p) ? Point(Point::Zero()) : Point(at(p).first - node);
   const double length = shift.norm();
-  double farthest = 0;
+  double farthest = 0, size = 0;
   for (const auto& function : faces_.at(p))
     for (auto facet = static_cast<std::size_t>(secondary_.first_facet[function.face]);
          facet < static_cast<std::size_t>(secondary_.first_facet[function.face + 1]); ++facet) {
       const auto corners = secondary_.facets[facet];
       if (std::find(corners.begin(), corners.end(), own) == corners.end()) continue;
-      for (const Local n : corners)
-        farthest = std::max(farthest, (secondary_.points[static_cast<std::size_t>(n)] - node).dot(shift));
+      for (const Local n : corners) {
+        const Point way = secondary_.points[static_cast<std::size_t>(n)] - node;
+        farthest = std::max(farthest, way.dot(shift));
+        size = std::max(size, way.norm());
+      }
     }
-  if (length * length <= nothing * farthest) return 1;
+  if (length <= nothing * size) return 1;
   return length * length < farthest ? 1 - length * length / farthest : 0;
 }
 

@@ -18,8 +18,10 @@ namespace {
 // Facets that share nodes with the border, and those that share nodes with them: a normal asks for no others.
 constexpr int rings_beyond = 2;
 constexpr double same_node_across = 1e-3;  // of the shortest edge there
-// Of what the faces on both sides of a border differ: more of it between the normals of the sides alone is a kink.
-constexpr double of_a_kink = 0.5;
+// The normals of both sides alone at a border may differ by this part of what the faces there do: more is a kink. So is less than
+// minus that part, as at a groove beside a bump; but for what is far below, as of a flat bottom with steep ends, of whose curvature the
+// two rows of nodes beside the border say nothing.
+constexpr double of_a_kink = 0.5, of_steep_ends = 3;
 
 // A face of a contact next to a bond, and a node of it, on their way.
 struct SentFaceAtBond {
@@ -64,44 +66,22 @@ std::vector<double> shortest_edges(const Side& side)
 }
 
 // The corners of facets at each node: facets, and its place in them.
-using Corners = std::vector<std::vector<std::pair<std::size_t, std::size_t>>>;
-Corners corners_of_nodes(const Side& side)
+using CornersOfNodes = std::vector<std::vector<std::pair<std::size_t, std::size_t>>>;
+CornersOfNodes corners_of_nodes(const Side& side)
 {
-  Corners result(side.points.size());
+  CornersOfNodes result(side.points.size());
   for (std::size_t f = 0; f < side.facets.size(); ++f)
     for (std::size_t k = 0; k < side.facets[f].size(); ++k) result[static_cast<std::size_t>(side.facets[f][k])].emplace_back(f, k);
   return result;
 }
 
-// What the normals of a side are at a node: its faces', and those of its surface nodes there.
-struct NormalsAt {
-  std::vector<Point> faces, node;
-};
-NormalsAt normals_at(const Side& side, const SurfaceNodes& surface_nodes, const Corners::value_type& corners)
+// Whether there is no kink where faces with these normals meet and the normals of each side alone are these.
+bool goes_on(const Point& face, const Point& alone, const Point& other_face, const Point& other_alone)
 {
-  NormalsAt result;
-  for (const auto& [f, k] : corners) {
-    result.faces.push_back(side.geometry(f).normal());
-    result.node.push_back(surface_nodes.normal(side, f, k));
-  }
-  return result;
-}
-
-// How far the normals of a are from the nearest of b at most.
-double apart(const std::vector<Point>& a, const std::vector<Point>& b)
-{
-  double most = 0;
-  for (const auto& n : a) {
-    double least = 2;
-    for (const auto& m : b) least = std::min(least, (n - m).norm());
-    most = std::max(most, least);
-  }
-  return most;
-}
-
-bool goes_on(const NormalsAt& a, const NormalsAt& b)
-{
-  return apart(a.node, b.node) <= of_a_kink * std::max(apart(a.faces, b.faces), rounding);
+  const Point faces = other_face - face, nodes = other_alone - alone;
+  if (nodes.norm() < rounding) return true;
+  const double part = nodes.dot(faces) / faces.squaredNorm();
+  return std::abs(part) <= of_a_kink || part < -of_steep_ends;
 }
 
 // A plane of symmetry, and which points of a side lie in it.
@@ -177,14 +157,13 @@ class SymmetryPlanes {
     return result;
   }
 
-  bool meets_at_right_angle(Local n, const Point& direction) const
+  bool is_symmetric(Local n, const Point& direction) const
   {
-    double faces = rounding, node = 0;
-    for (const auto& [f, k] : corners_[static_cast<std::size_t>(n)]) {
-      faces = std::max(faces, std::abs(side_.geometry(f).normal().dot(direction)));
-      node = std::max(node, std::abs(nodes_.normal(side_, f, k).dot(direction)));
-    }
-    return faces < 0.5 && node <= of_a_kink * faces;
+    const auto image = [&](const Point& x) { return Point(x - 2 * x.dot(direction) * direction); };
+    return std::ranges::all_of(corners_[static_cast<std::size_t>(n)], [&](const auto& corner) {
+      const Point face = side_.geometry(corner.first).normal(), &alone = nodes_.normal(side_, corner.first, corner.second);
+      return std::abs(face.dot(direction)) < 0.5 && goes_on(face, alone, image(face), image(alone));
+    });
   }
 
   // The edge from a to b, or the end a = b of a curve.
@@ -196,7 +175,7 @@ class SymmetryPlanes {
       const auto of_b = held(b);
       if (std::ranges::none_of(of_b, [&](const Point& o) { return std::abs(o.dot(m)) > 1 - rounding; })) continue;
       for (const Local n : {a, b})
-        if (meets_at_right_angle(n, m)) plane_of(m, n).has[static_cast<std::size_t>(n)] = 1;
+        if (is_symmetric(n, m)) plane_of(m, n).has[static_cast<std::size_t>(n)] = 1;
     }
   }
 
@@ -211,7 +190,7 @@ class SymmetryPlanes {
   const Side& side_;
   const SurfaceNodes& nodes_;
   const SupportedNodes& supports_;
-  Corners corners_;
+  CornersOfNodes corners_;
   std::vector<SymmetryPlane> planes_;
 };
 
@@ -364,6 +343,20 @@ std::vector<std::vector<Local>> FacesAtBonds::held_together(const Side& side, co
   return result;
 }
 
+// Those of a node of the side, each with what comes nearest to its normal beyond.
+bool FacesAtBonds::go_on(const Side& side, const SurfaceNodes& alone, const Corners& corners, const Moved& beyond,
+                         const Corners& corners_beyond)
+{
+  return std::ranges::all_of(corners, [&](const auto& corner) {
+    const Point face = side.geometry(corner.first).normal();
+    const auto nearest = std::ranges::min_element(corners_beyond, {}, [&](const auto& other) {
+      return (beyond.faces.geometry(other.first).normal() - face).norm();
+    });
+    return goes_on(face, alone.normal(side, corner.first, corner.second), beyond.faces.geometry(nearest->first).normal(),
+                   beyond.surface_nodes.normal(beyond.faces, nearest->first, nearest->second));
+  });
+}
+
 void FacesAtBonds::append_to(Side& whole, const Side& side, const SurfaceNodes& alone, const Communicator& comm) const
 {
   if (at_bond_.empty()) return;
@@ -371,12 +364,12 @@ void FacesAtBonds::append_to(Side& whole, const Side& side, const SurfaceNodes& 
   for (const auto& n : answer(nodes_, ask(side.node_id, comm), comm))
     at[{n.bond, n.side}].push_back(static_cast<Local>(std::ranges::lower_bound(side.node_id, n.node) - side.node_id.begin()));
   if (at.empty()) return;
-  const Corners corners = corners_of_nodes(side);
+  const CornersOfNodes corners = corners_of_nodes(side);
   for (const auto& [bond, nodes] : at) {
     const auto& beyond = at_bond_[static_cast<std::size_t>(bond.first)][static_cast<std::size_t>(1 - bond.second)];
     const auto& points = beyond.faces.points;
     const auto edges = shortest_edges(beyond.faces);
-    const Corners corners_beyond = corners_of_nodes(beyond.faces);
+    const CornersOfNodes corners_beyond = corners_of_nodes(beyond.faces);
     std::vector<Box> boxes;
     for (const Local n : nodes) {
       const Point& x = side.points[static_cast<std::size_t>(n)];
@@ -391,9 +384,7 @@ void FacesAtBonds::append_to(Side& whole, const Side& side, const SurfaceNodes& 
       for (const int i : tree.candidates(grown(Box(points[n], points[n]), nearest))) {
         const auto found = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
         const double distance = (side.points[found] - points[n]).norm();
-        if (distance > nearest || !goes_on(normals_at(side, alone, corners[found]),
-                                           normals_at(beyond.faces, beyond.surface_nodes, corners_beyond[n])))
-          continue;
+        if (distance > nearest || !go_on(side, alone, corners[found], beyond, corners_beyond[n])) continue;
         nearest = distance, local[n] = static_cast<Local>(found), common[n] = 1;
       }
     }

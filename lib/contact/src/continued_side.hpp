@@ -38,15 +38,19 @@ class FacesAtBonds {
     std::vector<char> in_bond;
     SurfaceNodes surface_nodes;
   };
+  // At one node: facets, and its place in them.
+  using Corners = std::vector<std::pair<std::size_t, std::size_t>>;
+  static bool go_on(const Side& side, const SurfaceNodes& alone, const Corners& corners, const Moved& beyond,
+                    const Corners& corners_beyond);
+
 
   std::vector<BondNode> nodes_;                // this rank's by number, see by_node()
   std::vector<std::array<Moved, 2>> at_bond_;  // by pair and side
 };
 
 /// The surface nodes of a side, with the normals that they have on what it goes on in: across bonds, and beyond planes of symmetry.
-/// A plane is one if edges of the border lie in it, and supports hold their nodes along its normal. Where the normals of both parts
-/// alone, or of the side alone and of its image, differ by more than half of what their faces do, there is a kink, and the side
-/// ends. Collective.
+/// A plane is one if edges of the border lie in it, and supports hold their nodes along its normal. The side ends all the same where
+/// the normals of both parts alone, or of the side alone and of its image, say that there is a kink. Collective.
 SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports, const FacesAtBonds& at_bonds,
                                 const Communicator& comm);
 
