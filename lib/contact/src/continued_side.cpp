@@ -19,8 +19,8 @@ namespace {
 constexpr int rings_beyond = 2;
 constexpr double same_node_across = 1e-3;  // of the shortest edge there
 // The normals of both sides alone at a border may differ by this part of what the faces there do: more is a kink. So is less than
-// minus that part, as at a groove beside a bump; but for what is far below, as of a flat bottom with steep ends, of whose curvature the
-// two rows of nodes beside the border say nothing.
+// minus that part, as at a groove beside a bump; but for what is far below, as of a flat bottom with steep ends, of whose curvature
+// the two rows of nodes beside the border say nothing.
 constexpr double of_a_kink = 0.5, of_steep_ends = 3;
 
 // A face of a contact next to a bond, and a node of it, on their way.

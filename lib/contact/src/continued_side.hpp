@@ -48,9 +48,9 @@ class FacesAtBonds {
   std::vector<std::array<Moved, 2>> at_bond_;  // by pair and side
 };
 
-/// The surface nodes of a side, with the normals that they have on what it goes on in: across bonds, and beyond planes of symmetry.
-/// A plane is one if edges of the border lie in it, and supports hold their nodes along its normal. The side ends all the same where
-/// the normals of both parts alone, or of the side alone and of its image, say that there is a kink. Collective.
+/// The surface nodes of a side, with the normals that they have on what it goes on in: across bonds, and beyond planes of
+/// symmetry. A plane is one if edges of the border lie in it, and supports hold their nodes along its normal. The side ends all
+/// the same where the normals of both parts alone, or of the side alone and of its image, say that there is a kink. Collective.
 SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports, const FacesAtBonds& at_bonds,
                                 const Communicator& comm);
 
