@@ -20,6 +20,8 @@ constexpr double smooth = 0.906;       // cosine of the angle up to which neighb
 constexpr double aligned = 1 - 1e-12;  // largest component of a normal that counts as parallel to its axis
 constexpr double independent = 1e-3;   // length of what a direction has besides those that are prescribed already
 constexpr double disagreement = 1e-9;  // relative, of prescribed displacements
+// Of a displacement along a direction that is orthogonal to another but for its rounding.
+constexpr double rounding_of_direction = 1e-14;
 
 Point vector(const std::array<double, 3>& v)
 {
@@ -102,9 +104,10 @@ class Directions {
     const double value = normal.value;
     SkewSupport next{normal.node, {}, value, {{{normal.support, normal.direction}}}, 1, normal.at};
     Point rest = vector(normal.direction);
-    double size = std::abs(value);
+    double size = std::abs(value), rounding = 0;
     for (const auto& known : directions_) {
       const double part = vector(known.direction).dot(vector(normal.direction));
+      rounding += rounding_of_direction * std::abs(known.value);
       if (part == 0) continue;
       rest -= part * vector(known.direction);
       next.value -= part * known.value;
@@ -114,7 +117,7 @@ class Directions {
     }
     const double length = rest.norm();
     if (length < independent) {
-      if (std::abs(next.value) > disagreement * size) disagree(supports_, directions_.back().shares[0].support, normal.support);
+      if (std::abs(next.value) > disagreement * size + rounding) disagree(supports_, directions_.back().shares[0].support, normal.support);
       return;
     }
     next.value /= length;

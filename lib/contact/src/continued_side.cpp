@@ -65,6 +65,13 @@ std::vector<double> shortest_edges(const Side& side)
   return result;
 }
 
+// The surface nodes of a side by itself, with the normals of the surface through the nodes, and with those that continue the
+// curvature of the faces beside the border, of which one may be right where the other is not.
+std::array<SurfaceNodes, 2> alone_of(const Side& side)
+{
+  return {surface_nodes_of_facets(side), surface_nodes_of_facets(side, false)};
+}
+
 // The corners of facets at each node: facets, and its place in them.
 using CornersOfNodes = std::vector<std::vector<std::pair<std::size_t, std::size_t>>>;
 CornersOfNodes corners_of_nodes(const Side& side)
@@ -96,8 +103,8 @@ struct SymmetryPlane {
 // The planes of symmetry that a side ends in.
 class SymmetryPlanes {
  public:
-  SymmetryPlanes(const Side& side, const SurfaceNodes& surface_nodes, const SupportedNodes& supports)
-      : side_(side), nodes_(surface_nodes), supports_(supports), corners_(corners_of_nodes(side))
+  SymmetryPlanes(const Side& side, std::span<const SurfaceNodes> alone, const SupportedNodes& supports)
+      : side_(side), alone_(alone), supports_(supports), corners_(corners_of_nodes(side))
   {
     for (std::size_t f = 0; f < side.facets.size(); ++f) add_border_of(f);
   }
@@ -115,7 +122,7 @@ class SymmetryPlanes {
         if (plane.has[static_cast<std::size_t>(n)])
           normal = (normal - normal.dot(plane.normal) * plane.normal).normalized();
         else if (std::abs(plane.height(at(n))) < rounding * side_.geometry(f).size())
-          normal = nodes_.normal(side_, f, k);
+          normal = alone_[0].normal(side_, f, k);
       }
   }
 
@@ -161,8 +168,11 @@ class SymmetryPlanes {
   {
     const auto image = [&](const Point& x) { return Point(x - 2 * x.dot(direction) * direction); };
     return std::ranges::all_of(corners_[static_cast<std::size_t>(n)], [&](const auto& corner) {
-      const Point face = side_.geometry(corner.first).normal(), &alone = nodes_.normal(side_, corner.first, corner.second);
-      return std::abs(face.dot(direction)) < 0.5 && goes_on(face, alone, image(face), image(alone));
+      const Point face = side_.geometry(corner.first).normal();
+      return std::abs(face.dot(direction)) < 0.5 && std::ranges::any_of(alone_, [&](const SurfaceNodes& alone) {
+               const Point& normal = alone.normal(side_, corner.first, corner.second);
+               return goes_on(face, normal, image(face), image(normal));
+             });
     });
   }
 
@@ -188,7 +198,7 @@ class SymmetryPlanes {
   }
 
   const Side& side_;
-  const SurfaceNodes& nodes_;
+  std::span<const SurfaceNodes> alone_;  // see alone_of()
   const SupportedNodes& supports_;
   CornersOfNodes corners_;
   std::vector<SymmetryPlane> planes_;
@@ -328,7 +338,7 @@ FacesAtBonds::FacesAtBonds(std::span<const Pair> pairs, fem::Kinematics kinemati
       if (const auto rotation = rotation_of(pairs[c].options))
         for (auto& x : moved.faces.points)
           x = at_side == 0 ? (*rotation)(x) : Point(rotation->rotation.transpose() * (x - rotation->translation));
-      moved.surface_nodes = find_surface_nodes(moved.faces);
+      moved.alone = alone_of(moved.faces);
     }
 }
 
@@ -344,7 +354,7 @@ std::vector<std::vector<Local>> FacesAtBonds::held_together(const Side& side, co
 }
 
 // Those of a node of the side, each with what comes nearest to its normal beyond.
-bool FacesAtBonds::go_on(const Side& side, const SurfaceNodes& alone, const Corners& corners, const Moved& beyond,
+bool FacesAtBonds::go_on(const Side& side, std::span<const SurfaceNodes> alone, const Corners& corners, const Moved& beyond,
                          const Corners& corners_beyond)
 {
   return std::ranges::all_of(corners, [&](const auto& corner) {
@@ -352,12 +362,15 @@ bool FacesAtBonds::go_on(const Side& side, const SurfaceNodes& alone, const Corn
     const auto nearest = std::ranges::min_element(corners_beyond, {}, [&](const auto& other) {
       return (beyond.faces.geometry(other.first).normal() - face).norm();
     });
-    return goes_on(face, alone.normal(side, corner.first, corner.second), beyond.faces.geometry(nearest->first).normal(),
-                   beyond.surface_nodes.normal(beyond.faces, nearest->first, nearest->second));
+    for (std::size_t i = 0; i < alone.size(); ++i)
+      if (goes_on(face, alone[i].normal(side, corner.first, corner.second), beyond.faces.geometry(nearest->first).normal(),
+                  beyond.alone[i].normal(beyond.faces, nearest->first, nearest->second)))
+        return true;
+    return false;
   });
 }
 
-void FacesAtBonds::append_to(Side& whole, const Side& side, const SurfaceNodes& alone, const Communicator& comm) const
+void FacesAtBonds::append_to(Side& whole, const Side& side, std::span<const SurfaceNodes> alone, const Communicator& comm) const
 {
   if (at_bond_.empty()) return;
   std::map<std::pair<int, int>, std::vector<Local>> at;  // the side's nodes, by bond and side of it
@@ -410,14 +423,14 @@ SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports
 {
   Side whole;
   whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets;
-  auto alone = find_surface_nodes(side);
+  const auto alone = alone_of(side);
   at_bonds.append_to(whole, side, alone, comm);
   SymmetryPlanes planes(side, alone, supports);
   for (auto& plane : planes.all()) {
     find_appended(whole, plane);
     append_image(whole, plane);
   }
-  if (whole.facets.size() == side.facets.size()) return alone;
+  if (whole.facets.size() == side.facets.size()) return of_first(side, alone[0]);
   auto result = of_first(side, surface_nodes_of_facets(whole));
   for (const auto& plane : planes.all()) planes.settle(plane, result);
   return result;

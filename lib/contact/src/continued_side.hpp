@@ -23,8 +23,8 @@ class FacesAtBonds {
   /// Of each bond the nodes of a side that it holds together. Collective.
   std::vector<std::vector<Local>> held_together(const Side& side, const Communicator& comm) const;
   /// Appends to `whole`, to its points and facets alone, those that go on from a side without a kink: they have nodes in common
-  /// with it, once they are moved across the bond. `alone`: the side's surface nodes. Collective.
-  void append_to(Side& whole, const Side& side, const SurfaceNodes& alone, const Communicator& comm) const;
+  /// with it, once they are moved across the bond. `alone`: the side's surface nodes, twice. Collective.
+  void append_to(Side& whole, const Side& side, std::span<const SurfaceNodes> alone, const Communicator& comm) const;
 
  private:
   // A node on the secondary (1) or the primary (0) side of a bond.
@@ -36,11 +36,11 @@ class FacesAtBonds {
   struct Moved {
     Side faces;
     std::vector<char> in_bond;
-    SurfaceNodes surface_nodes;
+    std::array<SurfaceNodes, 2> alone;  // see alone_of()
   };
   // At one node: facets, and its place in them.
   using Corners = std::vector<std::pair<std::size_t, std::size_t>>;
-  static bool go_on(const Side& side, const SurfaceNodes& alone, const Corners& corners, const Moved& beyond,
+  static bool go_on(const Side& side, std::span<const SurfaceNodes> alone, const Corners& corners, const Moved& beyond,
                     const Corners& corners_beyond);
 
 

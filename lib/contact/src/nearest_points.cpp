@@ -146,7 +146,9 @@ class Search {
     if (!(at_from <= 0) || !(at_to > 0) || !(change > bent * length) || !(change > parallel * first->curvature * length * length))
       return {};
     inside.normalize();
-    const auto across = [&](const Rays::Tilt& tilt) { return std::abs(tilt.difference.dot(inside)) > across_border * change / length; };
+    const auto across = [&](const Rays::Tilt& tilt) {
+      return std::abs(tilt.difference.dot(inside)) > across_border * change / length;
+    };
     if (symmetric && (across(*first) || across(*last))) return {};
     double s = 0, step = 1;
     Rays::Tilt here = *first;

@@ -18,7 +18,7 @@ constexpr double largest_weights = 2;  // the sum of their sizes: more is an ext
 constexpr double least_weight = 1e-9;  // less is none
 // A node's row means the field at its place, also where that was moved, if this part of its surroundings is covered, and if it
 // stands in for no others to speak of.
-constexpr double least_cover_of_node = 0.4, of_weight = 1e-3;
+constexpr double least_cover_of_node = 0.9, of_weight = 1e-3;
 
 // The nodes of this rank that places of others ask for, ascending. Collective.
 std::vector<Global> asked_for(std::span<const PlaceBetween> places, const std::vector<Global>& own, const Communicator& comm)

@@ -168,7 +168,7 @@ double Bulge::quadratic(const Eigen::Vector4d& shape) const
   return result;
 }
 
-SurfaceNodes surface_nodes_of_facets(const Side& side)
+SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted)
 {
   // The corners of facets round each node, in the order of the facets, and the normal and its weight there.
   const std::size_t nodes = side.points.size(), count = side.facets.nodes.size();
@@ -218,7 +218,7 @@ SurfaceNodes surface_nodes_of_facets(const Side& side)
   }
   const SurfaceNodes means = surface_nodes;
   const auto border = continue_curvature(side, surface_nodes);
-  if (side.kinematics == fem::Kinematics::solid) fit_normals(side, means, border, surface_nodes);
+  if (fitted && side.kinematics == fem::Kinematics::solid) fit_normals(side, means, border, surface_nodes);
   return surface_nodes;
 }
 

@@ -28,8 +28,9 @@ struct SurfaceNodes {
 /// At the border of a surface, where faces lie on one side only, normals continue the curvature of the edges that lead inside: an
 /// arc has opposite slopes at its ends.
 SurfaceNodes find_surface_nodes(const Side& side);
-/// The same from the points and facets of a side alone, without `of_node`; and that.
-SurfaceNodes surface_nodes_of_facets(const Side& side);
+/// The same from the points and facets of a side alone, without `of_node`, and that; `fitted`: with the normals of surfaces of
+/// second order through the nodes round each, if those determine one, and not only the means of the faces' normals.
+SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted = true);
 void number_nodes_of_faces(const Side& side, SurfaceNodes& surface_nodes);
 
 /// How far the smooth surface through the nodes stands out of a face (positive outwards) at reference shape values `shape`, along
