@@ -117,7 +117,8 @@ class Directions {
     }
     const double length = rest.norm();
     if (length < independent) {
-      if (std::abs(next.value) > disagreement * size + rounding) disagree(supports_, directions_.back().shares[0].support, normal.support);
+      if (std::abs(next.value) > disagreement * size + rounding)
+        disagree(supports_, directions_.back().shares[0].support, normal.support);
       return;
     }
     next.value /= length;

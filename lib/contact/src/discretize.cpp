@@ -43,6 +43,9 @@ Tree tree_of_facets(const Side& side)
 // Of the distance that the search goes, and of a place's distance from the origin.
 constexpr double rounding_of_gap = 1e-12, rounding_of_coordinates = 1e-15;
 
+// Of a row: where supports leave no more, what they push into each other is not for the rest to make good.
+constexpr double hardly_moves = 0.05;
+
 // A node that has rows of a contact that is not bonded.
 struct UnbondedNode {
   Global node;
@@ -66,14 +69,15 @@ class Builder {
         unbonded_nodes_(unbonded_nodes),
         supports_(supports, secondary_.node_id, comm),
         primary_supports_(supports, primary_.node_id, comm),
-        nodes_(find_surface_nodes(secondary_, supports_, at_bonds, comm)),
-        primary_nodes_(find_surface_nodes(primary_, primary_supports_, at_bonds, comm)),
+        primary_at_bonds_(at_bonds.nodes_of(primary_, comm)),
+        nodes_(find_surface_nodes(secondary_, supports_, at_bonds, at_bonds.nodes_of(secondary_, comm))),
+        primary_nodes_(find_surface_nodes(primary_, primary_supports_, at_bonds, primary_at_bonds_)),
         faces_(secondary_, nodes_, share.own),
         tree_(tree_of_facets(primary_)),
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, options.obstacle, reach),
         mesh_gaps_(options.law != Law::bonded && !options.clearance),
         nearest_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<NearestPoint>()),
-        bonded_nodes_(at_bonds.held_together(primary_, comm)),
+        bonded_nodes_(held_together(primary_at_bonds_)),
         discretization_(make_discretization(
             options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
                                      options.obstacle.has_value(), reach, mesh_gaps_, options.law != Law::bonded, nearest_,
@@ -229,10 +233,9 @@ class Builder {
     const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, nearest, starting_gap_at(p, normal, mean), at, normal);
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
-    if (prescribed) {
-      if (!bonded()) conflicts_.note_crossing(terms_, d, normal, point.gap, chosen_.directions[p], chosen_.stranded[p]);
-      return;
-    }
+    if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
+      conflicts_.note_crossing(terms_, d, normal, point.gap, chosen_.directions[p], prescribed && chosen_.stranded[p]);
+    if (prescribed) return;
     if (axisymmetric_) {  // rings do not turn
       writer_.add(terms_, d, normal, point.gap, contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
@@ -355,6 +358,7 @@ class Builder {
   const Side &secondary_, &primary_;
   const std::vector<UnbondedNode>& unbonded_nodes_;
   SupportedNodes supports_, primary_supports_;
+  std::vector<FacesAtBonds::AtBond> primary_at_bonds_;
   SurfaceNodes nodes_, primary_nodes_;
   CutFaces faces_;  // once dual, those near have their share of the rows
   Tree tree_;       // of the primary facets

@@ -67,6 +67,15 @@ bool RowWriter::moves(std::span<const Term> terms, double d, const Point& axis)
   return std::any_of(all.begin(), all.end(), [](const Coefficient& c) { return !c.prescribed; });
 }
 
+double RowWriter::part_that_moves(std::span<const Term> terms, double d, const Point& axis)
+{
+  double all = 0, free = 0;
+  for (const auto& term : terms) all += term.value / d * (term.value / d);
+  for (const auto& c : coefficients(terms, d, axis))
+    if (!c.prescribed) free += c.value * c.value;
+  return std::sqrt(free / all);
+}
+
 Eigen::Matrix3d RowWriter::free_part(const Term& term) const
 {
   Eigen::Matrix3d result = Eigen::Matrix3d::Identity();

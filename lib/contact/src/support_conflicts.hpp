@@ -17,8 +17,8 @@ class SupportConflicts {
   {
   }
 
-  /// A surface node where supports prescribe both sides: the row sum_k value_k / d u(node_k), `stranded` if its faces have no
-  /// surface node that supports leave free.
+  /// A surface node where supports prescribe both sides, all or nearly all of the row sum_k value_k / d u(node_k). `stranded`: its
+  /// faces have no surface node that supports leave free.
   void note_crossing(std::span<const Term> terms, double d, const Point& normal, double gap, const Directions& directions,
                      bool stranded);
   /// A place of a bond along directions in which supports prescribe both sides.

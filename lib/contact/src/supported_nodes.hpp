@@ -29,6 +29,8 @@ class SupportedNodes {
   /// `nodes` are those that this rank asks about. Collective.
   SupportedNodes(const SupportDirectory& directory, const std::vector<Global>& nodes, const Communicator& comm);
 
+  /// Whether supports hold none of them.
+  bool empty() const { return prescribed_.empty() && skew_supports_.empty(); }
   /// Null where the component is free.
   const constraint::PrescribedDof* find(Global node, int component) const;
   /// The directions that are prescribed there and are no axes.

@@ -1,0 +1,32 @@
+// What a side looks like beside its border, and whether another one goes on from it there.
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "side.hpp"
+#include "surface_nodes.hpp"
+
+namespace mortise::contact {
+
+/// The facets that share nodes with those marked, and those that share nodes with them: normals ask for no others.
+inline constexpr int rings_beyond = 2;
+std::vector<char> facets_round(const mesh::Cells& facets, std::vector<char> nodes);
+
+/// Of each node the length of the shortest edge of a facet there.
+std::vector<double> shortest_edges(const Side& side);
+
+/// At one node: facets, and its place in them.
+using Corners = std::vector<std::pair<std::size_t, std::size_t>>;
+/// Of each node.
+std::vector<Corners> corners_of_nodes(const Side& side);
+
+/// The surface nodes of a side by itself, without `of_node`: with the normals of the surface through the nodes, and with those that
+/// continue the curvature of the faces beside the border, of which one may be right where the other is not.
+std::array<SurfaceNodes, 2> alone_of(const Side& side);
+
+/// Whether there is no kink where faces with these normals meet, and the normals of each side alone are these. All are unit.
+bool goes_on(const Point& face, const Point& alone, const Point& other_face, const Point& other_alone);
+
+}  // namespace mortise::contact
