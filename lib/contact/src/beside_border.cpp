@@ -37,9 +37,9 @@ std::vector<double> shortest_edges(const Side& side)
   return result;
 }
 
-std::vector<Corners> corners_of_nodes(const Side& side)
+std::vector<NodeCorners> corners_of_nodes(const Side& side)
 {
-  std::vector<Corners> result(side.points.size());
+  std::vector<NodeCorners> result(side.points.size());
   for (std::size_t f = 0; f < side.facets.size(); ++f)
     for (std::size_t k = 0; k < side.facets[f].size(); ++k) result[static_cast<std::size_t>(side.facets[f][k])].emplace_back(f, k);
   return result;

@@ -18,9 +18,9 @@ std::vector<char> facets_round(const mesh::Cells& facets, std::vector<char> node
 std::vector<double> shortest_edges(const Side& side);
 
 /// At one node: facets, and its place in them.
-using Corners = std::vector<std::pair<std::size_t, std::size_t>>;
+using NodeCorners = std::vector<std::pair<std::size_t, std::size_t>>;
 /// Of each node.
-std::vector<Corners> corners_of_nodes(const Side& side);
+std::vector<NodeCorners> corners_of_nodes(const Side& side);
 
 /// The surface nodes of a side by itself, without `of_node`: with the normals of the surface through the nodes, and with those that
 /// continue the curvature of the faces beside the border, of which one may be right where the other is not.

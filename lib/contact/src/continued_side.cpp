@@ -118,7 +118,7 @@ class SymmetryPlanes {
   const Side& side_;
   std::span<const SurfaceNodes> alone_;  // see alone_of()
   const SupportedNodes& supports_;
-  std::vector<Corners> corners_;
+  std::vector<NodeCorners> corners_;
   std::vector<SymmetryPlane> planes_;
 };
 

@@ -132,8 +132,8 @@ std::vector<std::vector<Local>> held_together(std::span<const FacesAtBonds::AtBo
 }
 
 // Those of a node of the side, each with what comes nearest to its normal beyond.
-bool FacesAtBonds::go_on(const Side& side, std::span<const SurfaceNodes> alone, const Corners& corners, const Moved& beyond,
-                         const Corners& corners_beyond)
+bool FacesAtBonds::go_on(const Side& side, std::span<const SurfaceNodes> alone, const NodeCorners& corners, const Moved& beyond,
+                         const NodeCorners& corners_beyond)
 {
   return std::ranges::all_of(corners, [&](const auto& corner) {
     const Point face = side.geometry(corner.first).normal();

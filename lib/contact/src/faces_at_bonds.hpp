@@ -52,8 +52,8 @@ class FacesAtBonds {
   // This rank's faces within two rings of the bonds' nodes. Collective.
   void find_faces(std::span<const mesh::Surface* const> surfaces, std::vector<SentFaceAtBond>& faces,
                   std::vector<SentNodeAtBond>& nodes, const Communicator& comm) const;
-  static bool go_on(const Side& side, std::span<const SurfaceNodes> alone, const Corners& corners, const Moved& beyond,
-                    const Corners& corners_beyond);
+  static bool go_on(const Side& side, std::span<const SurfaceNodes> alone, const NodeCorners& corners, const Moved& beyond,
+                    const NodeCorners& corners_beyond);
 
   std::vector<BondNode> nodes_;                // this rank's by number, see by_node()
   std::vector<std::array<Moved, 2>> at_bond_;  // by pair and side
