@@ -23,8 +23,10 @@ constexpr double part_past = 0.4;
 constexpr double on_border = 0.1;
 // Of an edge's length: what control values may say of an overlap where there is none.
 constexpr double least_excess = 1e-4;
-// Sine of the angle from which an edge of the secondary side is concave, and cosines nearer than this are equal.
-constexpr double concave = 0.05, no_better = 0.01;
+// Sine of the angle from which there is an edge between two faces, and cosines nearer than this are equal.
+constexpr double least_bend = 0.05, no_better = 0.01;
+// The curvature of a convex edge, over that of a ball of the size of the faces there.
+constexpr double curvature_of_edge = 1e3;
 
 // The largest change of the normals along the edges of a facet, per length.
 double curvature_of(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
@@ -64,11 +66,17 @@ std::vector<double> mean_round(const Side& side, const SurfaceNodes& surface_nod
   return sum;
 }
 
-// The normals of surface nodes at the same node, of faces that stand in front of the surface node's own.
-std::vector<Few<Point, 3>> beside_concave_edges(const Side& side, const SurfaceNodes& surface_nodes)
+// Of each surface node the normals of others at the same node, on the other sides of edges: of faces that stand in front of its
+// own, and whether some stand behind them.
+struct Edges {
+  std::vector<Few<Point, 3>> concave;
+  std::vector<bool> convex;
+};
+
+Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes)
 {
-  std::vector<Few<Point, 3>> result(surface_nodes.all.size());
-  std::vector<Point> centre(result.size(), Point::Zero());  // of the facets round each, from the node
+  Edges result{std::vector<Few<Point, 3>>(surface_nodes.all.size()), std::vector<bool>(surface_nodes.all.size(), false)};
+  std::vector<Point> centre(surface_nodes.all.size(), Point::Zero());  // of the facets round each, from the node
   for (std::size_t f = 0; f < side.facets.size(); ++f) {
     const auto face = side.geometry(f);
     for (std::size_t k = 0; k < face.nodes.size(); ++k)
@@ -76,12 +84,15 @@ std::vector<Few<Point, 3>> beside_concave_edges(const Side& side, const SurfaceN
           (face.centre() - face.nodes[k]).normalized();
   }
   // Surface nodes of a node follow each other.
-  for (std::size_t begin = 0, end = 0; begin < result.size(); begin = end) {
-    while (end < result.size() && surface_nodes.all[end].node == surface_nodes.all[begin].node) ++end;
+  for (std::size_t begin = 0, end = 0; begin < centre.size(); begin = end) {
+    while (end < centre.size() && surface_nodes.all[end].node == surface_nodes.all[begin].node) ++end;
     for (std::size_t a = begin; a < end; ++a)
-      for (std::size_t b = begin; b < end; ++b)
-        if (a != b && surface_nodes.all[a].normal.dot(centre[b].normalized()) > concave && result[a].size() < 3)
-          result[a].push_back(surface_nodes.all[b].normal);
+      for (std::size_t b = begin; b < end; ++b) {
+        if (a == b) continue;
+        const double in_front = surface_nodes.all[a].normal.dot(centre[b].normalized());
+        if (in_front > least_bend && result.concave[a].size() < 3) result.concave[a].push_back(surface_nodes.all[b].normal);
+        if (in_front < -least_bend) result.convex[a] = true;
+      }
   }
   return result;
 }
@@ -108,7 +119,10 @@ Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& prima
   curvature_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return curvature_of(secondary, surface_nodes, f); });
   if (!obstacle) {
     past_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
-    beside_ = beside_concave_edges(secondary, surface_nodes);
+    auto edges = edges_at(secondary, surface_nodes);
+    beside_ = std::move(edges.concave);
+    on_edge_ = std::move(edges.convex);
+    primary_on_edge_ = edges_at(primary, primary_nodes).convex;
     return;
   }
   // The directions of contact are the obstacle's normals; where a surface node does not face it, it is out of reach.
@@ -219,9 +233,21 @@ Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
   if (!std::isfinite(opposite.gap)) return normal;
   const Point other = primary_normal(opposite);
   const double length = primary_.geometry(opposite.facet).size();
-  const double own = curvature_[p] + least_curvature / length;
-  const double others = curvature_of(primary_, primary_nodes_, opposite.facet) + least_curvature / length;
+  const double own = curvature_[p] + (least_curvature + (on_edge_[p] ? curvature_of_edge : 0)) / length;
+  const double others = curvature_of(primary_, primary_nodes_, opposite.facet) +
+                        (least_curvature + curvature_of_edge * part_on_edges(opposite)) / length;
   return (others * normal - own * other).normalized();
+}
+
+// What the shape functions of corners on convex edges make up at the place that is met.
+double Rays::part_on_edges(const Opposite& opposite) const
+{
+  const auto begin = static_cast<std::size_t>(primary_.facets.offset[opposite.facet]);
+  double part = 0;
+  for (std::size_t k = 0; k < primary_.facets[opposite.facet].size(); ++k)
+    if (primary_on_edge_[static_cast<std::size_t>(primary_nodes_.of_corner[begin + k])])
+      part += opposite.hit.shape[static_cast<Eigen::Index>(k)];
+  return std::clamp(part, 0.0, 1.0);
 }
 
 double Rays::rise_of(const Opposite& met) const
