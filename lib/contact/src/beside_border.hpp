@@ -1,6 +1,7 @@
 // What a side looks like beside its border, and whether another one goes on from it there.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -13,6 +14,15 @@ namespace mortise::contact {
 /// The facets that share nodes with those marked, and those that share nodes with them: normals ask for no others.
 inline constexpr int rings_beyond = 2;
 std::vector<char> facets_round(const mesh::Cells& facets, std::vector<char> nodes);
+
+/// Adds `kinks` of another side that have both ends here: `here` is a node, or less than 0.
+template <class Here>
+void append_kinks(Side& side, std::vector<FacetEdge> kinks, const Here& here)
+{
+  for (const auto& [a, b] : kinks)
+    if (const Local first = here(a), last = here(b); first >= 0 && last >= 0)
+      side.kinks.push_back({std::min(first, last), std::max(first, last)});
+}
 
 /// Of each node the length of the shortest edge of a facet there.
 std::vector<double> shortest_edges(const Side& side);

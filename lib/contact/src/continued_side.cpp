@@ -150,6 +150,10 @@ void append_image(Side& side, const SymmetryPlane& plane)
     }
     side.facets.add(mesh::CellType(side.facets.type[f]), reversed);
   }
+  append_kinks(side, side.kinks, [&](Local n) {
+    const auto node = static_cast<std::size_t>(n);
+    return plane.has[node] ? n : image[node];
+  });
 }
 
 // The surface nodes of `whole`, whose first points and facets are those of `side`, without what belongs to others alone.
@@ -176,7 +180,7 @@ SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports
 {
   if (supports.empty() && nodes.empty()) return find_surface_nodes(side);
   Side whole;
-  whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets;
+  whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets, whole.kinks = side.kinks;
   auto alone = alone_of(side);
   at_bonds.append_to(whole, side, alone, nodes);
   SymmetryPlanes planes(side, alone, supports);

@@ -18,8 +18,9 @@ struct PairSize {
 std::vector<PairSize> measure(std::span<const Pair> pairs, const Communicator& comm);
 
 /// The normal of a node depends on no face farther away than this many faces: those round it, and at a border those round the
-/// nodes that its curvature is continued from, which may have been continued themselves; see find_surface_nodes().
-inline constexpr double rings = 6;
+/// nodes that its curvature is continued from, which may have been continued themselves, see find_surface_nodes(); and those that
+/// tell kinks, see find_kinks().
+inline constexpr double rings = 9;
 /// Faces of second order stand out of their corners.
 inline constexpr double slack = 1.5;
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/dense.hpp"
+#include "kinks.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace mortise::contact {
@@ -154,6 +155,7 @@ Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Ki
     side.face_id.push_back(face.id);
   }
   cut_into_facets(side);
+  side.kinks = find_kinks(side);
   return side;
 }
 

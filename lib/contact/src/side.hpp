@@ -17,6 +17,9 @@ inline constexpr int most_functions = 12;
 /// Shape functions of a face of first or second order, or of its covered part.
 using FaceShape = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_functions, 1>;
 
+/// Between two facets: the nodes at its ends, the smaller first; in plane models one node, twice.
+using FacetEdge = std::array<Local, 2>;
+
 /// Geometry is done with facets of first order: a face of second order is cut into facets between its nodes, one of first order
 /// is its own facet. Displacements and multipliers belong to the faces.
 struct Side {
@@ -30,6 +33,7 @@ struct Side {
   std::vector<Local> first_facet;           ///< of each face, and the number of all facets
   std::vector<std::array<int, 4>> corners;  ///< of each facet: its nodes' places in the face
   std::vector<bool> affine;                 ///< of each face: facets give the place in it exactly
+  std::vector<FacetEdge> kinks;             ///< see find_kinks()
 
   FaceGeometry geometry(std::size_t facet) const;
   bool second_order(std::size_t face) const { return facets_of(face) > 1; }

@@ -119,6 +119,35 @@ std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nod
   return border;
 }
 
+// Of each node the other ends of the kinks there; of a plane model the node itself.
+std::vector<std::pair<Local, Local>> both_ways(const std::vector<FacetEdge>& kinks)
+{
+  std::vector<std::pair<Local, Local>> result;
+  for (const auto& [a, b] : kinks) {
+    result.emplace_back(a, b);
+    if (a != b) result.emplace_back(b, a);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+// Whether two facets have an edge at a node, given as their corners there, that is none of `kinks`, as of both_ways().
+bool share_edge(std::span<const Local> facet, std::size_t k, std::span<const Local> other, std::size_t l,
+                std::span<const std::pair<Local, Local>> kinks)
+{
+  const auto ends = [](std::span<const Local> nodes, std::size_t at) {
+    const std::size_t n = nodes.size();
+    return n == 2 ? std::array{nodes[at], nodes[at]} : std::array{nodes[(at + 1) % n], nodes[(at + n - 1) % n]};
+  };
+  const auto is_kink = [&](Local end) {
+    return std::any_of(kinks.begin(), kinks.end(), [&](const auto& edge) { return edge.second == end; });
+  };
+  for (const Local a : ends(facet, k))
+    for (const Local b : ends(other, l))
+      if (a == b && !is_kink(a)) return true;
+  return false;
+}
+
 // The normals of the surface nodes at the corners of a facet.
 Few<Point, 4> corner_normals(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
 {
@@ -189,19 +218,28 @@ SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted)
     }
   }
 
+  const auto kinks_of_nodes = both_ways(side.kinks);
   SurfaceNodes surface_nodes;
   surface_nodes.of_corner.resize(count);
   std::vector<std::size_t> group;
   for (std::size_t n = 0; n < nodes; ++n) {
     const std::span corners(round.data() + offset[n], offset[n + 1] - offset[n]);
     const auto normal_at = [&](std::size_t a) -> const Point& { return normals[static_cast<std::size_t>(facet_of[corners[a]])]; };
+    const std::span kinks = std::ranges::equal_range(kinks_of_nodes, static_cast<Local>(n), {}, &std::pair<Local, Local>::first);
+    const auto together = [&](std::size_t a, std::size_t b) {
+      if (normal_at(a).dot(normal_at(b)) <= kink) return false;
+      if (kinks.empty()) return true;
+      const auto f = static_cast<std::size_t>(facet_of[corners[a]]), g = static_cast<std::size_t>(facet_of[corners[b]]);
+      return share_edge(side.facets[f], corners[a] - static_cast<std::size_t>(side.facets.offset[f]), side.facets[g],
+                        corners[b] - static_cast<std::size_t>(side.facets.offset[g]), kinks);
+    };
     group.resize(corners.size());
     std::iota(group.begin(), group.end(), 0U);
     for (bool changed = true; changed;) {
       changed = false;
       for (std::size_t a = 0; a < corners.size(); ++a)
         for (std::size_t b = 0; b < a; ++b)
-          if (group[a] != group[b] && normal_at(a).dot(normal_at(b)) > kink) {
+          if (group[a] != group[b] && together(a, b)) {
             group[a] = group[b] = std::min(group[a], group[b]);
             changed = true;
           }

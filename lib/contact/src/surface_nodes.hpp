@@ -13,7 +13,7 @@ struct SurfaceNode {
 
 /// The surface nodes of a side, and the surface node that each corner of a facet (at facets.offset[f] + corner) and each node of
 /// a face (at faces.offset[f] + node) belongs to. Facets round a node belong together if a chain of them turns by less than about
-/// 40 degrees from one to the next.
+/// 40 degrees from one to the next; where kinks end at the node, if such a chain crosses none.
 struct SurfaceNodes {
   std::vector<SurfaceNode> all;
   std::vector<Local> of_corner, of_node;

@@ -1,0 +1,230 @@
+#include "kinks.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "skin.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+class Kinks {
+ public:
+  explicit Kinks(const Side& side) : side_(side), faces_(side.faces.size())
+  {
+    for (std::size_t f = 0; f < faces_.size(); ++f) faces_[f] = corners_of_face(f);
+    find_edges();
+  }
+
+  std::vector<FacetEdge> find()
+  {
+    // Faces behind a kink say nothing of this side of it: once more with those that are found.
+    auto found = once();
+    if (!found.empty()) {
+      separate(found);
+      found = once();
+    }
+    std::vector<FacetEdge> result;
+    for (const std::size_t e : found) add_facet_edges(edges_[e], result);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+ private:
+  // Slopes of two faces that differ by less than 2 degrees leave too little between the surface through them and the faces.
+  static constexpr double least_turn = 0.035;
+  // The part of it that the surfaces on both sides alone differ by.
+  static constexpr double of_a_kink = 0.6;
+  // Faces reach so far from an edge, over what the one at the edge does, where there are two rows of them.
+  static constexpr double two_rows = 1.5;
+  // Of the least squares: a curvature that the nodes do not determine is 0.
+  static constexpr double held = 1e-8;
+  static constexpr int steps = 4;
+
+  // An edge between two faces.
+  struct Edge {
+    Local a, b;
+    std::array<std::size_t, 2> faces;
+  };
+
+  // A side seen from an edge towards one of its faces: z(y) = slope y + curvature y^2 / 2 in the plane across the edge.
+  struct Profile {
+    double slope, curvature;
+    bool known;     // there are two rows of faces
+    double face;    // the slope of the face itself,
+    double length;  // and how far it goes
+  };
+
+  struct Face {
+    FaceGeometry geometry;
+    Few<Local, 4> nodes;
+    Point centre, normal;
+    Few<std::pair<std::size_t, std::size_t>, 4> beside;  // a face, and the edge that leads to it
+  };
+
+  const Point& at(Local n) const { return side_.points[static_cast<std::size_t>(n)]; }
+
+  Face corners_of_face(std::size_t f) const
+  {
+    Face face;
+    const auto corners = static_cast<std::size_t>(mesh::corner_count(side_.faces.type[f]));
+    face.geometry.type =
+        corners == 2 ? mesh::CellType::line2 : corners == 3 ? mesh::CellType::tri3 : mesh::CellType::quad4;
+    for (std::size_t k = 0; k < corners; ++k) {
+      face.nodes.push_back(side_.faces[f][k]);
+      face.geometry.nodes.push_back(at(side_.faces[f][k]));
+    }
+    face.centre = face.geometry.centre();
+    face.normal = face.geometry.normal();
+    return face;
+  }
+
+  void find_edges()
+  {
+    std::vector<std::tuple<Local, Local, std::size_t>> all;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const auto& nodes = faces_[f].nodes;
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const Local a = nodes[k], b = nodes.size() == 2 ? a : nodes[(k + 1) % nodes.size()];
+        all.emplace_back(std::min(a, b), std::max(a, b), f);
+      }
+    }
+    std::sort(all.begin(), all.end());
+    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+      const auto [a, b, first] = all[begin];
+      while (end < all.size() && std::get<0>(all[end]) == a && std::get<1>(all[end]) == b) ++end;
+      const std::size_t last = std::get<2>(all[end - 1]);
+      if (end != begin + 2 || faces_[first].normal.dot(faces_[last].normal) < kink) continue;
+      faces_[first].beside.push_back({last, edges_.size()});
+      faces_[last].beside.push_back({first, edges_.size()});
+      edges_.push_back({a, b, {first, last}});
+    }
+    parted_.assign(edges_.size(), false);
+  }
+
+  void separate(const std::vector<std::size_t>& kinks)
+  {
+    for (const std::size_t e : kinks) parted_[e] = true;
+  }
+
+  std::vector<std::size_t> once() const
+  {
+    std::vector<std::size_t> result;
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+      if (is_kink(edges_[e])) result.push_back(e);
+    return result;
+  }
+
+  bool is_kink(const Edge& edge) const
+  {
+    const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
+    if ((first.normal - last.normal).squaredNorm() < least_turn * least_turn) return false;
+    const Point normal = (first.normal + last.normal).normalized();
+    const Point along = edge.a == edge.b ? Point(Point::Zero()) : Point((at(edge.b) - at(edge.a)).normalized());
+    const Point between = last.centre - first.centre;
+    const Point across = (between - between.dot(normal) * normal - between.dot(along) * along).normalized();
+    const Profile back = profile(edge, 0, normal, along, -across), forth = profile(edge, 1, normal, along, across);
+    const double turn = back.face + forth.face;
+    // What the face of a single row has beyond the continued profile of the other side.
+    const auto beyond = [](const Profile& known, const Profile& other) {
+      return other.face + known.slope - known.curvature * other.length / 2;
+    };
+    double left = 0;
+    if (back.known && forth.known)
+      left = back.slope + forth.slope;
+    else if (back.known || forth.known)
+      left = back.known ? beyond(back, forth) : beyond(forth, back);
+    return left / turn > of_a_kink;
+  }
+
+  Profile profile(const Edge& edge, int which, const Point& normal, const Point& along, const Point& away) const
+  {
+    const std::size_t own = edge.faces[static_cast<std::size_t>(which)];
+    const Point middle = (at(edge.a) + at(edge.b)) / 2;
+    const auto depth = [&](const Face& face) {
+      double result = 0;
+      for (const Local n : face.nodes) result = std::max(result, (at(n) - middle).dot(away));
+      return result;
+    };
+    Profile result{0, 0, false, -faces_[own].normal.dot(away) / faces_[own].normal.dot(normal), depth(faces_[own])};
+    // The faces on this side that share nodes with the one at the edge, and hang together with it.
+    std::vector<std::size_t> round{own};
+    std::vector<Local> nodes;
+    double farthest = 0;
+    for (std::size_t i = 0; i < round.size(); ++i) {
+      const Face& face = faces_[round[i]];
+      farthest = std::max(farthest, depth(face));
+      for (const Local n : face.nodes)
+        if (n != edge.a && n != edge.b && std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
+      for (const auto& [f, e] : face.beside) {
+        const Face& next = faces_[f];
+        if (parted_[e] || (next.centre - middle).dot(away) <= 0 || std::find(round.begin(), round.end(), f) != round.end()) continue;
+        if (std::any_of(next.nodes.begin(), next.nodes.end(), [&](Local n) {
+              return std::find(faces_[own].nodes.begin(), faces_[own].nodes.end(), n) != faces_[own].nodes.end();
+            }))
+          round.push_back(f);
+      }
+    }
+    result.known = farthest > two_rows * result.length;
+    if (!result.known) return result;
+    fit(edge, nodes, middle, normal, along, away, result);
+    return result;
+  }
+
+  // z - k z^2 / 2 = s y + c y^2 / 2 + d x y + e (x^2 - l^2 / 4) / 2 with the larger curvature for k, in the least squares of both
+  // sides over the squared distance: exact on spheres and cylinders.
+  void fit(const Edge& edge, const std::vector<Local>& nodes, const Point& middle, const Point& normal, const Point& along,
+           const Point& away, Profile& result) const
+  {
+    const double unit = result.length, half = (at(edge.b) - at(edge.a)).norm() / 2 / unit;
+    double bend = 0;
+    for (int step = 0; step < steps; ++step) {
+      Eigen::Matrix4d matrix = Eigen::Vector4d(0, held, held, held).asDiagonal();
+      Eigen::Vector4d right = Eigen::Vector4d::Zero();
+      for (const Local n : nodes) {
+        const Point d = (at(n) - middle) / unit;
+        const double x = d.dot(along), y = d.dot(away), z = d.dot(normal), weight = 1 / d.squaredNorm();
+        const Eigen::Vector4d row = weight * Eigen::Vector4d(y, y * y / 2, x * y, (x * x - half * half) / 2);
+        matrix += row * row.transpose();
+        right += weight * (z - bend * z * z / 2) * row;
+      }
+      const Eigen::Vector4d found = matrix.ldlt().solve(right);
+      result.slope = found[0];
+      result.curvature = found[1] / unit;
+      bend = std::abs(found[1]) > std::abs(found[3]) ? found[1] : found[3];
+    }
+  }
+
+  // A node in the middle of an edge of a face of second order cuts it in two.
+  void add_facet_edges(const Edge& edge, std::vector<FacetEdge>& result) const
+  {
+    const auto face = side_.faces[edge.faces[0]];
+    const auto type = side_.faces.type[edge.faces[0]];
+    const auto corners = static_cast<std::size_t>(mesh::corner_count(type));
+    if (edge.a != edge.b)
+      for (std::size_t m = corners; m < face.size(); ++m) {
+        const auto& ends = mesh::middles(type)[m - corners];
+        if (ends.size() != 2) continue;
+        const Local a = face[static_cast<std::size_t>(ends[0])], b = face[static_cast<std::size_t>(ends[1])], middle = face[m];
+        if (std::minmax(a, b) != std::pair<const Local&, const Local&>(edge.a, edge.b)) continue;
+        result.push_back({std::min(a, middle), std::max(a, middle)});
+        result.push_back({std::min(b, middle), std::max(b, middle)});
+        return;
+      }
+    result.push_back({edge.a, edge.b});
+  }
+
+  const Side& side_;
+  std::vector<Face> faces_;
+  std::vector<Edge> edges_;
+  std::vector<bool> parted_;  // of each edge: a kink that was found before
+};
+
+}  // namespace
+
+std::vector<FacetEdge> find_kinks(const Side& side) { return Kinks(side).find(); }
+
+}  // namespace mortise::contact

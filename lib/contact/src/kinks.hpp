@@ -1,0 +1,14 @@
+// Edges at which a side turns by less than faces of coarse curved sides do, and yet does not go on: of chamfers, bevels and grooves.
+#pragma once
+
+#include "side.hpp"
+
+namespace mortise::contact {
+
+/// The edges between facets of a side at which it has a kink, from node to node, the smaller first, ascending; in plane models the
+/// nodes, twice. There the surfaces of second order through the corners of the faces on each side alone have slopes that differ by
+/// more than six tenths of what the faces' own do: of a smooth surface these slopes are equal. Where one side has a single row of
+/// faces, that of the other is continued over it. Edges that turn by more than about 40 degrees are kinks anyway and not named.
+std::vector<FacetEdge> find_kinks(const Side& side);
+
+}  // namespace mortise::contact
