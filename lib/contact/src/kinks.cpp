@@ -50,12 +50,19 @@ class Kinks {
     std::array<std::size_t, 2> faces;
   };
 
-  // A side seen from an edge towards one of its faces: z(y) = slope y + curvature y^2 / 2 in the plane across the edge.
-  struct Profile {
-    double slope, curvature;
-    bool known;     // there are two rows of faces
-    double face;    // the slope of the face itself,
-    double length;  // and how far it goes
+  // What an edge looks like: its middle, half of its length, the mean normal there and the direction along it.
+  struct Place {
+    Point middle, normal, along;
+    double half;
+  };
+
+  // The surface on one side of an edge: with x along it and y > 0 away from it into that side,
+  // z - bend z^2 / 2 = slope y + across y^2 / 2 + twist x y + along (x^2 - half^2) / 2.
+  struct Surface {
+    Point away;
+    double depth = 0;    // of the face at the edge
+    bool known = false;  // there are two rows of faces; else the rest is not
+    double slope = 0, across = 0, twist = 0, along = 0, bend = 0;
   };
 
   struct Face {
@@ -122,34 +129,38 @@ class Kinks {
   {
     const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
     if ((first.normal - last.normal).squaredNorm() < least_turn * least_turn) return false;
-    const Point normal = (first.normal + last.normal).normalized();
-    const Point along = edge.a == edge.b ? Point(Point::Zero()) : Point((at(edge.b) - at(edge.a)).normalized());
+    Place place{(at(edge.a) + at(edge.b)) / 2, (first.normal + last.normal).normalized(), Point::Zero(), 0};
+    if (edge.a != edge.b) {
+      place.along = (at(edge.b) - at(edge.a)).normalized();
+      place.half = (at(edge.b) - at(edge.a)).norm() / 2;
+    }
     const Point between = last.centre - first.centre;
-    const Point across = (between - between.dot(normal) * normal - between.dot(along) * along).normalized();
-    const Profile back = profile(edge, 0, normal, along, -across), forth = profile(edge, 1, normal, along, across);
-    const double turn = back.face + forth.face;
-    // What the face of a single row has beyond the continued profile of the other side.
-    const auto beyond = [](const Profile& known, const Profile& other) {
-      return other.face + known.slope - known.curvature * other.length / 2;
-    };
-    double left = 0;
-    if (back.known && forth.known)
-      left = back.slope + forth.slope;
-    else if (back.known || forth.known)
-      left = back.known ? beyond(back, forth) : beyond(forth, back);
-    return left / turn > of_a_kink;
+    const Point away =
+        (between - between.dot(place.normal) * place.normal - between.dot(place.along) * place.along).normalized();
+    const Surface back = surface(edge, 0, place, -away), forth = surface(edge, 1, place, away);
+    double turn = 0, smooth = 0;  // of slopes: at the edge itself, and from the middle of one face to that of the other
+    if (back.known && forth.known) {
+      turn = back.slope + forth.slope;
+      smooth = (back.across * back.depth + forth.across * forth.depth) / 2;
+    } else if (back.known || forth.known) {
+      const Surface &known = back.known ? back : forth, &other = back.known ? forth : back;
+      turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], place);
+      smooth = known.across * (known.depth + other.depth) / 2;
+    }
+    return std::abs(turn) > least_turn && std::abs(turn) > of_a_kink * (std::abs(turn) + std::abs(smooth));
   }
 
-  Profile profile(const Edge& edge, int which, const Point& normal, const Point& along, const Point& away) const
+  Surface surface(const Edge& edge, int which, const Place& place, const Point& away) const
   {
     const std::size_t own = edge.faces[static_cast<std::size_t>(which)];
-    const Point middle = (at(edge.a) + at(edge.b)) / 2;
     const auto depth = [&](const Face& face) {
       double result = 0;
-      for (const Local n : face.nodes) result = std::max(result, (at(n) - middle).dot(away));
+      for (const Local n : face.nodes) result = std::max(result, (at(n) - place.middle).dot(away));
       return result;
     };
-    Profile result{0, 0, false, -faces_[own].normal.dot(away) / faces_[own].normal.dot(normal), depth(faces_[own])};
+    Surface result;
+    result.away = away;
+    result.depth = depth(faces_[own]);
     // The faces on this side that share nodes with the one at the edge, and hang together with it.
     std::vector<std::size_t> round{own};
     std::vector<Local> nodes;
@@ -161,41 +172,59 @@ class Kinks {
         if (n != edge.a && n != edge.b && std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
       for (const auto& [f, e] : face.beside) {
         const Face& next = faces_[f];
-        if (parted_[e] || (next.centre - middle).dot(away) <= 0 || std::find(round.begin(), round.end(), f) != round.end()) continue;
-        if (std::any_of(next.nodes.begin(), next.nodes.end(), [&](Local n) {
-              return std::find(faces_[own].nodes.begin(), faces_[own].nodes.end(), n) != faces_[own].nodes.end();
-            }))
+        const auto touches = [&](Local n) {
+          return std::find(faces_[own].nodes.begin(), faces_[own].nodes.end(), n) != faces_[own].nodes.end();
+        };
+        if (!parted_[e] && (next.centre - place.middle).dot(away) > 0 && std::find(round.begin(), round.end(), f) == round.end() &&
+            std::any_of(next.nodes.begin(), next.nodes.end(), touches))
           round.push_back(f);
       }
     }
-    result.known = farthest > two_rows * result.length;
-    if (!result.known) return result;
-    fit(edge, nodes, middle, normal, along, away, result);
+    result.known = farthest > two_rows * result.depth;
+    if (result.known) fit(nodes, place, result);
     return result;
   }
 
-  // z - k z^2 / 2 = s y + c y^2 / 2 + d x y + e (x^2 - l^2 / 4) / 2 with the larger curvature for k, in the least squares of both
-  // sides over the squared distance: exact on spheres and cylinders.
-  void fit(const Edge& edge, const std::vector<Local>& nodes, const Point& middle, const Point& normal, const Point& along,
-           const Point& away, Profile& result) const
+  // With the larger curvature for the bend, in the least squares of both sides over the squared distance: exact on spheres and
+  // cylinders.
+  void fit(const std::vector<Local>& nodes, const Place& place, Surface& surface) const
   {
-    const double unit = result.length, half = (at(edge.b) - at(edge.a)).norm() / 2 / unit;
+    const double unit = surface.depth, half = place.half / unit;
+    Eigen::Vector4d found = Eigen::Vector4d::Zero();
     double bend = 0;
     for (int step = 0; step < steps; ++step) {
+      bend = std::abs(found[1]) > std::abs(found[3]) ? found[1] : found[3];
       Eigen::Matrix4d matrix = Eigen::Vector4d(0, held, held, held).asDiagonal();
       Eigen::Vector4d right = Eigen::Vector4d::Zero();
       for (const Local n : nodes) {
-        const Point d = (at(n) - middle) / unit;
-        const double x = d.dot(along), y = d.dot(away), z = d.dot(normal), weight = 1 / d.squaredNorm();
+        const Point d = (at(n) - place.middle) / unit;
+        const double x = d.dot(place.along), y = d.dot(surface.away), z = d.dot(place.normal), weight = 1 / d.squaredNorm();
         const Eigen::Vector4d row = weight * Eigen::Vector4d(y, y * y / 2, x * y, (x * x - half * half) / 2);
         matrix += row * row.transpose();
         right += weight * (z - bend * z * z / 2) * row;
       }
-      const Eigen::Vector4d found = matrix.ldlt().solve(right);
-      result.slope = found[0];
-      result.curvature = found[1] / unit;
-      bend = std::abs(found[1]) > std::abs(found[3]) ? found[1] : found[3];
+      found = matrix.ldlt().solve(right);
     }
+    surface.slope = found[0];
+    surface.across = found[1] / unit, surface.twist = found[2] / unit, surface.along = found[3] / unit;
+    surface.bend = bend / unit;
+  }
+
+  // How much steeper than the surface of the other side, continued, the nodes of a face lie.
+  double turn_beyond(const Surface& known, const Edge& edge, const Face& face, const Place& place) const
+  {
+    double sum = 0;
+    int count = 0;
+    for (const Local n : face.nodes) {
+      if (n == edge.a || n == edge.b) continue;
+      const Point d = at(n) - place.middle;
+      const double x = d.dot(place.along), y = d.dot(known.away), z = d.dot(place.normal);
+      const double continued = known.slope * y + known.across * y * y / 2 + known.twist * x * y +
+                               known.along * (x * x - place.half * place.half) / 2;
+      sum += (z - known.bend * z * z / 2 - continued) / -y;
+      ++count;
+    }
+    return sum / count;
   }
 
   // A node in the middle of an edge of a face of second order cuts it in two.
