@@ -8,8 +8,8 @@ namespace mortise::contact {
 
 std::pair<Point, Point> ContactPoints::at(std::size_t p)
 {
-  const SurfaceNode& surface_node = nodes_.all[faces_.surface_node(p)];
-  const Point& node = secondary_.points[static_cast<std::size_t>(surface_node.node)];
+  const Point& node = secondary_.points[static_cast<std::size_t>(nodes_.all[faces_.surface_node(p)].node)];
+  const Point& normal = rays_.own_normal(faces_.surface_node(p));
   if (const auto place = nearest_place(p)) return point_at(*place);
   Point shift = Point::Zero(), tilt = Point::Zero();
   double d = 0;
@@ -21,10 +21,10 @@ std::pair<Point, Point> ContactPoints::at(std::size_t p)
     for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c) {
       const double part = piece.covered[k] * piece.points(k, static_cast<Eigen::Index>(c));
       shift += part * (secondary_.points[static_cast<std::size_t>(secondary_.facets[facet][c])] - node);
-      tilt += part * (nodes_.normal(secondary_, facet, c) - surface_node.normal);
+      tilt += part * (rays_.own_normal(facet, c) - normal);
     }
   }
-  return {node + shift / d, (surface_node.normal + tilt / d).normalized()};
+  return {node + shift / d, (normal + tilt / d).normalized()};
 }
 
 bool ContactPoints::means_field(std::size_t p)
@@ -64,7 +64,7 @@ std::pair<Point, Point> ContactPoints::point_at(const Rays::FacetPoint& place) c
   Point at = Point::Zero(), normal = Point::Zero();
   for (std::size_t c = 0; c < corners.size(); ++c) {
     at += place.shape[static_cast<Eigen::Index>(c)] * secondary_.points[static_cast<std::size_t>(corners[c])];
-    normal += place.shape[static_cast<Eigen::Index>(c)] * nodes_.normal(secondary_, place.facet, c);
+    normal += place.shape[static_cast<Eigen::Index>(c)] * rays_.own_normal(place.facet, c);
   }
   return {at, normal.normalized()};
 }

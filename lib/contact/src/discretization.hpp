@@ -8,6 +8,7 @@
 
 #include "cut_faces.hpp"
 #include "face_integrals.hpp"
+#include "line_of_sight.hpp"
 #include "nearest_points.hpp"
 #include "opposite.hpp"
 #include "places_between.hpp"
@@ -21,6 +22,7 @@ struct TwoSides {
   const Side& primary;
   const SurfaceNodes& primary_nodes;
   const Tree& tree;                          ///< of the primary facets
+  const LineOfSight& sight;                  ///< between the two sides
   CutFaces& faces;                           ///< of the secondary side
   Rays& rays;                                ///< from the surface nodes
   bool obstacle;                             ///< the primary side is rigid and has no faces

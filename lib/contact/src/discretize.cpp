@@ -16,6 +16,7 @@
 #include "continued_side.hpp"
 #include "cut_faces.hpp"
 #include "discretization.hpp"
+#include "line_of_sight.hpp"
 #include "moments.hpp"
 #include "nearest_points.hpp"
 #include "one_part.hpp"
@@ -31,14 +32,6 @@
 namespace mortise::contact {
 
 namespace {
-
-Tree tree_of_facets(const Side& side)
-{
-  std::vector<Box> boxes(side.facets.size());
-  for (std::size_t f = 0; f < boxes.size(); ++f)
-    for (const Local n : side.facets[f]) boxes[f].extend(side.points[static_cast<std::size_t>(n)]);
-  return Tree(std::move(boxes));
-}
 
 // Of the distance that the search goes, and of a place's distance from the origin.
 constexpr double rounding_of_gap = 1e-12, rounding_of_coordinates = 1e-15;
@@ -74,12 +67,13 @@ class Builder {
         primary_nodes_(find_surface_nodes(primary_, primary_supports_, at_bonds, primary_at_bonds_)),
         faces_(secondary_, nodes_, share.own),
         tree_(tree_of_facets(primary_)),
-        rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, options.obstacle, reach),
+        sight_(secondary_, primary_, tree_),
+        rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, sight_, options.obstacle, reach),
         mesh_gaps_(options.law != Law::bonded && !options.clearance),
         nearest_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<NearestPoint>()),
         bonded_nodes_(held_together(primary_at_bonds_)),
         discretization_(make_discretization(
-            options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, faces_, rays_,
+            options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, sight_, faces_, rays_,
                                      options.obstacle.has_value(), reach, mesh_gaps_, options.law != Law::bonded, nearest_,
                                      bonded_nodes_})),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
@@ -340,7 +334,7 @@ class Builder {
   RowsBetween::Gap gap_between(const PlaceBetween& place)
   {
     const auto p = place.surface_node;
-    const Point direction = rays_.direction(p, place.at, place.normal);
+    const Point direction = rays_.direction(p, place.at, rays_.own_normal(place.where));
     const auto gap_of = [&](const Rays::GapOf& start) {
       return without_rounding(p, true, rays_.gap(p, place.where, direction, start), place.at, direction);
     };
@@ -361,7 +355,8 @@ class Builder {
   std::vector<FacesAtBonds::AtBond> primary_at_bonds_;
   SurfaceNodes nodes_, primary_nodes_;
   CutFaces faces_;  // once dual, those near have their share of the rows
-  Tree tree_;       // of the primary facets
+  Tree tree_;
+  LineOfSight sight_;       // of the primary facets
   Rays rays_;
   bool mesh_gaps_;
   std::vector<NearestPoint> nearest_;  // of each surface node, or none

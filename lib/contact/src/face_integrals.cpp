@@ -35,13 +35,14 @@ Eigen::Vector4d whole_of(const FaceGeometry& face)
 }  // namespace
 
 Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary,
-                       const SurfaceNodes& primary_nodes, const Tree& tree, double reach, bool corners,
+                       const SurfaceNodes& primary_nodes, const Tree& tree, const LineOfSight& sight, double reach, bool corners,
                        const std::vector<NearestPoint>& nearest, std::span<const std::vector<Local>> bonded)
     : secondary_(secondary),
       secondary_nodes_(secondary_nodes),
       primary_(primary),
       primary_nodes_(primary_nodes),
       tree_(tree),
+      sight_(sight),
       reach_(reach),
       nearest_(nearest),
       slot_(primary.points.size(), -1),
@@ -186,7 +187,12 @@ void Integrator::each_common(std::size_t facet, const Use& use)
     const auto other = static_cast<std::size_t>(met);
     // Functions of points of its own are linear on triangles, which may be small.
     const bool high = second_order || basis_ || primary_.second_order(static_cast<std::size_t>(primary_.face_of[other]));
-    if (overlap(own, primary_.geometry(other), reach_, high, overlap_)) use(other);
+    const auto geometry = primary_.geometry(other);
+    if (!overlap(own, geometry, reach_, high, overlap_)) continue;
+    if (std::abs(overlap_.distance) > std::max(own.size(), geometry.size()) &&
+        sight_.hidden(overlap_.middle, overlap_.frame.normal, overlap_.distance))
+      continue;
+    use(other);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "covered_basis.hpp"
 #include "covered_face.hpp"
+#include "line_of_sight.hpp"
 #include "nearest_points.hpp"
 #include "pieces.hpp"
 #include "places_between.hpp"
@@ -21,7 +22,7 @@ class Integrator {
   /// All of which must outlive it. `tree` has the facets of the primary side; `nearest` are those of nearest_points(). `corners`:
   /// those of the common base have rows of their own. `bonded`: see TwoSides.
   Integrator(const Side& secondary, const SurfaceNodes& secondary_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
-             const Tree& tree, double reach, bool corners, const std::vector<NearestPoint>& nearest,
+             const Tree& tree, const LineOfSight& sight, double reach, bool corners, const std::vector<NearestPoint>& nearest,
              std::span<const std::vector<Local>> bonded);
   /// Everything on the primary side that a face looks at within reach: one piece, or those of its facets; `in_facets`: of these
   /// in any case. Valid until the next call.
@@ -58,6 +59,7 @@ class Integrator {
   const Side& primary_;
   const SurfaceNodes& primary_nodes_;
   const Tree& tree_;
+  const LineOfSight& sight_;
   double reach_;
   const std::vector<NearestPoint>& nearest_;  // of each surface node of the secondary side, or none
   std::vector<PieceIntegrals> pieces_;

@@ -11,7 +11,7 @@ class Mortar : public Discretization {
  public:
   explicit Mortar(const TwoSides& sides)
       : Discretization(sides),
-        integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.reach,
+        integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.sight, sides.reach,
                     sides.corners, sides.nearest, sides.bonded)
   {
   }

@@ -9,7 +9,7 @@ class NodeToSegment : public Discretization {
  public:
   explicit NodeToSegment(const TwoSides& sides)
       : Discretization(sides),
-        integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.reach, false,
+        integrator_(sides.secondary, sides.surface_nodes, sides.primary, sides.primary_nodes, sides.tree, sides.sight, sides.reach, false,
                     none_, sides.bonded)
   {
   }

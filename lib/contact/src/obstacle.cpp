@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace mortise::contact {
@@ -86,6 +87,26 @@ ClosestPoint closest_point(const Obstacle& obstacle, const Point& x)
   if (!(length > 1e-9 * obstacle.radius)) return {};
   const double side = obstacle.inside ? -1 : 1;
   return {side * (length - obstacle.radius), side / length * out};
+}
+
+double distance_along(const Obstacle& obstacle, const Point& x, const Point& direction)
+{
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Point out = x - obstacle.point, along = direction;
+  if (obstacle.shape == Obstacle::Shape::plane) {
+    const double towards = -along.dot(obstacle.direction);
+    return towards > 0 ? obstacle.direction.dot(out) / towards : infinite;
+  }
+  if (obstacle.shape == Obstacle::Shape::cylinder) {
+    out -= out.dot(obstacle.direction) * obstacle.direction;
+    along -= along.dot(obstacle.direction) * obstacle.direction;
+  }
+  // a t^2 + 2 b t + c = 0: the root where the line enters a solid obstacle, or leaves a hollow one.
+  const double side = obstacle.inside ? -1 : 1, towards = -side * out.dot(along);
+  const double a = along.squaredNorm(), c = (out.norm() - obstacle.radius) * (out.norm() + obstacle.radius);
+  const double root = towards * towards - a * c;
+  if (root < 0 || towards + std::sqrt(root) <= 0) return infinite;
+  return side * c / (towards + std::sqrt(root));
 }
 
 void read(Obstacle& obstacle, const YAML::Node& node, const std::string& path, deck::Document& document)

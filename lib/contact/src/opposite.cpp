@@ -25,6 +25,8 @@ constexpr double on_border = 0.1;
 constexpr double least_excess = 1e-4;
 // Sine of the angle from which there is an edge between two faces, and cosines nearer than this are equal.
 constexpr double least_bend = 0.05, no_better = 0.01;
+// Of the length of a line: what is as near is no nearer.
+constexpr double same_gap = 1e-7;
 // The curvature of a convex edge, over that of a ball of the size of the faces there.
 constexpr double curvature_of_edge = 1e3;
 
@@ -100,12 +102,13 @@ Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes)
 }  // namespace
 
 Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
-           const Tree& tree, const std::optional<Obstacle>& obstacle, double reach)
+           const Tree& tree, const LineOfSight& sight, const std::optional<Obstacle>& obstacle, double reach)
     : secondary_(secondary),
       nodes_(surface_nodes),
       primary_(primary),
       primary_nodes_(primary_nodes),
       tree_(tree),
+      sight_(sight),
       reach_(reach),
       obstacle_(obstacle),
       face_of_middle_(surface_nodes.all.size(), {-1, -1}),
@@ -117,35 +120,52 @@ Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& prima
       face_of_middle_[static_cast<std::size_t>(surface_nodes.of_node[static_cast<std::size_t>(secondary.faces.offset[f]) + k])] =
           {static_cast<Local>(f), static_cast<Local>(k)};
   curvature_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return curvature_of(secondary, surface_nodes, f); });
+  auto edges = edges_at(secondary, surface_nodes);
+  beside_ = std::move(edges.concave);
+  on_edge_ = std::move(edges.convex);
   if (!obstacle) {
     past_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
-    auto edges = edges_at(secondary, surface_nodes);
-    beside_ = std::move(edges.concave);
-    on_edge_ = std::move(edges.convex);
     primary_on_edge_ = edges_at(primary, primary_nodes).convex;
     return;
   }
-  // The directions of contact are the obstacle's normals; where a surface node does not face it, it is out of reach.
-  for (auto& surface_node : surface_nodes.all) {
-    ClosestPoint at = closest_point(*obstacle, secondary.points[static_cast<std::size_t>(surface_node.node)]);
-    if (surface_node.normal.dot(at.normal) > opposed) at.distance = std::numeric_limits<double>::infinity();
-    if (std::isfinite(at.distance)) surface_node.normal = -at.normal;
-    distance_.push_back(at.distance);
+  // Where a surface node does not face the obstacle, it is out of reach.
+  for (std::size_t p = 0; p < surface_nodes.all.size(); ++p) {
+    auto& surface_node = surface_nodes.all[p];
+    const Point& x = secondary.points[static_cast<std::size_t>(surface_node.node)];
+    const ClosestPoint closest = closest_point(*obstacle, x);
+    distance_.push_back(std::numeric_limits<double>::infinity());
+    if (!std::isfinite(closest.distance) || surface_node.normal.dot(closest.normal) > opposed) continue;
+    surface_node.normal = direction_to_obstacle(p, closest, surface_node.normal);
+    distance_.back() = distance_to_obstacle(x, surface_node.normal);
   }
 }
 
 Opposite Rays::shoot(const Point& from, const Point& direction, double length, const Counts& counts) const
 {
-  Opposite best;
+  std::array<Opposite, 2> best;                       // before and behind
+  std::array<double, 2> against{0, 0};                // cosines between the line and their normals
   const Point room = Point::Constant(0.02 * length);  // a hit may lie a little beside its face
   for (const int m : tree_.swept(Box(from - room, from + room), length * direction)) {
     const auto facet = static_cast<std::size_t>(m);
-    const auto hit = contact::shoot(from, direction, primary_.geometry(facet));
+    const auto geometry = primary_.geometry(facet);
+    const auto hit = contact::shoot(from, direction, geometry);
     if (!hit.found || (counts && !counts(facet))) continue;
     const double gap = hit.distance - Bulge(primary_, primary_nodes_, facet)(hit.shape);
-    if (std::abs(gap) <= length && std::abs(gap) < std::abs(best.gap)) best = {gap, facet, hit};
+    if (std::abs(gap) > length) continue;
+    const std::size_t way = gap < 0 ? 1 : 0;
+    // In a concave edge of the primary side two faces are equally near.
+    const double cosine = geometry.normal().dot(direction), nearer = std::abs(best[way].gap) - std::abs(gap);
+    if (nearer < -same_gap * length || (nearer < same_gap * length && cosine >= against[way])) continue;
+    best[way] = {gap, facet, hit};
+    against[way] = cosine;
   }
-  return best;
+  const double nearer = std::abs(best[0].gap) - std::abs(best[1].gap);
+  if (nearer > same_gap * length || (nearer > -same_gap * length && against[1] < against[0])) std::swap(best[0], best[1]);
+  for (const auto& opposite : best)
+    if (std::isfinite(opposite.gap) && (std::abs(opposite.gap) < primary_.geometry(opposite.facet).size() ||
+                                        !sight_.hidden(from, direction, opposite.gap)))
+      return opposite;
+  return {};
 }
 
 Opposite Rays::shoot_past(const Point& from, const Point& direction, double length, double past, const Counts& counts) const
@@ -225,9 +245,8 @@ bool Rays::nearest_within(std::size_t f)
 Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
 {
   if (obstacle_) {
-    if (at == secondary_.points[static_cast<std::size_t>(nodes_.all[p].node)]) return normal;
     const auto closest = closest_point(*obstacle_, at);
-    return std::isfinite(closest.distance) ? Point(-closest.normal) : normal;
+    return std::isfinite(closest.distance) ? direction_to_obstacle(p, closest, normal) : normal;
   }
   const auto opposite = shoot_past(p, at, normal, 2 * reach_, past_[p]);
   if (!std::isfinite(opposite.gap)) return normal;
@@ -248,6 +267,27 @@ double Rays::part_on_edges(const Opposite& opposite) const
     if (primary_on_edge_[static_cast<std::size_t>(primary_nodes_.of_corner[begin + k])])
       part += opposite.hit.shape[static_cast<Eigen::Index>(k)];
   return std::clamp(part, 0.0, 1.0);
+}
+
+Point Rays::direction_to_obstacle(std::size_t p, const ClosestPoint& closest, const Point& normal) const
+{
+  if (obstacle_->shape == Obstacle::Shape::plane) return -closest.normal;
+  const double own = curvature_[p] + (least_curvature + (on_edge_[p] ? curvature_of_edge : 0)) / obstacle_->radius;
+  return (curvature_of(*obstacle_) * normal - own * closest.normal).normalized();
+}
+
+double Rays::distance_to_obstacle(const Point& at, const Point& direction) const
+{
+  const double distance = distance_along(*obstacle_, at, direction);
+  return std::isfinite(distance) ? distance : closest_point(*obstacle_, at).distance;
+}
+
+Point Rays::own_normal(const FacetPoint& point) const
+{
+  Point normal = Point::Zero();
+  for (std::size_t k = 0; k < secondary_.facets[point.facet].size(); ++k)
+    normal += point.shape[static_cast<Eigen::Index>(k)] * own_normal(point.facet, k);
+  return normal.normalized();
 }
 
 double Rays::rise_of(const Opposite& met) const
@@ -287,7 +327,9 @@ std::optional<Rays::NearNode> Rays::nearest_node(std::size_t facet,
       Point at = Point::Zero();
       for (std::size_t c = 0; c < own.nodes.size(); ++c) at += shape[static_cast<Eigen::Index>(c)] * own.nodes[c];
       const double gap = (geometry.nodes[k] - at).dot(frame.normal) - own_bulge(facet)(shape);
-      if (std::abs(gap) <= reach_ && (!best || gap < best->gap)) best = NearNode{shape, gap, geometry.size()};
+      if (std::abs(gap) > reach_ || (best && gap >= best->gap)) continue;
+      if (std::abs(gap) > std::max(own.size(), geometry.size()) && sight_.hidden(at, frame.normal, gap)) continue;
+      best = NearNode{shape, gap, geometry.size()};
     }
   }
   return best;
@@ -296,9 +338,7 @@ std::optional<Rays::NearNode> Rays::nearest_node(std::size_t facet,
 Bulge Rays::own_bulge(std::size_t facet) const
 {
   Few<Point, 4> normals;
-  for (std::size_t k = 0; k < secondary_.facets[facet].size(); ++k)
-    normals.push_back(
-        own_normal_[static_cast<std::size_t>(nodes_.of_corner[static_cast<std::size_t>(secondary_.facets.offset[facet]) + k])]);
+  for (std::size_t k = 0; k < secondary_.facets[facet].size(); ++k) normals.push_back(own_normal(facet, k));
   return {secondary_.geometry(facet), {normals.begin(), normals.size()}};
 }
 
@@ -306,7 +346,8 @@ std::optional<Rays::Tilt> Rays::tilt(std::size_t p)
 {
   if (obstacle_) {
     if (!std::isfinite(distance_[p])) return std::nullopt;
-    return Tilt{own_normal_[p] - nodes_.all[p].normal, curvature_[p] + curvature_of(*obstacle_)};
+    const auto closest = closest_point(*obstacle_, secondary_.points[static_cast<std::size_t>(nodes_.all[p].node)]);
+    return Tilt{own_normal_[p] + closest.normal, curvature_[p] + curvature_of(*obstacle_)};
   }
   const Opposite& opposite = meet(p);
   if (!std::isfinite(opposite.gap)) return std::nullopt;
@@ -316,14 +357,9 @@ std::optional<Rays::Tilt> Rays::tilt(std::size_t p)
 std::optional<Rays::Tilt> Rays::tilt(std::size_t p, std::size_t facet, const Eigen::Vector4d& shape) const
 {
   const auto geometry = secondary_.geometry(facet);
-  Point at = Point::Zero(), normal = Point::Zero();
-  for (std::size_t k = 0; k < geometry.nodes.size(); ++k) {
-    at += shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
-    normal +=
-        shape[static_cast<Eigen::Index>(k)] *
-        own_normal_[static_cast<std::size_t>(nodes_.of_corner[static_cast<std::size_t>(secondary_.facets.offset[facet]) + k])];
-  }
-  normal.normalize();
+  const Point normal = own_normal(FacetPoint{facet, shape});
+  Point at = Point::Zero();
+  for (std::size_t k = 0; k < geometry.nodes.size(); ++k) at += shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
   if (obstacle_) {
     const auto closest = closest_point(*obstacle_, at);
     if (!std::isfinite(closest.distance)) return std::nullopt;
@@ -337,12 +373,12 @@ std::optional<Rays::Tilt> Rays::tilt(std::size_t p, std::size_t facet, const Eig
 double Rays::gap(std::size_t p, const Point& direction, const GapOf& gap_of) const
 {
   const auto from = [&](std::size_t surface_node) {
+    const Point& at = secondary_.points[static_cast<std::size_t>(nodes_.all[surface_node].node)];
     Opposite opposite;
     if (obstacle_)
-      opposite.gap = distance_[surface_node];
+      opposite.gap = std::isfinite(distance_[surface_node]) ? distance_to_obstacle(at, direction) : distance_[surface_node];
     else
-      opposite = shoot_past(surface_node, secondary_.points[static_cast<std::size_t>(nodes_.all[surface_node].node)], direction,
-                            2 * reach_, past_[surface_node]);
+      opposite = shoot_past(surface_node, at, direction, 2 * reach_, past_[surface_node]);
     return gap_of && std::isfinite(opposite.gap) ? gap_of(surface_node, opposite) : opposite.gap;
   };
   const auto [face, node] = face_of_middle_[p];
@@ -362,7 +398,7 @@ double Rays::gap(std::size_t p, const FacetPoint& point, const Point& direction,
   const auto geometry = secondary_.geometry(point.facet);
   Point at = Point::Zero();
   for (std::size_t k = 0; k < geometry.nodes.size(); ++k) at += point.shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
-  auto opposite = obstacle_ ? Opposite{closest_point(*obstacle_, at).distance, 0, {}}
+  auto opposite = obstacle_ ? Opposite{distance_to_obstacle(at, direction), 0, {}}
                             : shoot_past(p, at, direction, 2 * reach_, part_past * geometry.size());
   opposite.gap -= own_bulge(point.facet)(point.shape);
   return gap_of && std::isfinite(opposite.gap) ? gap_of(p, opposite) : opposite.gap;

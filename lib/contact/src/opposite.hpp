@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/obstacle.hpp"
+#include "line_of_sight.hpp"
 #include "surface_nodes.hpp"
 #include "tree.hpp"
 
@@ -21,9 +22,9 @@ struct Opposite {
 class Rays {
  public:
   /// All of which must outlive it; `tree` has the facets of the primary side. Turns the normals of the surface nodes at which an
-  /// obstacle lies opposite into the direction of contact, that of the obstacle.
+  /// obstacle lies opposite into the direction of contact.
   Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
-       const Tree& tree, const std::optional<Obstacle>& obstacle, double reach);
+       const Tree& tree, const LineOfSight& sight, const std::optional<Obstacle>& obstacle, double reach);
 
   /// What is next to a surface node on the line along its normal, both ways, within reach; looked up once for each surface node.
   /// An obstacle is met at any distance.
@@ -53,14 +54,18 @@ class Rays {
   std::optional<NearNode> nearest_node(std::size_t facet, const std::function<bool(const Eigen::Vector4d&)>& counts) const;
   bool obstacle() const { return obstacle_.has_value(); }
   double size_of(const Opposite& opposite) const { return primary_.geometry(opposite.facet).size(); }
-  /// The normal of the secondary side itself at a surface node, also opposite an obstacle.
+  /// The normal of the secondary side itself, also opposite an obstacle: at a surface node, at the corner of a facet.
   const Point& own_normal(std::size_t surface_node) const { return own_normal_[surface_node]; }
+  const Point& own_normal(std::size_t facet, std::size_t corner) const
+  {
+    return own_normal_[static_cast<std::size_t>(nodes_.of_corner[static_cast<std::size_t>(secondary_.facets.offset[facet]) + corner])];
+  }
 
   /// The direction of contact at a point of the secondary side near a surface node, whose normal there is given: between the two
   /// sides' normals, the nearer to that of the flatter side the more it is flatter, weights being the other side's curvature. So
   /// both sides mean the same direction, and a curved body on a flat one is not sheared. Convex edges are curved most: there it is
   /// the normal of what they touch, unless that is an edge, too. The given normal where nothing lies
-  /// opposite; an obstacle's own.
+  /// opposite.
   Point direction(std::size_t surface_node, const Point& at, const Point& normal) const;
 
   /// What the line from there along that direction meets; nothing where the gap is infinite.
@@ -87,9 +92,11 @@ class Rays {
     Eigen::Vector4d shape;  ///< of the facet
   };
   double gap(std::size_t surface_node, const FacetPoint& point, const Point& direction, const GapOf& gap_of = {}) const;
+  /// The normal of the secondary side itself there.
+  Point own_normal(const FacetPoint& point) const;
 
  private:
-  // Of facets for which `counts` holds, or all.
+  // What a line meets first, both ways, of facets for which `counts` holds, or all, and sees.
   using Counts = std::function<bool(std::size_t facet)>;
   Opposite shoot(const Point& from, const Point& direction, double length, const Counts& counts) const;
   // The same; a line that meets nothing meets the nearest face continued, if it misses it by less than `past`.
@@ -100,12 +107,15 @@ class Rays {
   Point primary_normal(const Opposite& opposite) const;
   double part_on_edges(const Opposite& opposite) const;
   Bulge own_bulge(std::size_t facet) const;
+  Point direction_to_obstacle(std::size_t surface_node, const ClosestPoint& closest, const Point& normal) const;
+  double distance_to_obstacle(const Point& at, const Point& direction) const;
   Tilt tilt_to(std::size_t surface_node, const Point& own, const Opposite& opposite) const;
   const Side& secondary_;
   const SurfaceNodes& nodes_;
   const Side& primary_;
   const SurfaceNodes& primary_nodes_;
   const Tree& tree_;
+  const LineOfSight& sight_;
   double reach_;
   const std::optional<Obstacle>& obstacle_;
   std::vector<Point> own_normal_;                        // of each surface node

@@ -137,8 +137,10 @@ bool overlap(const FaceGeometry& secondary, const FaceGeometry& primary, double 
     result.common = common;
   }
   const Locator in_secondary(secondary.type, own), in_primary(primary.type, other);
-  const double distance = height_at(primary, frame, in_primary(middle)) - height_at(secondary, frame, in_secondary(middle));
-  if (std::abs(distance) > reach) return false;
+  const double height = height_at(secondary, frame, in_secondary(middle));
+  result.distance = height_at(primary, frame, in_primary(middle)) - height;
+  if (std::abs(result.distance) > reach) return false;
+  result.middle = frame.origin + middle[0] * frame.first + middle[1] * frame.second + height * frame.normal;
   for (const auto& at : result.samples) result.points.push_back({at.weight, at.at, in_secondary(at.at), in_primary(at.at)});
   return true;
 }

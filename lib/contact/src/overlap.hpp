@@ -49,6 +49,8 @@ struct Overlap {
   std::vector<OverlapPoint> points;
   Polygon common;               ///< of the two projections; on a line its two ends
   std::vector<Sample> samples;  ///< for the work on it
+  Point middle;                 ///< of the common part, on the secondary facet
+  double distance;              ///< from there to the primary one, along the normal of the frame; negative: it lies behind
 };
 
 /// The secondary facet's auxiliary plane through its centre is where both are projected along its normal and clipped [Puso and

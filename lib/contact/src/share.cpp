@@ -141,7 +141,8 @@ Share share_out(const Pair& pair, const PairSize& size, fem::Kinematics kinemati
   Share share;
   std::vector<SentFace> faces;
   const double ring = slack * std::max(size.secondary_face, size.primary_face), round_it = (rings_of_integrals + rings) * ring;
-  share.secondary = deliver(secondary, boxes, shares, parts, shares.of_face, round_it, kinematics, faces, comm);
+  // What stands between a face and what it would meet.
+  share.secondary = deliver(secondary, boxes, shares, parts, shares.of_face, size.reach + round_it, kinematics, faces, comm);
   share.own.assign(share.secondary.points.size(), 0);
   for (std::size_t f = faces.size(); f > 0; --f)
     for (const Local n : share.secondary.faces[f - 1])

@@ -29,6 +29,10 @@ struct ClosestPoint {
 /// point.
 ClosestPoint closest_point(const Obstacle& obstacle, const Point& x);
 
+/// How far the surface is from x along a unit vector that leads towards it, signed: positive outside of the obstacle; infinite if
+/// it leads past.
+double distance_along(const Obstacle& obstacle, const Point& x, const Point& direction);
+
 /// {plane: {point, normal}}, {cylinder: {point, axis, radius, inside}} or {sphere: {center, radius, inside}}: read, written, and
 /// as a JSON schema. Errors go to the document.
 void read(Obstacle& obstacle, const YAML::Node& node, const std::string& path, deck::Document& document);

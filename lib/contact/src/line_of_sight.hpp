@@ -1,0 +1,29 @@
+// What one side sees of the other: not what lies behind faces, as the next tooth of a gear does behind a tooth.
+#pragma once
+
+#include "side.hpp"
+#include "tree.hpp"
+
+namespace mortise::contact {
+
+Tree tree_of_facets(const Side& side);
+
+class LineOfSight {
+ public:
+  /// `tree` has the facets of the primary side. All of them outlive it.
+  LineOfSight(const Side& secondary, const Side& primary, const Tree& tree)
+      : secondary_(secondary), primary_(primary), secondary_tree_(tree_of_facets(secondary)), primary_tree_(tree)
+  {
+  }
+
+  /// Whether a facet of either side lies between x and x + gap direction. Who asks for gaps below the size of a face asks for
+  /// nothing: sides whose bodies are thinner than that overlap as a whole.
+  bool hidden(const Point& x, const Point& direction, double gap) const;
+
+ private:
+  const Side &secondary_, &primary_;
+  Tree secondary_tree_;
+  const Tree& primary_tree_;
+};
+
+}  // namespace mortise::contact
