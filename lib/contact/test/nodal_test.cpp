@@ -59,6 +59,16 @@ TEST(Obstacles, SignedDistances)
   EXPECT_LT((closest_point({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, false}, x).normal - Point(0.6, 0.8, 0)).norm(),
             1e-15);
   EXPECT_FALSE(std::isfinite(closest_point({Shape::sphere, x, Point::UnitY(), 6, false}, x).distance));
+  // Along a line: to a plane, into a cylinder and a sphere, out of a hollow one, past both.
+  const Point down = Point(3, 0, -4) / 5;
+  EXPECT_NEAR(distance_along({Shape::plane, Point(0, 0, 5), Point::UnitZ(), 0, false}, x, down), 2.5, 1e-14);
+  EXPECT_NEAR(distance_along({Shape::cylinder, Point(13, 4, 0), Point::UnitZ(), 4, false}, x, down), 10, 1e-13);
+  EXPECT_NEAR(distance_along({Shape::cylinder, Point(3, 4, 0), Point::UnitZ(), 3, true}, x, down), 5, 1e-13);
+  EXPECT_NEAR(distance_along({Shape::sphere, x + 10 * down, Point::UnitY(), 4, false}, x, down), 6, 1e-13);
+  EXPECT_NEAR(distance_along({Shape::sphere, x + 3 * down, Point::UnitY(), 4, false}, x, down), -1, 1e-13);
+  EXPECT_NEAR(distance_along({Shape::sphere, x - 3 * down, Point::UnitY(), 4, true}, x, down), 1, 1e-13);
+  EXPECT_FALSE(std::isfinite(distance_along({Shape::sphere, x - 10 * down, Point::UnitY(), 4, false}, x, down)));
+  EXPECT_FALSE(std::isfinite(distance_along({Shape::sphere, x + 10 * Point::UnitY(), Point::UnitY(), 4, false}, x, down)));
 }
 
 // A wavy sheet over a plane: rows of single nodes along the plane's normal, with their heights for gaps; areas of the whole

@@ -207,21 +207,73 @@ TEST(SmoothNormals, AtTheCutsOfASectorEndAtAKink)
   EXPECT_GE(at_cut, 5);
 }
 
-// A ridge of 30 degrees is no kink, and nothing of second order goes along it: the planes beside it keep their normals.
+// Ridges and grooves, also of a few degrees: the planes beside them keep their normals, up to the edge.
 TEST(SmoothNormals, OfPlanesBesideARidgeAreTheirOwn)
 {
   const Communicator comm;
-  const double slope = std::tan(0.2618);
-  const auto roof = [&](double x, double y) { return Point(x, y, -slope * std::abs(x)); };
-  const auto pair = make_pair(surface({6, 4, -3, 3, 0, 4, true, true}, roof, comm),
-                              surface({6, 4, -3, 3, 0, 4, false, true, primary_ids}, roof, comm), Law::frictionless);
-  const auto nodes = nodes_of(pair, comm);
-  for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
-    const double x = nodes.at(row.node)[0], y = nodes.at(row.node)[1];
-    const Point right = Point(slope, 0, 1).normalized(), left = Point(-slope, 0, 1).normalized();
-    const double to_right = (row.normal - right).norm(), to_left = (row.normal - left).norm();
-    EXPECT_LT(x > 0.1 ? to_right : x < -0.1 ? to_left : std::min(to_left, to_right), 1e-10) << x << ", " << y;
-    EXPECT_NEAR(row.bound, 0, 1e-12);
+  for (const bool triangles : {false, true})
+    for (const double slope : {-0.3, -0.1, 0.02, 0.1, 0.27, 0.6}) {
+      const auto roof = [&](double x, double y) { return Point(x, y, -slope * std::abs(x)); };
+      const auto pair = make_pair(surface({6, 4, -3, 3, 0, 4, true, triangles}, roof, comm),
+                                  surface({6, 4, -3, 3, 0, 4, false, triangles, primary_ids}, roof, comm), Law::frictionless);
+      const auto nodes = nodes_of(pair, comm);
+      for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
+        const double x = nodes.at(row.node)[0];
+        const Point right = Point(slope, 0, 1).normalized(), left = Point(-slope, 0, 1).normalized();
+        const double to_right = (row.normal - right).norm(), to_left = (row.normal - left).norm();
+        EXPECT_LT(x > 0.1 ? to_right : x < -0.1 ? to_left : std::min(to_left, to_right), 1e-10) << slope << ", at " << x;
+        EXPECT_NEAR(row.bound, 0, 1e-12);
+      }
+    }
+}
+
+// Two arcs of radius 5 that meet at an angle: the faces themselves turn by 12 degrees.
+TEST(SmoothNormals, OfArcsBesideARidgeAreTheirOwn)
+{
+  const Communicator comm;
+  for (const bool triangles : {false, true})
+    for (const double slope : {-0.3, 0.15, 0.3}) {
+      const double away = 5 * slope / std::hypot(slope, 1);  // of the arcs' axes
+      const auto arcs = [&](double x, double y) {
+        return Point(x, y, std::sqrt(25 - (std::abs(x) + away) * (std::abs(x) + away)) - std::sqrt(25 - away * away));
+      };
+      const auto pair = make_pair(surface({6, 4, -3, 3, 0, 4, true, triangles}, arcs, comm),
+                                  surface({6, 4, -3, 3, 0, 4, false, triangles, primary_ids}, arcs, comm), Law::frictionless);
+      const auto nodes = nodes_of(pair, comm);
+      for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
+        const Point& x = nodes.at(row.node);
+        const auto off = [&](double way) { return (row.normal - Point(x[0] + way * away, 0, x[2] + std::sqrt(25 - away * away)) / 5).norm(); };
+        EXPECT_LT(x[0] > 0.1 ? off(1) : x[0] < -0.1 ? off(-1) : std::min(off(-1), off(1)), 0.01) << slope << ", at " << x[0];
+      }
+    }
+}
+
+// Six faces a wave turn most at the crests, and yet there is no kink. Nor is there one between faces of second order with straight edges.
+TEST(SmoothNormals, OfCoarseWavesAndStraightFacesHaveNoKinks)
+{
+  const Communicator comm;
+  const auto wave = [](double x, double y) { return Point(x, y, 0.3 * std::cos(x * std::numbers::pi / 3)); };
+  for (const bool triangles : {false, true}) {
+    const auto pair = make_pair(surface({12, 4, -6, 6, 0, 4, true, triangles}, wave, comm),
+                                surface({12, 4, -6, 6, 0, 4, false, triangles, primary_ids}, wave, comm), Law::frictionless);
+    const auto nodes = nodes_of(pair, comm);
+    for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows)
+      if (const double x = nodes.at(row.node)[0]; std::abs(x) < 0.1 || std::abs(std::abs(x) - 3) < 0.1)
+        EXPECT_LT(std::abs(row.normal[0]), 1e-6) << "at " << x;
+  }
+  const auto arc = [](double x, double y) { return Point(4 * std::sin(x), y, 4 * std::cos(x)); };
+  for (const auto type : {mesh::CellType::quad8, mesh::CellType::quad9, mesh::CellType::tri6}) {
+    const bool triangles = type == mesh::CellType::tri6;
+    const auto side = [&](bool up, Global first_id) {
+      return second_order(surface({7, 4, -0.7, 0.7, 0, 3, up, triangles, first_id}, arc, comm), type, Eigen::Matrix3d::Identity(), first_id);
+    };
+    const auto pair = make_pair(side(true, 0), side(false, primary_ids), Law::frictionless);
+    const auto nodes = nodes_of(pair, comm);
+    for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
+      const Point& x = nodes.at(row.node);
+      if (std::abs(std::hypot(x[0], x[2]) - 4) < 1e-9 && std::abs(x[0]) < 2)
+        EXPECT_LT((row.normal - Point(x[0], 0, x[2]) / 4).norm(), 0.01) << "at " << x.transpose();
+    }
   }
 }
 
