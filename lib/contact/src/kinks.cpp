@@ -21,14 +21,12 @@ class Kinks {
 
   std::vector<FacetEdge> find()
   {
-    // Faces behind a kink say nothing of this side of it: once more with those that are found.
-    auto found = once();
-    if (!found.empty()) {
-      separate(found);
-      found = once();
-    }
+    // Faces behind a kink say nothing of this side of it, and make kinks of what is none: so the sharpest first.
+    for (int pass = 0; pass < passes; ++pass)
+      if (!part_sharpest()) break;
     std::vector<FacetEdge> result;
-    for (const std::size_t e : found) add_facet_edges(edges_[e], result);
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+      if (parted_[e]) add_facet_edges(edges_[e], result);
     std::sort(result.begin(), result.end());
     return result;
   }
@@ -43,6 +41,8 @@ class Kinks {
   // Of the least squares: a curvature that the nodes do not determine is 0.
   static constexpr double held = 1e-8;
   static constexpr int steps = 4;
+  static constexpr int passes = 4;
+  static constexpr double equal = 1 + 1e-9;
 
   // An edge between two faces.
   struct Edge {
@@ -112,23 +112,29 @@ class Kinks {
     parted_.assign(edges_.size(), false);
   }
 
-  void separate(const std::vector<std::size_t>& kinks)
+  // Of the edges that seem to be kinks, those that are sharper than all others which lie between the faces that say so. Whether
+  // there are more of them now.
+  bool part_sharpest()
   {
-    for (const std::size_t e : kinks) parted_[e] = true;
+    std::vector<double> turn(edges_.size());
+    for (std::size_t e = 0; e < edges_.size(); ++e) turn[e] = parted_[e] ? 0 : turn_at(edges_[e]);
+    std::vector<std::size_t> sharpest, crossed;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (turn[e] == 0) continue;
+      crossed.clear();
+      turn_at(edges_[e], &crossed);
+      if (std::all_of(crossed.begin(), crossed.end(), [&](std::size_t c) { return turn[c] <= equal * turn[e]; }))
+        sharpest.push_back(e);
+    }
+    for (const std::size_t e : sharpest) parted_[e] = true;
+    return !sharpest.empty();
   }
 
-  std::vector<std::size_t> once() const
-  {
-    std::vector<std::size_t> result;
-    for (std::size_t e = 0; e < edges_.size(); ++e)
-      if (is_kink(edges_[e])) result.push_back(e);
-    return result;
-  }
-
-  bool is_kink(const Edge& edge) const
+  // The angle of a kink, as a difference of slopes; 0: there is none. `crossed`: gets the edges between the faces that tell.
+  double turn_at(const Edge& edge, std::vector<std::size_t>* crossed = nullptr) const
   {
     const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
-    if ((first.normal - last.normal).squaredNorm() < least_turn * least_turn) return false;
+    if ((first.normal - last.normal).squaredNorm() < least_turn * least_turn) return 0;
     Place place{(at(edge.a) + at(edge.b)) / 2, (first.normal + last.normal).normalized(), Point::Zero(), 0};
     if (edge.a != edge.b) {
       place.along = (at(edge.b) - at(edge.a)).normalized();
@@ -137,7 +143,7 @@ class Kinks {
     const Point between = last.centre - first.centre;
     const Point away =
         (between - between.dot(place.normal) * place.normal - between.dot(place.along) * place.along).normalized();
-    const Surface back = surface(edge, 0, place, -away), forth = surface(edge, 1, place, away);
+    const Surface back = surface(edge, 0, place, -away, crossed), forth = surface(edge, 1, place, away, crossed);
     double turn = 0, smooth = 0;  // of slopes: at the edge itself, and from the middle of one face to that of the other
     if (back.known && forth.known) {
       turn = back.slope + forth.slope;
@@ -147,10 +153,12 @@ class Kinks {
       turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], place);
       smooth = known.across * (known.depth + other.depth) / 2;
     }
-    return std::abs(turn) > least_turn && std::abs(turn) > of_a_kink * (std::abs(turn) + std::abs(smooth));
+    turn = std::abs(turn);
+    return turn > least_turn && turn > of_a_kink * (turn + std::abs(smooth)) ? turn : 0;
   }
 
-  Surface surface(const Edge& edge, int which, const Place& place, const Point& away) const
+  Surface surface(const Edge& edge, int which, const Place& place, const Point& away,
+                  std::vector<std::size_t>* crossed) const
   {
     const std::size_t own = edge.faces[static_cast<std::size_t>(which)];
     const auto depth = [&](const Face& face) {
@@ -175,9 +183,10 @@ class Kinks {
         const auto touches = [&](Local n) {
           return std::find(faces_[own].nodes.begin(), faces_[own].nodes.end(), n) != faces_[own].nodes.end();
         };
-        if (!parted_[e] && (next.centre - place.middle).dot(away) > 0 && std::find(round.begin(), round.end(), f) == round.end() &&
-            std::any_of(next.nodes.begin(), next.nodes.end(), touches))
-          round.push_back(f);
+        if (parted_[e] || (next.centre - place.middle).dot(away) <= 0) continue;
+        if (std::none_of(next.nodes.begin(), next.nodes.end(), touches)) continue;
+        if (crossed) crossed->push_back(e);
+        if (std::find(round.begin(), round.end(), f) == round.end()) round.push_back(f);
       }
     }
     result.known = farthest > two_rows * result.depth;

@@ -232,7 +232,7 @@ TEST(SmoothNormals, OfArcsBesideARidgeAreTheirOwn)
 {
   const Communicator comm;
   for (const bool triangles : {false, true})
-    for (const double slope : {-0.3, 0.15, 0.3}) {
+    for (const double slope : {-0.3, -0.2, 0.2, 0.3}) {
       const double away = 5 * slope / std::hypot(slope, 1);  // of the arcs' axes
       const auto arcs = [&](double x, double y) {
         return Point(x, y, std::sqrt(25 - (std::abs(x) + away) * (std::abs(x) + away)) - std::sqrt(25 - away * away));
@@ -242,13 +242,15 @@ TEST(SmoothNormals, OfArcsBesideARidgeAreTheirOwn)
       const auto nodes = nodes_of(pair, comm);
       for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
         const Point& x = nodes.at(row.node);
-        const auto off = [&](double way) { return (row.normal - Point(x[0] + way * away, 0, x[2] + std::sqrt(25 - away * away)) / 5).norm(); };
+        const auto off = [&](double way) {
+          return (row.normal - Point(x[0] + way * away, 0, x[2] + std::sqrt(25 - away * away)) / 5).norm();
+        };
         EXPECT_LT(x[0] > 0.1 ? off(1) : x[0] < -0.1 ? off(-1) : std::min(off(-1), off(1)), 0.01) << slope << ", at " << x[0];
       }
     }
 }
 
-// Six faces a wave turn most at the crests, and yet there is no kink. Nor is there one between faces of second order with straight edges.
+// Six faces a wave turn most at the crests, and yet there is no kink; nor is there between straight faces of second order.
 TEST(SmoothNormals, OfCoarseWavesAndStraightFacesHaveNoKinks)
 {
   const Communicator comm;
@@ -258,21 +260,25 @@ TEST(SmoothNormals, OfCoarseWavesAndStraightFacesHaveNoKinks)
                                 surface({12, 4, -6, 6, 0, 4, false, triangles, primary_ids}, wave, comm), Law::frictionless);
     const auto nodes = nodes_of(pair, comm);
     for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows)
-      if (const double x = nodes.at(row.node)[0]; std::abs(x) < 0.1 || std::abs(std::abs(x) - 3) < 0.1)
-        EXPECT_LT(std::abs(row.normal[0]), 1e-6) << "at " << x;
+      if (const double x = nodes.at(row.node)[0]; std::abs(x) < 0.1 || std::abs(std::abs(x) - 3) < 0.1) {
+        EXPECT_LT(std::abs(row.normal[0]), 1e-3) << "at " << x;  // a kink's: 0.15
+      }
   }
   const auto arc = [](double x, double y) { return Point(4 * std::sin(x), y, 4 * std::cos(x)); };
   for (const auto type : {mesh::CellType::quad8, mesh::CellType::quad9, mesh::CellType::tri6}) {
     const bool triangles = type == mesh::CellType::tri6;
     const auto side = [&](bool up, Global first_id) {
-      return second_order(surface({7, 4, -0.7, 0.7, 0, 3, up, triangles, first_id}, arc, comm), type, Eigen::Matrix3d::Identity(), first_id);
+      return second_order(surface({7, 4, -0.7, 0.7, 0, 3, up, triangles, first_id}, arc, comm), type, Eigen::Matrix3d::Identity(),
+                          first_id);
     };
     const auto pair = make_pair(side(true, 0), side(false, primary_ids), Law::frictionless);
     const auto nodes = nodes_of(pair, comm);
     for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
       const Point& x = nodes.at(row.node);
-      if (std::abs(std::hypot(x[0], x[2]) - 4) < 1e-9 && std::abs(x[0]) < 2)
+      const bool inside = std::abs(x[0]) < 2 && x[1] > 0.1 && x[1] < 2.9;
+      if (inside && std::abs(std::hypot(x[0], x[2]) - 4) < 1e-9) {
         EXPECT_LT((row.normal - Point(x[0], 0, x[2]) / 4).norm(), 0.01) << "at " << x.transpose();
+      }
     }
   }
 }
