@@ -65,6 +65,7 @@ class Search {
     for (const auto& at : round(p)) size_ = std::max(size_, side_.geometry(at.facet).size());
     for (const auto& at : round(p))
       if (const auto found = step_along_border(p, at, true); found.found) return found;
+    if (const auto found = step_to_ridge(p); found.found) return found;
     if (const auto found = step_from_node(p); found.found) return found;
     for (const auto& at : round(p))
       if (const auto found = step_into(p, at); found.found) return found;
@@ -170,6 +171,24 @@ class Search {
     }
     if (here.difference.dot(inside) < -inside_border * change / length) return {};
     return accepted(p, s * edge);
+  }
+
+  // To an edge of the primary side.
+  NearestPoint step_to_ridge(std::size_t p) const
+  {
+    std::optional<Rays::OnRidge> best;
+    Corner where{};
+    for (const auto& at : round(p)) {
+      const auto found = rays_.nearest_on_ridge(at.facet, side_.points[static_cast<std::size_t>(nodes_.all[p].node)]);
+      if (found && nearest({at.facet, at.corner, found->shape}) && (!best || found->distance < best->distance)) best = found, where = at;
+    }
+    if (!best) return {};
+    Point shift = Point::Zero();
+    const auto nodes = side_.facets[where.facet];
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      shift += best->shape[static_cast<Eigen::Index>(k)] *
+               (side_.points[static_cast<std::size_t>(nodes[k])] - side_.points[static_cast<std::size_t>(nodes[where.corner])]);
+    return accepted(p, shift);
   }
 
   // Whether there are nodes of the primary side between those of the secondary one, or it ends there.

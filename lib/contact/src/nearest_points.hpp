@@ -26,7 +26,8 @@ struct NearestPoint {
 /// Of each surface node: along its normal the smooth surfaces are parallel there, n + m = 0 with the normals n and m of both
 /// sides. Newton's method, its matrix the least squares' fit to n + m at the nodes round, else at those of one facet, as on bumps
 /// little wider than that; directions in which the sides are curved alike, to 0.3 of their curvature, count as parallel. On edges
-/// of the border, where both sides may end in a plane of symmetry, the same along the edge. Of the nodes of `faces` alone.
+/// of the border, where both sides may end in a plane of symmetry, the same along the edge. First, where a convex edge of the
+/// primary side lies between nodes, that. Of the nodes of `faces` alone.
 std::vector<NearestPoint> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes,
                                          const std::vector<std::size_t>& faces, Rays& rays);
 

@@ -23,8 +23,8 @@ constexpr double part_past = 0.4;
 constexpr double on_border = 0.1;
 // Of an edge's length: what control values may say of an overlap where there is none.
 constexpr double least_excess = 1e-4;
-// Sine of the angle from which there is an edge between two faces, and cosines nearer than this are equal.
-constexpr double least_bend = 0.05, no_better = 0.01;
+// Cosines nearer than this are equal.
+constexpr double no_better = 0.01;
 // Of the length of a line: what is as near is no nearer.
 constexpr double same_gap = 1e-7;
 // The curvature of a convex edge, over that of a ball of the size of the faces there.
@@ -68,37 +68,6 @@ std::vector<double> mean_round(const Side& side, const SurfaceNodes& surface_nod
   return sum;
 }
 
-// Of each surface node the normals of others at the same node, on the other sides of edges: of faces that stand in front of its
-// own, and whether some stand behind them.
-struct Edges {
-  std::vector<Few<Point, 3>> concave;
-  std::vector<bool> convex;
-};
-
-Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes)
-{
-  Edges result{std::vector<Few<Point, 3>>(surface_nodes.all.size()), std::vector<bool>(surface_nodes.all.size(), false)};
-  std::vector<Point> centre(surface_nodes.all.size(), Point::Zero());  // of the facets round each, from the node
-  for (std::size_t f = 0; f < side.facets.size(); ++f) {
-    const auto face = side.geometry(f);
-    for (std::size_t k = 0; k < face.nodes.size(); ++k)
-      centre[static_cast<std::size_t>(surface_nodes.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k])] +=
-          (face.centre() - face.nodes[k]).normalized();
-  }
-  // Surface nodes of a node follow each other.
-  for (std::size_t begin = 0, end = 0; begin < centre.size(); begin = end) {
-    while (end < centre.size() && surface_nodes.all[end].node == surface_nodes.all[begin].node) ++end;
-    for (std::size_t a = begin; a < end; ++a)
-      for (std::size_t b = begin; b < end; ++b) {
-        if (a == b) continue;
-        const double in_front = surface_nodes.all[a].normal.dot(centre[b].normalized());
-        if (in_front > least_bend && result.concave[a].size() < 3) result.concave[a].push_back(surface_nodes.all[b].normal);
-        if (in_front < -least_bend) result.convex[a] = true;
-      }
-  }
-  return result;
-}
-
 }  // namespace
 
 Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
@@ -126,6 +95,7 @@ Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& prima
   if (!obstacle) {
     past_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
     primary_on_edge_ = edges_at(primary, primary_nodes).convex;
+    ridges_ = find_ridges(primary, primary_nodes);
     return;
   }
   // Where a surface node does not face the obstacle, it is out of reach.
@@ -332,6 +302,46 @@ std::optional<Rays::NearNode> Rays::nearest_node(std::size_t facet,
       best = NearNode{shape, gap, geometry.size()};
     }
   }
+  return best;
+}
+
+std::optional<Rays::OnRidge> Rays::nearest_on_ridge(std::size_t facet, const Point& from) const
+{
+  constexpr double between = 0.03;   // slopes of what is no longer beside the edge but along it, or along one of its faces
+  constexpr double outside = 1e-6;   // of shape functions
+  std::optional<OnRidge> best;
+  if (ridges_.all.empty()) return best;
+  const auto own = secondary_.geometry(facet);
+  const Frame frame = frame_of(own);
+  Box box;
+  for (const auto& x : own.nodes) box.extend(x);
+  const auto below = [&](const Point& x) { return shape_beside(secondary_, facet, 0, x - own.nodes[0]); };
+  for (const int met : tree_.swept(box, reach_ * frame.normal))
+    for (const Local r : ridges_.of_facet(static_cast<std::size_t>(met))) {
+      const Ridge& ridge = ridges_.all[static_cast<std::size_t>(r)];
+      if (ridge.normals[0].dot(frame.normal) > opposed || ridge.normals[1].dot(frame.normal) > opposed) continue;
+      const Point& a = primary_.points[static_cast<std::size_t>(ridge.ends[0])];
+      const Point edge = primary_.points[static_cast<std::size_t>(ridge.ends[1])] - a;
+      const double rise = edge.dot(frame.normal), length = edge.norm();
+      double part = 0;  // of the way from a; down a ridge that descends, or next to `from`
+      if (std::abs(rise) > between * length)
+        part = rise < 0 ? 1 : 0;
+      else if (length > 0)
+        part = std::clamp((from - a).dot(edge) / (length * length), 0.0, 1.0);
+      const Point x = a + part * edge;
+      const Eigen::Vector4d shape = below(x);
+      if (shape.head(static_cast<Eigen::Index>(own.nodes.size())).minCoeff() < -outside) continue;
+      Point at = Point::Zero();
+      for (std::size_t c = 0; c < own.nodes.size(); ++c) at += shape[static_cast<Eigen::Index>(c)] * own.nodes[c];
+      // Nearer than on the faces on both sides.
+      const Point normal = own_normal(FacetPoint{facet, shape});
+      const double before = (normal + ridge.normals[0]).dot(ridge.across), behind = (normal + ridge.normals[1]).dot(ridge.across);
+      if (!(before < -between && behind > between)) continue;
+      const double gap = (x - at).dot(frame.normal) - own_bulge(facet)(shape), distance = (at - from).norm();
+      if (std::abs(gap) > reach_ || (best && distance >= best->distance)) continue;
+      if (std::abs(gap) > own.size() && sight_.hidden(at, frame.normal, gap)) continue;
+      best = OnRidge{shape, distance};
+    }
   return best;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/obstacle.hpp"
+#include "edges.hpp"
 #include "line_of_sight.hpp"
 #include "surface_nodes.hpp"
 #include "tree.hpp"
@@ -52,6 +53,14 @@ class Rays {
     double gap, size;
   };
   std::optional<NearNode> nearest_node(std::size_t facet, const std::function<bool(const Eigen::Vector4d&)>& counts) const;
+  /// Where a convex edge of the primary side comes nearer to a facet of the secondary one than the faces on both sides of it; of
+  /// such places the one next to `from`, a node of the facet. An edge that descends has its lower end alone. None opposite an
+  /// obstacle.
+  struct OnRidge {
+    Eigen::Vector4d shape;  ///< of the facet
+    double distance;        ///< from `from`
+  };
+  std::optional<OnRidge> nearest_on_ridge(std::size_t facet, const Point& from) const;
   bool obstacle() const { return obstacle_.has_value(); }
   double size_of(const Opposite& opposite) const { return primary_.geometry(opposite.facet).size(); }
   /// The normal of the secondary side itself, also opposite an obstacle: at a surface node, at the corner of a facet.
@@ -123,6 +132,7 @@ class Rays {
   std::vector<double> distance_;                         // of each surface node from the obstacle, if there is one
   std::vector<Few<Point, 3>> beside_;                    // of each surface node: normals on the other sides of concave edges
   std::vector<bool> on_edge_, primary_on_edge_;          // of each surface node of either side: whether it is on a convex edge
+  Ridges ridges_;                                        // of the primary side
   std::vector<std::pair<Local, Local>> face_of_middle_;  // of each surface node: a face and the node in it, if that is no corner
   std::vector<Opposite> met_;
   std::vector<Local> met_index_;  // of each surface node its entry in met_, or -1
