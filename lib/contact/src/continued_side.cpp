@@ -167,6 +167,9 @@ SurfaceNodes of_first(const Side& side, const SurfaceNodes& whole)
     kept[p] = static_cast<Local>(result.all.size());
     result.all.push_back(whole.all[p]);
   }
+  for (std::size_t c = side.facets.nodes.size(); c < whole.of_corner.size(); ++c)
+    if (const Local p = kept[static_cast<std::size_t>(whole.of_corner[c])]; p >= 0)
+      result.all[static_cast<std::size_t>(p)].continued = true;
   for (std::size_t c = 0; c < side.facets.nodes.size(); ++c)
     result.of_corner.push_back(kept[static_cast<std::size_t>(whole.of_corner[c])]);
   number_nodes_of_faces(side, result);

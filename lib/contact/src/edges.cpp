@@ -10,11 +10,54 @@ namespace {
 // Sine of the angle from which there is an edge between two faces.
 constexpr double least_bend = 0.05;
 
+// An edge of one facet, the corners at its ends in their order; in plane models an end of it, twice.
+struct HalfEdge {
+  FacetEdge ends;
+  std::size_t facet;
+  std::array<std::size_t, 2> corners;
+};
+
+// Ascending by their ends.
+std::vector<HalfEdge> half_edges(const Side& side)
+{
+  std::vector<HalfEdge> edges;
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto nodes = side.facets[f];
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const std::size_t l = nodes.size() == 2 ? k : (k + 1) % nodes.size();
+      if (nodes[k] <= nodes[l])
+        edges.push_back({{nodes[k], nodes[l]}, f, {k, l}});
+      else
+        edges.push_back({{nodes[l], nodes[k]}, f, {l, k}});
+    }
+  }
+  std::ranges::sort(edges, {}, [](const HalfEdge& e) { return std::tuple(e.ends, e.facet); });
+  return edges;
+}
+
+Local surface_node_at(const Side& side, const SurfaceNodes& surface_nodes, const HalfEdge& edge, std::size_t end)
+{
+  return surface_nodes.of_corner[static_cast<std::size_t>(side.facets.offset[edge.facet]) + edge.corners[end]];
+}
+
+// Unit, or zero in plane models.
+Point along(const Side& side, const HalfEdge& edge)
+{
+  const Point way = side.points[static_cast<std::size_t>(edge.ends[1])] - side.points[static_cast<std::size_t>(edge.ends[0])];
+  return way.isZero(0) ? way : Point(way.normalized());
+}
+
+Point across(const Point& way, const Point& along, const Point& normal)
+{
+  return (way - way.dot(along) * along - way.dot(normal) * normal).normalized();
+}
+
 }  // namespace
 
 Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes)
 {
-  Edges result{std::vector<Few<Point, 3>>(surface_nodes.all.size()), std::vector<bool>(surface_nodes.all.size(), false)};
+  Edges result{std::vector<Few<Point, 3>>(surface_nodes.all.size()), std::vector<bool>(surface_nodes.all.size(), false),
+               std::vector<Point>(surface_nodes.all.size(), Point::Zero())};
   std::vector<Point> centre(surface_nodes.all.size(), Point::Zero());  // of the facets round each, from the node
   for (std::size_t f = 0; f < side.facets.size(); ++f) {
     const auto face = side.geometry(f);
@@ -33,53 +76,53 @@ Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes)
         if (in_front < -least_bend) result.convex[a] = true;
       }
   }
+  const auto edges = half_edges(side);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const HalfEdge& edge = edges[i];
+    if ((i > 0 && edges[i - 1].ends == edge.ends) || (i + 1 < edges.size() && edges[i + 1].ends == edge.ends)) continue;
+    const Point to_border = side.points[static_cast<std::size_t>(edge.ends[0])] - side.geometry(edge.facet).centre();
+    for (const std::size_t end : {0U, 1U}) {
+      const auto p = static_cast<std::size_t>(surface_node_at(side, surface_nodes, edge, end));
+      if (!surface_nodes.all[p].continued) result.outward[p] += across(to_border, along(side, edge), surface_nodes.all[p].normal);
+    }
+  }
+  for (auto& outward : result.outward)
+    if (!outward.isZero(1e-9)) outward.normalize();
   return result;
 }
 
 Ridges find_ridges(const Side& side, const SurfaceNodes& surface_nodes)
 {
-  struct HalfEdge {
-    FacetEdge ends;
-    std::size_t facet;
-    std::array<std::size_t, 2> corners;  // of the facet, at its ends
+  const auto edges = half_edges(side);
+  const auto normal_of = [&](const HalfEdge& e) -> Point {
+    return (surface_nodes.normal(side, e.facet, e.corners[0]) + surface_nodes.normal(side, e.facet, e.corners[1])).normalized();
   };
-  std::vector<HalfEdge> edges;
-  for (std::size_t f = 0; f < side.facets.size(); ++f) {
-    const auto nodes = side.facets[f];
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const std::size_t l = nodes.size() == 2 ? k : (k + 1) % nodes.size();
-      if (nodes[k] <= nodes[l])
-        edges.push_back({{nodes[k], nodes[l]}, f, {k, l}});
-      else
-        edges.push_back({{nodes[l], nodes[k]}, f, {l, k}});
-    }
-  }
-  std::ranges::sort(edges, {}, [](const HalfEdge& e) { return std::tuple(e.ends, e.facet); });
-
   Ridges result;
   std::vector<std::pair<Local, Local>> of_facets;  // a facet and its ridge
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    const HalfEdge &first = edges[i], &last = edges[i + 1];
-    if (first.ends != last.ends) continue;
-    const auto node_of = [&](const HalfEdge& e, std::size_t end) {
-      return surface_nodes.of_corner[static_cast<std::size_t>(side.facets.offset[e.facet]) + e.corners[end]];
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const HalfEdge &first = edges[i], &last = i + 1 < edges.size() && edges[i + 1].ends == first.ends ? edges[i + 1] : first;
+    const bool border = &first == &last;
+    if (border && i > 0 && edges[i - 1].ends == first.ends) continue;
+    const auto continued = [&](std::size_t end) {
+      return surface_nodes.all[static_cast<std::size_t>(surface_node_at(side, surface_nodes, first, end))].continued;
     };
-    if (node_of(first, 0) == node_of(last, 0) && node_of(first, 1) == node_of(last, 1)) continue;
-    const auto normal_of = [&](const HalfEdge& e) -> Point {
-      return (surface_nodes.normal(side, e.facet, e.corners[0]) + surface_nodes.normal(side, e.facet, e.corners[1])).normalized();
+    if (border && continued(0) && continued(1)) continue;
+    const auto one_node = [&](std::size_t end) {
+      return surface_node_at(side, surface_nodes, first, end) == surface_node_at(side, surface_nodes, last, end);
     };
-    Ridge ridge{first.ends, {normal_of(first), normal_of(last)}, Point::Zero()};
+    if (!border && one_node(0) && one_node(1)) continue;
+    Ridge ridge{first.ends, {normal_of(first), normal_of(last)}, Point::Zero(), border};
     const Point& a = side.points[static_cast<std::size_t>(first.ends[0])];
-    const Point edge = side.points[static_cast<std::size_t>(first.ends[1])] - a, along = edge.isZero(0) ? edge : edge.normalized();
-    const Point normal = (ridge.normals[0] + ridge.normals[1]).normalized();
-    const Point way = side.geometry(last.facet).centre() - side.geometry(first.facet).centre();
-    if (ridge.normals[0].dot((side.geometry(last.facet).centre() - a).normalized()) > -least_bend) continue;
-    ridge.across = (way - way.dot(along) * along - way.dot(normal) * normal).normalized();
+    const Point before = side.geometry(first.facet).centre(), behind = side.geometry(last.facet).centre();
+    if (!border && ridge.normals[0].dot((behind - a).normalized()) > -least_bend) continue;
+    const Point mean = (ridge.normals[0] + ridge.normals[1]).normalized();
+    ridge.across = across(border ? a - before : behind - before, along(side, first), mean);
     for (const std::size_t facet : {first.facet, last.facet})
       of_facets.emplace_back(static_cast<Local>(facet), static_cast<Local>(result.all.size()));
     result.all.push_back(ridge);
   }
   std::ranges::sort(of_facets);
+  of_facets.erase(std::ranges::unique(of_facets).begin(), of_facets.end());
   result.offset.assign(side.facets.size() + 1, 0);
   for (const auto& [facet, ridge] : of_facets) {
     ++result.offset[static_cast<std::size_t>(facet) + 1];

@@ -8,19 +8,31 @@
 
 namespace mortise::contact {
 
+/// Slopes of two sides that differ by less are parallel.
+inline constexpr double parallel_slopes = 0.03;
+
 /// Of each surface node the normals of others at the same node, on the other sides of edges: of faces that stand in front of its
-/// own, and whether some stand behind them.
+/// own; whether some stand behind them; and on a border where the side ends the unit vector in the tangent plane that leads out.
 struct Edges {
   std::vector<Few<Point, 3>> concave;
   std::vector<bool> convex;
+  std::vector<Point> outward;
+
+  /// Whether a surface node with the normal n, along which a side with the normal m lies opposite, is on a convex edge: behind one,
+  /// or on a border beyond which that would come nearer still.
+  bool is_edge(std::size_t surface_node, const Point& n, const Point& m) const
+  {
+    return convex[surface_node] || (n + m).dot(outward[surface_node]) < -parallel_slopes;
+  }
 };
 Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes);
 
-/// A convex edge between two facets; in plane models a node, twice.
+/// A convex edge between two facets, or of the border; in plane models a node, twice.
 struct Ridge {
   FacetEdge ends;
-  std::array<Point, 2> normals;  ///< unit, of the two sides there
-  Point across;                  ///< unit, from the first facet to the second, normal to the edge and to the mean of the normals
+  std::array<Point, 2> normals;  ///< unit, of the two sides there; on the border twice the same
+  Point across;                  ///< unit, from the first facet to the second or outward, normal to the edge and the mean normal
+  bool border = false;
 };
 
 struct Ridges {

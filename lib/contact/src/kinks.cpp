@@ -63,6 +63,7 @@ class Kinks {
     double depth = 0;    // of the face at the edge
     bool known = false;  // there are two rows of faces; else the rest is not
     double slope = 0, across = 0, twist = 0, along = 0, bend = 0;
+    double next = 0;     // slope of the faces of the second row, less that of the first
   };
 
   struct Face {
@@ -143,18 +144,22 @@ class Kinks {
     const Point between = last.centre - first.centre;
     const Point away =
         (between - between.dot(place.normal) * place.normal - between.dot(place.along) * place.along).normalized();
+    const double faces = std::abs(slope_of(last, place, away) - slope_of(first, place, away));
     const Surface back = surface(edge, 0, place, -away, crossed), forth = surface(edge, 1, place, away, crossed);
-    double turn = 0, smooth = 0;  // of slopes: at the edge itself, and from the middle of one face to that of the other
+    // Of slopes: at the edge itself, and from the middle of one face to that of the other; and from each to the next one beyond.
+    double turn = 0, smooth = 0, beside = 0;
     if (back.known && forth.known) {
       turn = back.slope + forth.slope;
-      smooth = (back.across * back.depth + forth.across * forth.depth) / 2;
+      smooth = (std::abs(back.across) * back.depth + std::abs(forth.across) * forth.depth) / 2;
+      beside = (std::abs(back.next) + std::abs(forth.next)) / 2;
     } else if (back.known || forth.known) {
       const Surface &known = back.known ? back : forth, &other = back.known ? forth : back;
       turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], place);
-      smooth = known.across * (known.depth + other.depth) / 2;
+      smooth = std::abs(known.across) * (known.depth + other.depth) / 2;
+      beside = std::abs(known.next);
     }
     turn = std::abs(turn);
-    return turn > least_turn && turn > of_a_kink * (turn + std::abs(smooth)) ? turn : 0;
+    return turn > least_turn && turn > of_a_kink * (turn + smooth) && faces - beside > of_a_kink * faces ? turn : 0;
   }
 
   Surface surface(const Edge& edge, int which, const Place& place, const Point& away,
@@ -190,8 +195,22 @@ class Kinks {
       }
     }
     result.known = farthest > two_rows * result.depth;
-    if (result.known) fit(nodes, place, result);
+    if (!result.known) return result;
+    fit(nodes, place, result);
+    int count = 0;
+    for (const std::size_t f : round) {
+      const auto& of = faces_[f].nodes;
+      if (std::find(of.begin(), of.end(), edge.a) != of.end() || std::find(of.begin(), of.end(), edge.b) != of.end()) continue;
+      result.next += slope_of(faces_[f], place, away) - slope_of(faces_[own], place, away);
+      ++count;
+    }
+    result.next /= std::max(count, 1);
     return result;
+  }
+
+  static double slope_of(const Face& face, const Place& place, const Point& away)
+  {
+    return -face.normal.dot(away) / face.normal.dot(place.normal);
   }
 
   // With the larger curvature for the bend, in the least squares of both sides over the squared distance: exact on spheres and

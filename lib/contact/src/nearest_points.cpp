@@ -180,15 +180,21 @@ class Search {
     Corner where{};
     for (const auto& at : round(p)) {
       const auto found = rays_.nearest_on_ridge(at.facet, side_.points[static_cast<std::size_t>(nodes_.all[p].node)]);
-      if (found && nearest({at.facet, at.corner, found->shape}) && (!best || found->distance < best->distance)) best = found, where = at;
+      if (!found || !nearest({at.facet, at.corner, found->shape})) continue;
+      if (!best || found->distance < best->distance) best = found, where = at;
     }
-    if (!best) return {};
+    return best ? accepted(p, shift_to(where, best->shape)) : NearestPoint();
+  }
+
+  // The way from a corner of a facet to a place in it.
+  Point shift_to(const Corner& from, const Eigen::Vector4d& shape) const
+  {
     Point shift = Point::Zero();
-    const auto nodes = side_.facets[where.facet];
+    const auto nodes = side_.facets[from.facet];
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      shift += best->shape[static_cast<Eigen::Index>(k)] *
-               (side_.points[static_cast<std::size_t>(nodes[k])] - side_.points[static_cast<std::size_t>(nodes[where.corner])]);
-    return accepted(p, shift);
+      shift += shape[static_cast<Eigen::Index>(k)] *
+               (side_.points[static_cast<std::size_t>(nodes[k])] - side_.points[static_cast<std::size_t>(nodes[from.corner])]);
+    return shift;
   }
 
   // Whether there are nodes of the primary side between those of the secondary one, or it ends there.
@@ -216,11 +222,7 @@ class Search {
       if (found && (!best || found->gap < best->gap)) best = found, where = at;
     }
     if (!best) return {};
-    Point shift = Point::Zero();
-    const auto nodes = side_.facets[where.facet];
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      shift += best->shape[static_cast<Eigen::Index>(k)] *
-               (side_.points[static_cast<std::size_t>(nodes[k])] - side_.points[static_cast<std::size_t>(nodes[where.corner])]);
+    Point shift = shift_to(where, best->shape);
     const auto here = rays_.tilt(p, where.facet, best->shape);
     if (!here) return {};
     const auto inverse = inverse_beside(p, shift, *here, std::min(0.1 * best->size, 0.01 * size_));

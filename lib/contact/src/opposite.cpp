@@ -89,12 +89,10 @@ Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& prima
       face_of_middle_[static_cast<std::size_t>(surface_nodes.of_node[static_cast<std::size_t>(secondary.faces.offset[f]) + k])] =
           {static_cast<Local>(f), static_cast<Local>(k)};
   curvature_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return curvature_of(secondary, surface_nodes, f); });
-  auto edges = edges_at(secondary, surface_nodes);
-  beside_ = std::move(edges.concave);
-  on_edge_ = std::move(edges.convex);
+  edges_ = edges_at(secondary, surface_nodes);
   if (!obstacle) {
     past_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
-    primary_on_edge_ = edges_at(primary, primary_nodes).convex;
+    primary_edges_ = edges_at(primary, primary_nodes);
     ridges_ = find_ridges(primary, primary_nodes);
     return;
   }
@@ -160,8 +158,7 @@ Opposite Rays::shoot_past(const Point& from, const Point& direction, double leng
 
 Opposite Rays::shoot_past(std::size_t p, const Point& from, const Point& direction, double length, double past) const
 {
-  if (p < beside_.size() && !beside_[p].empty()) {
-    const auto& beside = beside_[p];
+  if (const auto& beside = edges_.concave[p]; !beside.empty()) {
     const Point& own = nodes_.all[p].normal;
     const auto found = shoot_past(from, direction, length, past, [&](std::size_t facet) {
       const Point normal = primary_.geometry(facet).normal();
@@ -222,19 +219,20 @@ Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
   if (!std::isfinite(opposite.gap)) return normal;
   const Point other = primary_normal(opposite);
   const double length = primary_.geometry(opposite.facet).size();
-  const double own = curvature_[p] + (least_curvature + (on_edge_[p] ? curvature_of_edge : 0)) / length;
+  const double own = curvature_[p] + (least_curvature + (edges_.is_edge(p, normal, other) ? curvature_of_edge : 0)) / length;
   const double others = curvature_of(primary_, primary_nodes_, opposite.facet) +
-                        (least_curvature + curvature_of_edge * part_on_edges(opposite)) / length;
+                        (least_curvature + curvature_of_edge * part_on_edges(opposite, normal)) / length;
   return (others * normal - own * other).normalized();
 }
 
 // What the shape functions of corners on convex edges make up at the place that is met.
-double Rays::part_on_edges(const Opposite& opposite) const
+double Rays::part_on_edges(const Opposite& opposite, const Point& normal) const
 {
   const auto begin = static_cast<std::size_t>(primary_.facets.offset[opposite.facet]);
   double part = 0;
   for (std::size_t k = 0; k < primary_.facets[opposite.facet].size(); ++k)
-    if (primary_on_edge_[static_cast<std::size_t>(primary_nodes_.of_corner[begin + k])])
+    if (const auto q = static_cast<std::size_t>(primary_nodes_.of_corner[begin + k]);
+        primary_edges_.is_edge(q, primary_nodes_.all[q].normal, normal))
       part += opposite.hit.shape[static_cast<Eigen::Index>(k)];
   return std::clamp(part, 0.0, 1.0);
 }
@@ -242,7 +240,8 @@ double Rays::part_on_edges(const Opposite& opposite) const
 Point Rays::direction_to_obstacle(std::size_t p, const ClosestPoint& closest, const Point& normal) const
 {
   if (obstacle_->shape == Obstacle::Shape::plane) return -closest.normal;
-  const double own = curvature_[p] + (least_curvature + (on_edge_[p] ? curvature_of_edge : 0)) / obstacle_->radius;
+  const double edge = edges_.is_edge(p, normal, closest.normal) ? curvature_of_edge : 0;
+  const double own = curvature_[p] + (least_curvature + edge) / obstacle_->radius;
   return (curvature_of(*obstacle_) * normal - own * closest.normal).normalized();
 }
 
@@ -307,8 +306,7 @@ std::optional<Rays::NearNode> Rays::nearest_node(std::size_t facet,
 
 std::optional<Rays::OnRidge> Rays::nearest_on_ridge(std::size_t facet, const Point& from) const
 {
-  constexpr double between = 0.03;   // slopes of what is no longer beside the edge but along it, or along one of its faces
-  constexpr double outside = 1e-6;   // of shape functions
+  constexpr double outside = 1e-6;  // of shape functions
   std::optional<OnRidge> best;
   if (ridges_.all.empty()) return best;
   const auto own = secondary_.geometry(facet);
@@ -324,7 +322,7 @@ std::optional<Rays::OnRidge> Rays::nearest_on_ridge(std::size_t facet, const Poi
       const Point edge = primary_.points[static_cast<std::size_t>(ridge.ends[1])] - a;
       const double rise = edge.dot(frame.normal), length = edge.norm();
       double part = 0;  // of the way from a; down a ridge that descends, or next to `from`
-      if (std::abs(rise) > between * length)
+      if (std::abs(rise) > parallel_slopes * length)
         part = rise < 0 ? 1 : 0;
       else if (length > 0)
         part = std::clamp((from - a).dot(edge) / (length * length), 0.0, 1.0);
@@ -336,7 +334,7 @@ std::optional<Rays::OnRidge> Rays::nearest_on_ridge(std::size_t facet, const Poi
       // Nearer than on the faces on both sides.
       const Point normal = own_normal(FacetPoint{facet, shape});
       const double before = (normal + ridge.normals[0]).dot(ridge.across), behind = (normal + ridge.normals[1]).dot(ridge.across);
-      if (!(before < -between && behind > between)) continue;
+      if (!(before < -parallel_slopes && (ridge.border || behind > parallel_slopes))) continue;
       const double gap = (x - at).dot(frame.normal) - own_bulge(facet)(shape), distance = (at - from).norm();
       if (std::abs(gap) > reach_ || (best && distance >= best->distance)) continue;
       if (std::abs(gap) > own.size() && sight_.hidden(at, frame.normal, gap)) continue;

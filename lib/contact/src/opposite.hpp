@@ -67,13 +67,14 @@ class Rays {
   const Point& own_normal(std::size_t surface_node) const { return own_normal_[surface_node]; }
   const Point& own_normal(std::size_t facet, std::size_t corner) const
   {
-    return own_normal_[static_cast<std::size_t>(nodes_.of_corner[static_cast<std::size_t>(secondary_.facets.offset[facet]) + corner])];
+    const auto begin = static_cast<std::size_t>(secondary_.facets.offset[facet]);
+    return own_normal_[static_cast<std::size_t>(nodes_.of_corner[begin + corner])];
   }
 
   /// The direction of contact at a point of the secondary side near a surface node, whose normal there is given: between the two
   /// sides' normals, the nearer to that of the flatter side the more it is flatter, weights being the other side's curvature. So
-  /// both sides mean the same direction, and a curved body on a flat one is not sheared. Convex edges are curved most: there it is
-  /// the normal of what they touch, unless that is an edge, too. The given normal where nothing lies
+  /// both sides mean the same direction, and a curved body on a flat one is not sheared. Convex edges are curved most, see
+  /// Edges::is_edge(): there it is the normal of what they touch, unless that is an edge, too. The given normal where nothing lies
   /// opposite.
   Point direction(std::size_t surface_node, const Point& at, const Point& normal) const;
 
@@ -114,7 +115,7 @@ class Rays {
   // for the surface node there: what is smaller than its hole lies in the corner with an edge, whose other side the line meets.
   Opposite shoot_past(std::size_t surface_node, const Point& from, const Point& direction, double length, double past) const;
   Point primary_normal(const Opposite& opposite) const;
-  double part_on_edges(const Opposite& opposite) const;
+  double part_on_edges(const Opposite& opposite, const Point& normal) const;
   Bulge own_bulge(std::size_t facet) const;
   Point direction_to_obstacle(std::size_t surface_node, const ClosestPoint& closest, const Point& normal) const;
   double distance_to_obstacle(const Point& at, const Point& direction) const;
@@ -130,8 +131,7 @@ class Rays {
   std::vector<Point> own_normal_;                        // of each surface node
   std::vector<double> curvature_, past_;                 // of each surface node
   std::vector<double> distance_;                         // of each surface node from the obstacle, if there is one
-  std::vector<Few<Point, 3>> beside_;                    // of each surface node: normals on the other sides of concave edges
-  std::vector<bool> on_edge_, primary_on_edge_;          // of each surface node of either side: whether it is on a convex edge
+  Edges edges_, primary_edges_;                          // of both sides
   Ridges ridges_;                                        // of the primary side
   std::vector<std::pair<Local, Local>> face_of_middle_;  // of each surface node: a face and the node in it, if that is no corner
   std::vector<Opposite> met_;

@@ -9,6 +9,7 @@ namespace mortise::contact {
 struct SurfaceNode {
   Local node;
   Point normal;  ///< unit; exact where the faces inscribe a sphere or cylinder [weights of Max, J. Graph. Tools 4 (1999)]
+  bool continued = false;  ///< on a border beyond which the side goes on: in its image, or across a bond
 };
 
 /// The surface nodes of a side, and the surface node that each corner of a facet (at facets.offset[f] + corner) and each node of
