@@ -65,6 +65,7 @@ class FaceNewton {
   void find_error(Run& run, const Projection& natural);
   bool is_compatible(const Run& run) const;
   bool radii_settled(const Run& run) const;
+  bool contact_converged(const Run& run, const Projection& natural);
   bool is_solved(Run& run, const Projection& natural);
   bool gives_up(Run& run) const;
   void minimise(Run& run, const Trial& trial);
