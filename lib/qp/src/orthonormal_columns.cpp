@@ -9,7 +9,8 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double orthonormal = 1e-8;  // what rounding may leave of Q'Q - I
+constexpr double orthonormal = 1e-8;        // what rounding may leave of Q'Q - I
+constexpr double largest_condition = 1e12;  // of V'V: beyond, its factor is rounding
 
 // V'V over all ranks, the lower triangle.
 Eigen::MatrixXd gram(const Eigen::MatrixXd& v, const Communicator& comm)
@@ -20,18 +21,16 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& v, const Communicator& comm)
   return result;
 }
 
-// V becomes V R^-1. Returns about what rounding leaves of Q'Q - I if R'R was found as V'V.
-double divide(Eigen::MatrixXd& v, const Eigen::MatrixXd& r)
+// V becomes V R^-1.
+void multiply(Eigen::MatrixXd& v, const Eigen::MatrixXd& inverse)
 {
   constexpr Eigen::Index part = 512;  // rows that stay in a cache
-  const Eigen::MatrixXd inverse = r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(r.rows(), r.cols()));
   Eigen::MatrixXd rows;
   for (Eigen::Index first = 0; first < v.rows(); first += part) {
     const auto count = std::min(part, v.rows() - first);
     rows.noalias() = v.middleRows(first, count) * inverse;
     v.middleRows(first, count) = rows;
   }
-  return std::numeric_limits<double>::epsilon() * inverse.squaredNorm();
 }
 
 }  // namespace
@@ -41,29 +40,35 @@ OrthonormalColumns orthonormal_columns(Eigen::MatrixXd v, double least, const Co
   OrthonormalColumns result;
   const Eigen::MatrixXd products = gram(v, comm);
   const Eigen::VectorXd size = products.diagonal().cwiseSqrt();
-  Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(v.cols(), v.cols());  // of unit columns
+  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(v.cols(), v.cols()), inverse = r;  // of unit columns
   for (Eigen::Index j = 0; j < v.cols(); ++j) {
+    if (!(size[j] > 0)) continue;
     const auto count = static_cast<Eigen::Index>(result.kept.size());
     Eigen::VectorXd row(count);
     for (Eigen::Index k = 0; k < count; ++k) {
       const auto before = result.kept[static_cast<std::size_t>(k)];
       row[k] = products(j, before) / (size[j] * size[before]);
     }
-    lower.topLeftCorner(count, count).triangularView<Eigen::Lower>().solveInPlace(row);
+    const auto inverse_before = inverse.topLeftCorner(count, count).triangularView<Eigen::Upper>();
+    row = inverse_before.transpose() * row;
     const double square = 1 - row.squaredNorm();
-    if (!(size[j] > 0) || !(square > least * least)) continue;
-    lower.row(count).head(count) = row.transpose();
-    lower(count, count) = std::sqrt(square);
-    if (count < j) v.col(count) = v.col(j);
-    v.col(count) /= size[j];
+    if (!(square > least * least)) continue;
+    Eigen::VectorXd column = inverse_before * row;
+    if (!((1 + column.squaredNorm()) / square < largest_condition)) continue;
+    r.col(count).head(count) = row;
+    r(count, count) = std::sqrt(square);
+    inverse.col(count).head(count) = -column / r(count, count);
+    inverse(count, count) = 1 / r(count, count);
+    v.col(count) = v.col(j) / size[j];
     result.kept.push_back(j);
   }
   const auto count = static_cast<Eigen::Index>(result.kept.size());
   v.conservativeResize(Eigen::NoChange, count);
-  result.r = lower.topLeftCorner(count, count).transpose();
-  if (divide(v, result.r) > orthonormal) {
+  result.r = r.topLeftCorner(count, count);
+  multiply(v, inverse.topLeftCorner(count, count));
+  if (std::numeric_limits<double>::epsilon() * inverse.squaredNorm() > orthonormal) {
     const Eigen::MatrixXd again = gram(v, comm).llt().matrixU();
-    divide(v, again);
+    multiply(v, again.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(count, count)));
     result.r = again * result.r;
   }
   result.r *= size(result.kept).asDiagonal();

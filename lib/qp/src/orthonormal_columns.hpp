@@ -14,10 +14,10 @@ struct OrthonormalColumns {
   std::vector<Eigen::Index> kept;
 };
 
-// Of the matrix whose rows on this rank are `v`. Columns of which less than the part `least` is new beside those before them are
-// left out. R is the Cholesky factor of V'V; where it is so badly conditioned that Q is not orthonormal, that of Q'Q follows
-// [Yamamoto, Nakatsukasa, Yanagisawa and Fukaya, Roundoff error analysis of the CholeskyQR2 algorithm, Electron. Trans. Numer.
-// Anal. 44 (2015)]. `least` is no less than 1e-6. Collective.
+// Of the matrix V whose rows on this rank are `v`. Left out are columns of which less than the part `least` is new beside those
+// before them, and columns that would make the condition of V, its columns scaled to one length, larger than about 1e6. R is the
+// Cholesky factor of V'V; where Q is not orthonormal by that alone, the factor of Q'Q follows [Yamamoto, Nakatsukasa, Yanagisawa
+// and Fukaya, Roundoff error analysis of the CholeskyQR2 algorithm, Electron. Trans. Numer. Anal. 44 (2015)]. Collective.
 OrthonormalColumns orthonormal_columns(Eigen::MatrixXd v, double least, const Communicator& comm);
 
 }  // namespace mortise::qp
