@@ -58,8 +58,8 @@ namespace {
 
 // The integral of d : C^-1 : d over a cell, of the difference d of `nodal` (6 x n, interpolated by the shape functions) and
 // `stress` (6 x q, at the integration points that stand for `volumes`).
-double squared_norm(const CellGeometry& cell, std::span<const double> volumes, const Elasticity& elasticity, const Stresses& nodal,
-                    const Eigen::Map<const Stresses>& stress)
+double squared_norm(const CellGeometry& cell, std::span<const double> volumes, const Elasticity& elasticity,
+                    const Stresses& nodal, const Eigen::Map<const Stresses>& stress)
 {
   double sum = 0;
   if (volumes.size() == 1) {  // one point misses what is linear in d; that is a simplex with nodes 0 .. n - 1: the integral

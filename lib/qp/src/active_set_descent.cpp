@@ -192,9 +192,9 @@ class Descent {
 
 }  // namespace
 
-// z = M residual, to be projected once more: the preconditioner between the projectors of the active set, improved by all that is
-// known of A from earlier directions [Morales and Nocedal, Automatic preconditioning by limited memory quasi-Newton updating, SIAM
-// J. Optim. 10 (2000)].
+// z = M residual, to be projected once more: the preconditioner between the projectors of the active set, improved by all that
+// is known of A from earlier directions [Morales and Nocedal, Automatic preconditioning by limited memory quasi-Newton updating,
+// SIAM J. Optim. 10 (2000)].
 void FaceNewton::precondition(const ActiveSet& active_set, const Vector& residual, Vector& z) const
 {
   Vector q(residual, Teuchos::Copy);

@@ -46,8 +46,8 @@ TEST(OrthonormalColumns, LeavesOutWhatIsNotNew)
   EXPECT_EQ(expect_orthonormal(v).kept, (std::vector<Eigen::Index>{0, 1, 4, 5}));
 }
 
-// Each column is new by three thousandths beside those before it, so that their condition grows a hundredfold from one to the next.
-// Without the fourth, which makes it too large, those after it are new by what that one had.
+// Each column is new by three thousandths beside those before it, so that their condition grows a hundredfold from one to the
+// next. Without the fourth, which makes it too large, those after it are new by what that one had.
 TEST(OrthonormalColumns, AreOrthonormalWhereColumnsAreAlike)
 {
   Eigen::MatrixXd waves(length_of_columns, 8);

@@ -26,7 +26,10 @@ class DualOperator : public Operator {
   /// y = alpha F x + beta y, column by column. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
   /// K^+ B'x of each subdomain of this rank if the last product was that with x, else null.
-  const std::vector<Eigen::VectorXd>* response(const Vector& x) const { return last_ && last_->x == view(x) ? &last_->response : nullptr; }
+  const std::vector<Eigen::VectorXd>* response(const Vector& x) const
+  {
+    return last_ && last_->x == view(x) ? &last_->response : nullptr;
+  }
 
  private:
   struct Product {
