@@ -209,11 +209,15 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
     const auto estimating = context_.timers.scope("error estimate");
     return norms(constitution, lambda, problem_->displacement(lambda, nu));
   };
+  const auto allowed_error = [](const Norms& at) {
+    return std::clamp(algebraic_part * at.error, smallest_part * at.whole, largest_part * at.size);
+  };
   const friction::Accuracy accuracy{
-      .allowed_error =
+      .allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) { return allowed_error(norms_at(lambda, nu)); },
+      .expected_allowed_error =
           [&](const Vector& lambda, const Eigen::VectorXd& nu) {
-            const auto [error, size, whole] = norms_at(lambda, nu);
-            return std::clamp(algebraic_part * error, smallest_part * whole, largest_part * size);
+            const auto estimating = context_.timers.scope("error estimate");
+            return allowed_error(norms(constitution, lambda, problem_->displacement_of_product(lambda, nu)));
           },
       .energy_norm = [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
       .incompatibility =

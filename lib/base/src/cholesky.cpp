@@ -2,9 +2,12 @@
 
 #include <cholmod.h>
 
+#include <algorithm>
 #include <cstring>
 #include <new>
+#include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -13,12 +16,60 @@
 namespace mortise {
 
 struct Cholesky::Data {
+  // The lower triangle of a matrix in the order of a factor, and where its numbers stand in the one that is given: factorizations
+  // after the first need not permute it again, which takes as long as the numbers of a small factor.
+  struct Ordered {
+    SparseMatrix lower;
+    std::vector<int> source;
+    std::vector<int> start, rows;  // the pattern that is given
+
+    Ordered(const SparseMatrix& matrix, const int* order)
+        : lower(matrix.rows(), matrix.cols()),
+          start(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1),
+          rows(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros())
+    {
+      std::vector<int> place(static_cast<std::size_t>(matrix.cols()));
+      for (int k = 0; k < matrix.cols(); ++k) place[static_cast<std::size_t>(order[k])] = k;
+      const auto for_each = [&](const auto& visit) {
+        for (int j = 0; j < matrix.cols(); ++j)
+          for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k) {
+            const int i = rows[static_cast<std::size_t>(k)];
+            if (i < j) continue;
+            const int a = place[static_cast<std::size_t>(i)], b = place[static_cast<std::size_t>(j)];
+            visit(std::max(a, b), std::min(a, b), k);
+          }
+      };
+      int* const first = lower.outerIndexPtr();
+      for_each([&](int, int column, int) { ++first[column + 1]; });
+      std::partial_sum(first, first + matrix.cols() + 1, first);
+      lower.resizeNonZeros(first[matrix.cols()]);
+      source.resize(static_cast<std::size_t>(lower.nonZeros()));
+      std::vector<int> next(first, first + matrix.cols());
+      for_each([&](int row, int column, int from) {
+        const int at = next[static_cast<std::size_t>(column)]++;
+        lower.innerIndexPtr()[at] = row;
+        source[static_cast<std::size_t>(at)] = from;
+      });
+    }
+    bool fits(const SparseMatrix& matrix) const
+    {
+      return std::equal(start.begin(), start.end(), matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1) &&
+             std::equal(rows.begin(), rows.end(), matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+    }
+    void take(const SparseMatrix& matrix)
+    {
+      for (std::size_t k = 0; k < source.size(); ++k) lower.valuePtr()[k] = matrix.valuePtr()[source[k]];
+    }
+  };
+
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
   cholmod_dense* x = nullptr;  // solution and workspaces of cholmod_solve2
   cholmod_dense* y = nullptr;
   cholmod_dense* e = nullptr;
   std::optional<SupernodalFactor> prepared;
+  std::optional<Ordered> ordered;
+  bool again = false;  // it has been factorized before
 
   Data()
   {
@@ -115,7 +166,17 @@ bool Cholesky::factorize(const SparseMatrix& lower)
   cholmod_sparse a = wrap(lower);
   data_->common.status = CHOLMOD_OK;
   data_->prepared.reset();
-  cholmod_factorize(&a, data_->factor, &data_->common);
+  auto& ordered = data_->ordered;
+  if (std::exchange(data_->again, true) && data_->factor->is_super && lower.isCompressed()) {
+    if (!ordered || !ordered->fits(lower)) ordered.emplace(lower, static_cast<const int*>(data_->factor->Perm));
+    ordered->take(lower);
+    a = wrap(ordered->lower);
+    a.sorted = 0;
+    double nothing[2] = {0, 0};
+    cholmod_super_numeric(&a, nullptr, nothing, data_->factor, &data_->common);
+  } else {
+    cholmod_factorize(&a, data_->factor, &data_->common);
+  }
   data_->check_memory();
   return data_->common.status == CHOLMOD_OK && data_->factor->minor == data_->factor->n;
 }

@@ -60,6 +60,20 @@ TEST(Cholesky, PreparedFactorSolvesTheSame)
   }
 }
 
+// Other numbers, and entries above the diagonal that do not count.
+TEST(Cholesky, FactorizesOnceMore)
+{
+  const auto a = laplacian(20, 0);
+  const SparseMatrix whole = 2 * a + SparseMatrix(3 * SparseMatrix(a.transpose()));
+  Cholesky factor(a);
+  for (const auto& matrix : {a, SparseMatrix(4 * a), whole, a}) {
+    ASSERT_TRUE(factor.factorize(matrix));
+    const Eigen::VectorXd expected = Eigen::VectorXd::Random(400);
+    const Eigen::VectorXd b = matrix.selfadjointView<Eigen::Lower>() * expected;
+    EXPECT_LT((factor.solve(b) - expected).norm(), 1e-11 * expected.norm());
+  }
+}
+
 // Supernodes of all shapes; rows below them that follow each other but for one, at the end of the matrix too.
 TEST(Cholesky, PreparedFactorSolvesIrregularPatterns)
 {

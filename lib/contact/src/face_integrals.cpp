@@ -189,10 +189,7 @@ void Integrator::each_common(std::size_t facet, const Use& use)
     const bool high = second_order || basis_ || primary_.second_order(static_cast<std::size_t>(primary_.face_of[other]));
     const auto geometry = primary_.geometry(other);
     if (!overlap(own, geometry, reach_, high, overlap_)) continue;
-    if (std::abs(overlap_.distance) > std::max(own.size(), geometry.size()) &&
-        sight_.hidden(overlap_.middle, overlap_.frame.normal, overlap_.distance))
-      continue;
-    use(other);
+    if (!sight_.hidden(overlap_.middle, overlap_.frame.normal, overlap_.distance, own.size())) use(other);
   }
 }
 

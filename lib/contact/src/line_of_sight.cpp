@@ -9,6 +9,8 @@ namespace {
 
 // Of the distance: nearer to its ends are the faces there.
 constexpr double at_ends = 0.01;
+// Of the size of a face: what is nearer is seen.
+constexpr double thin = 0.01;
 
 bool crosses(const Side& side, const Tree& tree, const Point& x, const Point& way)
 {
@@ -35,8 +37,9 @@ Tree tree_of_facets(const Side& side)
   return Tree(std::move(boxes));
 }
 
-bool LineOfSight::hidden(const Point& x, const Point& direction, double gap) const
+bool LineOfSight::hidden(const Point& x, const Point& direction, double gap, double size) const
 {
+  if (std::abs(gap) < thin * size) return false;
   return crosses(secondary_, secondary_tree_, x, gap * direction) || crosses(primary_, primary_tree_, x, gap * direction);
 }
 

@@ -16,9 +16,9 @@ class LineOfSight {
   {
   }
 
-  /// Whether a facet of either side lies between x and x + gap direction. Who asks for gaps below the size of a face asks for
-  /// nothing: sides whose bodies are thinner than that overlap as a whole.
-  bool hidden(const Point& x, const Point& direction, double gap) const;
+  /// Whether a facet of either side lies between x and x + gap direction. `size`: of a face; bodies are not as thin as a hundredth
+  /// of it.
+  bool hidden(const Point& x, const Point& direction, double gap, double size) const;
 
  private:
   const Side &secondary_, &primary_;

@@ -130,8 +130,7 @@ Opposite Rays::shoot(const Point& from, const Point& direction, double length, c
   const double nearer = std::abs(best[0].gap) - std::abs(best[1].gap);
   if (nearer > same_gap * length || (nearer > -same_gap * length && against[1] < against[0])) std::swap(best[0], best[1]);
   for (const auto& opposite : best)
-    if (std::isfinite(opposite.gap) && (std::abs(opposite.gap) < primary_.geometry(opposite.facet).size() ||
-                                        !sight_.hidden(from, direction, opposite.gap)))
+    if (std::isfinite(opposite.gap) && !sight_.hidden(from, direction, opposite.gap, primary_.geometry(opposite.facet).size()))
       return opposite;
   return {};
 }
@@ -297,7 +296,7 @@ std::optional<Rays::NearNode> Rays::nearest_node(std::size_t facet,
       for (std::size_t c = 0; c < own.nodes.size(); ++c) at += shape[static_cast<Eigen::Index>(c)] * own.nodes[c];
       const double gap = (geometry.nodes[k] - at).dot(frame.normal) - own_bulge(facet)(shape);
       if (std::abs(gap) > reach_ || (best && gap >= best->gap)) continue;
-      if (std::abs(gap) > std::max(own.size(), geometry.size()) && sight_.hidden(at, frame.normal, gap)) continue;
+      if (sight_.hidden(at, frame.normal, gap, own.size())) continue;
       best = NearNode{shape, gap, geometry.size()};
     }
   }
@@ -337,7 +336,7 @@ std::optional<Rays::OnRidge> Rays::nearest_on_ridge(std::size_t facet, const Poi
       if (!(before < -parallel_slopes && (ridge.border || behind > parallel_slopes))) continue;
       const double gap = (x - at).dot(frame.normal) - own_bulge(facet)(shape), distance = (at - from).norm();
       if (std::abs(gap) > reach_ || (best && distance >= best->distance)) continue;
-      if (std::abs(gap) > own.size() && sight_.hidden(at, frame.normal, gap)) continue;
+      if (sight_.hidden(at, frame.normal, gap, own.size())) continue;
       best = OnRidge{shape, distance};
     }
   return best;

@@ -19,18 +19,23 @@ inline Point place_for(const Elasticity& elasticity, const CellGeometry& cell, s
   return elasticity.uniform() ? Point::Zero() : place_of(cell, q);
 }
 
+// Of each material.
+inline std::vector<Elasticity> elasticities(const Materials& materials, Kinematics kinematics)
+{
+  std::vector<Elasticity> result;
+  for (std::size_t m = 0; m < materials.count(); ++m) result.emplace_back(materials[m], kinematics);
+  return result;
+}
+
 // Calls visit(c, cell, stress, elasticity) for every cell c; stress is 6 x q.
 template <class Visit>
 void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, Formulation formulation,
                    const Temperature& temperature_change, const Eigen::VectorXd& u, const Visit& visit)
 {
   const int d = dimension(kinematics);
-  std::vector<Elasticity> elasticity;
+  const auto elasticity = elasticities(materials, kinematics);
   std::vector<CellFormulation> cell_formulation;
-  for (std::size_t m = 0; m < materials.count(); ++m) {
-    elasticity.emplace_back(materials[m], kinematics);
-    cell_formulation.emplace_back(formulation, elasticity.back(), kinematics);
-  }
+  for (const auto& law : elasticity) cell_formulation.emplace_back(formulation, law, kinematics);
   CellGeometry cell(kinematics);
   Eigen::MatrixXd displacement;
   Stresses stress;

@@ -1,6 +1,7 @@
 #include "fem/stress.hpp"
 
 #include <cmath>
+#include <span>
 
 #include "cell_stress.hpp"
 
@@ -13,13 +14,23 @@ double von_mises(const Stress& s)
 }
 
 StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Eigen::VectorXd& u,
-                     Formulation formulation, const Temperature& temperature_change, std::size_t blocks)
+                     Formulation formulation, const Temperature& temperature_change, std::size_t blocks, PointStresses* points)
 {
   StressField field;
+  if (points) {
+    std::size_t count = 0;
+    for (const auto type : mesh.cells.type) count += element(type, kinematics).points();
+    points->stress.reserve(count);
+    points->volume.reserve(count);
+  }
   field.nodal_sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), 7 * static_cast<Eigen::Index>(blocks));
   field.cell_von_mises.resize(static_cast<Eigen::Index>(mesh.cells.size()));
   for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
                 [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
+                  if (points) {
+                    points->volume.insert(points->volume.end(), cell.volumes().begin(), cell.volumes().end());
+                    for (Eigen::Index q = 0; q < stress.cols(); ++q) points->stress.emplace_back(stress.col(q));
+                  }
                   Stress sum = Stress::Zero();
                   double volume = 0;
                   for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
@@ -46,12 +57,12 @@ StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinemat
 namespace {
 
 // The integral of d : C^-1 : d over a cell, of the difference d of `nodal` (6 x n, interpolated by the shape functions) and
-// `stress` (6 x q, at the integration points).
-double squared_norm(const CellGeometry& cell, const Elasticity& elasticity, const Stresses& nodal, const Stresses& stress)
+// `stress` (6 x q, at the integration points that stand for `volumes`).
+double squared_norm(const CellGeometry& cell, std::span<const double> volumes, const Elasticity& elasticity,
+                    const Stresses& nodal, const Eigen::Map<const Stresses>& stress)
 {
   double sum = 0;
-  if (cell.volumes().size() ==
-      1) {  // one point misses what is linear in d; that is a simplex with nodes 0 .. n - 1: the integral
+  if (volumes.size() == 1) {  // one point misses what is linear in d; that is a simplex with nodes 0 .. n - 1: the integral
     // of a quadratic form q of a linear function is V / (n (n + 1)) (sum of q(f_i) + q(sum of f_i)).
     const int n = cell.element().nodes;
     const Point x = place_for(elasticity, cell, 0);
@@ -61,14 +72,19 @@ double squared_norm(const CellGeometry& cell, const Elasticity& elasticity, cons
       total += difference;
       sum += elasticity.complementary(difference, x);
     }
-    return cell.volumes()[0] / (n * (n + 1)) * (sum + elasticity.complementary(total, x));
+    return volumes[0] / (n * (n + 1)) * (sum + elasticity.complementary(total, x));
   }
-  for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
+  for (std::size_t q = 0; q < volumes.size(); ++q) {
     Stress difference = -stress.col(static_cast<Eigen::Index>(q));
     for (int i = 0; i < cell.element().nodes; ++i) difference += cell.element().shape[q][i] * nodal.col(i);
-    sum += cell.volumes()[q] * elasticity.complementary(difference, place_for(elasticity, cell, q));
+    sum += volumes[q] * elasticity.complementary(difference, place_for(elasticity, cell, q));
   }
   return sum;
+}
+
+Eigen::Map<const Stresses> all(const Stresses& stress)
+{
+  return {stress.data(), 6, stress.cols()};
 }
 
 // Of the nodes of a cell, one a column.
@@ -90,9 +106,28 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
   for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
                 [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
                   take_nodal(mesh.cells[c], materials.index(c), recovered, nodal);
-                  result[static_cast<Eigen::Index>(c)] = squared_norm(cell, elasticity, nodal, stress);
+                  result[static_cast<Eigen::Index>(c)] = squared_norm(cell, cell.volumes(), elasticity, nodal, all(stress));
                 });
   return result;
+}
+
+double squared_error(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const PointStresses& points,
+                     const Eigen::MatrixXd& recovered)
+{
+  const auto elasticity = elasticities(materials, kinematics);
+  CellGeometry cell(kinematics);
+  Stresses nodal;
+  double sum = 0;
+  std::size_t first = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    cell.gather(mesh, c);
+    const auto count = cell.element().points();
+    take_nodal(mesh.cells[c], materials.index(c), recovered, nodal);
+    sum += squared_norm(cell, std::span(points.volume).subspan(first, count), elasticity[materials.index(c)], nodal,
+                        {points.stress[first].data(), 6, static_cast<Eigen::Index>(count)});
+    first += count;
+  }
+  return sum;
 }
 
 Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
@@ -106,10 +141,10 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
                 [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
                   take_nodal(mesh.cells[c], materials.index(c), recovered, nodal);
                   double& sum = result[static_cast<Eigen::Index>(c)];
-                  sum = squared_norm(cell, elasticity, nodal, stress);
+                  sum = squared_norm(cell, cell.volumes(), elasticity, nodal, all(stress));
                   take_nodal(mesh.cells[c], materials.index(c), between, nodal);
                   nothing.setZero(6, stress.cols());
-                  sum += squared_norm(cell, elasticity, nodal, nothing);
+                  sum += squared_norm(cell, cell.volumes(), elasticity, nodal, all(nothing));
                 });
   return result;
 }

@@ -73,6 +73,20 @@ TEST(Stress, LinearDisplacementHasItsConstantStressEverywhere)
   }
 }
 
+TEST(Stress, KeptStressesGiveTheSameError)
+{
+  for (const auto formulation : {Formulation::standard, Formulation::bbar})
+    for (const auto& [name, kinematics] : all_cases()) {
+      Block block(name, {3, 2, 2}, {1, 2, 1.5});
+      block.distort(0.07, true);
+      const auto u = sample(block.mesh, block.dimension, [](const Point& x) { return Point(x[0] * x[0], x[0] * x[1], 0); });
+      PointStresses points;
+      const auto nodal = recovered(stresses(block.mesh, steel(), kinematics, u, formulation, {}, 1, &points));
+      const double expected = squared_errors(block.mesh, steel(), kinematics, u, nodal, formulation).sum();
+      EXPECT_NEAR(squared_error(block.mesh, steel(), kinematics, points, nodal), expected, 1e-12 * expected) << name;
+    }
+}
+
 TEST(Stress, FormulationsFindTheSameConstantStress)
 {
   for (const auto formulation : {Formulation::bbar, Formulation::incompatible})

@@ -1,5 +1,7 @@
 #include "feti/dual_operator.hpp"
 
+#include <utility>
+
 namespace mortise::feti {
 
 void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
@@ -12,6 +14,7 @@ void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp,
     view(jumps) += jump_.compliance().cwiseProduct(view(*x.getVector(column)));
     if (springs_) springs_->add_compliance(1, *x.getVector(column), jumps);
     y.getVectorNonConst(column)->update(alpha, jumps, beta);
+    last_.emplace(Product{view(*x.getVector(column)), std::move(forces)});
   }
 }
 

@@ -95,9 +95,9 @@ void DualProblem::make_equality(SparseMatrix g)
 
 void DualProblem::make_rhs()
 {
-  std::vector<Eigen::VectorXd> u = load_;
-  system_.clusters.apply_inverse(u);
-  Vector d = jump_->apply(u);
+  loaded_ = load_;
+  system_.clusters.apply_inverse(loaded_);
+  Vector d = jump_->apply(loaded_);
   {
     auto linear = view(d);
     linear -= jump_->bound();
@@ -249,7 +249,22 @@ std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, con
     clusters.apply_inverse(elastic);
     last_.emplace(Elastic{values, std::move(elastic)});
   }
-  auto u = last_->displacement;
+  return less_motion(last_->displacement, nu);
+}
+
+std::vector<Eigen::VectorXd> DualProblem::displacement_of_product(const Vector& lambda, const Eigen::VectorXd& nu) const
+{
+  const auto* response = hessian_->response(lambda);
+  if (comm_.any(!response)) return displacement(lambda, nu);
+  auto u = loaded_;
+  for (std::size_t s = 0; s < u.size(); ++s) u[s] -= (*response)[s];
+  return less_motion(std::move(u), nu);
+}
+
+// u - R nu.
+std::vector<Eigen::VectorXd> DualProblem::less_motion(std::vector<Eigen::VectorXd> u, const Eigen::VectorXd& nu) const
+{
+  const auto& clusters = system_.clusters;
   for (std::size_t s = 0; s < u.size(); ++s) u[s] -= clusters.motion(s, nu.segment(clusters.first(s), clusters.modes()));
   return u;
 }

@@ -212,7 +212,13 @@ TEST(DualProblem, SpringsAreStiffnessOfTheWhole)
       for (Local i = 0; i < static_cast<Local>(x.getLocalLength()); ++i)
         view(x)[i] = std::sin(0.7 * static_cast<double>(x.getMap()->getGlobalElement(i)));
       problem.equality().project(x);
+      const auto moved = problem.displacement(x, solution.nu), before = problem.displacement_of_product(x, solution.nu);
       problem.hessian().apply(x, r);
+      const auto after = problem.displacement_of_product(x, solution.nu);
+      for (std::size_t s = 0; s < u.size(); ++s) {
+        EXPECT_EQ(before[s], moved[s]);
+        EXPECT_LT((after[s] - moved[s]).norm(), 1e-11 * moved[s].norm());
+      }
       const double square = x.dot(r);
       problem.equality().project(r);
       EXPECT_GE(problem.preconditioner()->energy(r), (1 - 1e-9) * square);

@@ -301,6 +301,7 @@ Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy)
     run.goal.residual = *tolerance_;
   } else {
     run.goal.allowed_error = accuracy.allowed_error;
+    run.goal.expected_allowed_error = accuracy.expected_allowed_error;
     run.goal.contact_converged = [this](const Vector& x, const Vector& argument, const Vector& off) {
       return contact_converged(problem_, x, argument, off);
     };

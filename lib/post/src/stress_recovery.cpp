@@ -32,10 +32,6 @@ Point centre(const mesh::Mesh& mesh, std::size_t cell)
   return sum / static_cast<double>(mesh.cells[cell].size());
 }
 
-// Results are recovered in full. To say while the solver runs what may be left of its error averages do, which find too little
-// error of the mesh rather than too much, and the errors of boundary elements are assumed.
-enum class Purpose { results, stop };
-
 // Sums over all copies of nodes x 7 blocks to nodes x 6 blocks; where nothing has weight `otherwise`.
 Eigen::MatrixXd means(const Eigen::MatrixXd& sums, Eigen::MatrixXd otherwise = {})
 {
@@ -88,8 +84,7 @@ std::vector<Eigen::MatrixXd> patch_sums(const ElasticBodies& bodies, const std::
   return result;
 }
 
-Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm,
-                  Purpose purpose)
+Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
   const auto& subdomains = bodies.decomposition.subdomains;
   const auto blocks = bodies.blocks;
@@ -97,20 +92,11 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
   Recovered result;
   result.worst_cell.resize(body_count);
   result.body_error.resize(body_count, 0.0);
-  std::vector<BoundaryStress> boundary;
-  if (purpose == Purpose::results) boundary = boundary_stresses(bodies, displacement);
+  auto boundary = boundary_stresses(bodies, displacement);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& own = bodies.constitution[s];
     if (subdomains[s].skin) {
-      const double energy = boundary_energy(bodies, s, displacement[s]);
-      result.strain_energy += energy;
-      if (purpose == Purpose::stop) {
-        result.squared_error += assumed_error * assumed_error * 2 * energy;
-        result.nodal.emplace_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(subdomains[s].mesh.node_count()),
-                                                        7 * static_cast<Eigen::Index>(blocks)));
-        result.cell_von_mises.emplace_back();
-        continue;
-      }
+      result.strain_energy += boundary_energy(bodies, s, displacement[s]);
       result.nodal.push_back(boundary[s].nodal_sums);
       auto& von_mises = result.cell_von_mises.emplace_back(boundary[s].stress.rows());
       for (Eigen::Index p = 0; p < von_mises.size(); ++p) von_mises[p] = fem::von_mises(boundary[s].stress.row(p).transpose());
@@ -123,19 +109,14 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
     result.cell_von_mises.push_back(std::move(field.cell_von_mises));
   }
   partition::sum_over_copies(bodies.decomposition, bodies.interface, result.nodal, comm);
-  std::vector<Eigen::MatrixXd> patches;
-  if (purpose == Purpose::results) patches = patch_sums(bodies, displacement, comm);
+  const auto patches = patch_sums(bodies, displacement, comm);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    if (subdomains[s].skin && purpose == Purpose::stop) continue;
     Eigen::MatrixXd stress = means(result.nodal[s]);
     const auto& mesh = subdomains[s].mesh;
     const auto body = static_cast<std::size_t>(subdomains[s].body);
     const auto& own = bodies.constitution[s];
     const auto errors = [&] {
       if (subdomains[s].skin) return boundary_errors(bodies, s, boundary[s], stress);
-      if (purpose == Purpose::stop)
-        return fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], stress, own.formulation,
-                                   own.temperature_change);
       return fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], means(patches[s], stress), stress,
                                  own.formulation, own.temperature_change);
     }();
@@ -168,7 +149,7 @@ Eigen::MatrixXd governing(const Eigen::MatrixXd& stress)
 StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
                            const Communicator& comm)
 {
-  auto recovered = recover(bodies, displacement, comm, Purpose::results);
+  auto recovered = recover(bodies, displacement, comm);
   const auto& subdomains = bodies.decomposition.subdomains;
   StressField field;
   for (const auto& stress : recovered.nodal) field.nodal.push_back(governing(stress));
@@ -202,8 +183,31 @@ StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen:
 
 EnergyNorms energy_norms(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
-  const auto recovered = recover(bodies, displacement, comm, Purpose::stop);
-  return {std::sqrt(recovered.squared_error), std::sqrt(2 * recovered.strain_energy)};
+  const auto& subdomains = bodies.decomposition.subdomains;
+  double squared_error = 0, strain_energy = 0;
+  std::vector<Eigen::MatrixXd> nodal;
+  std::vector<fem::PointStresses> points(subdomains.size());
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    if (subdomains[s].skin) {
+      const double energy = boundary_energy(bodies, s, displacement[s]);
+      strain_energy += energy;
+      squared_error += assumed_error * assumed_error * 2 * energy;
+      nodal.emplace_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(subdomains[s].mesh.node_count()),
+                                               7 * static_cast<Eigen::Index>(bodies.blocks)));
+      continue;
+    }
+    const auto& own = bodies.constitution[s];
+    auto field = fem::stresses(subdomains[s].mesh, own.materials, bodies.kinematics, displacement[s], own.formulation,
+                               own.temperature_change, bodies.blocks, &points[s]);
+    strain_energy += field.strain_energy;
+    nodal.push_back(std::move(field.nodal_sums));
+  }
+  partition::sum_over_copies(bodies.decomposition, bodies.interface, nodal, comm);
+  for (std::size_t s = 0; s < subdomains.size(); ++s)
+    if (!subdomains[s].skin)
+      squared_error += fem::squared_error(subdomains[s].mesh, bodies.constitution[s].materials, bodies.kinematics, points[s],
+                                          means(nodal[s]));
+  return {std::sqrt(comm.sum(squared_error)), std::sqrt(2 * comm.sum(strain_energy))};
 }
 
 }  // namespace mortise::post

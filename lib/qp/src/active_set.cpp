@@ -98,9 +98,10 @@ void ActiveSet::restrict(Vector& x, int power) const
 {
   auto values = view(x);
   for (const Local i : fixed_) values[i] = 0;
+  const auto scale = [power](double w) { return power == 0 ? 1 : power == 1 ? w : power == 2 ? w * w : 1 / (w * w); };
   for (const auto& slip : slips_) {
     const double along =
-        (values[slip.index[0]] * slip.tangent[0] + values[slip.index[1]] * slip.tangent[1]) * std::pow(slip.weight, power);
+        (values[slip.index[0]] * slip.tangent[0] + values[slip.index[1]] * slip.tangent[1]) * scale(slip.weight);
     values[slip.index[0]] = along * slip.tangent[0];
     values[slip.index[1]] = along * slip.tangent[1];
   }
@@ -199,15 +200,12 @@ void ActiveSet::sweep(Vector& x, bool direction, int sweeps) const
 {
   restrict(x, 0);
   if (equality_.size() == 0) return;
-  Vector part(x.getMap());
   for (int repeat = 0; repeat < sweeps; ++repeat) {
-    part.assign(x);
-    if (!direction) restrict(part, 2);
-    const Eigen::VectorXd nu = matrix_.solve(equality_.apply(part));
-    part.putScalar(0);
-    equality_.add_transpose(1, nu, part);
-    restrict(part, direction ? 2 : 0);
-    x.update(-1, part, 1);
+    if (!direction) restrict(x, 2);
+    const Eigen::VectorXd nu = matrix_.solve(equality_.apply(x));
+    restrict(x, -2);
+    equality_.add_transpose(-1, nu, x);
+    restrict(x, direction ? 2 : 0);
   }
 }
 

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <span>
 #include <vector>
 
+#include "orthonormal_columns.hpp"
 #include "qp/face_newton.hpp"
 
 namespace mortise::qp {
@@ -31,6 +33,7 @@ class Columns {
  public:
   std::size_t size() const { return columns_.size(); }
   void push_back(const Vector& v) { columns_.push_back(view(v).data()); }
+  void push_back(const double* v) { columns_.push_back(v); }
 
   // x += sum of factor[i] v_i.
   void add(const Eigen::VectorXd& factor, Vector& x) const
@@ -118,8 +121,8 @@ class Descent {
   bool go(const Vector& direction, const Vector& product, Vector image, double least)
   {
     const double whole = image.norm2();
-    Eigen::VectorXd coefficient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(images_.size()));
-    if (!images_.empty()) {  // Gram and Schmidt, twice: one sum over the ranks each
+    Eigen::VectorXd coefficient = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns_.size()));
+    if (columns_.size() > 0) {  // Gram and Schmidt, twice: one sum over the ranks each
       Eigen::VectorXd part = columns_.dots(image);
       sum(part);
       coefficient = part;
@@ -143,6 +146,23 @@ class Descent {
     lengths_.push_back(length);
     return true;
   }
+  // The same with many at once, before all others. They give their direction and their product, and `images` one column each.
+  void go(std::span<const std::pair<const Vector*, const Vector*>> moves, Eigen::MatrixXd images, double least)
+  {
+    if (moves.empty()) return;
+    first_ = orthonormal_columns(std::move(images), least, comm_);
+    Eigen::VectorXd length = first_.q.transpose() * view(residual);
+    sum(length);
+    view(residual) -= first_.q * length;
+    for (Eigen::Index k = 0; k < length.size(); ++k) {
+      const auto& [direction, product] = moves[static_cast<std::size_t>(first_.kept[static_cast<std::size_t>(k)])];
+      columns_.push_back(first_.q.col(k).data());
+      directions_.push_back(*direction);
+      products_.push_back(*product);
+      triangle_.emplace_back(first_.r.col(k).head(k + 1));
+      lengths_.push_back(length[k]);
+    }
+  }
   // Takes y along all of them, and gy = A y - b with it.
   void finish(Vector& y, Vector& gy) const
   {
@@ -163,7 +183,8 @@ class Descent {
 
   const ActiveSet& active_set_;
   const Communicator& comm_;
-  std::vector<Vector> images_;  // Q
+  OrthonormalColumns first_;    // the first columns of Q
+  std::vector<Vector> images_;  // the others
   Columns columns_, directions_, products_;
   std::vector<Eigen::VectorXd> triangle_;  // R by columns
   std::vector<double> lengths_;            // Q'residual
@@ -171,8 +192,9 @@ class Descent {
 
 }  // namespace
 
-// z = M residual: the preconditioner between the projectors of the active set, improved by all that is known of A from earlier
-// directions [Morales and Nocedal, Automatic preconditioning by limited memory quasi-Newton updating, SIAM J. Optim. 10 (2000)].
+// z = M residual, to be projected once more: the preconditioner between the projectors of the active set, improved by all that
+// is known of A from earlier directions [Morales and Nocedal, Automatic preconditioning by limited memory quasi-Newton updating,
+// SIAM J. Optim. 10 (2000)].
 void FaceNewton::precondition(const ActiveSet& active_set, const Vector& residual, Vector& z) const
 {
   Vector q(residual, Teuchos::Copy);
@@ -196,15 +218,16 @@ void FaceNewton::precondition(const ActiveSet& active_set, const Vector& residua
     if (recycled_directions_[i].step)
       z.update(part[i] - recycled_directions_[i].image.dot(z) / recycled_directions_[i].energy, recycled_directions_[i].direction,
                1);
-  active_set.project(z);
 }
 
-void FaceNewton::recycle(const ActiveSet& active_set, const Vector& direction, const Vector& product, bool step)
+// Keeps the two vectors.
+void FaceNewton::recycle(const ActiveSet& active_set, Vector direction, Vector product, bool step)
 {
-  Pair pair{Vector(direction, Teuchos::Copy), Vector(product, Teuchos::Copy), Vector(product, Teuchos::Copy), 0, step};
+  Vector image(product, Teuchos::Copy);
+  Pair pair{std::move(direction), std::move(product), std::move(image), 0, step};
   if (step) {
-    active_set.add_curvature(direction, pair.image);
-    pair.energy = direction.dot(pair.image);
+    active_set.add_curvature(pair.direction, pair.image);
+    pair.energy = pair.direction.dot(pair.image);
     pair.step = pair.energy > 0;
     problem_.equality.project(pair.image);
   }
@@ -231,6 +254,7 @@ bool FaceNewton::descend_alone(const ActiveSet& active_set, double goal, const s
   std::deque<Step> steps;  // the last ones: rounding spoils the orthogonality that two would have
   for (int step = 0; step < max_unconstrained && !problem_.hessian.exhausted(); ++step) {
     precondition(active_set, residual, direction);
+    active_set.project(direction);
     for (const auto& before : steps) direction.update(-before.image.dot(direction) / before.energy, before.direction, 1);
     problem_.hessian.apply(direction, product);
     const double energy = direction.dot(product);
@@ -245,7 +269,7 @@ bool FaceNewton::descend_alone(const ActiveSet& active_set, double goal, const s
     report();
     if (residual.norm2() <= goal) break;
   }
-  for (const auto& step : steps) recycle(active_set, step.direction, step.image, true);
+  for (auto& step : steps) recycle(active_set, std::move(step.direction), std::move(step.image), true);
   return true;
 }
 
@@ -262,21 +286,31 @@ bool FaceNewton::descend(const ActiveSet& active_set, double goal, double weight
   Vector direction(z, Teuchos::Copy), product(g, Teuchos::Copy), constrained(map);
   direction.update(-1, y, 1);  // the projection's step is known as well
   product.update(-1, gy, 1);
-  if (direction.norm2() > least_recycled * z.norm2()) recycle(active_set, direction, product, false);
+  if (direction.norm2() > least_recycled * z.norm2())
+    recycle(active_set, Vector(direction, Teuchos::Copy), Vector(product, Teuchos::Copy), false);
   y.assign(z);
   gy.assign(g);
   Descent descent(active_set, problem_.equality.communicator(), gy);
   const double start = descent.size();
   if (start <= 1e-2 * goal) return false;
   goal = std::max(goal, inner_reduction * start);
-  for (auto pair = recycled_directions_.rbegin(); trusted && pair != recycled_directions_.rend(); ++pair)
-    descent.go(pair->direction, pair->product, projected_image(active_set, pair->direction, pair->product, weight, 1), least_new);
+  if (trusted) {
+    std::vector<std::pair<const Vector*, const Vector*>> moves;
+    Eigen::MatrixXd images(view(z).size(), static_cast<Eigen::Index>(recycled_directions_.size()));
+    for (auto pair = recycled_directions_.rbegin(); pair != recycled_directions_.rend(); ++pair) {
+      images.col(static_cast<Eigen::Index>(moves.size())) =
+          view(projected_image(active_set, pair->direction, pair->product, weight, 1));
+      moves.emplace_back(&pair->direction, &pair->product);
+    }
+    descent.go(moves, std::move(images), least_new);
+  }
   std::deque<std::pair<Vector, Vector>> fresh;
   const int most = static_cast<int>(std::max(fewest_inner, kept_));
   for (int step = 0; step < most && descent.size() > goal && !problem_.hessian.exhausted(); ++step) {
     const Vector free = descent.split(constrained);
     constrained.scale(1 / weight);
     precondition(active_set, free, direction);
+    if (active_set.coupled()) active_set.project(direction);  // else the next projection is the same
     active_set.project_trial(direction, constrained);
     problem_.hessian.apply(direction, product);
     const auto& [d, p] = fresh.emplace_back(Vector(direction, Teuchos::Copy), Vector(product, Teuchos::Copy));
@@ -284,7 +318,7 @@ bool FaceNewton::descend(const ActiveSet& active_set, double goal, double weight
     report();
   }
   descent.finish(y, gy);
-  for (const auto& [d, p] : fresh) recycle(active_set, d, p, true);
+  for (auto& [d, p] : fresh) recycle(active_set, std::move(d), std::move(p), true);
   return true;
 }
 

@@ -20,6 +20,11 @@ int position_of(const SparseMatrix& matrix, int row, int column, int from)
   return static_cast<int>(std::lower_bound(rows + from, rows + matrix.outerIndexPtr()[column + 1], row) - rows);
 }
 
+std::ptrdiff_t unknowns_in(const BlockIndex& block)
+{
+  return std::ranges::count_if(block, [](Local i) { return i >= 0; });
+}
+
 // Where G D G' may differ from G G', lower triangle: the rows of G that meet in a block of any rank.
 SparseMatrix changing_pattern(const EqualityConstraint& equality, std::span<const BlockIndex> blocks)
 {
@@ -49,6 +54,7 @@ CoarseMatrix::CoarseMatrix(const EqualityConstraint& equality, std::span<const B
     list.push_back(i);
   }
   if (equality.size() == 0) return;
+  place(blocks);
   dense_ = this->touched() <= largest_dense;
   if (dense_ && this->touched() > small) {
     const double entries = 0.5 * this->touched() * this->touched();
@@ -65,6 +71,35 @@ CoarseMatrix::CoarseMatrix(const EqualityConstraint& equality, std::span<const B
     int from = whole_.outerIndexPtr()[column];
     for (SparseMatrix::InnerIterator it(changing_, column); it; ++it)
       in_whole_.push_back(from = position_of(whole_, static_cast<int>(it.row()), column, from));
+  }
+}
+
+void CoarseMatrix::place(std::span<const BlockIndex> blocks)
+{
+  const SparseMatrix& g = equality_.local();
+  block_.assign(static_cast<std::size_t>(g.cols()), -1);
+  for (const auto& unknown : blocks) {
+    std::vector<int> rows;
+    for (const Local i : unknown)
+      if (i >= 0)
+        for (SparseMatrix::InnerIterator it(g, i); it; ++it) rows.push_back(static_cast<int>(it.row()));
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    Block block{unknown, Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(rows.size())), {}};
+    for (std::size_t k = 0; k < unknown.size(); ++k) {
+      if (unknown[k] < 0) continue;
+      for (SparseMatrix::InnerIterator it(g, unknown[k]); it; ++it)
+        block.g(static_cast<Eigen::Index>(k), std::lower_bound(rows.begin(), rows.end(), it.row()) - rows.begin()) = it.value();
+      int& largest = block_[static_cast<std::size_t>(unknown[k])];
+      if (largest < 0 || unknowns_in(blocks_[static_cast<std::size_t>(largest)].unknown) < unknowns_in(unknown))
+        largest = static_cast<int>(blocks_.size());
+    }
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      int at = changing_.outerIndexPtr()[rows[j]];
+      for (std::size_t i = j; i < rows.size(); ++i)
+        block.position.push_back(at = position_of(changing_, rows[i], rows[j], at));
+    }
+    blocks_.push_back(std::move(block));
   }
 }
 
@@ -90,23 +125,22 @@ void CoarseMatrix::eliminate()
 // G (I - D) G' over the entries of changing_, summed over the ranks.
 Eigen::VectorXd CoarseMatrix::downdate(std::span<const DowndateBlock> downdates) const
 {
-  const SparseMatrix& g = equality_.local();
   Eigen::VectorXd result = Eigen::VectorXd::Zero(changing_.nonZeros());
-  const auto add = [&](Local a, Local b, double factor) {
-    for (SparseMatrix::InnerIterator j(g, b); j; ++j) {
-      int at = changing_.outerIndexPtr()[j.row()];
-      for (SparseMatrix::InnerIterator i(g, a); i; ++i)
-        if (i.row() >= j.row()) {
-          at = position_of(changing_, static_cast<int>(i.row()), static_cast<int>(j.row()), at);
-          result[at++] += factor * i.value() * j.value();
-        }
-    }
-  };
-  for (const auto& [index, matrix] : downdates)
-    for (std::size_t a = 0; a < index.size(); ++a)
-      for (std::size_t b = 0; b < index.size(); ++b)
-        if (index[a] >= 0 && index[b] >= 0 && matrix(static_cast<int>(a), static_cast<int>(b)) != 0)
-          add(index[a], index[b], matrix(static_cast<int>(a), static_cast<int>(b)));
+  Eigen::Matrix3Xd times;
+  for (const auto& [index, matrix] : downdates) {
+    const Block& block = blocks_[static_cast<std::size_t>(block_[static_cast<std::size_t>(index[0])])];
+    Eigen::Matrix3d select = Eigen::Matrix3d::Zero();  // the block's unknowns in the order of `index`
+    for (Eigen::Index a = 0; a < 3; ++a)
+      for (Eigen::Index b = 0; b < 3; ++b) {
+        const Local unknown = index[static_cast<std::size_t>(a)];
+        if (unknown >= 0 && unknown == block.unknown[static_cast<std::size_t>(b)]) select(a, b) = 1;
+      }
+    const Eigen::Matrix3d change = select.transpose() * matrix * select;
+    times.noalias() = change * block.g;
+    auto at = block.position.begin();
+    for (Eigen::Index j = 0; j < times.cols(); ++j)
+      for (Eigen::Index i = j; i < times.cols(); ++i) result[*at++] += times.col(i).dot(block.g.col(j));
+  }
   equality_.communicator().sum_in_place({result.data(), static_cast<std::size_t>(result.size())});
   return result;
 }

@@ -44,7 +44,8 @@ Eigen::VectorXd EqualityConstraint::apply(const Vector& x) const
 
 void EqualityConstraint::add_transpose(double alpha, const Eigen::VectorXd& nu, Vector& y) const
 {
-  view(y) += alpha * (g_.transpose() * nu);
+  auto values = view(y);
+  for (Eigen::Index i = 0; i < g_.cols(); ++i) values[i] += alpha * g_.col(i).dot(nu);
 }
 
 Eigen::VectorXd EqualityConstraint::project(Vector& x) const

@@ -1,6 +1,7 @@
 // When face Newton ends: whether a point is what was asked for, and when there is no hope of one.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "face_newton_run.hpp"
 #include "qp/error_estimate.hpp"
@@ -83,29 +84,45 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   bool solved = small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal,
                                     worst <= tolerances::rounding * run.size);
   run.doubtful = small && !solved;
-  if (goal.allowed_error && !solved && std::isfinite(result.error) &&
-      result.error <= (run.allowed < 0 ? first_look * run.first_error : run.allowed)) {
-    run.allowed = goal.allowed_error(z, result.nu);
-    solved = result.error <= (to_come <= at_rest ? 1 : certain) * run.allowed &&
-             (worst <= Goal::largest_residual * run.size || believable(result.error, 0, z, result.nu, goal));
+  std::optional<bool> converged;
+  const auto contact = [&] {
+    if (!converged) converged = contact_converged(run, natural);
+    return *converged;
+  };
+  if (goal.allowed_error && !solved && std::isfinite(result.error)) {
+    // What is allowed costs most to find and hardly changes from point to point: once known, it tells when to look again.
+    const double part = to_come <= at_rest ? 1 : certain;
+    if (run.allowed < 0 && result.error <= first_look * run.first_error)
+      run.allowed = (goal.expected_allowed_error ? goal.expected_allowed_error : goal.allowed_error)(z, result.nu);
+    if (run.allowed >= 0 && result.error <= part * run.allowed && contact()) {
+      run.allowed = goal.allowed_error(z, result.nu);
+      solved = result.error <= part * run.allowed &&
+               (worst <= Goal::largest_residual * run.size || believable(result.error, 0, z, result.nu, goal));
+    }
   }
   if (!solved && goal.exact > 0 && std::isfinite(result.error))
     solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
+  if (!goal.allowed_error || !solved) return solved;
+  if (!contact()) return false;
+  if (radii_settled(run) && is_compatible(run)) return true;
+  run.doubtful = true;
+  return false;
+}
+
+// Whether contact at z has converged, as far as the goal asks for that.
+bool FaceNewton::contact_converged(const Run& run, const Projection& natural)
+{
+  const auto& goal = run.goal;
+  const auto& z = run.state.z;
   // What A^-1 then makes of the residual is rounding among rows that depend on each other, as where three bodies meet.
-  const bool settled = worst <= (goal.exact > 0 ? residual_of_direct : tolerances::rounding) * run.size;
-  if (goal.allowed_error && solved && goal.contact_converged && preconditioner_ && !settled) {
-    Vector gap(z, Teuchos::Copy), change(z.getMap());
-    gap.update(-norm_, natural.point, norm_);
-    preconditioner_->fix({});
-    preconditioner_->apply(gap, change);
-    ++preconditionings_;
-    solved = goal.contact_converged(z, natural.argument, change);
-  }
-  if (solved && goal.allowed_error && (!radii_settled(run) || !is_compatible(run))) {
-    run.doubtful = true;
-    return false;
-  }
-  return solved;
+  const bool settled = run.worst() <= (goal.exact > 0 ? residual_of_direct : tolerances::rounding) * run.size;
+  if (!goal.contact_converged || !preconditioner_ || settled) return true;
+  Vector gap(z, Teuchos::Copy), change(z.getMap());
+  gap.update(-norm_, natural.point, norm_);
+  preconditioner_->fix({});
+  preconditioner_->apply(gap, change);
+  ++preconditionings_;
+  return goal.contact_converged(z, natural.argument, change);
 }
 
 // Whether products, active sets or patience have run out.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "fem/materials.hpp"
 #include "fem/temperature.hpp"
@@ -27,11 +28,16 @@ struct StressField {
   /// Integral of s : C^-1 : s / 2, the energy of the elastic strain: 1/2 u'K u where nothing expands freely.
   double strain_energy = 0;
 };
+/// At the integration points of all cells, one after the other: the stress, and the volume that each stands for.
+struct PointStresses {
+  std::vector<Stress> stress;
+  std::vector<double> volume;
+};
 /// `temperature_change` expands the piece, which has no stress by that alone (see add_expansion). `blocks`: at least the number
-/// of materials.
+/// of materials. `points`: if not null, gets what squared_errors() would else evaluate again.
 StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Eigen::VectorXd& u,
                      Formulation formulation = Formulation::standard, const Temperature& temperature_change = {},
-                     std::size_t blocks = 1);
+                     std::size_t blocks = 1, PointStresses* points = nullptr);
 
 /// For each cell the squared energy norm of s* - s: the integral of (s* - s) : C^-1 : (s* - s), where s is the stress of the
 /// finite elements and s* interpolates `recovered`, nodes x 6 blocks (of the cell's material), by the shape functions
@@ -41,6 +47,10 @@ StressField stresses(const mesh::Mesh& mesh, const Materials& materials, Kinemat
 Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
                                const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered,
                                Formulation formulation = Formulation::standard, const Temperature& temperature_change = {});
+
+/// The sum of these over all cells, from their stresses.
+double squared_error(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const PointStresses& points,
+                     const Eigen::MatrixXd& recovered);
 
 /// The same, and for each cell the squared norm of the difference of `recovered` and `other`, two recoveries of the same stress,
 /// which says how well either knows it: where s is smooth they agree, at a corner with steep stresses neither is right.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/timer.hpp"
@@ -24,12 +25,22 @@ class DualOperator : public Operator {
   Teuchos::RCP<const Map> getRangeMap() const override { return jump_.rows(); }
   /// y = alpha F x + beta y, column by column. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
+  /// K^+ B'x of each subdomain of this rank if the last product was that with x, else null.
+  const std::vector<Eigen::VectorXd>* response(const Vector& x) const
+  {
+    return last_ && last_->x == view(x) ? &last_->response : nullptr;
+  }
 
  private:
+  struct Product {
+    Eigen::VectorXd x;
+    std::vector<Eigen::VectorXd> response;
+  };
   const JumpOperator& jump_;
   const Clusters& clusters_;
   Timers& timers_;
   const ElasticRows* springs_;
+  mutable std::optional<Product> last_;
 };
 
 }  // namespace mortise::feti

@@ -98,6 +98,9 @@ class DualProblem {
 
   /// u of each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;
+  /// The same without a solution of every subdomain if the last product was that with lambda: a difference of what loads and
+  /// multipliers do alone, which loses figures where these are large beside it, as on thin plates. Collective.
+  std::vector<Eigen::VectorXd> displacement_of_product(const Vector& lambda, const Eigen::VectorXd& nu) const;
   /// nu of the least displacements among those that lambda leaves: bodies are moved back along rigid motions that no row with a
   /// force feels, as far as gaps let them. A roller that rests on one node of a flat side may roll until the next one touches.
   /// Contact forces below `negligible_force` count as none. Collective.
@@ -121,6 +124,7 @@ class DualProblem {
   void make_equality(SparseMatrix g);
   void make_set();
   void make_rhs();
+  std::vector<Eigen::VectorXd> less_motion(std::vector<Eigen::VectorXd> u, const Eigen::VectorXd& nu) const;
   static bool driven(const FreeMotion& motion, double work);
 
   const partition::Decomposition& decomposition_;
@@ -143,6 +147,7 @@ class DualProblem {
     std::vector<Eigen::VectorXd> displacement;
   };
   mutable std::optional<Elastic> last_;
+  std::vector<Eigen::VectorXd> loaded_;  // K^+ f
 };
 
 }  // namespace mortise::feti

@@ -45,6 +45,7 @@ using Observer = std::function<void(int step, double change, const qp::Progress&
 struct Accuracy {
   using Measure = std::function<double(const Vector& lambda, const Eigen::VectorXd& nu)>;
   Measure allowed_error;         ///< the algebraic error that is good enough, in the energy norm
+  Measure expected_allowed_error;  ///< about the same, with multipliers that the last product was with
   Measure energy_norm;           ///< of the displacements
   Measure incompatibility = {};  ///< how far displacements of subdomains do not fit together, over the largest of them
   double negligible = 0;         ///< see qp::Goal

@@ -51,6 +51,8 @@ class ActiveSet {
   /// directions. Returns what is left of it at the free unknowns that have no curvature. Collective.
   Vector reduce(Vector& x) const;
 
+  /// Whether on any rank discs that slip follow their normal unknowns: then project_trial() is another projection than project().
+  bool coupled() const { return trial_matrix_ != &matrix_; }
   /// Unknowns of this rank that are not free at all.
   const std::vector<Local>& fixed() const { return fixed_; }
 
@@ -70,7 +72,7 @@ class ActiveSet {
   };
   void extend(Vector& x) const;               // x = T x
   void extend_transpose(Vector& x) const;     // x = T' x, but for restrict()
-  void restrict(Vector& x, int power) const;  // x = w^power Pi x
+  void restrict(Vector& x, int power) const;  // x = w^power Pi x; power: 0, 1, 2 or -2
   void sweep(Vector& x, bool direction, int sweeps) const;
 
   const EqualityConstraint& equality_;

@@ -37,10 +37,20 @@ class CoarseMatrix {
   int touched() const { return static_cast<int>(touched_.size()); }  ///< rows of G with a constrained unknown, over all ranks
 
  private:
+  // The columns of G of one constraint's unknowns as rows, and where the products of what they touch stand in changing_, lower
+  // triangle by columns.
+  struct Block {
+    BlockIndex unknown;
+    Eigen::Matrix3Xd g;
+    std::vector<int> position;
+  };
+  void place(std::span<const BlockIndex> blocks);
   void eliminate();
   Eigen::VectorXd downdate(std::span<const DowndateBlock> downdates) const;
 
   const EqualityConstraint& equality_;
+  std::vector<Block> blocks_;          // of this rank
+  std::vector<int> block_;             // of each unknown of this rank: the largest it is in, -1 without one
   SparseMatrix changing_;              // where G D G' may differ from G G': the pattern counts
   std::vector<int> touched_, others_;  // rows of G
   std::vector<int> position_;          // of each row among `touched_`, -1 for the others

@@ -65,6 +65,7 @@ class FaceNewton {
   void find_error(Run& run, const Projection& natural);
   bool is_compatible(const Run& run) const;
   bool radii_settled(const Run& run) const;
+  bool contact_converged(const Run& run, const Projection& natural);
   bool is_solved(Run& run, const Projection& natural);
   bool gives_up(Run& run) const;
   void minimise(Run& run, const Trial& trial);
@@ -81,7 +82,7 @@ class FaceNewton {
   bool soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const;
   bool improve_start(State& state, double energy);
   Vector long_gradient_step(const ActiveSet& active_set, const Vector& y, const Vector& gy) const;
-  void recycle(const ActiveSet& active_set, const Vector& direction, const Vector& product, bool step);
+  void recycle(const ActiveSet& active_set, Vector direction, Vector product, bool step);
   bool descend_alone(const ActiveSet& active_set, double goal, const std::function<void()>& report, State& state);
   bool descend(const ActiveSet& active_set, double goal, double weight, bool trusted, const std::function<void()>& report,
                State& state);

@@ -22,6 +22,9 @@ struct Goal {
   /// If given, face Newton stops by this instead: the error, in the norm of A, that is good enough at the present point x with
   /// the multipliers nu. Asked for only where the error comes near. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> allowed_error = {};
+  /// With an allowed error, about what it is: from the last product, which was that with x. It may lose figures and costs no
+  /// product; no solve stops by it. Collective.
+  std::function<double(const Vector& x, const Eigen::VectorXd& nu)> expected_allowed_error = {};
   /// With an allowed error, whether the point x, which a solution differs from by about `change`, will do; asked where the error
   /// would. `argument` is that of the natural projection: how far it lies from the border of a constraint's half-line or disc
   /// tells how firmly its state is decided. Collective.
