@@ -1,6 +1,7 @@
 #include "edges.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace mortise::contact {
@@ -72,7 +73,7 @@ Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes)
       for (std::size_t b = begin; b < end; ++b) {
         if (a == b) continue;
         const double in_front = surface_nodes.all[a].normal.dot(centre[b].normalized());
-        if (in_front > least_bend && result.concave[a].size() < 3) result.concave[a].push_back(surface_nodes.all[b].normal);
+        if (std::abs(in_front) > least_bend && result.beside[a].size() < 3) result.beside[a].push_back(surface_nodes.all[b].normal);
         if (in_front < -least_bend) result.convex[a] = true;
       }
   }

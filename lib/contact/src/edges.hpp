@@ -11,10 +11,10 @@ namespace mortise::contact {
 /// Slopes of two sides that differ by less are parallel.
 inline constexpr double parallel_slopes = 0.03;
 
-/// Of each surface node the normals of others at the same node, on the other sides of edges: of faces that stand in front of its
-/// own; whether some stand behind them; and on a border where the side ends the unit vector in the tangent plane that leads out.
+/// Of each surface node the normals of others at the same node, on the other sides of edges; whether faces there stand behind its
+/// own; and on a border where the side ends the unit vector in the tangent plane that leads out.
 struct Edges {
-  std::vector<Few<Point, 3>> concave;
+  std::vector<Few<Point, 3>> beside;
   std::vector<bool> convex;
   std::vector<Point> outward;
 

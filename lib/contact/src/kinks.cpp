@@ -34,8 +34,9 @@ class Kinks {
  private:
   // Slopes of two faces that differ by less than 2 degrees leave too little between the surface through them and the faces.
   static constexpr double least_turn = 0.035;
-  // The part of it that the surfaces on both sides alone differ by; where one side alone is known, that has to be nearly plane.
-  static constexpr double of_a_kink = 0.6, of_a_border = 0.85;
+  // The part of it that the surfaces on both sides alone differ by: these are nearly plane. Coarse waves and bumps turn by as much
+  // as kinks between curved parts do, but from face to face.
+  static constexpr double of_a_kink = 0.85;
   // Faces reach so far from an edge, over what the one at the edge does, where there are two rows of them.
   static constexpr double two_rows = 1.5;
   // Of the least squares: a curvature that the nodes do not determine is 0.
@@ -159,8 +160,7 @@ class Kinks {
       beside = std::abs(known.next);
     }
     turn = std::abs(turn);
-    const double part = back.known && forth.known ? of_a_kink : of_a_border;
-    return turn > least_turn && turn > part * (turn + smooth) && faces - beside > part * faces ? turn : 0;
+    return turn > least_turn && turn > of_a_kink * (turn + smooth) && faces - beside > of_a_kink * faces ? turn : 0;
   }
 
   Surface surface(const Edge& edge, int which, const Place& place, const Point& away,

@@ -7,10 +7,9 @@ namespace mortise::contact {
 
 /// The edges between facets of a side at which it has a kink, from node to node, the smaller first, ascending; in plane models the
 /// nodes, twice. There the surfaces of second order through the corners of the faces on each side alone meet at an angle that is
-/// more than six tenths of this and of what they turn, together, between the middles of the two faces: on a smooth surface it is
-/// nothing. And the two faces turn by more than two and a half times what they do to the next ones. Where one side has a single row
-/// of faces, the surface of the other is continued over it. Edges that turn by more than about 40 degrees are kinks anyway and not
-/// named.
+/// more than 0.85 of this and of what they turn, together, between the middles of the two faces: on a smooth surface it is nothing.
+/// And the two faces turn by so much more than they do to the next ones. Where one side has a single row of faces, the surface of
+/// the other is continued over it. Edges that turn by more than about 40 degrees are kinks anyway and not named.
 std::vector<FacetEdge> find_kinks(const Side& side);
 
 }  // namespace mortise::contact

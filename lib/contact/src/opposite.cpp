@@ -157,7 +157,7 @@ Opposite Rays::shoot_past(const Point& from, const Point& direction, double leng
 
 Opposite Rays::shoot_past(std::size_t p, const Point& from, const Point& direction, double length, double past) const
 {
-  if (const auto& beside = edges_.concave[p]; !beside.empty()) {
+  if (const auto& beside = edges_.beside[p]; !beside.empty()) {
     const Point& own = nodes_.all[p].normal;
     const auto found = shoot_past(from, direction, length, past, [&](std::size_t facet) {
       const Point normal = primary_.geometry(facet).normal();

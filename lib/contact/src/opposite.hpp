@@ -111,8 +111,8 @@ class Rays {
   Opposite shoot(const Point& from, const Point& direction, double length, const Counts& counts) const;
   // The same; a line that meets nothing meets the nearest face continued, if it misses it by less than `past`.
   Opposite shoot_past(const Point& from, const Point& direction, double length, double past, const Counts& counts = {}) const;
-  // The same from or for a surface node. In a concave edge of the secondary side what faces the other side of the edge better is
-  // for the surface node there: what is smaller than its hole lies in the corner with an edge, whose other side the line meets.
+  // The same from or for a surface node. At an edge of the secondary side what faces the other side of the edge better is for the
+  // surface node there: what is smaller than its hole lies in a corner with an edge, whose other side the line meets.
   Opposite shoot_past(std::size_t surface_node, const Point& from, const Point& direction, double length, double past) const;
   Point primary_normal(const Opposite& opposite) const;
   double part_on_edges(const Opposite& opposite, const Point& normal) const;

@@ -227,15 +227,17 @@ TEST(SmoothNormals, OfPlanesBesideARidgeAreTheirOwn)
     }
 }
 
-// Two arcs of radius 5 that meet at an angle: the faces themselves turn by 12 degrees.
+// Two arcs of radius 30 that meet at an angle: the faces themselves turn by 2 degrees.
 TEST(SmoothNormals, OfArcsBesideARidgeAreTheirOwn)
 {
   const Communicator comm;
+  constexpr double radius = 30;
   for (const bool triangles : {false, true})
     for (const double slope : {-0.3, -0.2, 0.2, 0.3}) {
-      const double away = 5 * slope / std::hypot(slope, 1);  // of the arcs' axes
+      const double away = radius * slope / std::hypot(slope, 1);  // of the arcs' axes
       const auto arcs = [&](double x, double y) {
-        return Point(x, y, std::sqrt(25 - (std::abs(x) + away) * (std::abs(x) + away)) - std::sqrt(25 - away * away));
+        return Point(x, y, std::sqrt(radius * radius - (std::abs(x) + away) * (std::abs(x) + away)) -
+                         std::sqrt(radius * radius - away * away));
       };
       const auto pair = make_pair(surface({6, 4, -3, 3, 0, 4, true, triangles}, arcs, comm),
                                   surface({6, 4, -3, 3, 0, 4, false, triangles, primary_ids}, arcs, comm), Law::frictionless);
@@ -243,7 +245,7 @@ TEST(SmoothNormals, OfArcsBesideARidgeAreTheirOwn)
       for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
         const Point& x = nodes.at(row.node);
         const auto off = [&](double way) {
-          return (row.normal - Point(x[0] + way * away, 0, x[2] + std::sqrt(25 - away * away)) / 5).norm();
+          return (row.normal - Point(x[0] + way * away, 0, x[2] + std::sqrt(radius * radius - away * away)) / radius).norm();
         };
         EXPECT_LT(x[0] > 0.1 ? off(1) : x[0] < -0.1 ? off(-1) : std::min(off(-1), off(1)), 0.01) << slope << ", at " << x[0];
       }
