@@ -10,6 +10,8 @@ namespace mortise::contact {
 
 /// Slopes of two sides that differ by less are parallel.
 inline constexpr double parallel_slopes = 0.03;
+/// The same at a border, whose normals are continued over a face that turns by so much.
+inline double parallel_over(double turn) { return parallel_slopes + 0.5 * turn; }
 
 /// Of each surface node the normals of others at the same node, on the other sides of edges; whether faces there stand behind its
 /// own; and on a border where the side ends the unit vector in the tangent plane that leads out.
@@ -19,10 +21,10 @@ struct Edges {
   std::vector<Point> outward;
 
   /// Whether a surface node with the normal n, along which a side with the normal m lies opposite, is on a convex edge: behind one,
-  /// or on a border beyond which that would come nearer still.
-  bool is_edge(std::size_t surface_node, const Point& n, const Point& m) const
+  /// or on a border beyond which that would come nearer still. Slopes that differ by less than `parallel` are none.
+  bool is_edge(std::size_t surface_node, const Point& n, const Point& m, double parallel) const
   {
-    return convex[surface_node] || (n + m).dot(outward[surface_node]) < -parallel_slopes;
+    return convex[surface_node] || (n + m).dot(outward[surface_node]) < -parallel;
   }
 };
 Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes);

@@ -64,7 +64,8 @@ class Kinks {
     double depth = 0;    // of the face at the edge
     bool known = false;  // there are two rows of faces; else the rest is not
     double slope = 0, across = 0, twist = 0, along = 0, bend = 0;
-    double next = 0;     // slope of the faces of the second row, less that of the first
+    std::array<double, 2> next{0, 0};  // slopes of the faces of the second row and of the third, less that of the first,
+    std::array<int, 2> faces{0, 0};    // and how many these are
   };
 
   struct Face {
@@ -152,12 +153,13 @@ class Kinks {
     if (back.known && forth.known) {
       turn = back.slope + forth.slope;
       smooth = (std::abs(back.across) * back.depth + std::abs(forth.across) * forth.depth) / 2;
-      beside = (std::abs(back.next) + std::abs(forth.next)) / 2;
+      beside = (std::abs(back.next[0]) + std::abs(forth.next[0])) / 2;
     } else if (back.known || forth.known) {
       const Surface &known = back.known ? back : forth, &other = back.known ? forth : back;
       turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], place);
       smooth = std::abs(known.across) * (known.depth + other.depth) / 2;
-      beside = std::abs(known.next);
+      beside = std::max(std::abs(known.next[0]), std::abs(known.next[1]));
+      if (known.faces[1] == 0) return 0;  // two rows of a curve may turn by nothing
     }
     turn = std::abs(turn);
     return turn > least_turn && turn > of_a_kink * (turn + smooth) && faces - beside > of_a_kink * faces ? turn : 0;
@@ -198,14 +200,22 @@ class Kinks {
     result.known = farthest > two_rows * result.depth;
     if (!result.known) return result;
     fit(nodes, place, result);
-    int count = 0;
+    const double slope = slope_of(faces_[own], place, away);
+    const auto note = [&](std::size_t row, const Face& face) {
+      result.next[row] += slope_of(face, place, away) - slope;
+      ++result.faces[row];
+    };
     for (const std::size_t f : round) {
-      const auto& of = faces_[f].nodes;
-      if (std::find(of.begin(), of.end(), edge.a) != of.end() || std::find(of.begin(), of.end(), edge.b) != of.end()) continue;
-      result.next += slope_of(faces_[f], place, away) - slope_of(faces_[own], place, away);
-      ++count;
+      const Face& face = faces_[f];
+      const auto has = [&](Local n) { return std::find(face.nodes.begin(), face.nodes.end(), n) != face.nodes.end(); };
+      if (has(edge.a) || has(edge.b)) continue;
+      note(0, face);
+      for (const auto& [g, e] : face.beside)
+        if (!parted_[e] && std::find(round.begin(), round.end(), g) == round.end() &&
+            (faces_[g].centre - face.centre).dot(away) > std::abs((faces_[g].centre - face.centre).dot(place.along)))
+          note(1, faces_[g]);
     }
-    result.next /= std::max(count, 1);
+    for (const std::size_t row : {0U, 1U}) result.next[row] /= std::max(result.faces[row], 1);
     return result;
   }
 

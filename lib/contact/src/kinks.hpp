@@ -9,7 +9,8 @@ namespace mortise::contact {
 /// nodes, twice. There the surfaces of second order through the corners of the faces on each side alone meet at an angle that is
 /// more than 0.85 of this and of what they turn, together, between the middles of the two faces: on a smooth surface it is nothing.
 /// And the two faces turn by so much more than they do to the next ones. Where one side has a single row of faces, the surface of
-/// the other is continued over it. Edges that turn by more than about 40 degrees are kinks anyway and not named.
+/// the other is continued over it, if three rows tell that this is plane. Edges that turn by more than about 40 degrees are kinks
+/// anyway and not named.
 std::vector<FacetEdge> find_kinks(const Side& side);
 
 }  // namespace mortise::contact

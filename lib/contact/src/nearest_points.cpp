@@ -186,15 +186,15 @@ class Search {
     return best ? accepted(p, shift_to(where, best->shape)) : NearestPoint();
   }
 
-  // The way from a corner of a facet to a place in it.
+  // The step from a corner of a facet to a place in it, as of shape_beside().
   Point shift_to(const Corner& from, const Eigen::Vector4d& shape) const
   {
-    Point shift = Point::Zero();
-    const auto nodes = side_.facets[from.facet];
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      shift += shape[static_cast<Eigen::Index>(k)] *
-               (side_.points[static_cast<std::size_t>(nodes[k])] - side_.points[static_cast<std::size_t>(nodes[from.corner])]);
-    return shift;
+    const auto nodes = side_.geometry(from.facet).nodes;
+    const std::size_t count = nodes.size(), after = (from.corner + 1) % count, before = (from.corner + count - 1) % count;
+    const auto part = [&](std::size_t k) { return shape[static_cast<Eigen::Index>(k)]; };
+    const double opposite = count == 4 ? part((from.corner + 2) % 4) : 0;
+    const Point along_first = (part(after) + opposite) * (nodes[after] - nodes[from.corner]);
+    return count == 2 ? along_first : Point(along_first + (part(before) + opposite) * (nodes[before] - nodes[from.corner]));
   }
 
   // Whether there are nodes of the primary side between those of the secondary one, or it ends there.

@@ -90,8 +90,8 @@ Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& prima
           {static_cast<Local>(f), static_cast<Local>(k)};
   curvature_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return curvature_of(secondary, surface_nodes, f); });
   edges_ = edges_at(secondary, surface_nodes);
+  past_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
   if (!obstacle) {
-    past_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
     primary_edges_ = edges_at(primary, primary_nodes);
     ridges_ = find_ridges(primary, primary_nodes);
     return;
@@ -130,7 +130,8 @@ Opposite Rays::shoot(const Point& from, const Point& direction, double length, c
   const double nearer = std::abs(best[0].gap) - std::abs(best[1].gap);
   if (nearer > same_gap * length || (nearer > -same_gap * length && against[1] < against[0])) std::swap(best[0], best[1]);
   for (const auto& opposite : best)
-    if (std::isfinite(opposite.gap) && !sight_.hidden(from, direction, opposite.gap, primary_.geometry(opposite.facet).size()))
+    if (std::isfinite(opposite.gap) &&
+        !sight_.hidden(from, direction, opposite.hit.distance, primary_.geometry(opposite.facet).size()))
       return opposite;
   return {};
 }
@@ -218,7 +219,8 @@ Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
   if (!std::isfinite(opposite.gap)) return normal;
   const Point other = primary_normal(opposite);
   const double length = primary_.geometry(opposite.facet).size();
-  const double own = curvature_[p] + (least_curvature + (edges_.is_edge(p, normal, other) ? curvature_of_edge : 0)) / length;
+  const bool on_edge = edges_.is_edge(p, normal, other, parallel_over(curvature_[p] * length));
+  const double own = curvature_[p] + (least_curvature + (on_edge ? curvature_of_edge : 0)) / length;
   const double others = curvature_of(primary_, primary_nodes_, opposite.facet) +
                         (least_curvature + curvature_of_edge * part_on_edges(opposite, normal)) / length;
   return (others * normal - own * other).normalized();
@@ -228,10 +230,12 @@ Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
 double Rays::part_on_edges(const Opposite& opposite, const Point& normal) const
 {
   const auto begin = static_cast<std::size_t>(primary_.facets.offset[opposite.facet]);
+  const Point other = primary_normal(opposite);
+  const double turn = curvature_of(primary_, primary_nodes_, opposite.facet) * primary_.geometry(opposite.facet).size();
   double part = 0;
   for (std::size_t k = 0; k < primary_.facets[opposite.facet].size(); ++k)
     if (const auto q = static_cast<std::size_t>(primary_nodes_.of_corner[begin + k]);
-        primary_edges_.is_edge(q, primary_nodes_.all[q].normal, normal))
+        primary_edges_.is_edge(q, other, normal, parallel_over(turn)))
       part += opposite.hit.shape[static_cast<Eigen::Index>(k)];
   return std::clamp(part, 0.0, 1.0);
 }
@@ -239,7 +243,8 @@ double Rays::part_on_edges(const Opposite& opposite, const Point& normal) const
 Point Rays::direction_to_obstacle(std::size_t p, const ClosestPoint& closest, const Point& normal) const
 {
   if (obstacle_->shape == Obstacle::Shape::plane) return -closest.normal;
-  const double edge = edges_.is_edge(p, normal, closest.normal) ? curvature_of_edge : 0;
+  const double parallel = parallel_over(curvature_[p] * past_[p] / part_past);
+  const double edge = edges_.is_edge(p, normal, closest.normal, parallel) ? curvature_of_edge : 0;
   const double own = curvature_[p] + (least_curvature + edge) / obstacle_->radius;
   return (curvature_of(*obstacle_) * normal - own * closest.normal).normalized();
 }
@@ -294,9 +299,9 @@ std::optional<Rays::NearNode> Rays::nearest_node(std::size_t facet,
       if (!counts(shape)) continue;
       Point at = Point::Zero();
       for (std::size_t c = 0; c < own.nodes.size(); ++c) at += shape[static_cast<Eigen::Index>(c)] * own.nodes[c];
-      const double gap = (geometry.nodes[k] - at).dot(frame.normal) - own_bulge(facet)(shape);
+      const double distance = (geometry.nodes[k] - at).dot(frame.normal), gap = distance - own_bulge(facet)(shape);
       if (std::abs(gap) > reach_ || (best && gap >= best->gap)) continue;
-      if (sight_.hidden(at, frame.normal, gap, own.size())) continue;
+      if (sight_.hidden(at, frame.normal, distance, own.size())) continue;
       best = NearNode{shape, gap, geometry.size()};
     }
   }
@@ -312,7 +317,6 @@ std::optional<Rays::OnRidge> Rays::nearest_on_ridge(std::size_t facet, const Poi
   const Frame frame = frame_of(own);
   Box box;
   for (const auto& x : own.nodes) box.extend(x);
-  const auto below = [&](const Point& x) { return shape_beside(secondary_, facet, 0, x - own.nodes[0]); };
   for (const int met : tree_.swept(box, reach_ * frame.normal))
     for (const Local r : ridges_.of_facet(static_cast<std::size_t>(met))) {
       const Ridge& ridge = ridges_.all[static_cast<std::size_t>(r)];
@@ -326,18 +330,19 @@ std::optional<Rays::OnRidge> Rays::nearest_on_ridge(std::size_t facet, const Poi
       else if (length > 0)
         part = std::clamp((from - a).dot(edge) / (length * length), 0.0, 1.0);
       const Point x = a + part * edge;
-      const Eigen::Vector4d shape = below(x);
-      if (shape.head(static_cast<Eigen::Index>(own.nodes.size())).minCoeff() < -outside) continue;
-      Point at = Point::Zero();
-      for (std::size_t c = 0; c < own.nodes.size(); ++c) at += shape[static_cast<Eigen::Index>(c)] * own.nodes[c];
+      const Hit below = contact::shoot(x, -frame.normal, own, outside);
+      if (!below.found) continue;
+      const Point at = x - below.distance * frame.normal;
       // Nearer than on the faces on both sides.
-      const Point normal = own_normal(FacetPoint{facet, shape});
+      const Point normal = own_normal(FacetPoint{facet, below.shape});
       const double before = (normal + ridge.normals[0]).dot(ridge.across), behind = (normal + ridge.normals[1]).dot(ridge.across);
-      if (!(before < -parallel_slopes && (ridge.border || behind > parallel_slopes))) continue;
-      const double gap = (x - at).dot(frame.normal) - own_bulge(facet)(shape), distance = (at - from).norm();
+      const auto facet_there = static_cast<std::size_t>(met);
+      const double turn = curvature_of(primary_, primary_nodes_, facet_there) * primary_.geometry(facet_there).size();
+      if (ridge.border ? !(before < -parallel_over(turn)) : !(before < -parallel_slopes && behind > parallel_slopes)) continue;
+      const double gap = below.distance - own_bulge(facet)(below.shape), distance = (at - from).norm();
       if (std::abs(gap) > reach_ || (best && distance >= best->distance)) continue;
-      if (sight_.hidden(at, frame.normal, gap, own.size())) continue;
-      best = OnRidge{shape, distance};
+      if (sight_.hidden(at, frame.normal, below.distance, own.size())) continue;
+      best = OnRidge{below.shape, distance};
     }
   return best;
 }
