@@ -59,6 +59,19 @@ TEST(OrthonormalColumns, AreOrthonormalWhereColumnsAreAlike)
   EXPECT_EQ(expect_orthonormal(v).kept, (std::vector<Eigen::Index>{0, 1, 2, 4, 5, 6, 7}));
 }
 
+// A rank may have no multipliers.
+TEST(OrthonormalColumns, RowsMayBeOnOneRankAlone)
+{
+  const Communicator comm;
+  Eigen::MatrixXd v(length_of_columns, 2);
+  v << wave(1), wave(1) + wave(2);
+  if (comm.rank() > 0) v.resize(0, 2);
+  const auto result = orthonormal_columns(v, 1e-3, comm);
+  EXPECT_EQ(result.kept, (std::vector<Eigen::Index>{0, 1}));
+  EXPECT_LT((result.q * result.r - v).norm(), 1e-12);
+  EXPECT_EQ(result.q.rows(), v.rows());
+}
+
 TEST(OrthonormalColumns, OfNoneAreNone)
 {
   EXPECT_TRUE(expect_orthonormal(Eigen::MatrixXd(length_of_columns, 0)).kept.empty());
