@@ -15,13 +15,22 @@ namespace mortise::contact {
 inline constexpr int rings_beyond = 2;
 std::vector<char> facets_round(const mesh::Cells& facets, std::vector<char> nodes);
 
-/// Adds `kinks` of another side that have both ends here: `here` is a node, or less than 0.
+/// Adds kinks and tangent edges of another side that have both ends here: `here` is a node, or less than 0.
 template <class Here>
-void append_kinks(Side& side, std::vector<FacetEdge> kinks, const Here& here)
+void append_kinks(Side& side, const Side& other, const Here& here)
 {
-  for (const auto& [a, b] : kinks)
-    if (const Local first = here(a), last = here(b); first >= 0 && last >= 0)
-      side.kinks.push_back({std::min(first, last), std::max(first, last)});
+  const auto ends = [&](const FacetEdge& edge) {
+    const Local a = here(edge[0]), b = here(edge[1]);
+    return FacetEdge{std::min(a, b), std::max(a, b)};
+  };
+  const std::size_t kinks = other.kinks.size(), tangent = other.tangent_edges.size();  // they may be the same
+  for (std::size_t e = 0; e < kinks; ++e)
+    if (const auto edge = ends(other.kinks[e]); edge[0] >= 0) side.kinks.push_back(edge);
+  for (std::size_t e = 0; e < tangent; ++e) {
+    const auto [old, beyond] = other.tangent_edges[e];
+    const Local in_plane = here(beyond);
+    if (const auto edge = ends(old); edge[0] >= 0 && in_plane >= 0) side.tangent_edges.push_back({edge, in_plane});
+  }
 }
 
 /// Of each node the length of the shortest edge of a facet there.

@@ -150,7 +150,7 @@ void append_image(Side& side, const SymmetryPlane& plane)
     }
     side.facets.add(mesh::CellType(side.facets.type[f]), reversed);
   }
-  append_kinks(side, side.kinks, [&](Local n) {
+  append_kinks(side, side, [&](Local n) {
     const auto node = static_cast<std::size_t>(n);
     return plane.has[node] ? n : image[node];
   });
@@ -183,7 +183,8 @@ SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports
 {
   if (supports.empty() && nodes.empty()) return find_surface_nodes(side);
   Side whole;
-  whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets, whole.kinks = side.kinks;
+  whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets, whole.kinks = side.kinks,
+  whole.tangent_edges = side.tangent_edges;
   auto alone = alone_of(side);
   at_bonds.append_to(whole, side, alone, nodes);
   SymmetryPlanes planes(side, alone, supports);

@@ -190,7 +190,7 @@ void FacesAtBonds::append_to(Side& whole, const Side& side, std::span<const Surf
       }
       whole.facets.add(beyond.faces.facets.type[f], facet);
     }
-    append_kinks(whole, beyond.faces.kinks, [&](Local n) { return local[static_cast<std::size_t>(n)]; });
+    append_kinks(whole, beyond.faces, [&](Local n) { return local[static_cast<std::size_t>(n)]; });
   }
 }
 

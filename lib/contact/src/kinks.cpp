@@ -17,16 +17,27 @@ class Kinks {
   {
     for (std::size_t f = 0; f < faces_.size(); ++f) faces_[f] = corners_of_face(f);
     find_edges();
-  }
-
-  std::vector<FacetEdge> find()
-  {
     // Faces behind a kink say nothing of this side of it, and make kinks of what is none: so the sharpest first.
     for (int pass = 0; pass < passes; ++pass)
       if (!part_sharpest()) break;
+  }
+
+  std::vector<FacetEdge> kinks() const
+  {
     std::vector<FacetEdge> result;
     for (std::size_t e = 0; e < edges_.size(); ++e)
-      if (parted_[e]) add_facet_edges(edges_[e], result);
+      if (parted_[e])
+        for (const FacetEdge& edge : facet_edges(edges_[e])) result.push_back(edge);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  std::vector<TangentEdge> tangent_edges() const
+  {
+    std::vector<TangentEdge> result;
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+      if (const Local in_plane = parted_[e] ? -1 : node_of_plane(edges_[e]); in_plane >= 0)
+        for (const FacetEdge& edge : facet_edges(edges_[e])) result.push_back({edge, in_plane});
     std::sort(result.begin(), result.end());
     return result;
   }
@@ -51,9 +62,10 @@ class Kinks {
     std::array<std::size_t, 2> faces;
   };
 
-  // What an edge looks like: its middle, half of its length, the mean normal there and the direction along it.
+  // What an edge looks like: its middle, half of its length, the mean normal there and the directions along it and across, from the
+  // first face to the other.
   struct Place {
-    Point middle, normal, along;
+    Point middle, normal, along, away;
     double half;
   };
 
@@ -133,19 +145,65 @@ class Kinks {
     return !sharpest.empty();
   }
 
-  // The angle of a kink, as a difference of slopes; 0: there is none. `crossed`: gets the edges between the faces that tell.
-  double turn_at(const Edge& edge, std::vector<std::size_t>* crossed = nullptr) const
+  Place place_of(const Edge& edge) const
   {
     const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
-    if ((first.normal - last.normal).squaredNorm() < least_turn * least_turn) return 0;
-    Place place{(at(edge.a) + at(edge.b)) / 2, (first.normal + last.normal).normalized(), Point::Zero(), 0};
+    Place place{(at(edge.a) + at(edge.b)) / 2, (first.normal + last.normal).normalized(), Point::Zero(), Point::Zero(), 0};
     if (edge.a != edge.b) {
       place.along = (at(edge.b) - at(edge.a)).normalized();
       place.half = (at(edge.b) - at(edge.a)).norm() / 2;
     }
     const Point between = last.centre - first.centre;
-    const Point away =
-        (between - between.dot(place.normal) * place.normal - between.dot(place.along) * place.along).normalized();
+    place.away = (between - between.dot(place.normal) * place.normal - between.dot(place.along) * place.along).normalized();
+    return place;
+  }
+
+  // A node beyond the edge on the side that is plane; -1: none is, or both are.
+  Local node_of_plane(const Edge& edge) const
+  {
+    const auto [first, last] = edge.faces;
+    if (coplanar(first, last)) return -1;
+    const Place place = place_of(edge);
+    const bool back = is_plane(first, place, -place.away), forth = is_plane(last, place, place.away);
+    if (back == forth) return -1;
+    const auto& nodes = faces_[back ? first : last].nodes;
+    return *std::find_if(nodes.begin(), nodes.end(), [&](Local n) { return n != edge.a && n != edge.b; });
+  }
+
+  bool coplanar(std::size_t f, std::size_t g) const { return (faces_[f].normal - faces_[g].normal).norm() < rounding; }
+
+  // Whether a face goes on to a second row away from an edge of its own, through faces of its plane that share nodes with it.
+  bool is_plane(std::size_t own, const Place& place, const Point& away) const
+  {
+    const auto touches = [&](const Face& face) {
+      return std::any_of(face.nodes.begin(), face.nodes.end(), [&](Local n) {
+        return std::find(faces_[own].nodes.begin(), faces_[own].nodes.end(), n) != faces_[own].nodes.end();
+      });
+    };
+    std::vector<std::size_t> plane{own};
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      if (depth(faces_[plane[i]], place, away) > two_rows * depth(faces_[own], place, away)) return true;
+      for (const auto& [f, e] : faces_[plane[i]].beside)
+        if (!parted_[e] && coplanar(own, f) && touches(faces_[f]) && std::find(plane.begin(), plane.end(), f) == plane.end())
+          plane.push_back(f);
+    }
+    return false;
+  }
+
+  double depth(const Face& face, const Place& place, const Point& away) const
+  {
+    double result = 0;
+    for (const Local n : face.nodes) result = std::max(result, (at(n) - place.middle).dot(away));
+    return result;
+  }
+
+  // The angle of a kink, as a difference of slopes; 0: there is none. `crossed`: gets the edges between the faces that tell.
+  double turn_at(const Edge& edge, std::vector<std::size_t>* crossed = nullptr) const
+  {
+    const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
+    if ((first.normal - last.normal).squaredNorm() < least_turn * least_turn) return 0;
+    const Place place = place_of(edge);
+    const Point& away = place.away;
     const double faces = std::abs(slope_of(last, place, away) - slope_of(first, place, away));
     const Surface back = surface(edge, 0, place, -away, crossed), forth = surface(edge, 1, place, away, crossed);
     // Of slopes: at the edge itself, and from the middle of one face to that of the other; and from each to the next one beyond.
@@ -169,21 +227,16 @@ class Kinks {
                   std::vector<std::size_t>* crossed) const
   {
     const std::size_t own = edge.faces[static_cast<std::size_t>(which)];
-    const auto depth = [&](const Face& face) {
-      double result = 0;
-      for (const Local n : face.nodes) result = std::max(result, (at(n) - place.middle).dot(away));
-      return result;
-    };
     Surface result;
     result.away = away;
-    result.depth = depth(faces_[own]);
+    result.depth = depth(faces_[own], place, away);
     // The faces on this side that share nodes with the one at the edge, and hang together with it.
     std::vector<std::size_t> round{own};
     std::vector<Local> nodes;
     double farthest = 0;
     for (std::size_t i = 0; i < round.size(); ++i) {
       const Face& face = faces_[round[i]];
-      farthest = std::max(farthest, depth(face));
+      farthest = std::max(farthest, depth(face, place, away));
       for (const Local n : face.nodes)
         if (n != edge.a && n != edge.b && std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
       for (const auto& [f, e] : face.beside) {
@@ -267,7 +320,7 @@ class Kinks {
   }
 
   // A node in the middle of an edge of a face of second order cuts it in two.
-  void add_facet_edges(const Edge& edge, std::vector<FacetEdge>& result) const
+  Few<FacetEdge, 2> facet_edges(const Edge& edge) const
   {
     const auto face = side_.faces[edge.faces[0]];
     const auto type = side_.faces.type[edge.faces[0]];
@@ -278,11 +331,9 @@ class Kinks {
         if (ends.size() != 2) continue;
         const Local a = face[static_cast<std::size_t>(ends[0])], b = face[static_cast<std::size_t>(ends[1])], middle = face[m];
         if (std::minmax(a, b) != std::pair<const Local&, const Local&>(edge.a, edge.b)) continue;
-        result.push_back({std::min(a, middle), std::max(a, middle)});
-        result.push_back({std::min(b, middle), std::max(b, middle)});
-        return;
+        return {{std::min(a, middle), std::max(a, middle)}, {std::min(b, middle), std::max(b, middle)}};
       }
-    result.push_back({edge.a, edge.b});
+    return {{edge.a, edge.b}};
   }
 
   const Side& side_;
@@ -293,6 +344,11 @@ class Kinks {
 
 }  // namespace
 
-std::vector<FacetEdge> find_kinks(const Side& side) { return Kinks(side).find(); }
+void find_kinks(Side& side)
+{
+  const Kinks kinks(side);
+  side.kinks = kinks.kinks();
+  side.tangent_edges = kinks.tangent_edges();
+}
 
 }  // namespace mortise::contact

@@ -155,7 +155,7 @@ Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Ki
     side.face_id.push_back(face.id);
   }
   cut_into_facets(side);
-  side.kinks = find_kinks(side);
+  find_kinks(side);
   return side;
 }
 

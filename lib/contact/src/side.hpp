@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -20,6 +21,14 @@ using FaceShape = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_functions, 1>
 /// Between two facets: the nodes at its ends, the smaller first; in plane models one node, twice.
 using FacetEdge = std::array<Local, 2>;
 
+/// At which a plane runs into an arc.
+struct TangentEdge {
+  FacetEdge edge;
+  Local in_plane;  ///< a node of the plane beyond the edge
+
+  auto operator<=>(const TangentEdge&) const = default;
+};
+
 /// Geometry is done with facets of first order: a face of second order is cut into facets between its nodes, one of first order
 /// is its own facet. Displacements and multipliers belong to the faces.
 struct Side {
@@ -33,7 +42,8 @@ struct Side {
   std::vector<Local> first_facet;           ///< of each face, and the number of all facets
   std::vector<std::array<int, 4>> corners;  ///< of each facet: its nodes' places in the face
   std::vector<bool> affine;                 ///< of each face: facets give the place in it exactly
-  std::vector<FacetEdge> kinks;             ///< see find_kinks()
+  std::vector<FacetEdge> kinks;             ///< see find_kinks(), as what follows
+  std::vector<TangentEdge> tangent_edges;
 
   FaceGeometry geometry(std::size_t facet) const;
   bool second_order(std::size_t face) const { return facets_of(face) > 1; }

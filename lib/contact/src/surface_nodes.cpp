@@ -51,6 +51,25 @@ std::vector<Edge> edges_of(const Side& side, const SurfaceNodes& surface_nodes)
   return edges;
 }
 
+// Whether each surface node is on a border. Where a kink ends inside a surface its two sides are none: they lead to one node.
+std::vector<bool> nodes_on_border(const SurfaceNodes& surface_nodes, const std::vector<Edge>& edges)
+{
+  std::vector<bool> border(surface_nodes.all.size(), false);
+  const auto end = [&](const Edge& edge) { return surface_nodes.all[static_cast<std::size_t>(edge.to)].node; };
+  std::vector<Local> ends;
+  for (std::size_t first = 0, last = 0; first < edges.size(); first = last) {
+    ends.clear();
+    for (; last < edges.size() && edges[last].from == edges[first].from; ++last)
+      if (edges[last].count == 1) ends.push_back(end(edges[last]));
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+      const bool twice = (e > 0 && ends[e - 1] == ends[e]) || (e + 1 < ends.size() && ends[e + 1] == ends[e]);
+      if (!twice) border[static_cast<std::size_t>(edges[first].from)] = true;
+    }
+  }
+  return border;
+}
+
 // Where the border goes on nearly straight, its two edges turning by less than 45 degrees, its direction; 0 elsewhere.
 std::vector<Point> directions_of_border(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<Edge>& edges)
 {
@@ -73,14 +92,14 @@ std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nod
 {
   const auto edges = edges_of(side, surface_nodes);
   const bool plane = side.facets.size() > 0 && side.facets.type[0] == mesh::CellType::line2;
-  std::vector<int> degree(surface_nodes.all.size(), 0);
   std::vector<bool> border(surface_nodes.all.size(), false);
-  for (const auto& edge : edges) {
-    ++degree[static_cast<std::size_t>(edge.from)];
-    if (!plane && edge.count == 1) border[static_cast<std::size_t>(edge.from)] = true;
-  }
-  if (plane)
+  if (plane) {
+    std::vector<int> degree(border.size(), 0);
+    for (const auto& edge : edges) ++degree[static_cast<std::size_t>(edge.from)];
     for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
+  } else {
+    border = nodes_on_border(surface_nodes, edges);
+  }
 
   // First from edges that lead inside; then corners, whose normal is wrong both ways, from all their neighbours. On a surface one
   // cell wide all surface nodes are on the border: there those between two faces have the normal that the ends continue.
@@ -90,8 +109,10 @@ std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nod
   std::vector<bool> known(border.size());
   for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];
   std::vector<Edge> outer;  // those that start on a border
-  std::copy_if(edges.begin(), edges.end(), std::back_inserter(outer),
-               [&](const Edge& edge) { return border[static_cast<std::size_t>(edge.from)]; });
+  std::copy_if(edges.begin(), edges.end(), std::back_inserter(outer), [&](const Edge& edge) {
+    const bool along_kink = !plane && edge.count == 1 && !border[static_cast<std::size_t>(edge.to)];  // to where it ends
+    return border[static_cast<std::size_t>(edge.from)] && !along_kink;
+  });
   for (int pass = 0; pass < 2; ++pass) {
     std::vector<bool> reached = known;
     const auto leads = [&](std::size_t b, std::size_t a) {
@@ -117,6 +138,44 @@ std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nod
     known = reached;
   }
   return border;
+}
+
+// Where a plane runs into an arc, the normal is the plane's: a surface over both would be tilted by up to half of the angle between
+// the faces. Where two planes do, the one and the other, it is left.
+void take_normals_of_planes(const Side& side, SurfaceNodes& surface_nodes)
+{
+  if (side.tangent_edges.empty()) return;
+  auto tangent = side.tangent_edges;
+  std::sort(tangent.begin(), tangent.end());
+  const auto at = [&](Local n) -> const Point& { return side.points[static_cast<std::size_t>(n)]; };
+  std::vector<std::pair<Local, Point>> found;
+  const auto add = [&](std::size_t corner, const TangentEdge& edge) {
+    const auto [a, b] = edge.edge;
+    const Point along = a == b ? Point(Point::UnitZ()) : Point(at(b) - at(a));
+    const Point normal = along.cross(at(edge.in_plane) - at(a)).normalized();
+    const Local p = surface_nodes.of_corner[corner];
+    found.emplace_back(p, normal.dot(surface_nodes.all[static_cast<std::size_t>(p)].normal) > 0 ? normal : Point(-normal));
+  };
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto nodes = side.facets[f];
+    const auto begin = static_cast<std::size_t>(side.facets.offset[f]), n = nodes.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t next = n == 2 ? k : (k + 1) % n;
+      const FacetEdge edge{std::min(nodes[k], nodes[next]), std::max(nodes[k], nodes[next])};
+      const auto [first, last] = std::ranges::equal_range(tangent, edge, {}, &TangentEdge::edge);
+      for (auto e = first; e != last; ++e) {
+        add(begin + k, *e);
+        if (next != k) add(begin + next, *e);
+      }
+    }
+  }
+  std::ranges::stable_sort(found, {}, &std::pair<Local, Point>::first);
+  for (auto first = found.begin(), last = first; first != found.end(); first = last) {
+    last = std::find_if(first, found.end(), [&](const auto& other) { return other.first != first->first; });
+    const Point& normal = first->second;
+    if (std::all_of(first, last, [&](const auto& other) { return (other.second - normal).norm() < rounding; }))
+      surface_nodes.all[static_cast<std::size_t>(first->first)].normal = normal;
+  }
 }
 
 // Of each node the other ends of the kinks there; of a plane model the node itself.
@@ -255,8 +314,10 @@ SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted)
     }
   }
   const SurfaceNodes means = surface_nodes;
+  take_normals_of_planes(side, surface_nodes);
   const auto border = continue_curvature(side, surface_nodes);
   if (fitted && side.kinematics == fem::Kinematics::solid) fit_normals(side, means, border, surface_nodes);
+  take_normals_of_planes(side, surface_nodes);
   return surface_nodes;
 }
 

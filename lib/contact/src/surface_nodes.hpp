@@ -8,7 +8,8 @@ namespace mortise::contact {
 /// A surface node that may carry a multiplier: a node and the faces on one side of a kink there.
 struct SurfaceNode {
   Local node;
-  Point normal;  ///< unit; exact where the faces inscribe a sphere or cylinder [weights of Max, J. Graph. Tools 4 (1999)]
+  Point normal;  ///< unit; exact where the faces inscribe a sphere or cylinder [weights of Max, J. Graph. Tools 4 (1999)], and where
+                 ///< a plane runs into one
   bool continued = false;  ///< on a border beyond which the side goes on: in its image, or across a bond
 };
 

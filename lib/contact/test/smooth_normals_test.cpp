@@ -252,6 +252,55 @@ TEST(SmoothNormals, OfArcsBesideARidgeAreTheirOwn)
     }
 }
 
+// A plane that runs into an arc of radius 2, faces of the plane four times as long as those of the arc, of 6 degrees: in the tangent
+// line the normal is the plane's, and what is laid on it does not overlap.
+TEST(SmoothNormals, WhereAPlaneRunsIntoAnArcAreThoseOfThePlane)
+{
+  const Communicator comm;
+  const auto runs = [](double x, double y) {
+    return x < 0 ? Point(0.8 * x, y, 0) : Point(2 * std::sin(0.1 * x), y, 2 * (std::cos(0.1 * x) - 1));
+  };
+  for (const bool triangles : {false, true})
+    for (const bool second : {false, true}) {
+      const auto side = [&](bool up, Global first_id) {
+        const auto corners = surface({8, 4, -4, 4, 0, 4, up, triangles, first_id}, runs, comm);
+        const auto type = triangles ? mesh::CellType::tri6 : mesh::CellType::quad8;
+        return second ? second_order(corners, type, Eigen::Matrix3d::Identity(), first_id) : corners;
+      };
+      const auto pair = make_pair(side(true, 0), side(false, primary_ids), Law::frictionless);
+      const auto nodes = nodes_of(pair, comm);
+      int in_line = 0;
+      for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
+        const Point& x = nodes.at(row.node);
+        if (std::abs(x[0]) > 1e-9) continue;
+        ++in_line;
+        EXPECT_LT((row.normal - Point::UnitZ()).norm(), 1e-12) << "at " << x.transpose();  // one surface over both: 0.04
+        EXPECT_NEAR(row.bound, 0, 1e-12);
+      }
+      EXPECT_GE(in_line, 5);
+    }
+}
+
+// The mitre of two fillets: its angle grows from nothing, and where the kink begins it has no border.
+TEST(SmoothNormals, WhereAKinkBeginsLieBetweenThoseOfItsFaces)
+{
+  const Communicator comm;
+  const auto fillet = [](double x) { return x > 0 ? 2 - std::sqrt(4 - x * x) : 0.0; };
+  for (const bool triangles : {false, true})
+    for (const int n : {8, 10, 12}) {
+      const auto mitre = [&](double x, double y) { return Point(x, y, -std::max(fillet(x), fillet(y))); };
+      const Grid lower{n, n, -1.6, 1.6, -1.6, 1.6, true, triangles}, upper{n, n, -1.6, 1.6, -1.6, 1.6, false, triangles, primary_ids};
+      const auto pair = make_pair(surface(lower, mitre, comm), surface(upper, mitre, comm), Law::frictionless);
+      const auto nodes = nodes_of(pair, comm);
+      for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
+        const Point& x = nodes.at(row.node);
+        const double steep = std::max({x[0], x[1], 0.0}) / 2 + 0.22;  // sine of the slope, and of a face's turn
+        EXPECT_GT(row.normal[2], std::sqrt(1 - std::min(steep * steep, 0.99))) << n << " faces, at " << x.transpose();
+        EXPECT_GT(std::min(row.normal[0], row.normal[1]), -0.12) << n << " faces, at " << x.transpose();
+      }
+    }
+}
+
 // Six faces a wave turn most at the crests, and yet there is no kink; nor is there between straight faces of second order.
 TEST(SmoothNormals, OfCoarseWavesAndStraightFacesHaveNoKinks)
 {
