@@ -75,6 +75,8 @@ void Report::rows(const model::Model& model, const analysis::Rows& first, const 
     print_initial_gaps(first.initial_gaps, model.contacts(), command_line_.check, log);
     for (auto& warning : post::unasked_overlaps(first.initial_gaps, model.contacts().options))
       warnings_.report(std::move(warning), log);
+    for (auto& warning : post::uneven_clearances(first.initial_gaps, model.contacts().options))
+      warnings_.report(std::move(warning), log);
     analysis::check_unconstrained_bodies(model, first, context_, warnings_);
   }
 }

@@ -95,9 +95,9 @@ class Builder {
 
   const SupportConflicts& conflicts() const { return conflicts_; }
 
-  // Of this rank's points; `touching`: see InitialGap.
+  // Of this rank's points; `touching`, `face`: see InitialGap.
   const InitialGap& initial_gap() const { return initial_gap_; }
-  void set_touching(double touching) { initial_gap_.touching = touching; }
+  void set_lengths(double touching, double face) { initial_gap_.touching = touching, initial_gap_.face = face; }
 
   // How far the two sides are apart, at this rank's surface nodes that carry a multiplier.
   double widest_gap() const
@@ -394,7 +394,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
     if (options.law == Law::bonded && comm.any(!unbonded_nodes.empty()))
       at_seam = answer(unbonded_nodes, ask(share.secondary.node_id, comm), comm);
     Builder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, at_bonds, at_seam, curved, kinematics, comm);
-    builder.set_touching(touching_gap(sizes[c].extent, sizes[c].secondary_face));
+    builder.set_lengths(touching_gap(sizes[c].extent, sizes[c].secondary_face), sizes[c].secondary_face);
     builder.add_rows(contacts, directory, comm);
     if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
     if (options.cyclic && options.law == Law::bonded)

@@ -16,6 +16,13 @@ void take_smallest(InitialGap& all, double gap, const std::array<double, 3>& at)
   all.at = at;
 }
 
+void take_largest_of_meshes(InitialGap& all, double gap, const std::array<double, 3>& at)
+{
+  if (gap < all.mesh_largest || (gap == all.mesh_largest && at > all.mesh_largest_at)) return;
+  all.mesh_largest = gap;
+  all.mesh_largest_at = at;
+}
+
 }  // namespace
 
 double touching_gap(double extent, double face)
@@ -42,6 +49,8 @@ void note_gap(InitialGap& all, double gap, double mesh_gap, bool one_surface, do
   all.area += area;
   if (gap <= all.touching) all.touching_area += area;
   if (one_surface) all.on_one_surface += area;
+  all.mesh_smallest = std::min(all.mesh_smallest, mesh_gap);
+  take_largest_of_meshes(all, mesh_gap, {at[0], at[1], at[2]});
   if (gap == mesh_gap) return;
   all.least_in_mesh = std::min(all.least_in_mesh, mesh_gap);
   all.largest_in_mesh = std::max(all.largest_in_mesh, mesh_gap);
@@ -50,7 +59,7 @@ void note_gap(InitialGap& all, double gap, double mesh_gap, bool one_surface, do
 InitialGap over_ranks(InitialGap mine, const Communicator& comm)
 {
   InitialGap result;
-  result.touching = mine.touching;
+  result.touching = mine.touching, result.face = mine.face;
   for (const auto& part : comm.all_gather(std::vector{mine})) {
     if (part.area == 0) continue;
     take_smallest(result, part.smallest, part.at);
@@ -58,6 +67,8 @@ InitialGap over_ranks(InitialGap mine, const Communicator& comm)
     result.area += part.area;
     result.touching_area += part.touching_area;
     result.on_one_surface += part.on_one_surface;
+    result.mesh_smallest = std::min(result.mesh_smallest, part.mesh_smallest);
+    take_largest_of_meshes(result, part.mesh_largest, part.mesh_largest_at);
     result.least_in_mesh = std::min(result.least_in_mesh, part.least_in_mesh);
     result.largest_in_mesh = std::max(result.largest_in_mesh, part.largest_in_mesh);
   }

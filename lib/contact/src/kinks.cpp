@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "skin.hpp"
@@ -172,7 +173,8 @@ class Kinks {
 
   bool coplanar(std::size_t f, std::size_t g) const { return (faces_[f].normal - faces_[g].normal).norm() < rounding; }
 
-  // Whether a face goes on to a second row away from an edge of its own, through faces of its plane that share nodes with it.
+  // Whether a face goes on to a second row away from an edge of its own, through faces of its plane that share nodes with it. Those
+  // of a cylinder's strip between two of its straight lines do not: they are no wider than one of them.
   bool is_plane(std::size_t own, const Place& place, const Point& away) const
   {
     const auto touches = [&](const Face& face) {
@@ -181,13 +183,35 @@ class Kinks {
       });
     };
     std::vector<std::size_t> plane{own};
+    double farthest = 0;
     for (std::size_t i = 0; i < plane.size(); ++i) {
-      if (depth(faces_[plane[i]], place, away) > two_rows * depth(faces_[own], place, away)) return true;
+      farthest = std::max(farthest, depth(faces_[plane[i]], place, away));
       for (const auto& [f, e] : faces_[plane[i]].beside)
         if (!parted_[e] && coplanar(own, f) && touches(faces_[f]) && std::find(plane.begin(), plane.end(), f) == plane.end())
           plane.push_back(f);
     }
-    return false;
+    return farthest > two_rows * depth(faces_[own], place, away) && width(plane) > two_rows * width({own});
+  }
+
+  // The smallest of faces in a plane, across one of their edges; in plane models they have none that counts.
+  double width(const std::vector<std::size_t>& plane) const
+  {
+    const Face& own = faces_[plane[0]];
+    if (own.nodes.size() == 2) return static_cast<double>(plane.size());
+    double result = std::numeric_limits<double>::infinity();
+    for (const std::size_t f : plane)
+      for (std::size_t k = 0; k < faces_[f].nodes.size(); ++k) {
+        const auto& nodes = faces_[f].nodes;
+        const Point across = own.normal.cross(at(nodes[(k + 1) % nodes.size()]) - at(nodes[k])).normalized();
+        double least = 0, most = 0;
+        for (const std::size_t g : plane)
+          for (const Local n : faces_[g].nodes) {
+            const double height = across.dot(at(n) - at(nodes[k]));
+            least = std::min(least, height), most = std::max(most, height);
+          }
+        result = std::min(result, most - least);
+      }
+    return result;
   }
 
   double depth(const Face& face, const Place& place, const Point& away) const

@@ -16,6 +16,8 @@ constexpr double nearly_incompressible = 0.45;
 constexpr double most_stress = 0.1, least_stress = 1e-9;  // over Young's modulus
 // Of an interference: an overlap of the meshes below this part of it is their error.
 constexpr double part_of_interference = 0.1;
+// Of a face: no mesh is wrong by more. A polygon of eight faces a turn lies a tenth of one beside its circle.
+constexpr double part_of_longest_face = 0.25;
 constexpr double longest = 1, shortest = 1e-10;  // seconds, or whatever unit: a wave through a body
 
 Warning stress_in_other_units(const AppliedStress& load)
@@ -181,6 +183,29 @@ std::vector<Warning> unasked_overlaps(std::span<const contact::InitialGap> gaps,
   std::vector<Warning> warnings;
   for (const std::size_t c : overlapping) warnings.push_back(overlap_warning(gaps[c], contacts[c]));
   return warnings;
+}
+
+std::vector<Warning> uneven_clearances(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts)
+{
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < gaps.size(); ++c) {
+    const auto& gap = gaps[c];
+    const double spread = gap.mesh_largest - gap.mesh_smallest, limit = part_of_longest_face * gap.face;
+    if (!contacts[c].clearance || !(gap.area > 0) || !(spread > limit)) continue;
+    Warning warning{
+        "uneven_clearance",
+        fmt::format("contact {}: `clearance` makes a gap of {:.3g} of gaps of {:.3g} to {:.3g}, which is at ({:.5g}, {:.5g}, {:.5g}): "
+                    "that is more than the meshes can be wrong, and what lies there is pressed like the rest",
+                    contacts[c].name, *contacts[c].clearance, gap.mesh_smallest, gap.mesh_largest, gap.mesh_largest_at[0],
+                    gap.mesh_largest_at[1], gap.mesh_largest_at[2]),
+        "name the faces that fit alone, without chamfers and reliefs; or `adjust` in place of `clearance`, which leaves larger gaps"};
+    warning.at = Point(gap.mesh_largest_at.data());
+    warning.contact = contacts[c].name;
+    warning.value = spread;
+    warning.limit = limit;
+    result.push_back(std::move(warning));
+  }
+  return worst(std::move(result), "contacts");
 }
 
 }  // namespace mortise::post

@@ -166,5 +166,27 @@ TEST(UnaskedOverlaps, are_those_that_no_interference_asks_for)
   EXPECT_EQ(found[1].contact, "plain");
 }
 
+// A chamfer in a fit, beside a fit whose gap the meshes have to an error of theirs.
+TEST(ModelChecks, ClearancesThatCloseMoreThanErrorsOfMeshes)
+{
+  contact::Options fit;
+  fit.name = "fit";
+  fit.clearance = 0;
+  contact::InitialGap even;
+  even.face = 2;
+  for (const double gap : {0.6, 0.8, 1.09}) contact::note_gap(even, 0, gap, false, 1, Point(gap, 2, 3));
+  auto uneven = even;
+  contact::note_gap(uneven, 0, 1.11, false, 1, Point(4, 5, 6));
+  EXPECT_TRUE(uneven_clearances(std::vector{even}, std::vector{fit}).empty());
+  const auto found = uneven_clearances(std::vector{even, uneven}, std::vector{fit, fit});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_DOUBLE_EQ(found[0].value, 1.11 - 0.6);
+  EXPECT_EQ(found[0].limit, 0.5);
+  EXPECT_EQ(found[0].at, Point(4, 5, 6));
+  auto plain = fit;
+  plain.clearance.reset();
+  EXPECT_TRUE(uneven_clearances(std::vector{uneven}, std::vector{plain}).empty());
+}
+
 }  // namespace
 }  // namespace mortise::post

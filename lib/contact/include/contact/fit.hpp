@@ -49,6 +49,11 @@ struct InitialGap {
   /// The smallest and the largest gap of the meshes where another one is taken.
   double least_in_mesh = std::numeric_limits<double>::infinity(), largest_in_mesh = -least_in_mesh;
 
+  /// Those of the meshes at all nodes, and where the largest is.
+  double mesh_smallest = std::numeric_limits<double>::infinity(), mesh_largest = -mesh_smallest;
+  std::array<double, 3> mesh_largest_at{0, 0, 0};
+  double face = 0;  ///< the longest distance of two corners of a secondary face
+
   /// In length units; 0 where nothing overlaps.
   double largest_overlap() const { return smallest < 0 ? -smallest : 0; }
   /// Whether there is an overlap by more than rounding.
