@@ -22,6 +22,7 @@
 #include "one_part.hpp"
 #include "one_surface.hpp"
 #include "opposite.hpp"
+#include "over_facets.hpp"
 #include "rows.hpp"
 #include "rows_between.hpp"
 #include "sector_cuts.hpp"
@@ -70,7 +71,7 @@ class Builder {
         sight_(secondary_, primary_, tree_),
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, sight_, options.obstacle, reach),
         mesh_gaps_(options.law != Law::bonded && !options.clearance),
-        nearest_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<NearestPoint>()),
+        nearest_(mesh_gaps_ ? find_nearest_points() : std::vector<NearestPoint>()),
         bonded_nodes_(held_together(primary_at_bonds_)),
         discretization_(make_discretization(
             options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, sight_, faces_, rays_,
@@ -133,6 +134,12 @@ class Builder {
   }
 
  private:
+  std::vector<NearestPoint> find_nearest_points()
+  {
+    OverFacets over(secondary_, primary_, primary_nodes_, tree_, sight_, rays_, reach_);
+    return nearest_points(secondary_, nodes_, faces_.round(), rays_, over);
+  }
+
   const SurfaceNode& surface_node(std::size_t place) const { return nodes_.all[faces_.surface_node(place)]; }
   bool own(std::size_t place) const { return share_.own[static_cast<std::size_t>(surface_node(place).node)] != 0; }
   bool at_nearest_place(std::size_t p) const { return !nearest_.empty() && !faces_.is_corner(p) && nearest_[p].found; }
