@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "facets_round.hpp"
+
 namespace mortise::contact {
 
 std::pair<Point, Point> ContactPoints::at(std::size_t p)

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <tuple>
 
 #include "across_bonds.hpp"
 #include "by_node.hpp"
@@ -22,6 +21,7 @@
 #include "one_part.hpp"
 #include "one_surface.hpp"
 #include "opposite.hpp"
+#include "over_facets.hpp"
 #include "rows.hpp"
 #include "rows_between.hpp"
 #include "sector_cuts.hpp"
@@ -70,7 +70,7 @@ class Builder {
         sight_(secondary_, primary_, tree_),
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, sight_, options.obstacle, reach),
         mesh_gaps_(options.law != Law::bonded && !options.clearance),
-        nearest_(mesh_gaps_ ? nearest_points(secondary_, nodes_, faces_.round(), rays_) : std::vector<NearestPoint>()),
+        nearest_(mesh_gaps_ ? find_nearest_points() : std::vector<NearestPoint>()),
         bonded_nodes_(held_together(primary_at_bonds_)),
         discretization_(make_discretization(
             options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, sight_, faces_, rays_,
@@ -133,6 +133,12 @@ class Builder {
   }
 
  private:
+  std::vector<NearestPoint> find_nearest_points()
+  {
+    OverFacets over(secondary_, primary_, primary_nodes_, tree_, sight_, rays_, reach_);
+    return nearest_points(secondary_, nodes_, faces_.round(), rays_, over);
+  }
+
   const SurfaceNode& surface_node(std::size_t place) const { return nodes_.all[faces_.surface_node(place)]; }
   bool own(std::size_t place) const { return share_.own[static_cast<std::size_t>(surface_node(place).node)] != 0; }
   bool at_nearest_place(std::size_t p) const { return !nearest_.empty() && !faces_.is_corner(p) && nearest_[p].found; }
@@ -149,22 +155,6 @@ class Builder {
     return result;
   }
 
-  // One term a node, summed in the order of the faces.
-  void merge_terms()
-  {
-    std::stable_sort(terms_.begin(), terms_.end(), [](const Term& a, const Term& b) {
-      return std::tie(a.on_primary, a.node) < std::tie(b.on_primary, b.node);
-    });
-    std::size_t end = 0;
-    for (const auto& term : terms_) {
-      if (end > 0 && terms_[end - 1].on_primary == term.on_primary && terms_[end - 1].node == term.node)
-        terms_[end - 1].value += term.value;
-      else
-        terms_[end++] = term;
-    }
-    terms_.resize(end);
-  }
-
   void add_place(std::size_t p, constraint::Contacts& contacts)
   {
     terms_.clear();
@@ -175,7 +165,7 @@ class Builder {
       discretization_->add_terms(function, terms_);
     }
     if (!(d > 0)) return;
-    merge_terms();
+    merge_terms(terms_);
     if (at_nearest_place(p) && !options_.obstacle) take_one_part(p);
     add_point(p, d, rise, contacts);
   }
@@ -263,20 +253,13 @@ class Builder {
   // Whether supports hold the primary side along a direction where a surface node meets it.
   bool primary_held(std::size_t p, const Point& direction)
   {
-    constexpr double none = 1e-6;
-    const auto held = [&](Global node) {
-      for (int c = 0; c < dimension_; ++c)
-        if (std::abs(direction[c]) > none && primary_supports_.find(node, c)) return true;
-      const auto skew_supports = primary_supports_.skew_supports(node);
-      return std::any_of(skew_supports.begin(), skew_supports.end(),
-                         [&](const auto& i) { return std::abs(direction.dot(along(i))) > none; });
-    };
+    constexpr double none = 1e-6;  // of shape functions
     const Opposite& opposite = rays_.meet(faces_.surface_node(p));
     if (!std::isfinite(opposite.gap)) return true;
     const auto nodes = primary_.facets[opposite.facet];
     for (std::size_t k = 0; k < nodes.size(); ++k)
       if (std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]) > none &&
-          !held(primary_.node_id[static_cast<std::size_t>(nodes[k])]))
+          !primary_supports_.holds(primary_.node_id[static_cast<std::size_t>(nodes[k])], direction, dimension_))
         return false;
     return true;
   }

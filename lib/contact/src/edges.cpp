@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 namespace mortise::contact {
 
@@ -21,18 +21,28 @@ struct HalfEdge {
 // Ascending by their ends.
 std::vector<HalfEdge> half_edges(const Side& side)
 {
-  std::vector<HalfEdge> edges;
-  for (std::size_t f = 0; f < side.facets.size(); ++f) {
-    const auto nodes = side.facets[f];
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const std::size_t l = nodes.size() == 2 ? k : (k + 1) % nodes.size();
-      if (nodes[k] <= nodes[l])
-        edges.push_back({{nodes[k], nodes[l]}, f, {k, l}});
-      else
-        edges.push_back({{nodes[l], nodes[k]}, f, {l, k}});
+  const auto each = [&](const auto& use) {
+    for (std::size_t f = 0; f < side.facets.size(); ++f) {
+      const auto nodes = side.facets[f];
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const std::size_t l = nodes.size() == 2 ? k : (k + 1) % nodes.size();
+        if (nodes[k] <= nodes[l])
+          use(HalfEdge{{nodes[k], nodes[l]}, f, {k, l}});
+        else
+          use(HalfEdge{{nodes[l], nodes[k]}, f, {l, k}});
+      }
     }
-  }
-  std::ranges::sort(edges, {}, [](const HalfEdge& e) { return std::tuple(e.ends, e.facet); });
+  };
+  // By their first ends, of which each has a few.
+  std::vector<std::size_t> offset(side.points.size() + 1, 0);
+  each([&](const HalfEdge& e) { ++offset[static_cast<std::size_t>(e.ends[0]) + 1]; });
+  for (std::size_t n = 0; n + 1 < offset.size(); ++n) offset[n + 1] += offset[n];
+  std::vector<HalfEdge> edges(offset.back());
+  auto next = offset;
+  each([&](const HalfEdge& e) { edges[next[static_cast<std::size_t>(e.ends[0])]++] = e; });
+  for (std::size_t n = 0; n + 1 < offset.size(); ++n)
+    std::ranges::sort(std::span(edges).subspan(offset[n], offset[n + 1] - offset[n]), {},
+                      [](const HalfEdge& e) { return std::pair(e.ends[1], e.facet); });
   return edges;
 }
 
@@ -89,6 +99,19 @@ Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes)
   }
   for (auto& outward : result.outward)
     if (!outward.isZero(1e-9)) outward.normalize();
+  return result;
+}
+
+double curvature_of(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
+{
+  const auto nodes = side.facets[facet];
+  double result = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const std::size_t l = (k + 1) % nodes.size();
+    const double length =
+        (side.points[static_cast<std::size_t>(nodes[l])] - side.points[static_cast<std::size_t>(nodes[k])]).norm();
+    result = std::max(result, (surface_nodes.normal(side, facet, l) - surface_nodes.normal(side, facet, k)).norm() / length);
+  }
   return result;
 }
 

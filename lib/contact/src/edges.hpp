@@ -29,6 +29,9 @@ struct Edges {
 };
 Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes);
 
+/// The largest change of the normals along the edges of a facet, per length.
+double curvature_of(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet);
+
 /// A convex edge between two facets, or of the border; in plane models a node, twice.
 struct Ridge {
   FacetEdge ends;

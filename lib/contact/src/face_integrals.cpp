@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "facets_round.hpp"
 #include "nearest_points.hpp"
 #include "one_part.hpp"
 

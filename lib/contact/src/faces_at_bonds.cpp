@@ -6,6 +6,7 @@
 
 #include "by_node.hpp"
 #include "contact/cyclic.hpp"
+#include "kinks.hpp"
 #include "skin.hpp"
 #include "tree.hpp"
 
@@ -60,6 +61,7 @@ FacesAtBonds::FacesAtBonds(std::span<const Pair> pairs, fem::Kinematics kinemati
       for (std::size_t f = 0; f < its_faces.size(); ++f) its_faces[f].id = static_cast<Global>(f);
       auto& moved = at_bond_[c][static_cast<std::size_t>(at_side)];
       moved.faces = assemble(its_nodes, its_faces, kinematics);
+      find_kinks(moved.faces);
       for (const Global id : moved.faces.node_id) moved.in_bond.push_back(static_cast<char>(in_bond.at(id)));
       if (const auto rotation = rotation_of(pairs[c].options))
         for (auto& x : moved.faces.points)

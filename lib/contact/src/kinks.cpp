@@ -54,6 +54,7 @@ class Kinks {
   // Of the least squares: a curvature that the nodes do not determine is 0.
   static constexpr double held = 1e-8;
   static constexpr int steps = 4;
+  static constexpr std::size_t usual_round = 12;  // faces, to make room for
   static constexpr int passes = 4;
   static constexpr double equal = 1 + 1e-9;
 
@@ -75,6 +76,8 @@ class Kinks {
   struct Surface {
     Point away;
     double depth = 0;    // of the face at the edge
+    // The faces on this side that share nodes with the one at the edge, and hang together with it.
+    std::vector<std::size_t> round;
     bool known = false;  // there are two rows of faces; else the rest is not
     double slope = 0, across = 0, twist = 0, along = 0, bend = 0;
     std::array<double, 2> next{0, 0};  // slopes of the faces of the second row and of the third, less that of the first,
@@ -229,40 +232,44 @@ class Kinks {
     const Place place = place_of(edge);
     const Point& away = place.away;
     const double faces = std::abs(slope_of(last, place, away) - slope_of(first, place, away));
-    const Surface back = surface(edge, 0, place, -away, crossed), forth = surface(edge, 1, place, away, crossed);
-    // Of slopes: at the edge itself, and from the middle of one face to that of the other; and from each to the next one beyond.
-    double turn = 0, smooth = 0, beside = 0;
-    if (back.known && forth.known) {
+    Surface back = rows_beside(edge, 0, place, -away, crossed), forth = rows_beside(edge, 1, place, away, crossed);
+    if (!back.known && !forth.known) return 0;
+    const bool both = back.known && forth.known;
+    Surface &known = back.known ? back : forth, &other = back.known ? forth : back;
+    if (!both && known.faces[1] == 0) return 0;  // two rows of a curve may turn by nothing
+    // Of slopes: from each face to the next one beyond. Where that is as much as between the two, as on smooth curves, no fit is needed.
+    const double beside = both ? (std::abs(back.next[0]) + std::abs(forth.next[0])) / 2
+                               : std::max(std::abs(known.next[0]), std::abs(known.next[1]));
+    if (!(faces - beside > of_a_kink * faces)) return 0;
+    // At the edge itself, and from the middle of one face to that of the other.
+    fit(edge, place, known);
+    double turn = 0, smooth = 0;
+    if (both) {
+      fit(edge, place, other);
       turn = back.slope + forth.slope;
       smooth = (std::abs(back.across) * back.depth + std::abs(forth.across) * forth.depth) / 2;
-      beside = (std::abs(back.next[0]) + std::abs(forth.next[0])) / 2;
-    } else if (back.known || forth.known) {
-      const Surface &known = back.known ? back : forth, &other = back.known ? forth : back;
+    } else {
       turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], place);
       smooth = std::abs(known.across) * (known.depth + other.depth) / 2;
-      beside = std::max(std::abs(known.next[0]), std::abs(known.next[1]));
-      if (known.faces[1] == 0) return 0;  // two rows of a curve may turn by nothing
     }
     turn = std::abs(turn);
-    return turn > least_turn && turn > of_a_kink * (turn + smooth) && faces - beside > of_a_kink * faces ? turn : 0;
+    return turn > least_turn && turn > of_a_kink * (turn + smooth) ? turn : 0;
   }
 
-  Surface surface(const Edge& edge, int which, const Place& place, const Point& away,
-                  std::vector<std::size_t>* crossed) const
+  // The faces on one side of an edge, and how much they turn from row to row.
+  Surface rows_beside(const Edge& edge, int which, const Place& place, const Point& away, std::vector<std::size_t>* crossed) const
   {
     const std::size_t own = edge.faces[static_cast<std::size_t>(which)];
     Surface result;
     result.away = away;
     result.depth = depth(faces_[own], place, away);
-    // The faces on this side that share nodes with the one at the edge, and hang together with it.
-    std::vector<std::size_t> round{own};
-    std::vector<Local> nodes;
+    auto& round = result.round;
+    round.reserve(usual_round);
+    round.push_back(own);
     double farthest = 0;
     for (std::size_t i = 0; i < round.size(); ++i) {
       const Face& face = faces_[round[i]];
       farthest = std::max(farthest, depth(face, place, away));
-      for (const Local n : face.nodes)
-        if (n != edge.a && n != edge.b && std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
       for (const auto& [f, e] : face.beside) {
         const Face& next = faces_[f];
         const auto touches = [&](Local n) {
@@ -276,7 +283,6 @@ class Kinks {
     }
     result.known = farthest > two_rows * result.depth;
     if (!result.known) return result;
-    fit(nodes, place, result);
     const double slope = slope_of(faces_[own], place, away);
     const auto note = [&](std::size_t row, const Face& face) {
       result.next[row] += slope_of(face, place, away) - slope;
@@ -303,8 +309,12 @@ class Kinks {
 
   // With the larger curvature for the bend, in the least squares of both sides over the squared distance: exact on spheres and
   // cylinders.
-  void fit(const std::vector<Local>& nodes, const Place& place, Surface& surface) const
+  void fit(const Edge& edge, const Place& place, Surface& surface) const
   {
+    std::vector<Local> nodes;
+    for (const std::size_t f : surface.round)
+      for (const Local n : faces_[f].nodes)
+        if (n != edge.a && n != edge.b && std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
     const double unit = surface.depth, half = place.half / unit;
     Eigen::Vector4d found = Eigen::Vector4d::Zero();
     double bend = 0;

@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "base/dense.hpp"
+#include "facets_round.hpp"
 #include "opposite.hpp"
+#include "over_facets.hpp"
 
 namespace mortise::contact {
 
@@ -32,30 +34,11 @@ constexpr double inside_border = 0.05;
 // The same of what points across the border at all, both ways, where the place is looked for on it first: the faces on one side of
 // it say nothing of what lies on the other.
 constexpr double across_border = 1e-3;
-// Of shape functions: what a place in a facet may lie outside of it by rounding, and by what planes of two facets differ by.
-constexpr double within = 1e-6, between_planes = 0.02;
-
-// Corners of facets by surface node.
-struct Corner {
-  std::size_t facet, corner;
-};
-
 class Search {
  public:
-  Search(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<std::size_t>& faces, Rays& rays)
-      : side_(side), nodes_(surface_nodes), rays_(rays), first_(surface_nodes.all.size() + 1, 0)
+  Search(const Side& side, const SurfaceNodes& surface_nodes, const FacetsRound& facets, Rays& rays, OverFacets& over)
+      : side_(side), nodes_(surface_nodes), facets_(facets), rays_(rays), over_(over)
   {
-    const auto each = [&](const auto& use) {
-      for (const std::size_t f : faces)
-        for (auto facet = static_cast<std::size_t>(side.first_facet[f]);
-             facet < static_cast<std::size_t>(side.first_facet[f + 1]); ++facet)
-          for (std::size_t k = 0; k < side.facets[facet].size(); ++k) use(facet, k, surface_node(facet, k));
-    };
-    each([&](std::size_t, std::size_t, std::size_t p) { ++first_[p + 1]; });
-    for (std::size_t p = 0; p + 1 < first_.size(); ++p) first_[p + 1] += first_[p];
-    corners_.resize(first_.back());
-    auto next = first_;
-    each([&](std::size_t facet, std::size_t k, std::size_t p) { corners_[next[p]++] = {facet, k}; });
   }
 
   NearestPoint step(std::size_t p)
@@ -75,10 +58,7 @@ class Search {
   }
 
  private:
-  struct Place {
-    std::size_t facet, corner;
-    Eigen::Vector4d shape;
-  };
+  using Corner = FacetsRound::Corner;
 
   // Newton's method from the node.
   NearestPoint step_from_node(std::size_t p)
@@ -109,7 +89,7 @@ class Search {
   {
     double last = shift.norm();
     for (int i = 0; i < most_steps && last > exact * size_; ++i) {
-      const auto place = holds(p, shift);
+      const auto place = facets_.holds(p, shift);
       const auto here = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
       if (!here) return {};
       const Point change = -(inverse * here->difference);
@@ -127,7 +107,7 @@ class Search {
     const std::size_t count = nodes.size();
     if (count == 2) return {};
     for (const std::size_t end : {(at.corner + 1) % count, (at.corner + count - 1) % count}) {
-      if (shared(p, at.facet, nodes[end])) continue;
+      if (facets_.shared(p, at.facet, nodes[end])) continue;
       if (const auto found = step_along_edge(p, at, end, symmetric); found.found) return found;
     }
     return {};
@@ -140,7 +120,7 @@ class Search {
     Point inside = -geometry.nodes[at.corner] - edge / 2;
     for (const auto& x : geometry.nodes) inside += x / static_cast<double>(geometry.nodes.size());
     inside -= inside.dot(edge) / edge.squaredNorm() * edge;
-    const auto first = rays_.tilt(p), last = rays_.tilt(surface_node(at.facet, end));
+    const auto first = rays_.tilt(p), last = rays_.tilt(facets_.surface_node(at.facet, end));
     if (!first || !last) return {};
     double from = 0, to = 1, at_from = first->difference.dot(edge), at_to = last->difference.dot(edge);
     const double change = at_to - at_from, length = edge.norm();
@@ -176,25 +156,14 @@ class Search {
   // To an edge of the primary side.
   NearestPoint step_to_ridge(std::size_t p) const
   {
-    std::optional<Rays::OnRidge> best;
+    std::optional<OverFacets::OnRidge> best;
     Corner where{};
     for (const auto& at : round(p)) {
-      const auto found = rays_.nearest_on_ridge(at.facet, side_.points[static_cast<std::size_t>(nodes_.all[p].node)]);
-      if (!found || !nearest({at.facet, at.corner, found->shape})) continue;
+      const auto found = over_.nearest_on_ridge(at.facet, side_.points[static_cast<std::size_t>(nodes_.all[p].node)]);
+      if (!found || !facets_.is_nearest({at.facet, at.corner, found->shape})) continue;
       if (!best || found->distance < best->distance) best = found, where = at;
     }
-    return best ? accepted(p, shift_to(where, best->shape)) : NearestPoint();
-  }
-
-  // The step from a corner of a facet to a place in it, as of shape_beside().
-  Point shift_to(const Corner& from, const Eigen::Vector4d& shape) const
-  {
-    const auto nodes = side_.geometry(from.facet).nodes;
-    const std::size_t count = nodes.size(), after = (from.corner + 1) % count, before = (from.corner + count - 1) % count;
-    const auto part = [&](std::size_t k) { return shape[static_cast<Eigen::Index>(k)]; };
-    const double opposite = count == 4 ? part((from.corner + 2) % 4) : 0;
-    const Point along_first = (part(after) + opposite) * (nodes[after] - nodes[from.corner]);
-    return count == 2 ? along_first : Point(along_first + (part(before) + opposite) * (nodes[before] - nodes[from.corner]));
+    return best ? accepted(p, facets_.shift_to(where, best->shape)) : NearestPoint();
   }
 
   // Whether there are nodes of the primary side between those of the secondary one, or it ends there.
@@ -203,7 +172,7 @@ class Search {
     if (rays_.obstacle()) return false;
     for (const auto& [facet, corner] : round(p))
       for (std::size_t k = 0; k < side_.facets[facet].size(); ++k) {
-        const auto& opposite = rays_.meet(surface_node(facet, k));
+        const auto& opposite = rays_.meet(facets_.surface_node(facet, k));
         if (!std::isfinite(opposite.gap) || rays_.size_of(opposite) < 0.5 * size_) return true;
       }
     return false;
@@ -212,17 +181,16 @@ class Search {
   // To the node of the primary side that is nearest, if the gap is less there, and from there by differences.
   NearestPoint step_to_node(std::size_t p)
   {
-    std::optional<Rays::NearNode> best;
+    std::optional<OverFacets::NearNode> best;
     Corner where{};
     for (const auto& at : round(p)) {
-      const auto found = rays_.nearest_node(at.facet, [&](const Eigen::Vector4d& shape) {
-        return shape.head(static_cast<Eigen::Index>(side_.facets[at.facet].size())).minCoeff() >= -1e-6 &&
-               nearest({at.facet, at.corner, shape});
+      const auto found = over_.nearest_node(at.facet, [&](const Eigen::Vector4d& shape) {
+        return facets_.is_nearest({at.facet, at.corner, shape});
       });
       if (found && (!best || found->gap < best->gap)) best = found, where = at;
     }
     if (!best) return {};
-    Point shift = shift_to(where, best->shape);
+    Point shift = facets_.shift_to(where, best->shape);
     const auto here = rays_.tilt(p, where.facet, best->shape);
     if (!here) return {};
     const auto inverse = inverse_beside(p, shift, *here, std::min(0.1 * best->size, 0.01 * size_));
@@ -230,7 +198,7 @@ class Search {
     const Point to_node = shift;
     double last = size_;
     for (int i = 0; i < most_steps && last > exact * size_; ++i) {
-      const auto place = holds(p, shift);
+      const auto place = facets_.holds(p, shift);
       const auto at_place = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
       const Point change = at_place ? Point(-(*inverse * at_place->difference)) : Point::Zero();
       if (!at_place || (shift + change - to_node).norm() > best->size) return {};
@@ -243,17 +211,11 @@ class Search {
   // A step that leads into a facet round the node, whose nearest node it is.
   NearestPoint accepted(std::size_t p, const Point& shift) const
   {
-    const auto place = holds(p, shift);
-    if (!place || !nearest(*place)) return {};
-    return {true, shift.norm() < least_step * size_ ? Point(Point::Zero()) : Point(part_within(*place) * shift), place->facet,
+    const auto place = facets_.holds(p, shift);
+    if (!place || !facets_.is_nearest(*place)) return {};
+    return {true, shift.norm() < least_step * size_ ? Point(Point::Zero()) : Point(facets_.part_within(*place) * shift), place->facet,
             place->shape};
   }
-
-  std::size_t surface_node(std::size_t facet, std::size_t corner) const
-  {
-    return static_cast<std::size_t>(nodes_.of_corner[static_cast<std::size_t>(side_.facets.offset[facet]) + corner]);
-  }
-  std::span<const Corner> round(std::size_t p) const { return std::span(corners_).subspan(first_[p], first_[p + 1] - first_[p]); }
 
   // The inverse of H in (n + m)(x) = (n + m)(x_p) + H (x - x_p) in the tangent plane, of least squares over the neighbours; zero
   // in directions in which the sides count as parallel or come nearer and nearer. None if there is no other.
@@ -270,7 +232,7 @@ class Search {
       const auto count = side_.facets[facet].size();
       for (std::size_t k = 0; k < count; ++k) {
         if (k == corner) continue;
-        const auto there = rays_.tilt(surface_node(facet, k));
+        const auto there = rays_.tilt(facets_.surface_node(facet, k));
         if (!there) continue;
         const Point step = side_.points[static_cast<std::size_t>(side_.facets[facet][k])] - origin;
         const Point change = there->difference - at_node.difference;
@@ -303,9 +265,9 @@ class Search {
     Eigen::Matrix2d change = Eigen::Matrix2d::Zero();
     for (int i = 0; i < (line ? 1 : 2); ++i) {
       const Point& along = i == 0 ? first : second;
-      auto place = holds(p, shift + length * along);
+      auto place = facets_.holds(p, shift + length * along);
       double step = length;
-      if (!place) place = holds(p, shift - length * along), step = -length;
+      if (!place) place = facets_.holds(p, shift - length * along), step = -length;
       const auto there = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
       if (!there) return std::nullopt;
       const Point slope = (there->difference - here.difference) / step;
@@ -334,115 +296,26 @@ class Search {
     return inverse;
   }
 
-  // The facet round a node that a step from it leads into. A step along the edge between two of them may miss both, which lie in
-  // other planes: it is in the one that it misses less.
-  std::optional<Place> holds(std::size_t p, const Point& shift) const
-  {
-    std::optional<Place> best;
-    double least = -between_planes;
-    for (const auto& [facet, corner] : round(p)) {
-      const auto shape = shape_beside(side_, facet, corner, shift);
-      const double smallest = shape.head(static_cast<Eigen::Index>(side_.facets[facet].size())).minCoeff();
-      if (smallest < -within && !beside_shared_edge(p, {facet, corner, shape})) continue;
-      if (smallest >= least && (!best || smallest > least)) best = {facet, corner, shape}, least = smallest;
-    }
-    return best;
-  }
-
-  // Whether a place outside of a facet round a node lies across edges at the node alone, which other facets have as well.
-  bool beside_shared_edge(std::size_t p, const Place& place) const
-  {
-    const auto nodes = side_.facets[place.facet];
-    const std::size_t count = nodes.size(), after = (place.corner + 1) % count, before = (place.corner + count - 1) % count;
-    if (count == 2) return false;
-    const auto shape = [&](std::size_t k) { return place.shape[static_cast<Eigen::Index>(k)]; };
-    const double opposite = count == 4 ? shape((place.corner + 2) % 4) : 0;
-    const double along_first = shape(after) + opposite, along_last = shape(before) + opposite;
-    const bool far = count == 4 ? std::max(along_first, along_last) > 1 + within : shape(place.corner) < -within;
-    return !far && (along_first >= -within || shared(p, place.facet, nodes[before])) &&
-           (along_last >= -within || shared(p, place.facet, nodes[after]));
-  }
-
-  // Whether a facet shares its edge from a node to another one with a facet round the node.
-  bool shared(std::size_t p, std::size_t facet, Local node) const
-  {
-    return std::ranges::any_of(round(p), [&](const Corner& other) {
-      return other.facet != facet && std::ranges::find(side_.facets[other.facet], node) != side_.facets[other.facet].end();
-    });
-  }
-
-  // Whether no other node of the facet is nearer; of two at the same distance the one with the smaller number.
-  bool nearest(const Place& place) const
-  {
-    constexpr double same = 1e-3;
-    const auto number = [&](std::size_t k) { return side_.node_id[static_cast<std::size_t>(side_.facets[place.facet][k])]; };
-    const double own = place.shape[static_cast<Eigen::Index>(place.corner)];
-    for (std::size_t k = 0; k < side_.facets[place.facet].size(); ++k) {
-      if (k == place.corner) continue;
-      const double other = place.shape[static_cast<Eigen::Index>(k)];
-      if (other > own + same || (other > own - same && number(k) < number(place.corner))) return false;
-    }
-    return true;
-  }
-
-  // Of two nodes at the same distance none may be nearer by rounding: its function would push with a sign of its own.
-  double part_within(const Place& place) const
-  {
-    const double own = place.shape[static_cast<Eigen::Index>(place.corner)];
-    double part = 1;
-    for (std::size_t k = 0; k < side_.facets[place.facet].size(); ++k) {
-      const double other = place.shape[static_cast<Eigen::Index>(k)];
-      if (k != place.corner && other > own) part = std::min(part, 1 / (1 + other - own));
-    }
-    return part;
-  }
+  std::span<const Corner> round(std::size_t p) const { return facets_.round(p); }
 
   const Side& side_;
   const SurfaceNodes& nodes_;
+  const FacetsRound& facets_;
   Rays& rays_;
-  double size_ = 0;                 // of the facets round the node at work
-  std::vector<std::size_t> first_;  // of each surface node in corners_
-  std::vector<Corner> corners_;
+  OverFacets& over_;
+  double size_ = 0;  // of the facets round the node at work
 };
 
 }  // namespace
 
 std::vector<NearestPoint> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes,
-                                         const std::vector<std::size_t>& faces, Rays& rays)
+                                         const std::vector<std::size_t>& faces, Rays& rays, OverFacets& over)
 {
-  Search search(secondary, surface_nodes, faces, rays);
+  const FacetsRound facets(secondary, surface_nodes, faces);
+  Search search(secondary, surface_nodes, facets, rays, over);
   std::vector<NearestPoint> result(surface_nodes.all.size());
   for (std::size_t p = 0; p < result.size(); ++p) result[p] = search.step(p);
   return result;
-}
-
-Eigen::Vector4d shape_beside(const Side& side, std::size_t facet, std::size_t corner, const Point& shift)
-{
-  const auto face = side.geometry(facet);
-  const std::size_t count = face.nodes.size(), after = (corner + 1) % count, before = (corner + count - 1) % count;
-  const auto at = [](std::size_t k) { return static_cast<Eigen::Index>(k); };
-  Eigen::Vector4d shape = Eigen::Vector4d::Zero();
-  const Point first = face.nodes[after] - face.nodes[corner];
-  if (count == 2) {
-    const double s = shift.dot(first) / first.squaredNorm();
-    shape[at(corner)] = 1 - s;
-    shape[at(after)] = s;
-    return shape;
-  }
-  Eigen::Matrix<double, 3, 2> edges;
-  edges << first, face.nodes[before] - face.nodes[corner];
-  const Eigen::Vector2d s = (edges.transpose() * edges).inverse() * (edges.transpose() * shift);
-  if (count == 3) {
-    shape[at(corner)] = 1 - s[0] - s[1];
-    shape[at(after)] = s[0];
-    shape[at(before)] = s[1];
-  } else {
-    shape[at(corner)] = (1 - s[0]) * (1 - s[1]);
-    shape[at(after)] = s[0] * (1 - s[1]);
-    shape[at(before)] = (1 - s[0]) * s[1];
-    shape[at((corner + 2) % count)] = s[0] * s[1];
-  }
-  return shape;
 }
 
 }  // namespace mortise::contact

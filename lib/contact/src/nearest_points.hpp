@@ -12,6 +12,7 @@
 
 namespace mortise::contact {
 
+class OverFacets;
 class Rays;
 
 /// The place near a surface node where the gap is least.
@@ -29,9 +30,6 @@ struct NearestPoint {
 /// of the border, where both sides may end in a plane of symmetry, the same along the edge. First, where a convex edge of the
 /// primary side lies between nodes, that. Of the nodes of `faces` alone.
 std::vector<NearestPoint> nearest_points(const Side& secondary, const SurfaceNodes& surface_nodes,
-                                         const std::vector<std::size_t>& faces, Rays& rays);
-
-/// The shape functions of a facet at the tangential step `shift` from one of its corners, also beyond its border.
-Eigen::Vector4d shape_beside(const Side& side, std::size_t facet, std::size_t corner, const Point& shift);
+                                         const std::vector<std::size_t>& faces, Rays& rays, OverFacets& over);
 
 }  // namespace mortise::contact

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "face_integrals.hpp"
-#include "nearest_points.hpp"
 
 namespace mortise::contact {
 
@@ -29,20 +28,6 @@ constexpr double no_better = 0.01;
 constexpr double same_gap = 1e-7;
 // The curvature of a convex edge, over that of a ball of the size of the faces there.
 constexpr double curvature_of_edge = 1e3;
-
-// The largest change of the normals along the edges of a facet, per length.
-double curvature_of(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
-{
-  const auto nodes = side.facets[facet];
-  double result = 0;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const std::size_t l = (k + 1) % nodes.size();
-    const double length =
-        (side.points[static_cast<std::size_t>(nodes[l])] - side.points[static_cast<std::size_t>(nodes[k])]).norm();
-    result = std::max(result, (surface_nodes.normal(side, facet, l) - surface_nodes.normal(side, facet, k)).norm() / length);
-  }
-  return result;
-}
 
 // Of a plane 0.
 double curvature_of(const Obstacle& obstacle)
@@ -93,7 +78,6 @@ Rays::Rays(const Side& secondary, SurfaceNodes& surface_nodes, const Side& prima
   past_ = mean_round(secondary, surface_nodes, [&](std::size_t f) { return part_past * secondary.geometry(f).size(); });
   if (!obstacle) {
     primary_edges_ = edges_at(primary, primary_nodes);
-    ridges_ = find_ridges(primary, primary_nodes);
     return;
   }
   // Where a surface node does not face the obstacle, it is out of reach.
@@ -113,7 +97,8 @@ Opposite Rays::shoot(const Point& from, const Point& direction, double length, c
   std::array<Opposite, 2> best;                       // before and behind
   std::array<double, 2> against{0, 0};                // cosines between the line and their normals
   const Point room = Point::Constant(0.02 * length);  // a hit may lie a little beside its face
-  for (const int m : tree_.swept(Box(from - room, from + room), length * direction)) {
+  tree_.swept(Box(from - room, from + room), length * direction, swept_);
+  for (const int m : swept_) {
     const auto facet = static_cast<std::size_t>(m);
     const auto geometry = primary_.geometry(facet);
     const auto hit = contact::shoot(from, direction, geometry);
@@ -142,7 +127,8 @@ Opposite Rays::shoot_past(const Point& from, const Point& direction, double leng
   if (std::isfinite(best.gap)) return best;
   const Point room = Point::Constant(past);
   double least = past;
-  for (const int m : tree_.swept(Box(from - room, from + room), length * direction)) {
+  tree_.swept(Box(from - room, from + room), length * direction, swept_);
+  for (const int m : swept_) {
     const auto facet = static_cast<std::size_t>(m);
     const auto geometry = primary_.geometry(facet);
     const auto hit = contact::shoot(from, direction, geometry, beyond_border);
@@ -279,72 +265,6 @@ Point Rays::primary_normal(const Opposite& opposite) const
 Rays::Tilt Rays::tilt_to(std::size_t p, const Point& own, const Opposite& opposite) const
 {
   return {own + primary_normal(opposite), curvature_[p] + curvature_of(primary_, primary_nodes_, opposite.facet)};
-}
-
-std::optional<Rays::NearNode> Rays::nearest_node(std::size_t facet,
-                                                 const std::function<bool(const Eigen::Vector4d&)>& counts) const
-{
-  std::optional<NearNode> best;
-  if (obstacle_) return best;
-  const auto own = secondary_.geometry(facet);
-  const Frame frame = frame_of(own);
-  Box box;
-  for (const auto& x : own.nodes) box.extend(x);
-  for (const int met : tree_.swept(box, reach_ * frame.normal)) {
-    const auto other = static_cast<std::size_t>(met);
-    const auto geometry = primary_.geometry(other);
-    for (std::size_t k = 0; k < geometry.nodes.size(); ++k) {
-      if (primary_nodes_.normal(primary_, other, k).dot(frame.normal) > opposed) continue;
-      const Eigen::Vector4d shape = shape_beside(secondary_, facet, 0, geometry.nodes[k] - own.nodes[0]);
-      if (!counts(shape)) continue;
-      Point at = Point::Zero();
-      for (std::size_t c = 0; c < own.nodes.size(); ++c) at += shape[static_cast<Eigen::Index>(c)] * own.nodes[c];
-      const double distance = (geometry.nodes[k] - at).dot(frame.normal), gap = distance - own_bulge(facet)(shape);
-      if (std::abs(gap) > reach_ || (best && gap >= best->gap)) continue;
-      if (sight_.hidden(at, frame.normal, distance, own.size())) continue;
-      best = NearNode{shape, gap, geometry.size()};
-    }
-  }
-  return best;
-}
-
-std::optional<Rays::OnRidge> Rays::nearest_on_ridge(std::size_t facet, const Point& from) const
-{
-  constexpr double outside = 1e-6;  // of shape functions
-  std::optional<OnRidge> best;
-  if (ridges_.all.empty()) return best;
-  const auto own = secondary_.geometry(facet);
-  const Frame frame = frame_of(own);
-  Box box;
-  for (const auto& x : own.nodes) box.extend(x);
-  for (const int met : tree_.swept(box, reach_ * frame.normal))
-    for (const Local r : ridges_.of_facet(static_cast<std::size_t>(met))) {
-      const Ridge& ridge = ridges_.all[static_cast<std::size_t>(r)];
-      if (ridge.normals[0].dot(frame.normal) > opposed || ridge.normals[1].dot(frame.normal) > opposed) continue;
-      const Point& a = primary_.points[static_cast<std::size_t>(ridge.ends[0])];
-      const Point edge = primary_.points[static_cast<std::size_t>(ridge.ends[1])] - a;
-      const double rise = edge.dot(frame.normal), length = edge.norm();
-      double part = 0;  // of the way from a; down a ridge that descends, or next to `from`
-      if (std::abs(rise) > parallel_slopes * length)
-        part = rise < 0 ? 1 : 0;
-      else if (length > 0)
-        part = std::clamp((from - a).dot(edge) / (length * length), 0.0, 1.0);
-      const Point x = a + part * edge;
-      const Hit below = contact::shoot(x, -frame.normal, own, outside);
-      if (!below.found) continue;
-      const Point at = x - below.distance * frame.normal;
-      // Nearer than on the faces on both sides.
-      const Point normal = own_normal(FacetPoint{facet, below.shape});
-      const double before = (normal + ridge.normals[0]).dot(ridge.across), behind = (normal + ridge.normals[1]).dot(ridge.across);
-      const auto facet_there = static_cast<std::size_t>(met);
-      const double turn = curvature_of(primary_, primary_nodes_, facet_there) * primary_.geometry(facet_there).size();
-      if (ridge.border ? !(before < -parallel_over(turn)) : !(before < -parallel_slopes && behind > parallel_slopes)) continue;
-      const double gap = below.distance - own_bulge(facet)(below.shape), distance = (at - from).norm();
-      if (std::abs(gap) > reach_ || (best && distance >= best->distance)) continue;
-      if (sight_.hidden(at, frame.normal, below.distance, own.size())) continue;
-      best = OnRidge{below.shape, distance};
-    }
-  return best;
 }
 
 Bulge Rays::own_bulge(std::size_t facet) const

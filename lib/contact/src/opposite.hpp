@@ -46,21 +46,6 @@ class Rays {
   std::optional<Tilt> tilt(std::size_t surface_node);
   /// The same where the shape functions of a facet are `shape`, near a surface node.
   std::optional<Tilt> tilt(std::size_t surface_node, std::size_t facet, const Eigen::Vector4d& shape) const;
-  /// The node of the primary side that is nearest to a facet of the secondary one, within reach and where `counts` holds of the
-  /// facet's shape functions there: these, and the size of the facets round it. None opposite an obstacle.
-  struct NearNode {
-    Eigen::Vector4d shape;
-    double gap, size;
-  };
-  std::optional<NearNode> nearest_node(std::size_t facet, const std::function<bool(const Eigen::Vector4d&)>& counts) const;
-  /// Where a convex edge of the primary side comes nearer to a facet of the secondary one than the faces on both sides of it; of
-  /// such places the one next to `from`, a node of the facet. An edge that descends has its lower end alone. None opposite an
-  /// obstacle.
-  struct OnRidge {
-    Eigen::Vector4d shape;  ///< of the facet
-    double distance;        ///< from `from`
-  };
-  std::optional<OnRidge> nearest_on_ridge(std::size_t facet, const Point& from) const;
   bool obstacle() const { return obstacle_.has_value(); }
   double size_of(const Opposite& opposite) const { return primary_.geometry(opposite.facet).size(); }
   /// The normal of the secondary side itself, also opposite an obstacle: at a surface node, at the corner of a facet.
@@ -70,6 +55,9 @@ class Rays {
     const auto begin = static_cast<std::size_t>(secondary_.facets.offset[facet]);
     return own_normal_[static_cast<std::size_t>(nodes_.of_corner[begin + corner])];
   }
+
+  /// What stands out of a facet of the secondary side, with these normals.
+  Bulge own_bulge(std::size_t facet) const;
 
   /// The direction of contact at a point of the secondary side near a surface node, whose normal there is given: between the two
   /// sides' normals, the nearer to that of the flatter side the more it is flatter, weights being the other side's curvature. So
@@ -116,7 +104,6 @@ class Rays {
   Opposite shoot_past(std::size_t surface_node, const Point& from, const Point& direction, double length, double past) const;
   Point primary_normal(const Opposite& opposite) const;
   double part_on_edges(const Opposite& opposite, const Point& normal) const;
-  Bulge own_bulge(std::size_t facet) const;
   Point direction_to_obstacle(std::size_t surface_node, const ClosestPoint& closest, const Point& normal) const;
   double distance_to_obstacle(const Point& at, const Point& direction) const;
   Tilt tilt_to(std::size_t surface_node, const Point& own, const Opposite& opposite) const;
@@ -132,10 +119,10 @@ class Rays {
   std::vector<double> curvature_, past_;                 // of each surface node
   std::vector<double> distance_;                         // of each surface node from the obstacle, if there is one
   Edges edges_, primary_edges_;                          // of both sides
-  Ridges ridges_;                                        // of the primary side
   std::vector<std::pair<Local, Local>> face_of_middle_;  // of each surface node: a face and the node in it, if that is no corner
   std::vector<Opposite> met_;
-  std::vector<Local> met_index_;  // of each surface node its entry in met_, or -1
+  std::vector<Local> met_index_;    // of each surface node its entry in met_, or -1
+  mutable std::vector<int> swept_;  // facets of the primary side that the line at work may meet
 };
 
 }  // namespace mortise::contact

@@ -23,6 +23,21 @@ const std::vector<RowWriter::Coefficient>& RowWriter::coefficients(std::span<con
   return coefficients_;
 }
 
+void merge_terms(std::vector<Term>& terms)
+{
+  std::stable_sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) {
+    return std::tie(a.on_primary, a.node) < std::tie(b.on_primary, b.node);
+  });
+  std::size_t end = 0;
+  for (const auto& term : terms) {
+    if (end > 0 && terms[end - 1].on_primary == term.on_primary && terms[end - 1].node == term.node)
+      terms[end - 1].value += term.value;
+    else
+      terms[end++] = term;
+  }
+  terms.resize(end);
+}
+
 void RowWriter::append_coefficients(std::span<const Term> terms, double d, const Point& axis)
 {
   for (const auto& term : terms) {

@@ -11,6 +11,9 @@
 
 namespace mortise::contact {
 
+/// One term a node, summed in the order that they come in.
+void merge_terms(std::vector<Term>& terms);
+
 /// The rows sum_k value_k / d axis . u(node_k) of a contact.
 class RowWriter {
  public:

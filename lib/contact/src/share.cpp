@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "kinks.hpp"
 #include "skin.hpp"
 
 namespace mortise::contact {
@@ -124,7 +125,9 @@ Side deliver(const mesh::Surface& surface, const std::vector<Box>& boxes, const 
   std::vector<SentNode> nodes;
   for (const auto& part : comm.exchange(sent_nodes)) nodes.insert(nodes.end(), part.begin(), part.end());
   for (const auto& part : comm.exchange(sent_faces)) faces.insert(faces.end(), part.begin(), part.end());
-  return assemble(std::move(nodes), faces, kinematics);
+  Side side = assemble(std::move(nodes), faces, kinematics);
+  find_kinks(side);
+  return side;
 }
 
 }  // namespace

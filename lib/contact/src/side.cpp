@@ -5,7 +5,6 @@
 #include <map>
 
 #include "base/dense.hpp"
-#include "kinks.hpp"
 #include "mesh/shape_functions.hpp"
 
 namespace mortise::contact {
@@ -155,7 +154,6 @@ Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Ki
     side.face_id.push_back(face.id);
   }
   cut_into_facets(side);
-  find_kinks(side);
   return side;
 }
 

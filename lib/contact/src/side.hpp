@@ -68,10 +68,10 @@ struct SentFace {
 SentNode pack_node(const mesh::Surface& surface, std::size_t node);
 SentFace pack_face(const mesh::Surface& surface, std::size_t face);
 
-/// A side of these nodes, which may come more than once, and faces; `faces` are brought in order.
+/// A side of these nodes, which may come more than once, and faces; `faces` are brought in order. Kinks are not looked for.
 Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Kinematics kinematics);
 
-/// The whole surface on every rank. Collective.
+/// The whole surface on every rank, without kinks. Collective.
 Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Communicator& comm);
 
 }  // namespace mortise::contact

@@ -48,6 +48,15 @@ std::span<const constraint::SkewSupport> SupportedNodes::skew_supports(Global no
   return {begin, end};
 }
 
+bool SupportedNodes::holds(Global node, const Point& direction, int dimension) const
+{
+  constexpr double none = 1e-6;
+  for (int c = 0; c < dimension; ++c)
+    if (std::abs(direction[c]) > none && find(node, c)) return true;
+  const auto skew = skew_supports(node);
+  return std::any_of(skew.begin(), skew.end(), [&](const auto& i) { return std::abs(direction.dot(along(i))) > none; });
+}
+
 Point along(const constraint::SkewSupport& skew_supports)
 {
   return {skew_supports.direction[0], skew_supports.direction[1], skew_supports.direction[2]};

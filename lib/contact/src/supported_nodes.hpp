@@ -35,6 +35,8 @@ class SupportedNodes {
   const constraint::PrescribedDof* find(Global node, int component) const;
   /// The directions that are prescribed there and are no axes.
   std::span<const constraint::SkewSupport> skew_supports(Global node) const;
+  /// Whether any of them has a part along a direction.
+  bool holds(Global node, const Point& direction, int dimension) const;
 
  private:
   std::vector<constraint::PrescribedDof> prescribed_;

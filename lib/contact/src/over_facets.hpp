@@ -1,0 +1,69 @@
+// What of the primary side lies over the facets of the secondary one, along their normals: nodes and convex edges, between the
+// nodes of which the gap may be least.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "edges.hpp"
+#include "line_of_sight.hpp"
+#include "opposite.hpp"
+#include "surface_nodes.hpp"
+#include "tree.hpp"
+
+namespace mortise::contact {
+
+class OverFacets {
+ public:
+  /// All of which must outlive it; `tree` has the facets of the primary side. Where an obstacle stands for that, it has none, and
+  /// nothing lies over any facet.
+  OverFacets(const Side& secondary, const Side& primary, const SurfaceNodes& primary_nodes, const Tree& tree,
+             const LineOfSight& sight, const Rays& rays, double reach);
+
+  /// The node that is nearest to a facet, within reach, where `counts` holds of the facet's shape functions there: these, and the
+  /// size of the facets round it.
+  struct NearNode {
+    Eigen::Vector4d shape;
+    double gap, size;
+  };
+  std::optional<NearNode> nearest_node(std::size_t facet, const std::function<bool(const Eigen::Vector4d&)>& counts);
+
+  /// Where a convex edge comes nearer to a facet than the faces on both sides of it; of such places the one next to `from`, a node
+  /// of the facet. An edge that descends has its lower end alone.
+  struct OnRidge {
+    Eigen::Vector4d shape;  ///< of the facet
+    double distance;        ///< from `from`
+  };
+  std::optional<OnRidge> nearest_on_ridge(std::size_t facet, const Point& from);
+
+ private:
+  struct NodeOver {
+    Local node;
+    Eigen::Vector4d shape;
+    Point at;               // under it, in the facet
+    double distance, gap;   // from there, without and with the facet's bulge
+    double size;            // of a facet of the primary side that has it
+  };
+  struct RidgeOver {
+    Local ridge, facet;  // one of those that it is at
+  };
+  // All nodes and ridges that face a facet, those of nodes that lie over it; found once.
+  const std::vector<NodeOver>& nodes_over(std::size_t facet);
+  const std::vector<RidgeOver>& ridges_over(std::size_t facet);
+  const std::vector<int>& met_by(std::size_t facet);
+
+  const Side& secondary_;
+  const Side& primary_;
+  const SurfaceNodes& primary_nodes_;
+  const Tree& tree_;
+  const LineOfSight& sight_;
+  const Rays& rays_;
+  double reach_;
+  Ridges ridges_;  // of the primary side
+  std::vector<std::optional<std::vector<NodeOver>>> nodes_over_;    // of each facet that was asked about
+  std::vector<std::optional<std::vector<RidgeOver>>> ridges_over_;  // the same
+  std::vector<int> met_;                                            // facets of the primary side, of the facet at work
+};
+
+}  // namespace mortise::contact
