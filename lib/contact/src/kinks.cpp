@@ -176,8 +176,8 @@ class Kinks {
 
   bool coplanar(std::size_t f, std::size_t g) const { return (faces_[f].normal - faces_[g].normal).norm() < rounding; }
 
-  // Whether a face goes on to a second row away from an edge of its own, through faces of its plane that share nodes with it. Those
-  // of a cylinder's strip between two of its straight lines do not: they are no wider than one of them.
+  // Whether a face goes on to a second row away from an edge of its own, through faces of its plane that share nodes with it, and
+  // these are more than one strip: those of a cylinder between two of its straight lines are no plane.
   bool is_plane(std::size_t own, const Place& place, const Point& away) const
   {
     const auto touches = [&](const Face& face) {
@@ -193,28 +193,30 @@ class Kinks {
         if (!parted_[e] && coplanar(own, f) && touches(faces_[f]) && std::find(plane.begin(), plane.end(), f) == plane.end())
           plane.push_back(f);
     }
-    return farthest > two_rows * depth(faces_[own], place, away) && width(plane) > two_rows * width({own});
+    return farthest > two_rows * depth(faces_[own], place, away) && (faces_[own].nodes.size() == 2 || is_wide(plane));
   }
 
-  // The smallest of faces in a plane, across one of their edges; in plane models they have none that counts.
-  double width(const std::vector<std::size_t>& plane) const
+  // Whether faces in a plane reach farther than the first of them across each of their edges.
+  bool is_wide(const std::vector<std::size_t>& plane) const
   {
-    const Face& own = faces_[plane[0]];
-    if (own.nodes.size() == 2) return static_cast<double>(plane.size());
-    double result = std::numeric_limits<double>::infinity();
+    const auto extent = [&](std::size_t f, const Point& along) {
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      for (const Local n : faces_[f].nodes) least = std::min(least, at(n).dot(along)), most = std::max(most, at(n).dot(along));
+      return std::pair(least, most);
+    };
     for (const std::size_t f : plane)
       for (std::size_t k = 0; k < faces_[f].nodes.size(); ++k) {
         const auto& nodes = faces_[f].nodes;
-        const Point across = own.normal.cross(at(nodes[(k + 1) % nodes.size()]) - at(nodes[k])).normalized();
-        double least = 0, most = 0;
-        for (const std::size_t g : plane)
-          for (const Local n : faces_[g].nodes) {
-            const double height = across.dot(at(n) - at(nodes[k]));
-            least = std::min(least, height), most = std::max(most, height);
-          }
-        result = std::min(result, most - least);
+        const Point across = faces_[plane[0]].normal.cross(at(nodes[(k + 1) % nodes.size()]) - at(nodes[k])).normalized();
+        const auto [first, last] = extent(plane[0], across);
+        double least = first, most = last;
+        for (const std::size_t g : plane) {
+          const auto [from, to] = extent(g, across);
+          least = std::min(least, from), most = std::max(most, to);
+        }
+        if (!(most - least > two_rows * (last - first))) return false;
       }
-    return result;
+    return true;
   }
 
   double depth(const Face& face, const Place& place, const Point& away) const

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/dense.hpp"
@@ -85,18 +86,29 @@ class Search {
     return inside ? step_on(p, shift, *inverse) : NearestPoint();
   }
 
-  NearestPoint step_on(std::size_t p, Point shift, const Eigen::Matrix3d& inverse)
+  NearestPoint step_on(std::size_t p, const Point& shift, const Eigen::Matrix3d& inverse)
   {
-    double last = shift.norm();
+    const auto found = newton(p, shift, inverse, shift, std::numeric_limits<double>::infinity());
+    return found ? accepted(p, *found) : NearestPoint();
+  }
+
+  // The place that Newton's method goes to from a step, within `radius` of `centre`. In a flat, where n + m is the noise of the
+  // coordinates, it goes nowhere: then the place at which it came there.
+  std::optional<Point> newton(std::size_t p, Point shift, const Eigen::Matrix3d& inverse, const Point& centre, double radius)
+  {
+    std::optional<Point> in_flat;
+    double last = size_;
     for (int i = 0; i < most_steps && last > exact * size_; ++i) {
       const auto place = facets_.holds(p, shift);
       const auto here = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
-      if (!here) return {};
+      if (!here) return in_flat;
+      if (!in_flat && here->difference.norm() < flat) in_flat = shift;
       const Point change = -(inverse * here->difference);
+      if ((shift + change - centre).norm() > radius) return in_flat;
       shift += change;
       last = change.norm();
     }
-    return last < known * size_ ? accepted(p, shift) : NearestPoint();
+    return last < known * size_ ? shift : in_flat;
   }
 
   // Along the edges of a facet from a node that the border has, where n + m has nothing along them: by secants between both ends.
@@ -178,34 +190,31 @@ class Search {
     return false;
   }
 
-  // To the node of the primary side that is nearest, if the gap is less there, and from there by differences.
+  // To the node of the primary side at which the gap is least, if it is less than here, and from there by differences. Where a flat
+  // is touched all gaps are the same but for rounding: of those that differ by no more, to the nearest.
   NearestPoint step_to_node(std::size_t p)
   {
+    const auto counts = [&](const Corner& at) {
+      return [this, at](const Eigen::Vector4d& shape) { return facets_.is_nearest({at.facet, at.corner, shape}); };
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& at : round(p)) least = std::min(least, over_.least_gap(at.facet, counts(at)));
+    const double same = least_step * size_;
+    if (!(least < rays_.meet(p).gap - same)) return {};
     std::optional<OverFacets::NearNode> best;
     Corner where{};
     for (const auto& at : round(p)) {
-      const auto found = over_.nearest_node(at.facet, [&](const Eigen::Vector4d& shape) {
-        return facets_.is_nearest({at.facet, at.corner, shape});
-      });
-      if (found && (!best || found->gap < best->gap)) best = found, where = at;
+      const auto found = over_.nearest_node(at.facet, side_.points[static_cast<std::size_t>(nodes_.all[p].node)], least + same, counts(at));
+      if (found && (!best || found->distance < best->distance - same)) best = found, where = at;
     }
     if (!best) return {};
-    Point shift = facets_.shift_to(where, best->shape);
+    const Point shift = facets_.shift_to(where, best->shape);
     const auto here = rays_.tilt(p, where.facet, best->shape);
     if (!here) return {};
     const auto inverse = inverse_beside(p, shift, *here, std::min(0.1 * best->size, 0.01 * size_));
     if (!inverse) return {};
-    const Point to_node = shift;
-    double last = size_;
-    for (int i = 0; i < most_steps && last > exact * size_; ++i) {
-      const auto place = facets_.holds(p, shift);
-      const auto at_place = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
-      const Point change = at_place ? Point(-(*inverse * at_place->difference)) : Point::Zero();
-      if (!at_place || (shift + change - to_node).norm() > best->size) return {};
-      shift += change;
-      last = change.norm();
-    }
-    return last < known * size_ ? accepted(p, shift) : NearestPoint();
+    const auto found = newton(p, shift, *inverse, shift, best->size);
+    return found ? accepted(p, *found) : NearestPoint();
   }
 
   // A step that leads into a facet round the node, whose nearest node it is.
@@ -265,12 +274,16 @@ class Search {
     Eigen::Matrix2d change = Eigen::Matrix2d::Zero();
     for (int i = 0; i < (line ? 1 : 2); ++i) {
       const Point& along = i == 0 ? first : second;
-      auto place = facets_.holds(p, shift + length * along);
-      double step = length;
-      if (!place) place = facets_.holds(p, shift - length * along), step = -length;
-      const auto there = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
-      if (!there) return std::nullopt;
-      const Point slope = (there->difference - here.difference) / step;
+      // Both ways: where a plane runs into an arc the one alone would depend on the tangents.
+      Point slope = Point::Zero();
+      int ways = 0;
+      for (const double step : {length, -length}) {
+        const auto place = facets_.holds(p, shift + step * along);
+        const auto there = place ? rays_.tilt(p, place->facet, place->shape) : std::nullopt;
+        if (there) slope += (there->difference - here.difference) / step, ++ways;
+      }
+      if (ways == 0) return std::nullopt;
+      slope /= ways;
       change.col(i) = Eigen::Vector2d(slope.dot(first), slope.dot(second));
     }
     return inverse_of(0.5 * (change + change.transpose()), first, second, here.curvature, flat, false);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "facets_round.hpp"
 
@@ -11,6 +12,8 @@ namespace {
 
 // Of shape functions: what lies outside of a facet by rounding.
 constexpr double outside_facet = 1e-6;
+// Of a distance: what is longer is as long but for rounding.
+constexpr double nearer = 1 - 1e-6;
 
 }  // namespace
 
@@ -62,23 +65,33 @@ const std::vector<OverFacets::NodeOver>& OverFacets::nodes_over(std::size_t face
       if (!(std::abs(gap) > reach_)) found.push_back({nodes[k], shape, at, distance, gap, primary_.geometry(other).size()});
     }
   }
+  std::ranges::sort(found, {}, &NodeOver::node);  // in an order that does not depend on how the model is turned
   return found;
 }
 
-std::optional<OverFacets::NearNode> OverFacets::nearest_node(std::size_t facet,
-                                                             const std::function<bool(const Eigen::Vector4d&)>& counts)
+double OverFacets::least_gap(std::size_t facet, const Counts& counts)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& node : nodes_over(facet))
+    if (node.gap < least && counts(node.shape) && !is_hidden(facet, node)) least = node.gap;
+  return least;
+}
+
+std::optional<OverFacets::NearNode> OverFacets::nearest_node(std::size_t facet, const Point& from, double most, const Counts& counts)
 {
   std::optional<NearNode> best;
-  const auto& nodes = nodes_over(facet);
-  if (nodes.empty()) return best;
-  const auto own = secondary_.geometry(facet);
-  const Point normal = frame_of(own).normal;
-  for (const auto& node : nodes) {
-    if (!counts(node.shape) || (best && node.gap >= best->gap)) continue;
-    if (sight_.hidden(node.at, normal, node.distance, own.size())) continue;
-    best = NearNode{node.shape, node.gap, node.size};
+  for (const auto& node : nodes_over(facet)) {
+    const double distance = (node.at - from).norm();
+    if (node.gap > most || (best && distance >= nearer * best->distance) || !counts(node.shape) || is_hidden(facet, node)) continue;
+    best = NearNode{node.shape, distance, node.size};
   }
   return best;
+}
+
+bool OverFacets::is_hidden(std::size_t facet, const NodeOver& node) const
+{
+  const auto own = secondary_.geometry(facet);
+  return sight_.hidden(node.at, frame_of(own).normal, node.distance, own.size());
 }
 
 const std::vector<OverFacets::RidgeOver>& OverFacets::ridges_over(std::size_t facet)

@@ -21,13 +21,17 @@ class OverFacets {
   OverFacets(const Side& secondary, const Side& primary, const SurfaceNodes& primary_nodes, const Tree& tree,
              const LineOfSight& sight, const Rays& rays, double reach);
 
-  /// The node that is nearest to a facet, within reach, where `counts` holds of the facet's shape functions there: these, and the
-  /// size of the facets round it.
+  /// Of nodes over a facet, within reach, where this holds of the facet's shape functions there:
+  using Counts = std::function<bool(const Eigen::Vector4d&)>;
+  /// the least gap, infinite if there are none;
+  double least_gap(std::size_t facet, const Counts& counts);
+  /// of those with a gap of at most `most`, the one next to `from`, a node of the facet.
   struct NearNode {
-    Eigen::Vector4d shape;
-    double gap, size;
+    Eigen::Vector4d shape;  ///< of the facet
+    double distance;        ///< from `from`
+    double size;            ///< of a facet of the primary side that has it
   };
-  std::optional<NearNode> nearest_node(std::size_t facet, const std::function<bool(const Eigen::Vector4d&)>& counts);
+  std::optional<NearNode> nearest_node(std::size_t facet, const Point& from, double most, const Counts& counts);
 
   /// Where a convex edge comes nearer to a facet than the faces on both sides of it; of such places the one next to `from`, a node
   /// of the facet. An edge that descends has its lower end alone.
@@ -52,6 +56,7 @@ class OverFacets {
   const std::vector<NodeOver>& nodes_over(std::size_t facet);
   const std::vector<RidgeOver>& ridges_over(std::size_t facet);
   const std::vector<int>& met_by(std::size_t facet);
+  bool is_hidden(std::size_t facet, const NodeOver& node) const;
 
   const Side& secondary_;
   const Side& primary_;
