@@ -51,6 +51,8 @@ class Kinks {
   static constexpr double of_a_kink = 0.85;
   // Faces reach so far from an edge, over what the one at the edge does, where there are two rows of them.
   static constexpr double two_rows = 1.5;
+  // Of the angle between two faces of an arc: others differ by no more.
+  static constexpr double same_turn = 0.05;
   // Of the least squares: a curvature that the nodes do not determine is 0.
   static constexpr double held = 1e-8;
   static constexpr int steps = 4;
@@ -168,7 +170,8 @@ class Kinks {
     const auto [first, last] = edge.faces;
     if (coplanar(first, last)) return -1;
     const Place place = place_of(edge);
-    const bool back = is_plane(first, place, -place.away), forth = is_plane(last, place, place.away);
+    bool back = is_plane(first, place, -place.away), forth = is_plane(last, place, place.away);
+    if (!back && !forth) back = ends_arc(first, last, edge), forth = ends_arc(last, first, edge);
     if (back == forth) return -1;
     const auto& nodes = faces_[back ? first : last].nodes;
     return *std::find_if(nodes.begin(), nodes.end(), [&](Local n) { return n != edge.a && n != edge.b; });
@@ -194,6 +197,44 @@ class Kinks {
           plane.push_back(f);
     }
     return farthest > two_rows * depth(faces_[own], place, away) && (faces_[own].nodes.size() == 2 || is_wide(plane));
+  }
+
+  // Whether a face is tangential to an arc that ends at an edge of it: three faces of a circle turn by the same angle, and the plane
+  // by half of it. This tells planes of a single row. Triangles scatter too much.
+  bool ends_arc(std::size_t plane, std::size_t arc, const Edge& edge) const
+  {
+    if (faces_[arc].nodes.size() == 3 || !goes_on_along(plane, edge)) return false;
+    const auto second = next_beyond(arc, edge.a, edge.b);
+    if (!second) return false;
+    const Edge& between = edges_[second->second];
+    const auto third = next_beyond(second->first, between.a, between.b);
+    if (!third) return false;
+    const double whole = angle(arc, second->first);
+    return std::abs(angle(second->first, third->first) - whole) < same_turn * whole &&
+           std::abs(angle(plane, arc) - whole / 2) < same_turn * whole &&
+           (faces_[arc].normal - faces_[plane].normal).dot(faces_[second->first].normal - faces_[arc].normal) > 0;
+  }
+
+  double angle(std::size_t f, std::size_t g) const { return 2 * std::asin((faces_[f].normal - faces_[g].normal).norm() / 2); }
+
+  // The face on the other side of one with two or four nodes than the edge from a to b, and the edge to it.
+  std::optional<std::pair<std::size_t, std::size_t>> next_beyond(std::size_t face, Local a, Local b) const
+  {
+    for (const auto& [f, e] : faces_[face].beside) {
+      const auto is_end = [&](Local n) { return n == edges_[e].a || n == edges_[e].b; };
+      if (!parted_[e] && !is_end(a) && !is_end(b)) return std::pair(f, e);
+    }
+    return std::nullopt;
+  }
+
+  // Whether there is another face of its plane beside it at the same line, as a cylinder has none; in plane models always.
+  bool goes_on_along(std::size_t plane, const Edge& edge) const
+  {
+    return edge.a == edge.b || std::any_of(faces_[plane].beside.begin(), faces_[plane].beside.end(), [&](const auto& beside) {
+             const Edge& other = edges_[beside.second];
+             const bool at_line = other.a == edge.a || other.a == edge.b || other.b == edge.a || other.b == edge.b;
+             return at_line && !parted_[beside.second] && coplanar(plane, beside.first);
+           });
   }
 
   // Whether faces in a plane reach farther than the first of them across each of their edges.

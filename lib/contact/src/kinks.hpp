@@ -15,7 +15,8 @@ namespace mortise::contact {
 /// the other is continued over it, if three rows tell that this is plane. Edges that turn by more than about 40 degrees are kinks
 /// anyway and not named.
 ///
-/// Tangent edges: no kinks, but on one side alone two rows of faces, and more than a strip of them, lie in a plane.
+/// Tangent edges: no kinks, but on one side alone two rows of faces, and more than a strip of them, lie in a plane; or from one side
+/// to the other three faces of an arc turn by the same angle, and the face after them by half of it.
 void find_kinks(Side& side);
 
 }  // namespace mortise::contact

@@ -281,6 +281,29 @@ TEST(SmoothNormals, WhereAPlaneRunsIntoAnArcAreThoseOfThePlane)
     }
 }
 
+// The same where the plane is a single row of faces, between two arcs.
+TEST(SmoothNormals, OfAPlaneOfOneRowBetweenArcsAreItsOwn)
+{
+  const Communicator comm;
+  const auto flat = [](double x, double y) {
+    const double beyond = std::max(std::abs(x) - 1, 0.0), angle = 0.1 * beyond;
+    return Point(std::copysign(std::min(std::abs(x), 1.0) + 2 * std::sin(angle), x), y, 2 * (std::cos(angle) - 1));
+  };
+  // Two rows of the primary side, one of the secondary: x from -5 to 5 with a face from -1 to 1.
+  const auto single = [&](double x, double y) { return flat(x < -0.5 ? x - 0.5 : x > 0.5 ? x + 0.5 : 2 * x, y); };
+  const auto pair = make_pair(surface({9, 4, -4.5, 4.5, 0, 4, true}, single, comm),
+                              surface({10, 4, -5, 5, 0, 4, false, false, primary_ids}, flat, comm), Law::frictionless);
+  const auto nodes = nodes_of(pair, comm);
+  int in_line = 0;
+  for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
+    if (std::abs(std::abs(nodes.at(row.node)[0]) - 1) > 1e-9) continue;
+    ++in_line;
+    EXPECT_LT((row.normal - Point::UnitZ()).norm(), 1e-12);
+    EXPECT_NEAR(row.bound, 0, 1e-12);
+  }
+  EXPECT_GE(in_line, 10);
+}
+
 // The mitre of two fillets: its angle grows from nothing, and where the kink begins it has no border.
 TEST(SmoothNormals, WhereAKinkBeginsLieBetweenThoseOfItsFaces)
 {
