@@ -1,6 +1,7 @@
-// A key with round ends in a slot, radius 5: NK faces a half circle of the key, NS of the slot; mm.
-DefineConstant[ NK = {8, Name "key"}, NS = {12, Name "slot"} ];
+// A key with round ends in a slot, radius 5: NK faces a half circle of the key and FK a flat, NS and FS of the slot; mm.
+DefineConstant[ NK = {8, Name "key"}, NS = {12, Name "slot"}, FK = {8, Name "flats of the key"}, FS = {11, Name "of the slot"} ];
 n[] = {NK, NS};
+flat[] = {FK, FS};
 For b In {0:1}
   p = 10 * b;
   Point(p + 1) = {-5, -5, 0}; Point(p + 2) = {5, -5, 0}; Point(p + 3) = {10, 0, 0}; Point(p + 4) = {5, 5, 0}; Point(p + 5) = {-5, 5, 0};
@@ -9,7 +10,7 @@ For b In {0:1}
   Line(p + 4) = {p + 4, p + 5}; Circle(p + 5) = {p + 5, p + 8, p + 6}; Circle(p + 6) = {p + 6, p + 8, p + 1};
   Curve Loop(p + 1) = {p + 1 : p + 6};
   Transfinite Curve {p + 2, p + 3, p + 5, p + 6} = n[b] / 2 + 1;
-  Transfinite Curve {p + 1, p + 4} = n[b] + 1 - b;
+  Transfinite Curve {p + 1, p + 4} = flat[b] + 1;
 EndFor
 Plane Surface(1) = {1};
 Point(21) = {22, 0, 0}; Point(22) = {0, 22, 0}; Point(23) = {-22, 0, 0}; Point(24) = {0, -22, 0}; Point(25) = {0, 0, 0};
