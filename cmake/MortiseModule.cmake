@@ -34,12 +34,28 @@ endif()
 # distributed vectors still does not see Trilinos. Off with -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON, as in the preset debug: what
 # compiles there names all that it includes.
 # The presets release and sanitize also compile the files of a target in batches (CMAKE_UNITY_BUILD), see docs/building.md.
+#
+# Tests are compiled with less optimization, which takes a third of their time away, and therefore have sets of their own: precompiled
+# headers carry their level with them.
+add_library(mortise_test_options INTERFACE)
+target_link_libraries(mortise_test_options INTERFACE mortise_options)
+target_compile_options(mortise_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
+
 function(mortise_headers name)
   cmake_parse_arguments(arg "" "" "LINKS;HEADERS" ${ARGN})
-  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
-  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
-  target_link_libraries(${name} PRIVATE ${arg_LINKS} mortise_options)
-  target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
+  set(names ${name})
+  if(MORTISE_TESTS)
+    list(APPEND names ${name}_of_tests)
+  endif()
+  foreach(target ${names})
+    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp CONTENT "")
+    add_library(${target} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
+    target_link_libraries(${target} PRIVATE ${arg_LINKS} mortise_options)
+    target_precompile_headers(${target} PRIVATE ${arg_HEADERS})
+  endforeach()
+  if(MORTISE_TESTS)
+    target_link_libraries(${name}_of_tests PRIVATE mortise_test_options)
+  endif()
 endfunction()
 
 set(common_headers <Eigen/Core> <Eigen/Geometry> <Eigen/LU> ${CMAKE_SOURCE_DIR}/lib/base/include/base/eigen_kernels.hpp
@@ -51,9 +67,14 @@ mortise_headers(mortise_tpetra_headers
   LINKS ${common_links} mortise_tpetra
   HEADERS ${common_headers} <Tpetra_Core.hpp> <Tpetra_Import.hpp> <Tpetra_Map.hpp> <Tpetra_Operator.hpp> <Tpetra_Vector.hpp>)
 
-# Gives a target the set that fits the modules it links.
+# mortise_precompiled(TARGET module... [OF_TESTS]) gives a target the set that fits the modules it links.
 function(mortise_precompiled target)
-  set(open ${ARGN})
+  cmake_parse_arguments(arg "OF_TESTS" "" "" ${ARGN})
+  set(suffix)
+  if(arg_OF_TESTS)
+    set(suffix _of_tests)
+  endif()
+  set(open ${arg_UNPARSED_ARGUMENTS})
   set(headers mortise_common_headers)
   while(open)
     list(POP_FRONT open module)
@@ -68,7 +89,7 @@ function(mortise_precompiled target)
       endif()
     endif()
   endwhile()
-  target_precompile_headers(${target} REUSE_FROM ${headers})
+  target_precompile_headers(${target} REUSE_FROM ${headers}${suffix})
 endfunction()
 
 function(mortise_module name)
@@ -102,7 +123,7 @@ endif()
 function(mortise_test_program target module)
   list(TRANSFORM ARGN PREPEND test/ OUTPUT_VARIABLE sources)
   add_executable(${target} ${sources})
-  target_link_libraries(${target} PRIVATE mortise_test_main ${module} base mortise_options)
-  mortise_precompiled(${target} ${module})
+  target_link_libraries(${target} PRIVATE mortise_test_main ${module} base mortise_test_options)
+  mortise_precompiled(${target} ${module} OF_TESTS)
   target_compile_definitions(${target} PRIVATE MORTISE_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 endfunction()

@@ -37,6 +37,11 @@ double determinant(const MatrixXd& a)
   return a.determinant();
 }
 
+MatrixXd form(const MatrixXd& m, const MatrixXd& x)
+{
+  return x.transpose() * m * x;
+}
+
 VectorXd least_squares(const MatrixXd& a, const VectorXd& b)
 {
   return a.colPivHouseholderQr().solve(b);
@@ -76,6 +81,17 @@ PlaneEigenpairs plane_eigenpairs(const Eigen::Matrix2d& a)
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
   solver.computeFromTridiagonal(scaled.diagonal(), scaled.diagonal<-1>());
   return {scale * solver.eigenvalues(), solver.eigenvectors()};
+}
+
+SpaceEigenpairs space_eigenpairs(const Eigen::Matrix3d& a)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(a);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::Vector3d space_eigenvalues(const Eigen::Matrix3d& a)
+{
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(a, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 Eigenpairs generalized_eigenpairs(const MatrixXd& a, const MatrixXd& b)

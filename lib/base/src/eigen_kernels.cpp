@@ -6,4 +6,10 @@ namespace Eigen::internal {
 MORTISE_EIGEN_KERNELS(template)
 
 }  // namespace Eigen::internal
+
+namespace Eigen {
+
+MORTISE_EIGEN_FACTORS(template)
+
+}  // namespace Eigen
 #endif

@@ -1,8 +1,8 @@
 #include "fem/quantity.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "base/dense.hpp"
 #include "tensor.hpp"
 
 namespace mortise::fem {
@@ -24,7 +24,7 @@ std::optional<Quantity> quantity(const std::string& name)
 
 Eigen::Vector3d principal_stresses(const Stress& s)
 {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor(s), Eigen::EigenvaluesOnly).eigenvalues().reverse();
+  return dense::space_eigenvalues(tensor(s)).reverse();
 }
 
 Stress along(const Eigen::Matrix3d& axes, const Stress& stress)

@@ -108,16 +108,20 @@ void Clusters::Shape::factorize(const std::vector<Eigen::MatrixXd>& part)
 Eigen::MatrixXd Clusters::Shape::times_g0(const Eigen::MatrixXd& x) const
 {
   Eigen::MatrixXd result(kernels, x.cols());
-  for (const auto& member : members)
-    result.middleRows(member.first, member.modes) = member.g0 * x(member.constraint.row, Eigen::all);
+  for (const auto& member : members) {
+    const Eigen::MatrixXd own = x(member.constraint.row, Eigen::all);
+    result.middleRows(member.first, member.modes) = member.g0 * own;
+  }
   return result;
 }
 
 Eigen::MatrixXd Clusters::Shape::times_g0_transpose(const Eigen::MatrixXd& x) const
 {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, x.cols());
-  for (const auto& member : members)
-    result(member.constraint.row, Eigen::all) += member.g0.transpose() * x.middleRows(member.first, member.modes);
+  for (const auto& member : members) {
+    const Eigen::MatrixXd part = member.g0.transpose() * x.middleRows(member.first, member.modes);
+    result(member.constraint.row, Eigen::all) += part;
+  }
   return result;
 }
 
@@ -219,14 +223,15 @@ void Clusters::balance(const std::vector<Eigen::VectorXd>& f, const Take& take) 
         const auto& member = shape->members[i];
         own.resize(member.response.rows(), columns);
         for (std::size_t c = 0; c < count; ++c) own.col(static_cast<Eigen::Index>(c)) = f[clusters[begin + c] + i];
-        right(member.constraint.row, Eigen::all) += member.response.transpose() * own;
+        const Eigen::MatrixXd part = member.response.transpose() * own;
+        right(member.constraint.row, Eigen::all) += part;
         moved.middleRows(member.first, member.modes) = subdomains_[clusters[begin] + i]->kernel().transpose() * own;
       }
       const Eigen::MatrixXd alpha = shape->s0.solve(moved - shape->times_g0(shape->solve_f0(right)));
       const Eigen::MatrixXd mu = shape->solve_f0(right + shape->times_g0_transpose(alpha));
       for (std::size_t i = 0; i < shape->members.size(); ++i) {
         const auto& member = shape->members[i];
-        const Eigen::MatrixXd forces = member.constraint.columns * mu(member.constraint.row, Eigen::all);
+        const Eigen::MatrixXd forces = member.constraint.columns * Eigen::MatrixXd(mu(member.constraint.row, Eigen::all));
         for (std::size_t c = 0; c < count; ++c)
           take(clusters[begin + c] + i, forces.col(static_cast<Eigen::Index>(c)),
                alpha.col(static_cast<Eigen::Index>(c)).segment(member.first, member.modes));

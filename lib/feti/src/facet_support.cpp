@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/dense.hpp"
 #include "body_rows.hpp"
 #include "feti/coarse_problem.hpp"
 #include "unit_motions.hpp"
@@ -110,7 +111,7 @@ Eigen::VectorXd slid_along(const Search& search, const Eigen::MatrixXd& basis)
     sums.col(count) += bound * there.transpose() * search.slid.segment(rows.normal + 1, rows.tangents);
   }
   problem.communicator().sum_in_place({sums.data(), static_cast<std::size_t>(sums.size())});
-  return basis * sums.leftCols(count).completeOrthogonalDecomposition().solve(sums.col(count));
+  return basis * dense::minimum_norm(sums.leftCols(count), sums.col(count));
 }
 
 // Whether every contact node that presses and feels the motion slid along it.

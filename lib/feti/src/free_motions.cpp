@@ -108,7 +108,7 @@ std::vector<BodyFrame> body_frames(const partition::Decomposition& decomposition
   for (std::size_t b = 0; b < count; ++b) {
     const Eigen::Matrix3d moments = Eigen::Map<Eigen::Matrix3d>(&squares[b * 9]) / std::max(sums[b * 5], 1.0);
     frames[b].radius = std::sqrt(moments.trace());
-    if (solid) frames[b].axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvectors();
+    if (solid) frames[b].axes = dense::space_eigenpairs(moments).vectors;
     for (int k = 0; k < 3; ++k) {
       const Point axis = frames[b].axes.col(k);
       const double square = moments.trace() - axis.dot(moments * axis);

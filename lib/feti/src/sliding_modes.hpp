@@ -38,8 +38,8 @@ class SlidingModes {
         there.col(k) << motion.at(surface.centre), motion.rotation * surface.length;
       }
       auto& side = moves(surface.body) ? own_[surface.contact] : other_[surface.contact];
-      side.push_back({there.transpose() * surface.whole * there, there.transpose() * surface.smooth * there,
-                      there.transpose() * surface.speed * there, surface.tilt});
+      side.push_back({dense::form(surface.whole, there), dense::form(surface.smooth, there), dense::form(surface.speed, there),
+                      surface.tilt});
     }
   }
 
@@ -57,7 +57,7 @@ class SlidingModes {
           normal += part.smooth / std::pow(part.tolerance(), 2);
           speed += part.speed;
         }
-      const auto eigen = dense::generalized_eigenpairs(basis.transpose() * normal * basis, basis.transpose() * speed * basis);
+      const auto eigen = dense::generalized_eigenpairs(dense::form(normal, basis), dense::form(speed, basis));
       for (Eigen::Index k = 0; k < basis.cols(); ++k) {
         const Eigen::VectorXd v = basis * eigen.vectors.col(k).normalized();
         if (slides(v)) candidates.push_back(v);

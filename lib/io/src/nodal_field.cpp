@@ -11,7 +11,6 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -21,6 +20,7 @@
 #include <fstream>
 #include <optional>
 
+#include "base/dense.hpp"
 #include "base/error.hpp"
 #include "io/cell_field.hpp"
 #include "words.hpp"
@@ -314,11 +314,11 @@ double NodalField::Source::among_points(const Point& x)
     spread += w * arm * arm.transpose();
     moment += w * (values[static_cast<std::size_t>(p)] - mean) * arm;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(spread);
+  const auto modes = dense::space_eigenpairs(spread);
   Point slope = Point::Zero();
   for (Eigen::Index m = 0; m < 3; ++m)
-    if (const double size = modes.eigenvalues()[m]; size > degenerate * modes.eigenvalues()[2])
-      slope += modes.eigenvectors().col(m).dot(moment) / size * modes.eigenvectors().col(m);
+    if (const double size = modes.values[m]; size > degenerate * modes.values[2])
+      slope += modes.vectors.col(m).dot(moment) / size * modes.vectors.col(m);
   // Farther away than the points around the closest one are from it, they tell nothing.
   if (const double around = span_round(x); distance > around) too_far(x, distance, around);
   return mean + slope.dot(x - centre);

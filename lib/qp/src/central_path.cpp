@@ -1,12 +1,12 @@
 #include "central_path.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "base/dense.hpp"
 #include "base/interruption.hpp"
 #include "condensed_programme.hpp"
 
@@ -190,7 +190,7 @@ class CentralPath::Linear {
     response_ = cholesky_ ? MatrixXd(cholesky_->solve(push)) : MatrixXd(lu_->solve(push));
     const MatrixXd stiffness = path.matrices_.c + path.matrices_.h * response_;
     unit_ = stiffness.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
-    motions_.compute(unit_.asDiagonal() * stiffness * unit_.asDiagonal());
+    motions_ = unit_.asDiagonal() * stiffness * unit_.asDiagonal();
   }
 
   /// The step that makes up for `lack`.
@@ -212,7 +212,8 @@ class CentralPath::Linear {
     Iterate step{cholesky_ ? VectorXd(cholesky_->solve(right)) : VectorXd(lu_->solve(right)), VectorXd::Zero(nu.size()),
                  VectorXd(s.size()), VectorXd(lambda.size())};
     if (nu.size() > 0) {
-      step.nu = unit_.cwiseProduct(motions_.solve(unit_.cwiseProduct(VectorXd(path_.matrices_.h * step.x + lack.motions))));
+      const VectorXd driven = path_.matrices_.h * step.x + lack.motions;
+      step.nu = unit_.cwiseProduct(dense::minimum_norm(motions_, unit_.cwiseProduct(driven)));
       step.x -= response_ * step.nu;
     }
     for (Index i = 0; i < s.size(); ++i) {
@@ -269,7 +270,7 @@ class CentralPath::Linear {
   std::optional<Eigen::PartialPivLU<MatrixXd>> lu_;
   MatrixXd response_;
   VectorXd unit_;
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> motions_;
+  MatrixXd motions_;  // of the scaled nu
 };
 
 bool CentralPath::symmetric() const

@@ -17,6 +17,9 @@ Eigen::VectorXd solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
 double determinant(const Eigen::MatrixXd& a);
 
+/// X' M X; M is n x n, X is n x k.
+Eigen::MatrixXd form(const Eigen::MatrixXd& m, const Eigen::MatrixXd& x);
+
 /// The x that make |A x - b| least, of full column rank (m x n, m >= n), by Q R with pivoted columns.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 /// The shortest of them, of an A of any shape and rank, by a complete orthogonal decomposition; B is m x k, the result n x k.
@@ -42,6 +45,13 @@ struct PlaneEigenpairs {
 };
 /// Of a symmetric 2 x 2 matrix.
 PlaneEigenpairs plane_eigenpairs(const Eigen::Matrix2d& a);
+struct SpaceEigenpairs {
+  Eigen::Vector3d values;   ///< ascending
+  Eigen::Matrix3d vectors;  ///< columns in the same order, orthonormal
+};
+/// Of a symmetric 3 x 3 matrix.
+SpaceEigenpairs space_eigenpairs(const Eigen::Matrix3d& a);
+Eigen::Vector3d space_eigenvalues(const Eigen::Matrix3d& a);
 
 /// A v = lambda B v of a symmetric A and a symmetric positive definite B, lower triangles; the vectors V with V'B V = 1.
 Eigenpairs generalized_eigenpairs(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
