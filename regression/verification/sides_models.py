@@ -191,6 +191,7 @@ MODELS = [
         ball_away,
         (1, 10e3),
         quick=(("prism15", "frictionless"),),
+        suite=(("prism6", "frictionless"),),
         reference={
             "frictionless": {"pressure": 225.5, "von Mises": 478, "energy": 105.85},
             "coulomb": {"pressure": 193.3, "von Mises": 314.5, "energy": 85.2},
