@@ -5,7 +5,7 @@ and with contacts that are found.
     sides.py MORTISE [model ...] [--quick | --suite] [--cells hex20 tet10 ...] [--laws frictionless coulomb] [--sizes 0 1 2] [--commands]
              [--write] [--ranks N] [--mpiexec MPIEXEC] [--list]
 
-A model may be a pattern. --quick solves a selection on the first meshes; --suite the same with cheaper cells for rollers, ball and disc, and
+A model may be a pattern. --quick solves a selection on the first meshes; --suite the same with cheaper cells for pin, rollers, ball and disc, and
 without `auto` for tipping blocks in space. Figures: the largest recovered pressure and the largest von Mises stress, both farther than `away`
 from the lines where the exact ones are infinite (edges pressed into a surface, clamped borders); the strain energy; forces. Required: the
 three solutions within 10 % of each other in stress and 2 % in energy on every mesh, forces to 1e-6; the last mesh near the reference, which

@@ -179,6 +179,7 @@ MODELS = [
         pin_away,
         (0, 2500),
         quick=(("tet10", "coulomb"), ("hex20", "frictionless")),
+        suite=(("tet10", "coulomb"), ("hex8", "frictionless")),
         coarse=lambda cell: 1 if cell == "tet4" else 0,
     ),
     Model(
