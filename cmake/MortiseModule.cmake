@@ -1,8 +1,9 @@
-# mortise_module(NAME USES module... LINKS library... SOURCES file... [TESTS file...] [PARALLEL_TESTS file...])
+# mortise_module(NAME USES module... LINKS library... SOURCES file... [TESTS file...] [STUDY_TESTS pattern...] [PARALLEL_TESTS file...])
 #
 # One module of lib/: a static library whose public headers lie in include/NAME. It sees the headers of the modules it USES
 # and of those which these use, and no others: an arrow that is not declared here does not compile.
-# TESTS make one GoogleTest program, test_NAME, run on one rank; PARALLEL_TESTS make mpi_test_NAME, run on 1, 2 and 3.
+# TESTS make one GoogleTest program, test_NAME, run on one rank; PARALLEL_TESTS make mpi_test_NAME, run on 1 and 3, and under the label
+# study on 2. STUDY_TESTS are patterns of GoogleTest: what costs most of test_NAME, and runs under the label study alone.
 add_library(mortise_options INTERFACE)
 target_compile_options(mortise_options INTERFACE -Wall -Wextra)
 # The C++ bindings of MPI, which MPI itself has dropped, would be compiled into every file.
@@ -93,7 +94,7 @@ function(mortise_precompiled target)
 endfunction()
 
 function(mortise_module name)
-  cmake_parse_arguments(arg "" "" "USES;LINKS;SOURCES;TESTS;PARALLEL_TESTS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "USES;LINKS;SOURCES;TESTS;STUDY_TESTS;PARALLEL_TESTS" ${ARGN})
   list(TRANSFORM arg_SOURCES PREPEND src/)
   add_library(${name} STATIC ${arg_SOURCES})
   set_target_properties(${name} PROPERTIES OUTPUT_NAME mortise_${name})
@@ -102,7 +103,14 @@ function(mortise_module name)
   mortise_precompiled(${name} ${arg_USES})
   if(MORTISE_TESTS AND arg_TESTS)
     mortise_test_program(test_${name} ${name} ${arg_TESTS})
-    add_test(NAME ${name} COMMAND test_${name})
+    if(arg_STUDY_TESTS)
+      list(JOIN arg_STUDY_TESTS ":" patterns)
+      add_test(NAME ${name} COMMAND test_${name} --gtest_filter=-${patterns})
+      add_test(NAME ${name}.study COMMAND test_${name} --gtest_filter=${patterns})
+      set_tests_properties(${name}.study PROPERTIES LABELS study)
+    else()
+      add_test(NAME ${name} COMMAND test_${name})
+    endif()
   endif()
   if(MORTISE_TESTS AND arg_PARALLEL_TESTS)
     mortise_test_program(mpi_test_${name} ${name} ${arg_PARALLEL_TESTS})
@@ -111,6 +119,7 @@ function(mortise_module name)
                COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe -n ${ranks} $<TARGET_FILE:mpi_test_${name}>)
       set_tests_properties(${name}.ranks${ranks} PROPERTIES PROCESSORS ${ranks})
     endforeach()
+    set_tests_properties(${name}.ranks2 PROPERTIES LABELS study)
   endif()
 endfunction()
 

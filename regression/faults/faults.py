@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Faults of the machine: what a run does when the disk is full, memory is short, somebody ends it, or the directory is in use.
 
-    faults.py MORTISE CASE [--mpiexec MPIEXEC] [--full-disk LIBRARY] [--times N] [--seed N]
+    faults.py MORTISE CASE [--mpiexec MPIEXEC] [--full-disk LIBRARY] [--times N] [--seed N] [--short]
 
 CASE is the name of one of the functions below; each says what it expects. Common to all: a run ends within LIMIT seconds on all ranks, with
-an exit status from 0 to 4 and a cause, and what it leaves under a final name is whole.
+an exit status from 0 to 4 and a cause, and what it leaves under a final name is whole. --short leaves out of `interrupted`, `interrupted_direct`
+and `resumed` what differs from another of their runs by the number of ranks alone.
 """
 import argparse
 import contextlib
@@ -64,7 +65,8 @@ def unwritable(options, scratch):
 
 def interrupted(options, scratch):
     """Told to end: exit status 130, the states before are there and marked. Killed: what is on the disk says that it is not finished."""
-    for ranks, number in ((1, signal.SIGTERM), (1, signal.SIGINT), (1, signal.SIGKILL), (2, signal.SIGTERM), (3, signal.SIGTERM)):
+    more = [] if options.short else [(1, signal.SIGTERM), (2, signal.SIGTERM)]
+    for ranks, number in [(1, signal.SIGINT), (1, signal.SIGKILL), (3, signal.SIGTERM)] + more:
         who = f"{number.name} on {ranks} ranks"
         run = Run(options, SLOW, scratch / who, ranks, prepare=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         expect(run.has("results.2.h5"), f"{who}: too late for the test")
@@ -81,7 +83,7 @@ def interrupted(options, scratch):
             expect(number.name in run.said, f"{who}: {run.said}")
         judge_files(run.directory, who)
     # Before anything is solved, in a stage that does not look: it ends soon all the same.
-    run = Run(options, SLOW, scratch / "early", arguments=["--set", "mesh.blocks.lower.cells=[60, 60, 60]"])
+    run = Run(options, SLOW, scratch / "early", arguments=["--set", "mesh.blocks.lower.cells=[40, 40, 40]"])
     expect(run.has("mortise.lock"), "early: no lock")
     os.kill(run.process.pid, signal.SIGTERM)
     start = time.monotonic()
@@ -103,7 +105,8 @@ def interrupted(options, scratch):
 def resumed(options, scratch):
     """Ended between two states, by a signal or by SIGKILL, and resumed: what an uninterrupted run gives, friction's memory included."""
     exact = ["--set", "solver.tolerance=1e-10", "--set", "friction_loop.tolerance=1e-10"]
-    for ranks, number, more in ((1, signal.SIGTERM, []), (2, signal.SIGTERM, []), (1, signal.SIGKILL, ["--set", "solver.algorithm=direct"])):
+    one_rank = [] if options.short else [(1, signal.SIGTERM, [])]
+    for ranks, number, more in one_rank + [(2, signal.SIGTERM, []), (1, signal.SIGKILL, ["--set", "solver.algorithm=direct"])]:
         who = f"{number.name} on {ranks} ranks"
         whole = Run(options, SLOW, scratch / f"whole {who}", ranks, exact + more)
         expect(whole.wait() == 0, f"{who}: {whole.said}")
@@ -158,7 +161,7 @@ def resumed(options, scratch):
 def interrupted_direct(options, scratch):
     """Told to end within the dense algebra of a direct solution, which takes half a minute: heard between two pieces of it."""
     cells = ["mesh.blocks.lower.cells=[46, 46, 1]", "mesh.blocks.upper.cells=[45, 45, 1]", "solver.algorithm=direct"]
-    for ranks in (1, 2):
+    for ranks in (2,) if options.short else (1, 2):
         words = scratch / f"words {ranks}"
         with open(words, "wb") as sink:
             run = Run(options, PLATES, scratch / "out", ranks, [word for cell in cells for word in ("--set", cell)], stdout=sink)
@@ -291,9 +294,8 @@ def own_files(options, scratch):
 
 def two_runs(options, scratch):
     """The second run into a directory says who is there, and leaves everything as it is; when the first one is gone, it may."""
-    states = 15  # a few seconds: the second run starts and ends within them
-    slower = ["--set", f"steps=[{{name: shear, scale: {{shear: 1}}, increments: {states}}}]"]
-    for ranks in (1, 2):
+    for ranks, states in ((1, 8), (2, 15)):  # a few seconds: the second run starts and ends within them
+        slower = ["--set", f"steps=[{{name: shear, scale: {{shear: 1}}, increments: {states}}}]"]
         first = Run(options, SLOW, scratch / "out", ranks, slower)
         expect(first.has("mortise.lock"), "no lock")
         second = Run(options, SHORT, scratch / "out", ranks)
@@ -370,6 +372,7 @@ def main():
     parser.add_argument("--short-memory", default="", help="the library of short_memory.c")
     parser.add_argument("--times", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--short", action="store_true")
     options = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with tempfile.TemporaryDirectory() as scratch:

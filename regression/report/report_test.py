@@ -1,19 +1,25 @@
 #!/usr/bin/env python3
 """The page of a run: well-formed, with the numbers of summary.json, and what went wrong first. report_test.py MORTISE"""
+import contextlib
 import html.parser
 import importlib.util
+import io
 import json
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "postproc" / "report"))
+sys.path[:0] = [str(ROOT / "postproc"), str(ROOT / "postproc" / "report")]
+import pictures  # noqa: E402
 import raster  # noqa: E402
+import render as render_script  # noqa: E402
+import report as report_script  # noqa: E402
 
 DRAWS = all(importlib.util.find_spec(module) for module in ("vtk", "matplotlib"))
 MORTISE = sys.argv.pop(1) if len(sys.argv) > 1 else None
@@ -47,6 +53,13 @@ class Page(html.parser.HTMLParser):
 def report(directory, *options):
     command = ["/usr/bin/python3", str(ROOT / "postproc" / "report" / "report.py"), str(directory), *options]
     return subprocess.run(command, capture_output=True, text=True)
+
+
+def within(script, *words):
+    """The script in this process, which has loaded its libraries, with a sample a pixel of its pictures instead of four."""
+    with unittest.mock.patch.object(raster, "OVERSAMPLING", 1), unittest.mock.patch.object(sys, "argv", [script.__file__, *map(str, words)]):
+        with contextlib.redirect_stdout(io.StringIO()):
+            script.main()
 
 
 class Reports(unittest.TestCase):
@@ -142,8 +155,7 @@ contacts:
         )
         directory, status = self.run_deck(deck)
         self.assertEqual(status, 0)
-        done = report(directory)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        within(report_script, directory)
         source = (directory / "report.html").read_text()
         words = Page(source).words
         self.assertIn("12 of 15 bodies have a picture here, those with the largest values.", words)
@@ -171,7 +183,7 @@ contacts:
         for name, options in (("whole", []), ("one", ["--only", bodies[0], "--edges"]), ("half", ["--cut", *map(str, points), "1", "0", "0"]),
                               ("near", ["--zoom", "30", "--focus", *map(str, points), "--max", "1"]), ("contact", ["--contact", "--warp", "3"])):
             file = directory / f"{name}.png"
-            render(str(file), *options)
+            within(render_script, directory, file, *options)
             drawn.append(image.imread(file))
         self.assertEqual(len({picture.tobytes() for picture in drawn}), len(drawn))
         self.assertTrue(all(picture.shape == drawn[0].shape for picture in drawn))

@@ -21,7 +21,7 @@ ENERGY = 2**3 / (6 * 2000)
 
 
 def study(*words, deck=HERE / "column.yaml", path=None):
-    environment = dict(os.environ, PATH=f"{path}:{os.environ['PATH']}") if path else None
+    environment = dict(os.environ, PATH=f"{path}:{os.environ['PATH']}", PYTHONPATH=str(path)) if path else None
     command = [sys.executable, str(ROOT / "postproc" / "study.py"), MORTISE, str(deck), *words]
     return subprocess.run(command, capture_output=True, text=True, env=environment)
 
@@ -87,7 +87,7 @@ Physical Surface("plate") = {1}; Physical Curve("side") = {3}; Physical Curve("b
 
 
 class Scripts(unittest.TestCase):
-    """A command `gmsh` that leaves a trace and makes nothing stands first in the path."""
+    """A command `gmsh` that leaves a trace and makes nothing stands first in the path; plots, most of the time of such small studies, are left out."""
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -96,6 +96,7 @@ class Scripts(unittest.TestCase):
         (self.folder / "bin").mkdir()
         (self.folder / "bin/gmsh").write_text(f"#!/bin/sh\ntouch {self.folder}/gmsh_was_called\nexit 1\n")
         (self.folder / "bin/gmsh").chmod(0o755)
+        (self.folder / "bin/matplotlib.py").write_text("raise ImportError('left out')\n")
 
     def run_study(self, mesh, text, *words, path="bin"):
         (self.folder / mesh).write_text(text)

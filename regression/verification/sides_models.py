@@ -43,7 +43,11 @@ class Model:
     reference: dict = dataclasses.field(default_factory=dict)  # law: {figure: value of a much finer mesh}
     force_tolerance: float = 1e-6
     quick: tuple = ()  # (cell, law) of the quick selection
+    suite: tuple = ()  # of what the suite runs; the quick selection if nothing else is said
     coarse: Callable = lambda cell: 0  # number of sizes on which a cell has too few faces in the contact for stresses: forces alone are judged
+
+    def __post_init__(self):
+        self.suite = self.suite or self.quick
 
 
 def h(*values):
@@ -160,6 +164,7 @@ def roller_models():
             roller_away,
             (1, 5000),
             quick=(("hex20", "frictionless"),) if name == "longer" else (("tet10", "coulomb"),),
+            suite=(("hex8", "frictionless"),) if name == "longer" else (("tet4", "coulomb"),),
         )
 
 
@@ -174,6 +179,7 @@ MODELS = [
         pin_away,
         (0, 2500),
         quick=(("tet10", "coulomb"), ("hex20", "frictionless")),
+        suite=(("tet10", "coulomb"), ("hex8", "frictionless")),
         coarse=lambda cell: 1 if cell == "tet4" else 0,
     ),
     Model(
@@ -186,6 +192,7 @@ MODELS = [
         ball_away,
         (1, 10e3),
         quick=(("prism15", "frictionless"),),
+        suite=(("prism6", "frictionless"),),
         reference={
             "frictionless": {"pressure": 225.5, "von Mises": 478, "energy": 105.85},
             "coulomb": {"pressure": 193.3, "von Mises": 314.5, "energy": 85.2},
@@ -217,6 +224,7 @@ MODELS = [
         disc_away,
         (2, 10e3),
         quick=(("hex8", "frictionless"), ("prism15", "coulomb")),
+        suite=(("hex8", "frictionless"), ("prism6", "coulomb")),
     ),
     *block_models(),
     Model(
