@@ -15,7 +15,7 @@ namespace mortise::contact {
 inline constexpr int rings_beyond = 2;
 std::vector<char> facets_round(const mesh::Cells& facets, std::vector<char> nodes);
 
-/// Adds kinks and tangent edges of another side that have both ends here: `here` is a node, or less than 0.
+/// Adds kinks and tangent edges of another side whose nodes are all here: `here` is a node, or less than 0.
 template <class Here>
 void append_kinks(Side& side, const Side& other, const Here& here)
 {
@@ -27,9 +27,12 @@ void append_kinks(Side& side, const Side& other, const Here& here)
   for (std::size_t e = 0; e < kinks; ++e)
     if (const auto edge = ends(other.kinks[e]); edge[0] >= 0) side.kinks.push_back(edge);
   for (std::size_t e = 0; e < tangent; ++e) {
-    const auto [old, beyond] = other.tangent_edges[e];
-    const Local in_plane = here(beyond);
-    if (const auto edge = ends(old); edge[0] >= 0 && in_plane >= 0) side.tangent_edges.push_back({edge, in_plane});
+    TangentEdge tangential = other.tangent_edges[e];
+    tangential.edge = ends(tangential.edge);
+    bool all_here = tangential.edge[0] >= 0;
+    for (auto& line : tangential.beyond)
+      for (Local& n : line) all_here = (n = here(n)) >= 0 && all_here;
+    if (all_here) side.tangent_edges.push_back(tangential);
   }
 }
 

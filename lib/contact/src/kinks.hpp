@@ -1,12 +1,11 @@
-// Edges at which a side turns by less than coarse curved sides do, and yet does not go on: of chamfers, bevels and grooves; and
-// those at which a plane runs into an arc.
+// Edges at which a side turns by less than coarse curved sides do, and yet does not go on: of chamfers, bevels and grooves.
 #pragma once
 
 #include "side.hpp"
 
 namespace mortise::contact {
 
-/// Sets `kinks` and `tangent_edges` of a side.
+/// Sets `kinks` and `tangent_edges` (tangent_edges.hpp) of a side.
 ///
 /// Kinks: the edges between facets of a side at which it has a kink, from node to node, the smaller first, ascending; in plane models the
 /// nodes, twice. There the surfaces of second order through the corners of the faces on each side alone meet at an angle that is
@@ -14,9 +13,6 @@ namespace mortise::contact {
 /// And the two faces turn by so much more than they do to the next ones. Where one side has a single row of faces, the surface of
 /// the other is continued over it, if three rows tell that this is plane. Edges that turn by more than about 40 degrees are kinks
 /// anyway and not named.
-///
-/// Tangent edges: no kinks, but on one side alone two rows of faces, and more than a strip of them, lie in a plane; or from one side
-/// to the other three faces of an arc turn by the same angle, and the face after them by half of it.
 void find_kinks(Side& side);
 
 }  // namespace mortise::contact

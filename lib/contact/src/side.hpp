@@ -21,10 +21,14 @@ using FaceShape = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_functions, 1>
 /// Between two facets: the nodes at its ends, the smaller first; in plane models one node, twice.
 using FacetEdge = std::array<Local, 2>;
 
-/// At which a plane runs into an arc.
+/// At which a plane or straight lines run into an arc, see find_tangent_edges().
 struct TangentEdge {
+  /// From the ends of the edge of the face, each with a node beyond it: of the plane, or of the straight line that ends there.
+  using Lines = std::array<std::array<Local, 2>, 2>;
+
   FacetEdge edge;
-  Local in_plane;  ///< a node of the plane beyond the edge
+  bool plane;  ///< else lines
+  Lines beyond;
 
   auto operator<=>(const TangentEdge&) const = default;
 };

@@ -140,21 +140,31 @@ std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nod
   return border;
 }
 
-// Where a plane runs into an arc, the normal is the plane's: a surface over both would be tilted by up to half of the angle between
-// the faces. Where two planes do, the one and the other, it is left.
-void take_normals_of_planes(const Side& side, SurfaceNodes& surface_nodes)
+// Where a plane runs into an arc, the normal is the plane's, and where straight lines do, it is normal to them: a surface over both
+// would be tilted by up to half of the angle between the faces. Where two planes do, or lines that differ, it is left.
+void take_normals_of_straight(const Side& side, SurfaceNodes& surface_nodes)
 {
   if (side.tangent_edges.empty()) return;
   auto tangent = side.tangent_edges;
   std::sort(tangent.begin(), tangent.end());
   const auto at = [&](Local n) -> const Point& { return side.points[static_cast<std::size_t>(n)]; };
-  std::vector<std::pair<Local, Point>> found;
-  const auto add = [&](std::size_t corner, const TangentEdge& edge) {
-    const auto [a, b] = edge.edge;
-    const Point along = a == b ? Point(Point::UnitZ()) : Point(at(b) - at(a));
-    const Point normal = along.cross(at(edge.in_plane) - at(a)).normalized();
+  struct Straight {
+    Local surface_node;
+    bool line;
+    Point direction;  // of the line, or the normal of the plane
+  };
+  std::vector<Straight> found;
+  const auto add = [&](std::size_t corner, Local node, const TangentEdge& edge) {
+    const auto& [first, last] = edge.beyond;
+    const auto along = [&](const std::array<Local, 2>& line) { return Point((at(line[1]) - at(line[0])).normalized()); };
+    Point direction = node == first[0] ? along(first) : node == last[0] ? along(last) : Point(along(first) + along(last));
+    if (edge.plane) {
+      const auto [a, b] = edge.edge;
+      direction = (a == b ? Point(Point::UnitZ()) : Point(at(b) - at(a))).cross(along(first));
+    }
     const Local p = surface_nodes.of_corner[corner];
-    found.emplace_back(p, normal.dot(surface_nodes.all[static_cast<std::size_t>(p)].normal) > 0 ? normal : Point(-normal));
+    const bool turned = edge.plane && direction.dot(surface_nodes.all[static_cast<std::size_t>(p)].normal) < 0;
+    found.push_back({p, !edge.plane, (turned ? -1 : 1) * direction.normalized()});
   };
   for (std::size_t f = 0; f < side.facets.size(); ++f) {
     const auto nodes = side.facets[f];
@@ -164,17 +174,20 @@ void take_normals_of_planes(const Side& side, SurfaceNodes& surface_nodes)
       const FacetEdge edge{std::min(nodes[k], nodes[next]), std::max(nodes[k], nodes[next])};
       const auto [first, last] = std::ranges::equal_range(tangent, edge, {}, &TangentEdge::edge);
       for (auto e = first; e != last; ++e) {
-        add(begin + k, *e);
-        if (next != k) add(begin + next, *e);
+        add(begin + k, nodes[k], *e);
+        if (next != k) add(begin + next, nodes[next], *e);
       }
     }
   }
-  std::ranges::stable_sort(found, {}, &std::pair<Local, Point>::first);
+  // Planes before lines.
+  std::ranges::stable_sort(found, {}, [](const Straight& s) { return std::pair(s.surface_node, s.line); });
   for (auto first = found.begin(), last = first; first != found.end(); first = last) {
-    last = std::find_if(first, found.end(), [&](const auto& other) { return other.first != first->first; });
-    const Point& normal = first->second;
-    if (std::all_of(first, last, [&](const auto& other) { return (other.second - normal).norm() < rounding; }))
-      surface_nodes.all[static_cast<std::size_t>(first->first)].normal = normal;
+    last = std::find_if(first, found.end(), [&](const auto& other) { return other.surface_node != first->surface_node; });
+    const auto end = std::find_if(first, last, [&](const auto& other) { return other.line != first->line; });
+    const Point& direction = first->direction;
+    if (!std::all_of(first, end, [&](const auto& other) { return (other.direction - direction).norm() < rounding; })) continue;
+    Point& normal = surface_nodes.all[static_cast<std::size_t>(first->surface_node)].normal;
+    normal = first->line ? Point((normal - normal.dot(direction) * direction).normalized()) : direction;
   }
 }
 
@@ -314,10 +327,10 @@ SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted)
     }
   }
   const SurfaceNodes means = surface_nodes;
-  take_normals_of_planes(side, surface_nodes);
+  take_normals_of_straight(side, surface_nodes);
   const auto border = continue_curvature(side, surface_nodes);
   if (fitted && side.kinematics == fem::Kinematics::solid) fit_normals(side, means, border, surface_nodes);
-  take_normals_of_planes(side, surface_nodes);
+  take_normals_of_straight(side, surface_nodes);
   return surface_nodes;
 }
 

@@ -281,6 +281,39 @@ TEST(SmoothNormals, WhereAPlaneRunsIntoAnArcAreThoseOfThePlane)
     }
 }
 
+// A cylinder, or a cone, that runs into an arc: faces of its straight lines are no plane, and yet normals are normal to the lines.
+TEST(SmoothNormals, WhereStraightLinesRunIntoAnArcAreNormalToThem)
+{
+  const Communicator comm;
+  for (const double slope : {0.0, 0.2})
+    for (const bool triangles : {false, true})
+      for (const bool second : {false, true}) {
+        const double along = 1 / std::hypot(1, slope), across = slope * along;  // of the straight lines
+        const auto runs = [&](double x, double y) {
+          const double s = x < 0 ? 0.8 * x : 2 * std::sin(0.1 * x), t = x < 0 ? 0 : 2 * (std::cos(0.1 * x) - 1);
+          const double radius = 5 + s * across + t * along, angle = 0.15 * y;
+          return Point(s * along - t * across, radius * std::sin(angle), radius * std::cos(angle));
+        };
+        const auto side = [&](bool up, Global first_id) {
+          const auto corners = surface({8, 4, -4, 4, 0, 4, up, triangles, first_id}, runs, comm);
+          const auto type = triangles ? mesh::CellType::tri6 : mesh::CellType::quad8;
+          return second ? second_order(corners, type, Eigen::Matrix3d::Identity(), first_id) : corners;
+        };
+        const auto pair = make_pair(side(true, 0), side(false, primary_ids), Law::frictionless);
+        const auto nodes = nodes_of(pair, comm);
+        int in_line = 0;
+        for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
+          const Point& x = nodes.at(row.node);
+          if (std::abs(x[0]) > 1e-9) continue;
+          ++in_line;
+          const double angle = std::atan2(x[1], x[2]);
+          const Point line(along, across * std::sin(angle), across * std::cos(angle));
+          EXPECT_NEAR(row.normal.dot(line), 0, 1e-9) << "at " << x.transpose();
+        }
+        EXPECT_GE(in_line, 5);
+      }
+}
+
 // The same where the plane is a single row of faces, between two arcs.
 TEST(SmoothNormals, OfAPlaneOfOneRowBetweenArcsAreItsOwn)
 {
