@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -25,9 +26,9 @@ constexpr double settled = 1e-13;
 // What a surface of second order may leave of the heights: more is an edge, or scatter.
 constexpr double most_left = 0.2;
 
-// Where it leaves more than this, it may be two, and is if these leave as little as that, and so much less. In a row of faces beside
-// the line in which a cylinder runs into a fillet they leave 0.12 to 0.16, in the line 0.01 to 0.04.
-constexpr double of_one_surface = 0.05, of_two = 0.06, explained = 0.25;
+// Where it leaves more than that of the nodes round these, too, it may be two surfaces, and is if they leave as little as this, and so
+// much less: in the line in which a cylinder runs into a fillet 0.01 to 0.04, in a row of nodes beside it 0.12 to 0.16.
+constexpr double of_two = 0.05, explained = 0.2;
 // Cosine: lines from node to node go on as straight as this.
 constexpr double straight = -0.9;
 constexpr std::size_t enough_for_two = 9;
@@ -168,66 +169,106 @@ Fitted fitted(const std::vector<Point>& d, const Point& start, const Point* line
   return (normal - start).norm() > height ? none : result;
 }
 
-// Where one surface leaves much: the two that meet in one of the lines from node to node through the origin, if they explain it.
-// `near`: how many of d, the first ones, are the nodes next to it. At a `border` lines may end.
-std::optional<Point> of_two_surfaces(const std::vector<Point>& d, std::size_t near, bool border, const Point& start)
-{
-  if (d.size() < enough_for_two) return std::nullopt;
-  std::optional<Point> best;
-  double least = std::min(explained * fitted(d, start).left, of_two);
-  const auto attempt = [&](const Point& line) {
-    if (const Fitted two = fitted(d, start, &line); two.left < least) {
-      least = two.left;
-      best = two.normal;
-    }
-  };
-  for (std::size_t a = 0; a < near; ++a) {
-    if (border) attempt(d[a]);
-    for (std::size_t b = 0; b < a; ++b)
-      if (d[a].dot(d[b]) < straight * d[a].norm() * d[b].norm())
-        attempt((d[a].normalized() - d[b].normalized()).normalized());
+// Two surfaces that meet in a line through a surface node.
+struct TwoSurfaces {
+  std::size_t at;
+  Few<Local, 2> ends;  // the next surface nodes of the line
+  Point normal;
+
+  bool leads_to(std::size_t p) const { return std::find(ends.begin(), ends.end(), static_cast<Local>(p)) != ends.end(); }
+};
+
+class Fits {
+ public:
+  Fits(const Side& side, const SurfaceNodes& surface_nodes)
+      : side_(side), surface_nodes_(surface_nodes), neighbours_(side, surface_nodes)
+  {
   }
-  return best;
-}
+
+  // The normal of the surface through the nodes round one, from `start`; where they lie in its plane, that of the `mean`.
+  Point normal(std::size_t p, bool border, const Point& mean, const Point& start)
+  {
+    gather(p, border || neighbours_[p].size() < enough);
+    if (d_.empty()) return start;
+    if (std::all_of(d_.begin(), d_.end(), [&](const Point& v) { return std::abs(v.dot(mean)) < plane_surface * v.norm(); }))
+      return mean;
+    const Fitted one = fitted(d_, start);
+    gather(p, true);
+    if (one.left == 1 || one.left_of(d_) > most_left) attempt_two(p, border, start);
+    return one.normal;
+  }
+
+  // Those that explain the nodes, where the next node of the line says the same: by chance a single node may look like it.
+  std::vector<TwoSurfaces> two_surfaces() const
+  {
+    const auto says = [&](Local end, std::size_t p) {
+      const auto other = std::ranges::lower_bound(two_, static_cast<std::size_t>(end), {}, &TwoSurfaces::at);
+      return other != two_.end() && other->at == static_cast<std::size_t>(end) && other->leads_to(p);
+    };
+    std::vector<TwoSurfaces> result;
+    std::ranges::copy_if(two_, std::back_inserter(result), [&](const TwoSurfaces& two) {
+      return std::any_of(two.ends.begin(), two.ends.end(), [&](Local end) { return says(end, two.at); });
+    });
+    return result;
+  }
+
+ private:
+  // The nodes round a surface node, and if `farther` those round these: the first `near_` are the nodes next to it.
+  void gather(std::size_t p, bool farther)
+  {
+    const auto at = [&](std::size_t q) -> const Point& {
+      return side_.points[static_cast<std::size_t>(surface_nodes_.all[q].node)];
+    };
+    neighbours_.round(p, farther, round_);
+    std::erase_if(round_, [&](Local q) { return at(static_cast<std::size_t>(q)) == at(p); });
+    near_ = static_cast<std::size_t>(std::ranges::count_if(round_, [&](Local q) {
+      return std::ranges::binary_search(neighbours_[p], q);
+    }));
+    d_.clear();
+    for (const Local q : round_) d_.push_back(at(static_cast<std::size_t>(q)) - at(p));
+  }
+
+  // In one of the lines from node to node, or at a border, where lines may end, in one from it.
+  void attempt_two(std::size_t p, bool border, const Point& start)
+  {
+    if (d_.size() < enough_for_two) return;
+    TwoSurfaces best{p, {}, start};
+    double least = std::min(explained * fitted(d_, start).left, of_two);
+    const auto attempt = [&](const Point& line, const Few<Local, 2>& ends) {
+      if (const Fitted two = fitted(d_, start, &line); two.left < least) {
+        least = two.left;
+        best.ends = ends;
+        best.normal = two.normal;
+      }
+    };
+    for (std::size_t a = 0; a < near_; ++a) {
+      if (border) attempt(d_[a], {round_[a]});
+      for (std::size_t b = 0; b < a; ++b)
+        if (d_[a].dot(d_[b]) < straight * d_[a].norm() * d_[b].norm())
+          attempt((d_[a].normalized() - d_[b].normalized()).normalized(), {round_[a], round_[b]});
+    }
+    if (best.ends.size() > 0) two_.push_back(best);
+  }
+
+  const Side& side_;
+  const SurfaceNodes& surface_nodes_;
+  const Neighbours neighbours_;
+  std::vector<Local> round_;
+  std::vector<Point> d_;
+  std::size_t near_ = 0;
+  std::vector<TwoSurfaces> two_;  // ascending
+};
 
 }  // namespace
 
 void fit_normals(const Side& side, const SurfaceNodes& means, const std::vector<bool>& border, SurfaceNodes& surface_nodes)
 {
-  const Neighbours neighbours(side, surface_nodes);
-  const auto at = [&](std::size_t p) -> const Point& { return side.points[static_cast<std::size_t>(surface_nodes.all[p].node)]; };
-  std::vector<Local> round;
-  std::vector<Point> d;
+  Fits fits(side, surface_nodes);
   for (std::size_t p = 0; p < surface_nodes.all.size(); ++p) {
-    neighbours.round(p, border[p] || neighbours[p].size() < enough, round);
-    d.clear();
-    bool plane = true;
-    for (const Local q : round) {
-      const Point v = at(static_cast<std::size_t>(q)) - at(p);
-      if (v.squaredNorm() == 0) continue;
-      d.push_back(v);
-      plane = plane && std::abs(v.dot(means.all[p].normal)) < plane_surface * v.norm();
-    }
     auto& normal = surface_nodes.all[p].normal;
-    if (d.empty()) continue;
-    if (plane) {
-      normal = means.all[p].normal;
-      continue;
-    }
-    const Fitted one = fitted(d, normal);
-    neighbours.round(p, true, round);
-    d.clear();
-    std::size_t near = 0;
-    for (std::size_t i = 0; i < round.size(); ++i) {
-      const Point v = at(static_cast<std::size_t>(round[i])) - at(p);
-      if (v.squaredNorm() == 0) continue;
-      d.push_back(v);
-      if (i < neighbours[p].size()) near = d.size();
-    }
-    std::optional<Point> two;
-    if (one.left == 1 || one.left_of(d) > of_one_surface) two = of_two_surfaces(d, near, border[p], normal);
-    normal = two.value_or(one.normal);
+    normal = fits.normal(p, border[p], means.all[p].normal, normal);
   }
+  for (const auto& two : fits.two_surfaces()) surface_nodes.all[two.at].normal = two.normal;
 }
 
 }  // namespace mortise::contact

@@ -73,11 +73,11 @@ class TangentEdges {
     return faces_[own].nodes.size() == 2 || is_wide(flat) ? in_plane(own, edge) : along_strip(flat, edge);
   }
 
-  // The last face before an arc, which starts at an edge of it: three faces of a circle turn by the same angle, and what is straight
-  // by half of it. This tells what is straight of a single row. Triangles scatter too much.
+  // The last face before an arc, which starts at an edge of it: three faces of a circle turn by the same angle, and the plane by half
+  // of it. This tells planes of a single row. Triangles scatter too much.
   std::optional<Straight> before_arc(std::size_t last, std::size_t arc, const Edge& edge) const
   {
-    if (faces_[arc].nodes.size() == 3) return std::nullopt;
+    if (faces_[arc].nodes.size() == 3 || !goes_on_along(last, edge)) return std::nullopt;
     const auto second = next_beyond(arc, edge);
     if (!second) return std::nullopt;
     const auto third = next_beyond(second->first, edges_[second->second]);
@@ -87,7 +87,7 @@ class TangentEdges {
         !(std::abs(angle(last, arc) - whole / 2) < same_turn * whole) ||
         !((faces_[arc].normal - faces_[last].normal).dot(faces_[second->first].normal - faces_[arc].normal) > 0))
       return std::nullopt;
-    return goes_on_along(last, edge) ? in_plane(last, edge) : along_strip({last}, edge);
+    return in_plane(last, edge);
   }
 
   double angle(std::size_t f, std::size_t g) const { return 2 * std::asin((faces_[f].normal - faces_[g].normal).norm() / 2); }
