@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "arc_normals.hpp"
 #include "fitted_normals.hpp"
 #include "skin.hpp"
 
@@ -327,6 +328,7 @@ SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted)
     }
   }
   const SurfaceNodes means = surface_nodes;
+  take_normals_between_arcs(side, surface_nodes);
   take_normals_of_straight(side, surface_nodes);
   const auto border = continue_curvature(side, surface_nodes);
   if (fitted && side.kinematics == fem::Kinematics::solid) fit_normals(side, means, border, surface_nodes);

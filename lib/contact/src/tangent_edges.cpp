@@ -37,6 +37,8 @@ class TangentEdges {
   static constexpr double two_rows = 1.5;
   // Of the angle between two faces of an arc: others differ by no more.
   static constexpr double same_turn = 0.05;
+  // From face to face of an arc over that from a plane to it: twice as much, about.
+  static constexpr double larger_turn = 1.5;
 
   struct Straight {
     bool plane;
@@ -69,8 +71,21 @@ class TangentEdges {
         if (!parted_[e] && coplanar(own, f) && all_.touch(f, own) && std::find(flat.begin(), flat.end(), f) == flat.end())
           flat.push_back(f);
     }
-    if (!(farthest > two_rows * all_.depth(own, place, away))) return std::nullopt;
+    if (!(farthest > two_rows * all_.depth(own, place, away)) || between_bends(own, edge)) return std::nullopt;
     return faces_[own].nodes.size() == 2 || is_wide(flat) ? in_plane(own, edge) : along_strip(flat, edge);
+  }
+
+  // Whether two faces are in a plane because the curve bends one way before them and the other way after them: it turns no more from
+  // what comes before to the next face there, as it does on an arc that a plane runs into.
+  bool between_bends(std::size_t own, const Edge& edge) const
+  {
+    const std::size_t before = edge.faces[edge.faces[0] == own ? 1 : 0];
+    const auto second = faces_[own].nodes.size() == 3 ? std::nullopt : next_beyond(own, edge);
+    const auto after = second ? next_beyond(second->first, edges_[second->second]) : std::nullopt;
+    if (!after || !((faces_[before].normal - faces_[own].normal).dot(faces_[after->first].normal - faces_[own].normal) > 0))
+      return false;
+    const auto next = next_beyond(before, edge);
+    return !next || angle(before, next->first) < larger_turn * angle(own, before);
   }
 
   // The last face before an arc, which starts at an edge of it: three faces of a circle turn by the same angle, and the plane by half

@@ -315,7 +315,31 @@ TEST(SmoothNormals, WhereStraightLinesRunIntoAnArcAreNormalToThem)
       }
 }
 
-// The same where triangles lie anyhow, and where a wide arc runs into a narrow one: two surfaces of one tangent plane.
+// Where a curve begins to bend the other way two faces are in a plane, and are none.
+TEST(SmoothNormals, WhereAnArcBendsBackAreThoseOfTheArcs)
+{
+  const Communicator comm;
+  constexpr double turn = 0.26, radius = 1 / turn, half = 2 * turn;  // two faces an arc
+  const auto bends = [](double x, double y) {
+    const double away = std::abs(x), t = std::max(2 - away, 0.0) * turn;
+    const Point end(radius * std::sin(half) + std::max(away - 2, 0.0), 0, radius * (1 - std::cos(half)));
+    return Point(std::copysign(end[0] - radius * std::sin(t), x), y, std::copysign(end[2] - radius * (1 - std::cos(t)), x));
+  };
+  const auto pair = make_pair(surface({8, 4, -4, 4, 0, 4, true}, bends, comm),
+                              surface({8, 4, -4, 4, 0, 4, false, false, primary_ids}, bends, comm), Law::frictionless);
+  const auto nodes = nodes_of(pair, comm);
+  int on_arcs = 0;
+  for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {
+    const double away = std::abs(nodes.at(row.node)[0]), end = radius * std::sin(half);
+    if (away > end + 1e-9 || away < 1e-9) continue;  // in the middle the nodes round it lie in a plane
+    ++on_arcs;
+    const double slope = std::asin((end - away) / radius);
+    EXPECT_LT((row.normal - Point(-std::sin(slope), 0, std::cos(slope))).norm(), 0.01) << "at " << nodes.at(row.node).transpose();
+  }
+  EXPECT_EQ(on_arcs, 20);
+}
+
+// Triangles that lie anyhow, where a cylinder or a wide arc runs into a narrow one: two surfaces of one tangent plane.
 TEST(SmoothNormals, WhereTwoArcsMeetAreThoseOfBoth)
 {
   const Communicator comm;
