@@ -18,16 +18,17 @@ namespace {
 constexpr std::size_t enough = 6;
 // Heights below this part of the distances are rounding.
 constexpr double plane_surface = 1e-10;
-// How far what the nodes do not determine is held: a slope where it is, a curvature at 0. What they determine is found all the same,
-// step by step. Both are the same in all directions: nothing that is found along one leaks into another that is not determined.
+// How far what the nodes do not determine is held: a slope where it is, a curvature at 0. What they determine is found all the
+// same, step by step. Both are the same in all directions: nothing that is found along one leaks into another that is not
+// determined.
 constexpr double held_slope = 0.01, held_curvature = 1e-6;
 constexpr int steps = 8;
 constexpr double settled = 1e-13;
 // What a surface of second order may leave of the heights: more is an edge, or scatter.
 constexpr double most_left = 0.2;
 
-// Where it leaves more than that of the nodes round these, too, it may be two surfaces, and is if they leave as little as this, and so
-// much less: in the line in which a cylinder runs into a fillet 0.01 to 0.04, in a row of nodes beside it 0.12 to 0.16.
+// Where it leaves more than that of the nodes round these, too, it may be two surfaces, and is if they leave as little as this,
+// and so much less: in the line in which a cylinder runs into a fillet 0.01 to 0.04, in a row of nodes beside it 0.12 to 0.16.
 constexpr double of_two = 0.05, explained = 0.2;
 // Cosine: lines from node to node go on as straight as this.
 constexpr double straight = -0.9;
@@ -114,8 +115,8 @@ struct Fitted {
   }
 };
 
-// The one next to points d, with a normal next to `start`; `start` and all of the heights if there is none. With a `line`: two surfaces
-// which meet in it and have one tangent plane there, with curvatures across that differ.
+// The one next to points d, with a normal next to `start`; `start` and all of the heights if there is none. With a `line`: two
+// surfaces which meet in it and have one tangent plane there, with curvatures across that differ.
 Fitted fitted(const std::vector<Point>& d, const Point& start, const Point* line = nullptr)
 {
   const auto count = static_cast<Eigen::Index>(d.size());
