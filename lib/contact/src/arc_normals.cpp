@@ -1,5 +1,6 @@
 #include "arc_normals.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace mortise::contact {

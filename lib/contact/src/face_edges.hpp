@@ -10,8 +10,8 @@
 
 namespace mortise::contact {
 
-/// Faces of first order through the corners of a side's faces, and the edges at which two of them meet without turning by as much
-/// as at a kink that needs no further look (skin.hpp).
+/// Faces of first order through the corners of a side's faces, and the edges at which two of them meet without turning by as much as
+/// at a kink that needs no further look (skin.hpp).
 class FaceEdges {
  public:
   struct Face {
@@ -29,8 +29,8 @@ class FaceEdges {
     bool has(Local n) const { return n == a || n == b; }
   };
 
-  /// What an edge looks like: its middle, half of its length, the mean normal there and the directions along it and across, from
-  /// the first face to the other.
+  /// What an edge looks like: its middle, half of its length, the mean normal there and the directions along it and across, from the
+  /// first face to the other.
   struct Place {
     Point middle, normal, along, away;
     double half;

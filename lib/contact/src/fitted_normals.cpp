@@ -6,7 +6,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <optional>
+#include <span>
+#include <utility>
 
 #include "base/dense.hpp"
 
@@ -98,8 +99,8 @@ std::pair<Point, Point> tangents_of_line(const Point& line, const Point& normal)
 // A surface of second order through the origin.
 struct Fitted {
   Point normal;
-  double left;                     // of the heights of the points
-  Point s, t;                      // 2 z = across s^2 + 2 twist s t + along t^2 + curvature z^2
+  double left;  // of the heights of the points
+  Point s, t;   // 2 z = across s^2 + 2 twist s t + along t^2 + curvature z^2
   double across, twist, along, curvature;
 
   // The same of other points.

@@ -13,9 +13,9 @@ namespace mortise::contact {
 /// gaps by as much of the sagitta. Where the nodes are plane, normals are the `means`; where nothing of second order goes through
 /// them, they stay. At a `border`, and where less than six nodes lie round one, the nodes round those count as well.
 ///
-/// Where such a surface leaves more than a fifth of the heights of the nodes round one and round those: if two of them that meet
-/// in a line from node to node, with one tangent plane and curvatures of their own across it, leave a twentieth, and the next
-/// node of the line says the same, the normal is theirs. A cylinder runs into a fillet there, or one arc into another.
+/// Where such a surface leaves more than a fifth of the heights of the nodes round one and round those: if two of them that meet in a
+/// line from node to node, with one tangent plane and curvatures of their own across it, leave a twentieth, and the next node of the
+/// line says the same, the normal is theirs. A cylinder runs into a fillet there, or one arc into another.
 void fit_normals(const Side& side, const SurfaceNodes& means, const std::vector<bool>& border, SurfaceNodes& surface_nodes);
 
 }  // namespace mortise::contact

@@ -86,8 +86,7 @@ class Kinks {
     const bool both = back.known && forth.known;
     Surface &known = back.known ? back : forth, &other = back.known ? forth : back;
     if (!both && known.faces[1] == 0) return 0;  // two rows of a curve may turn by nothing
-    // Of slopes: from each face to the next one beyond. Where that is as much as between the two, as on smooth curves, no fit is
-    // needed.
+    // Of slopes: from each face to the next one beyond. Where that is as much as between the two, as on smooth curves, no fit is needed.
     const double beside = both ? (std::abs(back.next[0]) + std::abs(forth.next[0])) / 2
                                : std::max(std::abs(known.next[0]), std::abs(known.next[1]));
     if (!(faces - beside > of_a_kink * faces)) return 0;

@@ -75,8 +75,8 @@ class TangentEdges {
     return faces_[own].nodes.size() == 2 || is_wide(flat) ? in_plane(own, edge) : along_strip(flat, edge);
   }
 
-  // Whether two faces are in a plane because the curve bends one way before them and the other way after them: it turns no more
-  // from what comes before to the next face there, as it does on an arc that a plane runs into.
+  // Whether two faces are in a plane because the curve bends one way before them and the other way after them: it turns no more from
+  // what comes before to the next face there, as it does on an arc that a plane runs into.
   bool between_bends(std::size_t own, const Edge& edge) const
   {
     const std::size_t before = edge.faces[edge.faces[0] == own ? 1 : 0];
@@ -88,8 +88,8 @@ class TangentEdges {
     return !next || angle(before, next->first) < larger_turn * angle(own, before);
   }
 
-  // The last face before an arc, which starts at an edge of it: three faces of a circle turn by the same angle, and the plane by
-  // half of it. This tells planes of a single row. Triangles scatter too much.
+  // The last face before an arc, which starts at an edge of it: three faces of a circle turn by the same angle, and the plane by half
+  // of it. This tells planes of a single row. Triangles scatter too much.
   std::optional<Straight> before_arc(std::size_t last, std::size_t arc, const Edge& edge) const
   {
     if (faces_[arc].nodes.size() == 3 || !goes_on_along(last, edge)) return std::nullopt;
