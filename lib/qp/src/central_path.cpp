@@ -1,14 +1,11 @@
 #include "central_path.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <utility>
 
-#include "base/dense.hpp"
 #include "base/interruption.hpp"
-#include "condensed_programme.hpp"
 
 namespace mortise::qp {
 
@@ -25,7 +22,6 @@ constexpr double least_centring = 1e-3;   // tau of the next point over that of 
 constexpr double no_step = 1e-8;          // as good as none
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
@@ -53,9 +49,9 @@ double CentralPath::Residual::least() const
   return result;
 }
 
-CentralPath::CentralPath(const CondensedMatrices& matrices, const FeasibleSet& set, const std::vector<int>& bound_of, VectorXd b,
+CentralPath::CentralPath(const ContactSystem& system, const FeasibleSet& set, const std::vector<int>& bound_of, VectorXd b,
                          VectorXd e, VectorXd x, VectorXd nu)
-    : matrices_(matrices), b_(std::move(b)), e_(std::move(e)), at_{std::move(x), std::move(nu), {}, {}}
+    : system_(system), b_(std::move(b)), e_(std::move(e)), at_{std::move(x), std::move(nu), {}, {}}
 {
   for (const auto& bound : set.bounds()) sides_.push_back({bound.index, 1, -bound.lower});
   for (std::size_t d = 0; d < set.discs().size(); ++d) add_disc(set.discs()[d], bound_of[d] >= 0);
@@ -100,7 +96,7 @@ void CentralPath::move_inside(const FeasibleSet& set)
     if (const double length = t.norm(); length > most)
       for (int k = 0; k < disc.size(); ++k) x[disc.index[static_cast<std::size_t>(k)]] += (most / length - 1) * t[k];
   }
-  const VectorXd gradient = matrices_.w * x + matrices_.h.transpose() * at_.nu - b_;
+  const VectorXd gradient = system_.give(x) + system_.push(at_.nu) - b_;
   at_.s = VectorXd::Ones(static_cast<Index>(sides_.size()));
   at_.lambda = VectorXd::Ones(static_cast<Index>(rounds_.size()));
   const Residual room = residual(at_);  // distances from the borders
@@ -117,8 +113,8 @@ void CentralPath::move_inside(const FeasibleSet& set)
 CentralPath::Residual CentralPath::residual(const Iterate& at) const
 {
   const auto& [x, nu, s, lambda] = at;
-  Residual result{matrices_.w * x + matrices_.h.transpose() * nu - b_, matrices_.h * x - matrices_.c * nu - e_,
-                  VectorXd(s.size()), VectorXd(lambda.size())};
+  Residual result{system_.give(x) + system_.push(nu) - b_, system_.excess(x, nu, e_), VectorXd(s.size()),
+                  VectorXd(lambda.size())};
   for (Index i = 0; i < s.size(); ++i) {
     const auto& side = sides_[static_cast<std::size_t>(i)];
     result.forces[side.along] -= side.sign * s[i];
@@ -174,23 +170,8 @@ class CentralPath::Linear {
  public:
   explicit Linear(const CentralPath& path) : path_(path)
   {
-    MatrixXd matrix = make_matrix();
-    MatrixXd push = path.matrices_.h.transpose();
-    for (const Local i : path.pinned_) {
-      matrix.row(i).setZero();
-      matrix.col(i).setZero();
-      matrix(i, i) = 1;
-      push.row(i).setZero();
-    }
-    if (path.symmetric())
-      cholesky_.emplace(factorize(matrix));
-    else
-      lu_.emplace(std::move(matrix));
-    if (push.cols() == 0) return;
-    response_ = cholesky_ ? MatrixXd(cholesky_->solve(push)) : MatrixXd(lu_->solve(push));
-    const MatrixXd stiffness = path.matrices_.c + path.matrices_.h * response_;
-    unit_ = stiffness.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
-    motions_ = unit_.asDiagonal() * stiffness * unit_.asDiagonal();
+    const auto entries = make_entries();
+    factor_ = path.system_.factor(entries, path.pinned_, path.symmetric());
   }
 
   /// The step that makes up for `lack`.
@@ -209,13 +190,8 @@ class CentralPath::Linear {
         right[disc.index[static_cast<std::size_t>(k)]] += lack.rounds[d] / part.room * part.towards[k];
     }
     for (const Local i : path_.pinned_) right[i] = 0;
-    Iterate step{cholesky_ ? VectorXd(cholesky_->solve(right)) : VectorXd(lu_->solve(right)), VectorXd::Zero(nu.size()),
-                 VectorXd(s.size()), VectorXd(lambda.size())};
-    if (nu.size() > 0) {
-      const VectorXd driven = path_.matrices_.h * step.x + lack.motions;
-      step.nu = unit_.cwiseProduct(dense::minimum_norm(motions_, unit_.cwiseProduct(driven)));
-      step.x -= response_ * step.nu;
-    }
+    auto found = factor_->solve(right, lack.motions);
+    Iterate step{std::move(found.x), std::move(found.nu), VectorXd(s.size()), VectorXd(lambda.size())};
     for (Index i = 0; i < s.size(); ++i) {
       const auto& side = path_.sides_[static_cast<std::size_t>(i)];
       step.s[i] = -(lack.sides[i] + s[i] * side.change(step.x)) / side.room(x);
@@ -236,15 +212,15 @@ class CentralPath::Linear {
     double room, widening;
   };
 
-  MatrixXd make_matrix()
+  std::vector<Stiffening> make_entries()
   {
     const auto& [x, nu, s, lambda] = path_.at_;
-    MatrixXd matrix = path_.matrices_.w;
+    std::vector<Stiffening> entries;
     for (Index i = 0; i < s.size(); ++i) {
       const auto& side = path_.sides_[static_cast<std::size_t>(i)];
       const double stiffness = s[i] / side.room(x);
-      matrix(side.along, side.along) += stiffness;
-      if (side.coefficient > 0) matrix(side.along, side.normal) += side.sign * side.coefficient * stiffness;
+      entries.push_back({side.along, side.along, stiffness});
+      if (side.coefficient > 0) entries.push_back({side.along, side.normal, side.sign * side.coefficient * stiffness});
     }
     for (Index d = 0; d < lambda.size(); ++d) {
       const auto& round = path_.rounds_[static_cast<std::size_t>(d)];
@@ -254,23 +230,21 @@ class CentralPath::Linear {
       parts_.push_back(part);
       for (int k = 0; k < round.disc.size(); ++k) {
         const Local row = round.disc.index[static_cast<std::size_t>(k)];
-        matrix(row, row) += lambda[d] / r;
+        entries.push_back({row, row, lambda[d] / r});
         for (int l = 0; l < round.disc.size(); ++l)
-          matrix(row, round.disc.index[static_cast<std::size_t>(l)]) += lambda[d] / part.room * part.towards[k] * part.towards[l];
+          entries.push_back({row, round.disc.index[static_cast<std::size_t>(l)],
+                             lambda[d] / part.room * part.towards[k] * part.towards[l]});
         if (round.coefficient > 0)
-          matrix(row, round.disc.normal) -= round.coefficient * lambda[d] * (part.widening / part.room + 1 / r) * part.towards[k];
+          entries.push_back({row, round.disc.normal,
+                             -(round.coefficient * lambda[d] * (part.widening / part.room + 1 / r) * part.towards[k])});
       }
     }
-    return matrix;
+    return entries;
   }
 
   const CentralPath& path_;
   std::vector<Part> parts_;
-  std::optional<Eigen::LLT<MatrixXd>> cholesky_;
-  std::optional<Eigen::PartialPivLU<MatrixXd>> lu_;
-  MatrixXd response_;
-  VectorXd unit_;
-  MatrixXd motions_;  // of the scaled nu
+  std::unique_ptr<PathFactor> factor_;
 };
 
 bool CentralPath::symmetric() const

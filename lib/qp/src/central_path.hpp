@@ -12,15 +12,16 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "qp/condensed_newton.hpp"
+#include "contact_system.hpp"
+#include "qp/feasible_set.hpp"
 
 namespace mortise::qp {
 
 class CentralPath {
  public:
-  /// `set` over the unknowns of `matrices`, which outlive it; `bound_of` of each disc: the bound of the unknown that its radius
+  /// `set` over the unknowns of `system`, which outlives it; `bound_of` of each disc: the bound of the unknown that its radius
   /// follows, -1 if the radius is given. From an x and nu near, which need not be inside.
-  CentralPath(const CondensedMatrices& matrices, const FeasibleSet& set, const std::vector<int>& bound_of, Eigen::VectorXd b,
+  CentralPath(const ContactSystem& system, const FeasibleSet& set, const std::vector<int>& bound_of, Eigen::VectorXd b,
               Eigen::VectorXd e, Eigen::VectorXd x, Eigen::VectorXd nu);
 
   /// One linear problem further. False if that leads nowhere, as to infinity. Throws as stop_if_requested and factorize().
@@ -64,7 +65,7 @@ class CentralPath {
   double longest_step(const Iterate& step) const;
   Iterate moved(const Iterate& step, double length) const;
 
-  const CondensedMatrices& matrices_;
+  const ContactSystem& system_;
   std::vector<Side> sides_;
   std::vector<Round> rounds_;
   std::vector<Local> pinned_;

@@ -2,39 +2,15 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "base/interruption.hpp"
 #include "central_path.hpp"
-#include "move_problem.hpp"
+#include "contact_system.hpp"
 #include "qp/condensed_newton.hpp"
 
 namespace mortise::qp {
-
-/// Cholesky factors, with as little added to the diagonal as rounding or dependent rows make necessary. Throws
-/// Error(not_converged) if that is not enough, and as stop_if_requested: some thousand rows take a while.
-Eigen::LLT<Eigen::MatrixXd> factorize(const Eigen::MatrixXd& a);
-
-/// Whether a matrix has an inverse, of a reciprocal condition above `least`. Eigen's estimate of that is any number where a pivot
-/// is exactly zero.
-bool invertible(const Eigen::PartialPivLU<Eigen::MatrixXd>& factors, double least);
-
-/// Has `work` take columns first to first + count of so many; between two pieces throws as stop_if_requested.
-template <class Work>
-void in_pieces(Eigen::Index columns, const Work& work)
-{
-  constexpr Eigen::Index piece = 256;
-  for (Eigen::Index first = 0; first < columns; first += piece) {
-    stop_if_requested();
-    work(first, std::min(piece, columns - first));
-  }
-}
-
-/// x = A^-1 b, in pieces.
-Eigen::MatrixXd solve(const Eigen::LLT<Eigen::MatrixXd>& factor, Eigen::MatrixXd b);
 
 /// What each constraint is taken for in one linear problem.
 struct ConstraintStates {
@@ -55,6 +31,8 @@ class CondensedProgramme {
   /// `set` over the unknowns of `matrices`, which outlive it, as `factor_of_w` does.
   CondensedProgramme(const CondensedMatrices& matrices, const Eigen::LLT<Eigen::MatrixXd>& factor_of_w, FeasibleSet set,
                      Eigen::VectorXd b, Eigen::VectorXd e);
+  /// The same of any system.
+  CondensedProgramme(std::unique_ptr<ContactSystem> system, FeasibleSet set, Eigen::VectorXd b, Eigen::VectorXd e);
 
   /// Steps of unknowns become the inverse of their compliance, so softened, too.
   void soften(double softness);
@@ -69,8 +47,8 @@ class CondensedProgramme {
   double residual(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
   /// That of x, which a residual is to be small beside; that of e where x is zero, for all may be open.
   double size(const Eigen::VectorXd& x) const;
-  /// What rounding of W x makes of the residual.
-  double rounding(const Eigen::VectorXd& x) const;
+  /// What rounding of W x and C nu makes of the residual.
+  double rounding(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
   /// x and nu become the solution of the linear problem with these states. Weak springs hold motions near the nu that comes in,
   /// for states may leave a body free. Where there are many unknowns, the factors of an earlier problem serve as long as they
   /// lead on; x is a start then, and comes out nearer by four figures.
@@ -79,7 +57,7 @@ class CondensedProgramme {
   /// The way to the solution without softness, from an x and nu near.
   CentralPath path_from(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const
   {
-    return {matrices_, set_, bound_of_, b_, e_, x, nu};
+    return {*system_, set_, bound_of_, b_, e_, x, nu};
   }
 
   /// The same with radii that are given: those of x.
@@ -94,31 +72,29 @@ class CondensedProgramme {
       discs[d].normal = -1;
     }
     const std::vector<int> given(discs.size(), -1);
-    return {matrices_, FeasibleSet(std::move(bounds), std::move(discs)), given, b_, e_, x, nu};
+    return {*system_, FeasibleSet(std::move(bounds), std::move(discs)), given, b_, e_, x, nu};
   }
   bool follows() const
   {
     return std::any_of(bound_of_.begin(), bound_of_.end(), [](int bound) { return bound >= 0; });
   }
 
+  const ContactSystem& system() const { return *system_; }
   const FeasibleSet& set() const { return set_; }
   Eigen::Index unknowns() const { return b_.size(); }
   Eigen::Index motions() const { return e_.size(); }
 
  private:
-  std::vector<Move> moves(const ConstraintStates& states, Eigen::VectorXd& base, bool& symmetric) const;
-  void solve_with_springs(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right, Eigen::VectorXd& nu) const;
+  Guess guess_of(const ConstraintStates& states) const;
 
-  const CondensedMatrices& matrices_;
+  std::unique_ptr<ContactSystem> system_;
   FeasibleSet set_;
   Eigen::VectorXd b_, e_;
   std::vector<int> bound_of_;  // of each disc: the bound of the unknown that its radius follows, -1 if the radius is given
   Eigen::VectorXd own_;        // one compliance for both unknowns of a disc
   double softness_ = 0;
   Eigen::VectorXd softening_;  // compliance that is added
-  Eigen::VectorXd step_, springs_;
-  std::optional<MoveFactor> factor_;  // of an earlier problem
-  Eigen::LLT<Eigen::MatrixXd> gram_;  // by which a lack of H x - C nu is measured
+  Eigen::VectorXd step_;
 };
 
 }  // namespace mortise::qp

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/interruption.hpp"
-#include "condensed_programme.hpp"
+#include "dense_system.hpp"
 
 namespace mortise::qp {
 

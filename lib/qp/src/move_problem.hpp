@@ -4,22 +4,14 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "contact_system.hpp"
 #include "qp/condensed_newton.hpp"
 
 namespace mortise::qp {
-
-/// One unknown of a linear problem: x moves along `trial`, what is felt is asked along `test`; test . trial = 1, and different
-/// unknowns are orthogonal to each other so. `curvature` is felt besides.
-struct Move {
-  std::array<Local, 3> index{-1, -1, -1};
-  std::array<double, 3> trial{}, test{};
-  double curvature = 0;
-};
 
 /// M a + B nu = r, N a - C nu = l, with M = E'(W + S) T + curvatures, B = E'H', N = H T; T and E hold trial and test directions
 /// as columns, S is diagonal.

@@ -1,0 +1,50 @@
+// The search for the states of all constraints at a solution: by guesses, and from what leads near it where these take turns. See
+// condensed_newton.hpp.
+#pragma once
+
+#include <optional>
+
+#include "condensed_programme.hpp"
+
+namespace mortise::qp {
+
+class StateSearch {
+ public:
+  explicit StateSearch(CondensedProgramme programme);
+
+  /// From closed contact that sticks, by whatever leads to a solution.
+  bool from_anywhere();
+  /// From the states at a point near.
+  bool from(Eigen::VectorXd x, Eigen::VectorXd nu);
+  /// Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
+  void polish();
+
+  const CondensedNewton::Point& point() const { return point_; }
+  Eigen::VectorXd reaction() const { return programme_.gradient(point_.x, point_.nu); }
+
+ private:
+  // The hardest of the soft contacts that have converged.
+  struct Soft {
+    double softness, stride;  // to the next one
+    ConstraintStates states;
+    Eigen::VectorXd nu;
+  };
+
+  // The residual over x.
+  double off() const { return programme_.residual(point_.x, point_.nu) / programme_.size(point_.x); }
+  bool guess(int look_back);
+  bool harden(int patience);
+  bool follow_path();
+  bool repeat_paths();
+  void start_soft();
+  template <class Visit>
+  static bool walk(CentralPath& path, double last, const Visit& is_end);
+
+  CondensedProgramme programme_;
+  ConstraintStates states_;
+  CondensedNewton::Point point_;
+  double softest_ = 0;
+  std::optional<Soft> soft_;
+};
+
+}  // namespace mortise::qp
