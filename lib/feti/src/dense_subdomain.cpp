@@ -123,10 +123,10 @@ Eigen::VectorXd DenseSubdomain::apply(const Eigen::VectorXd& u) const
   return apply_to_columns(u);
 }
 
-SparseMatrix DenseSubdomain::regularised() const
+SparseMatrix DenseSubdomain::lower() const
 {
   const Eigen::MatrixXd lower = matrices_.leftCols(size()).triangularView<Eigen::Lower>();
-  return SparseMatrix(lower.sparseView()) + fixing_;
+  return lower.sparseView();
 }
 
 std::unique_ptr<const InterfaceStiffness> DenseSubdomain::interface_stiffness(const std::vector<int>& unknowns, bool condensed,

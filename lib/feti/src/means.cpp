@@ -4,12 +4,28 @@
 #include <utility>
 
 #include "feti/explicit_problem.hpp"
+#include "feti/sparse_problem.hpp"
 
 namespace mortise::feti {
+
+namespace {
+
+qp::ExplicitProgramme sparse_programme(const DualProblem& problem)
+{
+  const auto matrices = std::make_shared<SparseProblem>(problem);
+  const auto solve = [matrices] {
+    auto found = matrices->solve();
+    return qp::ExplicitProgramme::Point{std::move(found.x), std::move(found.nu), found.converged};
+  };
+  return {matrices, solve};
+}
+
+}  // namespace
 
 qp::Means means_of(const DualProblem& problem, qp::Budget& budget)
 {
   const auto make_explicit = [&problem] {
+    if (SparseProblem::suits(problem)) return sparse_programme(problem);
     const auto matrices = std::make_shared<ExplicitProblem>(problem);
     using Point = qp::ExplicitProgramme::Point;
     const auto point = [](ExplicitProblem::Result found) {

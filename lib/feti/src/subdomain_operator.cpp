@@ -248,8 +248,8 @@ Eigen::VectorXd RotatedSubdomain::apply(const Eigen::VectorXd& u) const
   return v;
 }
 
-// T K T' of the original's.
-SparseMatrix RotatedSubdomain::regularised() const
+// T K T' of a matrix of the original.
+SparseMatrix RotatedSubdomain::rotated(const SparseMatrix& lower) const
 {
   std::vector<Eigen::Triplet<double>> entries;
   for (int node = 0; node < size(); node += static_cast<int>(rotation_.rows()))
@@ -257,7 +257,7 @@ SparseMatrix RotatedSubdomain::regularised() const
       for (int j = 0; j < rotation_.cols(); ++j) entries.emplace_back(node + i, node + j, rotation_(i, j));
   SparseMatrix rotation(size(), size());
   rotation.setFromTriplets(entries.begin(), entries.end());
-  const SparseMatrix whole = original_->regularised().selfadjointView<Eigen::Lower>();
+  const SparseMatrix whole = lower.selfadjointView<Eigen::Lower>();
   return SparseMatrix(rotation * whole * SparseMatrix(rotation.transpose())).triangularView<Eigen::Lower>();
 }
 

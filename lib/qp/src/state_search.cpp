@@ -72,6 +72,7 @@ StateSearch::StateSearch(CondensedProgramme programme) : programme_(std::move(pr
 
 bool StateSearch::from_anywhere()
 {
+  if (programme_.system().costly()) return follow_path();
   if (guess(look_back_at_first)) return true;
   if (programme_.unknowns() == 0) return false;
   const bool small = programme_.unknowns() <= few_unknowns;
@@ -195,6 +196,7 @@ bool StateSearch::follow_path()
 {
   start_soft();
   auto path = programme_.path_from(point_.x, point_.nu);
+  const bool costly = programme_.system().costly();
   double wanted = path_near;
   return walk(path, 0, [&] {
     ++point_.steps;
@@ -203,7 +205,7 @@ bool StateSearch::follow_path()
     wanted = path_nearer * now;
     point_.x = path.x(), point_.nu = path.nu();
     states_ = programme_.states(point_.x, point_.nu);
-    return guess(now > settled_residual ? look_back_on_path : to_the_end);
+    return guess(now <= settled_residual ? to_the_end : costly ? look_back_at_first : look_back_on_path);
   });
 }
 

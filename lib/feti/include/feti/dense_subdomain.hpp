@@ -21,7 +21,8 @@ class DenseSubdomain : public SubdomainOperator {
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
   /// K u for several columns.
   Eigen::MatrixXd apply_to_columns(const Eigen::MatrixXd& u) const;
-  SparseMatrix regularised() const override;
+  SparseMatrix lower() const override;
+  SparseMatrix regularised() const override { return lower() + fixing_; }
   Eigen::VectorXd diagonal() const override { return matrices_.leftCols(matrices_.rows()).diagonal(); }
   std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
                                                                 const std::string& factorization) const override;

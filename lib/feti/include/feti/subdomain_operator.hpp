@@ -34,7 +34,8 @@ class SubdomainOperator {
   virtual void apply_inverse(std::span<double* const> columns) const = 0;
   /// K u.
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
-  /// The lower triangle of a positive definite matrix whose inverse K^+ is.
+  /// The lower triangle of K, and that of a positive definite matrix whose inverse K^+ is.
+  virtual SparseMatrix lower() const = 0;
   virtual SparseMatrix regularised() const = 0;
   /// Of K; of a rotated copy, that of its original.
   virtual Eigen::VectorXd diagonal() const = 0;
@@ -78,6 +79,7 @@ class ElasticSubdomain : public SubdomainOperator {
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
   void apply_inverse(std::span<double* const> columns) const override { solver_->solve(columns); }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
+  SparseMatrix lower() const override { return stiffness_; }
   SparseMatrix regularised() const override { return stiffness_ + fixing_; }
   Eigen::VectorXd diagonal() const override;
   std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
@@ -106,7 +108,8 @@ class RotatedSubdomain : public SubdomainOperator {
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
   void apply_inverse(std::span<double* const> columns) const override;
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
-  SparseMatrix regularised() const override;
+  SparseMatrix lower() const override { return rotated(original_->lower()); }
+  SparseMatrix regularised() const override { return rotated(original_->regularised()); }
   Eigen::VectorXd diagonal() const override { return original_->diagonal(); }
   std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
                                                                 const std::string& factorization) const override
@@ -119,6 +122,8 @@ class RotatedSubdomain : public SubdomainOperator {
   void rotate(Eigen::VectorXd& v) const override;
 
  private:
+  SparseMatrix rotated(const SparseMatrix& lower) const;
+
   std::shared_ptr<const SubdomainOperator> original_;
   Eigen::MatrixXd rotation_;  // dimension x dimension
   Eigen::MatrixXd kernel_;

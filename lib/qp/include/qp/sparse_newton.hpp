@@ -1,0 +1,57 @@
+// Exact solution of a contact problem in displacements and multipliers, by the direct method of condensed_newton.hpp with sparse
+// matrices: for many multipliers, where a dense compliance takes n^3 operations, and for bodies whose stiffness has small factors,
+// as plates.
+//
+//     minimise 1/2 u'K u - f'u + ..:   K u + B'x = f,   s = c - B u + S x,   s in the normal cone of Omega at x.
+//
+// With K_r positive definite, K_r^-1 a generalised inverse of K and R the kernel of K, x solves the programme of problem.hpp with A
+// = B K_r^-1 B' + S, b = B K_r^-1 f - c, G = R'B', e = R'f. An interior point method leads from soft contact near the solution
+// (src/central_path.hpp), and guesses of states end it: some 15 to 40 sparse factors.
+#pragma once
+
+#include <memory>
+
+#include "base/cholesky.hpp"
+#include "qp/condensed_newton.hpp"
+#include "qp/feasible_set.hpp"
+
+namespace mortise::qp {
+
+struct SparseMatrices {
+  SparseMatrix k;                                          ///< K, lower triangle: symmetric, positive semidefinite
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> b;     ///< B: rows x unknowns of K
+  Eigen::VectorXd s;                                       ///< S, diagonal: what rows give way by themselves
+};
+
+/// On one rank alone. Heavy: neither copies nor moves.
+class SparseNewton {
+ public:
+  explicit SparseNewton(SparseMatrices matrices);
+
+  /// Point::nu is u, Point::reaction is empty. `set` over the rows of B; rows that are in none of its factors are equations. Throws
+  /// as CondensedNewton::solve(), and Error(machine) if memory runs out.
+  CondensedNewton::Point solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const FeasibleSet& set) const;
+
+ private:
+  SparseMatrices matrices_;
+};
+
+/// (B K^-1 B' + S)^-1 for a positive definite K. Heavy: neither copies nor moves.
+class SparseInverse {
+ public:
+  /// Throws Error(not_converged) if K is not positive definite to rounding.
+  explicit SparseInverse(SparseMatrices matrices);
+  ~SparseInverse();
+
+  /// x with B u + S x = r, K u = f + B'x; returns u, too.
+  struct Result {
+    Eigen::VectorXd x, u;
+  };
+  Result solve(const Eigen::VectorXd& r, const Eigen::VectorXd& f) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace mortise::qp

@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/interruption.hpp"
+#include "base/submatrix.hpp"
+#include "sparse_system.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+constexpr int most_steps_of_gmres = 80;
+constexpr double reduction_of_gmres = 1e-8;  // of the residual
+constexpr double held = 1e-13;               // of the diagonal of K, that holds what nothing else does
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Where the entry (row, column) of a compressed matrix with sorted columns is stored.
+int stored_at(const SparseMatrix& matrix, int row, int column)
+{
+  const int* rows = matrix.innerIndexPtr();
+  return static_cast<int>(
+      std::lower_bound(rows + matrix.outerIndexPtr()[column], rows + matrix.outerIndexPtr()[column + 1], row) - rows);
+}
+
+}  // namespace
+
+JoinedStiffness::JoinedStiffness(const SparseMatrices& matrices, std::vector<Block> blocks)
+    : matrices_(matrices), blocks_(std::move(blocks)), place_(static_cast<std::size_t>(matrices.b.rows()))
+{
+  std::vector<Eigen::Triplet<double>> pattern;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    Part part;
+    for (std::size_t i = 0; i < blocks_[k].size(); ++i) {
+      place_[static_cast<std::size_t>(blocks_[k][i])] = {static_cast<int>(k), static_cast<int>(i)};
+      for (decltype(matrices_.b)::InnerIterator it(matrices_.b, blocks_[k][i]); it; ++it)
+        part.column.push_back(static_cast<int>(it.col()));
+    }
+    std::sort(part.column.begin(), part.column.end());
+    part.column.erase(std::unique(part.column.begin(), part.column.end()), part.column.end());
+    part.b = MatrixXd::Zero(static_cast<Index>(blocks_[k].size()), static_cast<Index>(part.column.size()));
+    for (std::size_t i = 0; i < blocks_[k].size(); ++i)
+      for (decltype(matrices_.b)::InnerIterator it(matrices_.b, blocks_[k][i]); it; ++it)
+        part.b(static_cast<Index>(i), std::lower_bound(part.column.begin(), part.column.end(), it.col()) - part.column.begin()) =
+            it.value();
+    for (std::size_t j = 0; j < part.column.size(); ++j)
+      for (std::size_t i = j; i < part.column.size(); ++i) pattern.emplace_back(part.column[i], part.column[j], 0.0);
+    parts_.push_back(std::move(part));
+  }
+  for (int j = 0; j < matrices.k.cols(); ++j) pattern.emplace_back(j, j, 0.0);
+  SparseMatrix room(matrices.k.rows(), matrices.k.cols());
+  room.setFromTriplets(pattern.begin(), pattern.end());
+  stiffness_ = matrices.k + room;
+  stiffness_.makeCompressed();
+  for (int j = 0; j < stiffness_.cols(); ++j) stiffness_.valuePtr()[stored_at(stiffness_, j, j)] *= 1 + held;
+  for (auto& part : parts_)
+    for (std::size_t j = 0; j < part.column.size(); ++j)
+      for (std::size_t i = j; i < part.column.size(); ++i)
+        part.position.push_back(stored_at(stiffness_, part.column[i], part.column[j]));
+  lower_ = stiffness_;
+  factor_ = std::make_unique<Cholesky>(lower_);
+}
+
+bool JoinedStiffness::factorize(std::vector<MatrixXd> z, const std::vector<MatrixXd>& near)
+{
+  stop_if_requested();
+  std::copy(stiffness_.valuePtr(), stiffness_.valuePtr() + stiffness_.nonZeros(), lower_.valuePtr());
+  symmetric_ = true;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const auto& part = parts_[k];
+    symmetric_ = symmetric_ && z[k] == near[k];
+    const MatrixXd times = near[k] * part.b;
+    auto at = part.position.begin();
+    for (Index j = 0; j < part.b.cols(); ++j)
+      for (Index i = j; i < part.b.cols(); ++i) lower_.valuePtr()[*at++] += part.b.col(i).dot(times.col(j));
+  }
+  z_ = std::move(z);
+  return factor_->factorize(lower_);
+}
+
+VectorXd JoinedStiffness::apply(const VectorXd& u) const
+{
+  VectorXd result = stiffness_.selfadjointView<Eigen::Lower>() * u;
+  const VectorXd jump = matrices_.b * u;
+  VectorXd force(jump.size());
+  for (std::size_t k = 0; k < blocks_.size(); ++k) force(blocks_[k]) = z_[k] * jump(blocks_[k]);
+  result += matrices_.b.transpose() * force;
+  return result;
+}
+
+// Preconditioned from the right, so that residuals are true ones.
+VectorXd JoinedStiffness::solve(const VectorXd& r) const
+{
+  const double size = r.norm();
+  if (symmetric_ || !(size > 0) || !std::isfinite(size)) return factor_->solve(r);
+  std::vector<VectorXd> basis{r / size}, turned;
+  MatrixXd triangle = MatrixXd::Zero(most_steps_of_gmres + 1, most_steps_of_gmres);
+  std::vector<Eigen::JacobiRotation<double>> turns;
+  VectorXd left = VectorXd::Zero(most_steps_of_gmres + 1);
+  left[0] = size;
+  int count = 0;
+  while (count < most_steps_of_gmres && std::abs(left[count]) > reduction_of_gmres * size) {
+    turned.push_back(factor_->solve(basis.back()));
+    VectorXd next = apply(turned.back());
+    for (int repeat = 0; repeat < 2; ++repeat)
+      for (int i = 0; i <= count; ++i) {
+        const double part = basis[static_cast<std::size_t>(i)].dot(next);
+        triangle(i, count) += part;
+        next -= part * basis[static_cast<std::size_t>(i)];
+      }
+    const double length = next.norm();
+    triangle(count + 1, count) = length;
+    for (int i = 0; i < count; ++i) triangle.col(count).applyOnTheLeft(i, i + 1, turns[static_cast<std::size_t>(i)].adjoint());
+    Eigen::JacobiRotation<double> turn;
+    turn.makeGivens(triangle(count, count), triangle(count + 1, count));
+    triangle.col(count).applyOnTheLeft(count, count + 1, turn.adjoint());
+    left.applyOnTheLeft(count, count + 1, turn.adjoint());
+    turns.push_back(turn);
+    ++count;
+    if (!(length > 0) || !std::isfinite(length)) break;
+    basis.push_back(next / length);
+  }
+  const VectorXd y = triangle.topLeftCorner(count, count).triangularView<Eigen::Upper>().solve(left.head(count));
+  VectorXd u = VectorXd::Zero(r.size());
+  for (int i = 0; i < count; ++i) u += y[i] * turned[static_cast<std::size_t>(i)];
+  return u;
+}
+
+}  // namespace mortise::qp
