@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "feti/explicit_problem.hpp"
+#include "feti/sparse_problem.hpp"
 
 namespace mortise::analysis {
 
@@ -18,7 +19,6 @@ namespace {
 // Measured on one core of 2025: dense algebra on matrices is bound by arithmetic, a product with F by memory.
 constexpr double dense_rate = 15e9, sparse_rate = 1.5e9;  // operations a second
 constexpr double set_up = 10;                             // products that assembling and cutting anew take
-constexpr double newton_steps = 8;
 constexpr double shortest = 15;         // products that are tried in any case
 constexpr double a_second = 8;          // products more for each second that a direct solution takes,
 constexpr double a_moment = 60;         // where these are less,
@@ -27,7 +27,6 @@ constexpr double part_of_rest = 0.125;  // of what a direct solution takes that 
 constexpr double most_of_rest = 40;     // products at most,
 constexpr double at_once = 0.1;         // if it takes so many seconds
 constexpr double part_of_memory = 0.5;  // of what is available
-constexpr Global most_multipliers = 12000;
 
 }  // namespace
 
@@ -72,22 +71,31 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
     weighted += body * n;
     unknowns += n;
   }
-  const double columns = prescribed + 2 * (all - prescribed);
-  const double dense = free * free * free / 3 + free * free * closing + free * closing * closing +
-                       (1 + newton_steps / 2) * closing * closing * closing;
-  const double work = (eliminated ? 2 : 1) * factorizing + 4 * columns * weighted / unknowns + dense;
+  // With sparse matrices nothing grows with the number of rows; see feti::SparseProblem.
+  const double dense = feti::work_of_dense_solution(free, closing), sparse = feti::work_of_sparse_solution(factors, unknowns);
+  const bool rigid = constraints.springs.own.empty() && constraints.mean_motions.empty() &&
+                     constraints.pretension_sections.empty() && coupled == 0;
   DirectEffort effort;
+  effort.multipliers = static_cast<Global>(all);
+  effort.sparse = comm.size() == 1 && rigid && all >= feti::many_rows && sparse < feti::worth_of_sparse * dense;
+  if (effort.sparse) {
+    effort.seconds = (factorizing + sparse) / dense_rate;
+    effort.products = set_up + effort.seconds * sparse_rate / (4 * entries);
+    effort.bytes = sizeof(double) * 6 * factors;
+    return effort;
+  }
+  const double columns = prescribed + 2 * (all - prescribed);
+  const double work = (eliminated ? 2 : 1) * factorizing + 4 * columns * weighted / unknowns + dense;
   effort.seconds = work / dense_rate;
   effort.products = set_up + effort.seconds * sparse_rate / (4 * entries);
   effort.bytes = sizeof(double) * ((eliminated ? 2.5 : 1.5) * factors + 4 * all * all);
-  effort.multipliers = static_cast<Global>(all);
   return effort;
 }
 
 std::optional<qp::Patience> patience_with_products(const DirectEffort& effort, const Communicator& comm)
 {
   const double room = -comm.max(-part_of_memory * available_memory());
-  if (!(effort.bytes < room) || effort.multipliers > most_multipliers) return {};
+  if (!(effort.bytes < room) || effort.too_many()) return {};
   const double most =
       effort.seconds < a_moment ? std::min(shortest + a_second * effort.seconds, longest) : std::numeric_limits<int>::max();
   const double near = effort.seconds < at_once ? 0 : std::min(part_of_rest * effort.products, most_of_rest);
@@ -97,12 +105,12 @@ std::optional<qp::Patience> patience_with_products(const DirectEffort& effort, c
 void require_room_for_direct(const DirectEffort& effort, const Communicator& comm)
 {
   const double room = -comm.max(-available_memory());
-  if (effort.bytes < room && effort.multipliers <= most_multipliers) return;
+  if (effort.bytes < room && !effort.too_many()) return;
   throw Error(
       ExitStatus::machine,
       fmt::format("not enough memory: `solver.algorithm: direct` makes matrices of {} rows, about {:.1f} GB; there is room for "
                   "{:.1f} GB and {} rows. `auto` and `face_newton` need no such matrices",
-                  effort.multipliers, effort.bytes / 1e9, room / 1e9, most_multipliers));
+                  effort.multipliers, effort.bytes / 1e9, room / 1e9, DirectEffort::most_multipliers));
 }
 
 }  // namespace mortise::analysis

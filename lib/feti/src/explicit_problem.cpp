@@ -134,6 +134,7 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
     separated_ = newton_->separated();
   });
   separated_ = comm.any(separated_);
+  eliminated_ = elimination_->count() < problem.dual_unknowns();
 }
 
 ExplicitProblem::~ExplicitProblem() = default;

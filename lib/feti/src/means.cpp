@@ -12,12 +12,15 @@ namespace {
 
 qp::ExplicitProgramme sparse_programme(const DualProblem& problem)
 {
+  using Point = qp::ExplicitProgramme::Point;
   const auto matrices = std::make_shared<SparseProblem>(problem);
-  const auto solve = [matrices] {
-    auto found = matrices->solve();
-    return qp::ExplicitProgramme::Point{std::move(found.x), std::move(found.nu), found.converged};
+  const auto point = [](SparseProblem::Result found) {
+    return Point{std::move(found.x), std::move(found.nu), found.converged, std::move(found.reaction)};
   };
-  return {matrices, solve};
+  const auto go_on = [matrices, point](const Vector& linear, const Eigen::VectorXd& e, const Point& near) {
+    return point(matrices->go_on(linear, e, near.x));
+  };
+  return {matrices, [matrices, point] { return point(matrices->solve()); }, go_on};
 }
 
 }  // namespace
@@ -38,7 +41,7 @@ qp::Means means_of(const DualProblem& problem, qp::Budget& budget)
       return point(matrices->solve(linear, e, &from));
     };
     qp::ExplicitProgramme programme{matrices, solve};
-    if (matrices->separated()) programme.go_on = go_on;
+    if (matrices->differs()) programme.go_on = go_on;
     return programme;
   };
   return {budget, problem.preconditioner(), make_explicit};

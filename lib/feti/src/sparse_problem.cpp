@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/submatrix.hpp"
+#include "feti/explicit_problem.hpp"
 
 namespace mortise::feti {
 
@@ -14,7 +15,7 @@ constexpr double sparse_problems = 30;   // linear problems of one with sparse o
 constexpr double steps_of_gmres = 40;    // in each of these
 constexpr double slow = 8;               // operations of a factor in the time of one that a solution with it takes
 constexpr double joined = 1.3;           // entries of the factor of joined bodies, over those of their own
-constexpr int most_entries = 400;        // of a row of B, and of a column of K on average
+constexpr std::size_t most_entries = 400;      // of a row of B, and of a column of K on average
 
 using Eigen::VectorXd;
 
@@ -61,24 +62,27 @@ double work_of_sparse_solution(double entries, double unknowns)
 bool SparseProblem::suits(const DualProblem& problem)
 {
   const auto& subdomains = problem.clusters().subdomains();
-  if (problem.communicator().size() > 1 || problem.dual_unknowns() < many_rows || problem.springs() ||
-      problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension())
+  if (problem.communicator().size() > 1 || problem.springs() || problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension())
     return false;
   std::vector<std::size_t> entries(problem.jump().rows()->getNodeNumElements(), 0);
   for (const auto& block : problem.jump().blocks())
-    for (std::size_t r = 0; r < block.row.size(); ++r) {
-      auto& count = entries[static_cast<std::size_t>(block.row[r])];
-      if ((count += block.offset[r + 1] - block.offset[r]) > most_entries) return false;
-    }
+    for (std::size_t r = 0; r < block.row.size(); ++r)
+      entries[static_cast<std::size_t>(block.row[r])] += block.offset[r + 1] - block.offset[r];
+  if (std::any_of(entries.begin(), entries.end(), [](std::size_t count) { return count > most_entries; })) return false;
+  const auto constrained = problem.set().constrained();
+  for (const Local i : constrained) entries[static_cast<std::size_t>(i)] = 0;
+  const auto single = static_cast<Global>(std::count(entries.begin(), entries.end(), 1));
+  const Global rows = problem.dual_unknowns() - (single > few_supports ? single : 0);
+  if (rows < many_rows) return false;
   double unknowns = 0, factors = 0;
   for (const auto& subdomain : subdomains) {
     if (subdomain->lower().nonZeros() > static_cast<Eigen::Index>(most_entries) * subdomain->size()) return false;
     unknowns += subdomain->size();
     factors += static_cast<double>(subdomain->original().factor_bytes()) / sizeof(double);
   }
-  const auto closing = static_cast<double>(problem.set().constrained().size());
+  const auto closing = static_cast<double>(constrained.size());
   return work_of_sparse_solution(factors, unknowns) <
-         work_of_dense_solution(static_cast<double>(problem.dual_unknowns()) - closing, closing);
+         worth_of_sparse * work_of_dense_solution(static_cast<double>(rows) - closing, closing);
 }
 
 SparseProblem::SparseProblem(const DualProblem& problem) : problem_(problem), offset_{0}
@@ -178,22 +182,50 @@ Vector SparseProblem::complete(const VectorXd& kept, const VectorXd& forces) con
 
 SparseProblem::Result SparseProblem::solve() const
 {
-  const auto& bound = problem_.jump().bound();
+  return solve(joined_vector(problem_.load(), rows_.cols()), problem_.jump().bound(), nullptr);
+}
+
+// Forces R de move bodies and nothing else: c' = c + d - d' + B K^+ R de.
+SparseProblem::Result SparseProblem::go_on(const Vector& linear, const VectorXd& e, const Vector& near) const
+{
+  const auto& clusters = problem_.clusters();
+  const VectorXd more = e - problem_.equality().right_side();
+  VectorXd f = joined_vector(problem_.load(), rows_.cols()), bound = problem_.jump().bound();
+  std::vector<VectorXd> push;
+  for (std::size_t s = 0; s + 1 < offset_.size(); ++s) {
+    push.push_back(clusters.motion(s, more.segment(clusters.first(s), clusters.modes())));
+    f.segment(offset_[s], push[s].size()) += push[s];
+  }
+  clusters.apply_inverse(push);
+  bound += view(problem_.linear()) - view(linear) + rows_ * joined_vector(push, rows_.cols());
+  return solve(f, bound, &near);
+}
+
+SparseProblem::Result SparseProblem::solve(const VectorXd& f, const VectorXd& bound, const Vector* near) const
+{
   VectorXd u = held(bound);
-  const VectorXd f = joined_vector(problem_.load(), u.size());
   VectorXd load = f;
   load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
   const VectorXd gap = bound - rows_ * u;
-  const auto found = newton_->solve(load(free_), gap(kept_), reduced_set());
+  qp::CondensedNewton::Point from;
+  if (near) from = {view(*near)(kept_), last_(free_)};
+  const auto found = newton_->solve(load(free_), gap(kept_), reduced_set(), near ? &from : nullptr);
   u(free_) = found.nu;
   load = f;
   load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
-  Result result{complete(found.x, load), VectorXd::Zero(problem_.equality().size()), found.converged, found.steps};
-  const auto elastic = problem_.displacement(result.x, result.nu);
   const auto& clusters = problem_.clusters();
+  Result result{complete(found.x, load), VectorXd::Zero(problem_.equality().size()), found.converged, found.steps,
+                Vector(problem_.jump().rows())};
+  std::vector<VectorXd> elastic = problem_.jump().apply_transpose(result.x);
+  for (std::size_t s = 0; s < elastic.size(); ++s)
+    elastic[s] = f.segment(offset_[s], elastic[s].size()) - elastic[s];
+  clusters.apply_inverse(elastic);
   for (std::size_t s = 0; s < elastic.size(); ++s)
     result.nu.segment(clusters.first(s), clusters.modes()) =
         clusters.coordinates(s, elastic[s] - u.segment(offset_[s], elastic[s].size()));
+  const VectorXd open = bound - rows_ * u + problem_.jump().compliance().cwiseProduct(view(result.x));
+  for (const Local i : problem_.set().constrained()) view(result.reaction)[i] = open[i];
+  last_ = std::move(u);
   return result;
 }
 

@@ -1,5 +1,7 @@
 // The row `direct` of the table of solvers: an exact solution by matrices, from which face Newton starts with A^-1 as its
 // preconditioner. It needs no more than the products that show that the start is one.
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "make_solvers.hpp"
@@ -11,7 +13,8 @@ namespace {
 constexpr double rounding_of_direct = 1e-4;  // of the energy norm: error that a direct solution may leave
 constexpr int most_corrections = 4;          // of what the matrix differs from A by, as long as each leaves
 constexpr double better = 0.3;               // times the defect before,
-constexpr double of_goal = 0.1;              // and more than so much of the residual that is asked for
+constexpr double of_goal = 0.1;              // and more than so much of the residual that is asked for,
+constexpr double of_energy = 1e-5;           // or of the energy norm
 
 class DirectSolver : public Solver {
  public:
@@ -25,7 +28,7 @@ class DirectSolver : public Solver {
     faces_->begin(start, goal, observer);
     if (observer) observer({"direct", 0, problem_.hessian.count()});
     auto found = matrices_.solve();
-    if (found.converged && matrices_.go_on && !goal.allowed_error) correct(found, goal.residual);
+    if (found.converged && matrices_.go_on && !goal.allowed_error) correct(found, goal);
     if (found.converged && goal.allowed_error) goal.exact = rounding_of_direct;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
@@ -46,10 +49,10 @@ class DirectSolver : public Solver {
   // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M) x:
   // less that, b gives the next one [Stetter, The defect correction principle and discretization methods, Numer. Math. 29
   // (1978)]. One product each.
-  void correct(ExplicitProgramme::Point& found, double residual)
+  void correct(ExplicitProgramme::Point& found, const Goal& goal)
   {
     const auto& equality = problem_.equality;
-    const double enough = of_goal * residual * relative_size(problem_, residual);
+    const double enough = of_goal * goal.residual * relative_size(problem_, goal.residual);
     Vector linear(problem_.linear, Teuchos::Copy), defect(linear.getMap());
     Eigen::VectorXd right_side = equality.right_side();
     std::optional<ExplicitProgramme::Point> best;
@@ -68,7 +71,7 @@ class DirectSolver : public Solver {
         least = size;
         best = found;
       }
-      if (size <= enough || !nearer || step == most_corrections) break;
+      if (!nearer || step == most_corrections || (size <= enough && is_nothing(felt, found, goal))) break;
       linear.update(-1, defect, 1);
       right_side += lacking;
       auto next = matrices_.go_on(linear, right_side, found);
@@ -76,6 +79,15 @@ class DirectSolver : public Solver {
       found = std::move(next);
     }
     if (best) found = std::move(*best);
+  }
+
+  // Whether a defect is one of displacements that take hardly any energy.
+  bool is_nothing(const Vector& defect, const ExplicitProgramme::Point& found, const Goal& goal) const
+  {
+    if (!goal.energy_norm) return true;
+    Vector error(defect.getMap());
+    matrices_.inverse->apply(defect, error);
+    return std::sqrt(std::max(defect.dot(error), 0.0)) <= of_energy * goal.energy_norm(found.x, found.nu);
   }
 
   const Problem& problem_;

@@ -33,11 +33,12 @@ SparseNewton::SparseNewton(SparseMatrices matrices) : matrices_(std::move(matric
 {
 }
 
-CondensedNewton::Point SparseNewton::solve(const VectorXd& f, const VectorXd& c, const FeasibleSet& set) const
+CondensedNewton::Point SparseNewton::solve(const VectorXd& f, const VectorXd& c, const FeasibleSet& set,
+                                           const CondensedNewton::Point* near) const
 {
   const FeasibleSet whole = with_equations(set, matrices_.b.rows());
   StateSearch search({std::make_unique<SparseSystem>(matrices_, whole), whole, -c, -f});
-  const bool converged = search.from_anywhere();
+  const bool converged = near ? search.from(near->x, near->nu) : search.from_anywhere();
   auto point = search.point();
   point.converged = converged;
   return point;

@@ -1,3 +1,6 @@
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include "state_search.hpp"
 
 #include <algorithm>
@@ -115,6 +118,7 @@ bool StateSearch::guess(int look_back)
     auto next = programme_.states(point_.x, point_.nu);
     const int changes = compare(states_, next, turns);
     states_ = std::move(next);
+    if (std::getenv("DBG")) fprintf(stderr, "  guess %d changes %d residual %.3e cpu %.1f\n", step, changes, residual / size, double(clock()) / CLOCKS_PER_SEC);
     if (changes < fewest) fewest = changes, fewest_at = step;
     const bool stands = residual > stalled * before, rounded = stands && residual <= roundings * programme_.rounding(point_.x, point_.nu);
     const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
@@ -201,6 +205,7 @@ bool StateSearch::follow_path()
   return walk(path, 0, [&] {
     ++point_.steps;
     const double now = programme_.residual(path.x(), path.nu()) / programme_.size(path.x());
+    if (std::getenv("DBG")) fprintf(stderr, "path %d now %.3e product %.3e rounding %.2e cpu %.1f\n", point_.steps, now, path.product(), programme_.rounding(path.x(), path.nu()) / programme_.size(path.x()), double(clock()) / CLOCKS_PER_SEC);
     if (!(now <= wanted)) return false;
     wanted = path_nearer * now;
     point_.x = path.x(), point_.nu = path.nu();

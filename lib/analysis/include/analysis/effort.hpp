@@ -14,6 +14,10 @@ struct DirectEffort {
   double products = 0;     ///< how many products with F on the present decomposition take as long
   double seconds = 0;      ///< roughly, on one core
   double bytes = 0;        ///< of memory, at most, on the rank that needs most
+  bool sparse = false;     ///< by sparse matrices, whose size hardly depends on the number of multipliers
+
+  static constexpr Global most_multipliers = 12000;  ///< with dense ones
+  bool too_many() const { return !sparse && multipliers > most_multipliers; }
 };
 
 /// What a direct solution costs, from the sizes of the present factors and the laws of nested dissection; nothing is factorized

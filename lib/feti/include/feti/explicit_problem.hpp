@@ -35,8 +35,9 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   /// The same for another linear term d and another e, the latter the same on every rank. `near`: a solution for others that
   /// differ by little, to go on from. Collective.
   Result solve(const Vector& linear, Eigen::VectorXd e, const Result* near = nullptr) const;
-  /// Whether rows depend on each other, and so the matrices have a little compliance that F has not. The same on every rank.
-  bool separated() const { return separated_; }
+  /// Whether the matrices differ from F by a little: where rows depend on each other they have some compliance that F has not, and
+  /// where supports are eliminated the rounding of other factors. The same on every rank.
+  bool differs() const { return separated_ || eliminated_; }
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
@@ -52,7 +53,7 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   const DualProblem& problem_;
   std::unique_ptr<const DirichletElimination> elimination_;
   std::unique_ptr<qp::CondensedNewton> newton_;  // rank 0
-  bool separated_ = false;
+  bool separated_ = false, eliminated_ = false;
 };
 
 }  // namespace mortise::feti

@@ -9,8 +9,10 @@
 
 namespace mortise::feti {
 
-/// Rows of B from which on a direct solution may take sparse matrices. Below, dense ones take a moment.
-constexpr Global many_rows = 4000;
+/// Rows of B, less supports that are eliminated, from which on a direct solution may take sparse matrices; below, dense ones take
+/// a moment. And how many times the time of dense ones these are worth, which often need more guesses than are foreseen.
+constexpr Global many_rows = 2500;
+constexpr double worth_of_sparse = 3;
 
 /// Operations of a direct solution with dense matrices, over `free` rows without a constraint and `closing` others; and with sparse
 /// ones, for bodies of so many unknowns, whose factors together have so many entries.
@@ -34,9 +36,12 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
     Eigen::VectorXd nu;      ///< of the motions of all subdomains
     bool converged = false;  ///< exact to rounding; else the last guess
     int steps = 0;           ///< linear problems solved
+    Vector reaction;         ///< F lambda - d + G'nu by these matrices, zero at rows without a constraint
   };
   /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Throws as qp::SparseNewton.
   Result solve() const;
+  /// The same for another linear term d and another e, that differ by little: from the last solution on, whose lambda is given.
+  Result go_on(const Vector& linear, const Eigen::VectorXd& e, const Vector& near) const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
@@ -57,6 +62,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   qp::SparseMatrices reduced(const SparseMatrix& stiffness) const;
   qp::FeasibleSet reduced_set() const;
   Eigen::VectorXd held(const Eigen::Ref<const Eigen::VectorXd>& bounds) const;
+  Result solve(const Eigen::VectorXd& f, const Eigen::VectorXd& bound, const Vector* near) const;
   Vector complete(const Eigen::VectorXd& kept, const Eigen::VectorXd& forces) const;
 
   const DualProblem& problem_;
@@ -68,6 +74,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   std::vector<int> kept_;               // rows that are none of these,
   std::vector<Local> number_;           // and their numbers, -1 for others
   std::unique_ptr<qp::SparseNewton> newton_;
+  mutable Eigen::VectorXd last_;                        // displacements of the last solution
   mutable std::unique_ptr<qp::SparseInverse> inverse_;  // once it is asked for
 };
 

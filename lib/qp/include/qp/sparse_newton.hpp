@@ -30,7 +30,9 @@ class SparseNewton {
 
   /// Point::nu is u, Point::reaction is empty. `set` over the rows of B; rows that are in none of its factors are equations. Throws
   /// as CondensedNewton::solve(), and Error(machine) if memory runs out.
-  CondensedNewton::Point solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const FeasibleSet& set) const;
+  /// `near`: a solution for others that differ by little, from whose states guesses go on; nothing else is tried then.
+  CondensedNewton::Point solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const FeasibleSet& set,
+                               const CondensedNewton::Point* near = nullptr) const;
 
  private:
   SparseMatrices matrices_;
