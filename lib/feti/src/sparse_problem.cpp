@@ -208,7 +208,7 @@ SparseProblem::Result SparseProblem::solve(const VectorXd& f, const VectorXd& bo
   load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
   const VectorXd gap = bound - rows_ * u;
   qp::CondensedNewton::Point from;
-  if (near) from = {view(*near)(kept_), last_(free_)};
+  if (near) from = {view(*near)(kept_), last_(free_), false, 0, last_reaction_};
   const auto found = newton_->solve(load(free_), gap(kept_), reduced_set(), near ? &from : nullptr);
   u(free_) = found.nu;
   load = f;
@@ -223,9 +223,10 @@ SparseProblem::Result SparseProblem::solve(const VectorXd& f, const VectorXd& bo
   for (std::size_t s = 0; s < elastic.size(); ++s)
     result.nu.segment(clusters.first(s), clusters.modes()) =
         clusters.coordinates(s, elastic[s] - u.segment(offset_[s], elastic[s].size()));
-  const VectorXd open = bound - rows_ * u + problem_.jump().compliance().cwiseProduct(view(result.x));
-  for (const Local i : problem_.set().constrained()) view(result.reaction)[i] = open[i];
+  for (const Local i : problem_.set().constrained())
+    view(result.reaction)[i] = found.reaction[number_[static_cast<std::size_t>(i)]];
   last_ = std::move(u);
+  last_reaction_ = found.reaction;
   return result;
 }
 

@@ -59,9 +59,9 @@ ConstraintStates CondensedProgramme::all_closed() const
   return all;
 }
 
-ConstraintStates CondensedProgramme::states(const VectorXd& x, const VectorXd& nu) const
+ConstraintStates CondensedProgramme::states_at(const VectorXd& x, const VectorXd& gradient) const
 {
-  const VectorXd y = x - step_.cwiseProduct(gradient(x, nu));
+  const VectorXd y = x - step_.cwiseProduct(gradient);
   const auto discs = set_.discs();
   ConstraintStates result = all_closed();
   for (std::size_t i = 0; i < result.closed.size(); ++i) {

@@ -39,8 +39,9 @@ class CondensedProgramme {
   double softness() const { return softness_; }
   /// Everything closed and sticking.
   ConstraintStates all_closed() const;
-  /// Those of x - step s, s what is felt at x and nu.
-  ConstraintStates states(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
+  /// Those of x - step s, s what is felt at x and nu, or what is given.
+  ConstraintStates states(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const { return states_at(x, gradient(x, nu)); }
+  ConstraintStates states_at(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient) const;
   /// W x + H'nu - b, of softened W.
   Eigen::VectorXd gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
   /// The norm, in that of `own`, of x - P(x - step s), and of what H x - C nu lacks.

@@ -10,7 +10,7 @@ namespace mortise::qp {
 namespace {
 
 constexpr int most_steps_of_gmres = 80;
-constexpr double reduction_of_gmres = 1e-8;  // of the residual
+constexpr double reduction_of_gmres = 1e-5;  // of the residual: solutions are repeated
 constexpr double held = 1e-13;               // of the diagonal of K, that holds what nothing else does
 
 using Eigen::Index;

@@ -14,7 +14,7 @@ constexpr double rounding_of_direct = 1e-4;  // of the energy norm: error that a
 constexpr int most_corrections = 4;          // of what the matrix differs from A by, as long as each leaves
 constexpr double better = 0.3;               // times the defect before,
 constexpr double of_goal = 0.1;              // and more than so much of the residual that is asked for,
-constexpr double of_energy = 1e-5;           // or of the energy norm
+constexpr double of_energy = 3e-5;           // or of the energy norm
 
 class DirectSolver : public Solver {
  public:

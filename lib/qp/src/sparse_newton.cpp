@@ -38,9 +38,10 @@ CondensedNewton::Point SparseNewton::solve(const VectorXd& f, const VectorXd& c,
 {
   const FeasibleSet whole = with_equations(set, matrices_.b.rows());
   StateSearch search({std::make_unique<SparseSystem>(matrices_, whole), whole, -c, -f});
-  const bool converged = near ? search.from(near->x, near->nu) : search.from_anywhere();
+  const bool converged = near ? search.from(near->x, near->nu, near->reaction) : search.from_anywhere();
   auto point = search.point();
   point.converged = converged;
+  point.reaction = search.reaction();
   return point;
 }
 

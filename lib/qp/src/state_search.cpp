@@ -84,10 +84,16 @@ bool StateSearch::from_anywhere()
 
 bool StateSearch::from(VectorXd x, VectorXd nu)
 {
+  const VectorXd reaction = programme_.gradient(x, nu);
+  return from(std::move(x), std::move(nu), reaction);
+}
+
+bool StateSearch::from(VectorXd x, VectorXd nu, const VectorXd& reaction)
+{
   point_.x = std::move(x);
   point_.nu = std::move(nu);
-  states_ = programme_.states(point_.x, point_.nu);
-  return guess(to_the_end);
+  states_ = programme_.states_at(point_.x, reaction);
+  return guess(programme_.system().costly() ? look_back_at_first : to_the_end);
 }
 
 void StateSearch::polish()
@@ -201,7 +207,7 @@ bool StateSearch::follow_path()
   start_soft();
   auto path = programme_.path_from(point_.x, point_.nu);
   const bool costly = programme_.system().costly();
-  double wanted = path_near;
+  double wanted = costly ? path_nearer * path_near : path_near;
   return walk(path, 0, [&] {
     ++point_.steps;
     const double now = programme_.residual(path.x(), path.nu()) / programme_.size(path.x());

@@ -16,6 +16,8 @@ class StateSearch {
   bool from_anywhere();
   /// From the states at a point near.
   bool from(Eigen::VectorXd x, Eigen::VectorXd nu);
+  /// The same where s is another: that of the problem which x and nu solve.
+  bool from(Eigen::VectorXd x, Eigen::VectorXd nu, const Eigen::VectorXd& reaction);
   /// Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
   void polish();
 

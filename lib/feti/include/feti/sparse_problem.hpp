@@ -74,7 +74,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   std::vector<int> kept_;               // rows that are none of these,
   std::vector<Local> number_;           // and their numbers, -1 for others
   std::unique_ptr<qp::SparseNewton> newton_;
-  mutable Eigen::VectorXd last_;                        // displacements of the last solution
+  mutable Eigen::VectorXd last_, last_reaction_;        // displacements of the last solution, and s of its rows
   mutable std::unique_ptr<qp::SparseInverse> inverse_;  // once it is asked for
 };
 
