@@ -232,17 +232,19 @@ SparseProblem::Result SparseProblem::solve(const VectorXd& f, const VectorXd& bo
 
 void SparseProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
 {
-  const SparseMatrix k = of_all(problem_.clusters().subdomains(), offset_, true);
-  if (!inverse_) inverse_ = std::make_unique<qp::SparseInverse>(reduced(k));
+  if (!inverse_) {
+    regularised_ = of_all(problem_.clusters().subdomains(), offset_, true);
+    inverse_ = std::make_unique<qp::SparseInverse>(reduced(regularised_));
+  }
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
     VectorXd u = held(view(*in));
     VectorXd force = VectorXd::Zero(u.size());
-    force -= k.selfadjointView<Eigen::Lower>() * u;
+    force -= regularised_.selfadjointView<Eigen::Lower>() * u;
     const VectorXd jump = view(*in) - rows_ * u;
     const auto found = inverse_->solve(jump(kept_), force(free_));
     u(free_) = found.u;
-    force = k.selfadjointView<Eigen::Lower>() * u;
+    force = regularised_.selfadjointView<Eigen::Lower>() * u;
     y.getVectorNonConst(column)->update(alpha, complete(found.x, force), beta);
   }
 }

@@ -175,7 +175,7 @@ class CentralPath::Linear {
   }
 
   /// The step that makes up for `lack`.
-  Iterate solve(const Residual& lack) const
+  Iterate solve(const Residual& lack, bool roughly) const
   {
     const auto& [x, nu, s, lambda] = path_.at_;
     VectorXd right = -lack.forces;
@@ -190,7 +190,7 @@ class CentralPath::Linear {
         right[disc.index[static_cast<std::size_t>(k)]] += lack.rounds[d] / part.room * part.towards[k];
     }
     for (const Local i : path_.pinned_) right[i] = 0;
-    auto found = factor_->solve(right, lack.motions);
+    auto found = factor_->solve(right, lack.motions, roughly);
     Iterate step{std::move(found.x), std::move(found.nu), VectorXd(s.size()), VectorXd(lambda.size())};
     for (Index i = 0; i < s.size(); ++i) {
       const auto& side = path_.sides_[static_cast<std::size_t>(i)];
@@ -261,7 +261,7 @@ bool CentralPath::advance()
   if (!(tau > 0) || !std::isfinite(tau)) return false;
   const Linear linear(*this);
   // Where tau = 0 would lead to tells how much of it can go at once, and what else the equations are than linear.
-  const Iterate prediction = linear.solve(now);
+  const Iterate prediction = linear.solve(now, true);
   if (!prediction.x.allFinite() || !prediction.nu.allFinite()) return false;
   const double reach = predicted * longest_step(prediction);
   Residual goal = residual(moved(prediction, reach));
@@ -269,7 +269,7 @@ bool CentralPath::advance()
   goal.add(reach, now);  // what the step leaves, and would not leave of linear equations
   goal.sides.array() -= centring * tau;
   goal.rounds.array() -= centring * tau;
-  const Iterate step = linear.solve(goal);
+  const Iterate step = linear.solve(goal, false);
   if (!step.x.allFinite() || !step.nu.allFinite()) return false;
   double length = std::min(1.0, to_border * longest_step(step));
   Iterate next = moved(step, length);

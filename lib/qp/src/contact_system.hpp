@@ -43,8 +43,8 @@ class PathFactor {
   struct Step {
     Eigen::VectorXd x, nu;
   };
-  /// (W + T) x + H'nu = forces, H x - C nu = -lack; x is zero where it is pinned.
-  virtual Step solve(const Eigen::VectorXd& forces, const Eigen::VectorXd& lack) const = 0;
+  /// (W + T) x + H'nu = forces, H x - C nu = -lack; x is zero where it is pinned. `roughly`: some figures will do.
+  virtual Step solve(const Eigen::VectorXd& forces, const Eigen::VectorXd& lack, bool roughly) const = 0;
 };
 
 class ContactSystem {
@@ -60,10 +60,11 @@ class ContactSystem {
   /// Whether a linear problem costs about as much as its factor in any case, so that few are wanted.
   virtual bool costly() const = 0;
 
-  virtual Eigen::VectorXd give(const Eigen::VectorXd& x) const = 0;                                                   ///< W x
-  virtual Eigen::VectorXd push(const Eigen::VectorXd& nu) const = 0;                                                  ///< H'nu
-  virtual Eigen::VectorXd excess(const Eigen::VectorXd& x, const Eigen::VectorXd& nu, const Eigen::VectorXd& e) const = 0;  ///< H x - C nu - e
-  virtual Eigen::VectorXd lack(const Eigen::VectorXd& x, const Eigen::VectorXd& nu, const Eigen::VectorXd& e) const = 0;  ///< e - H x + C nu
+  virtual Eigen::VectorXd give(const Eigen::VectorXd& x) const = 0;   ///< W x
+  virtual Eigen::VectorXd push(const Eigen::VectorXd& nu) const = 0;  ///< H'nu
+  /// H x - C nu - e, and the same with the other sign.
+  virtual Eigen::VectorXd excess(const Eigen::VectorXd& x, const Eigen::VectorXd& nu, const Eigen::VectorXd& e) const = 0;
+  virtual Eigen::VectorXd lack(const Eigen::VectorXd& x, const Eigen::VectorXd& nu, const Eigen::VectorXd& e) const = 0;
   /// |W| |x|, and the square of what rounding of one part in one makes of `lack`, in the norm of square().
   virtual Eigen::VectorXd size_of_give(const Eigen::VectorXd& x) const = 0;
   virtual double square_of_rounding(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const = 0;

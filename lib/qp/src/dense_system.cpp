@@ -179,7 +179,7 @@ class DensePathFactor : public PathFactor {
     motions_ = unit_.asDiagonal() * stiffness * unit_.asDiagonal();
   }
 
-  Step solve(const VectorXd& forces, const VectorXd& lack) const override
+  Step solve(const VectorXd& forces, const VectorXd& lack, bool) const override
   {
     VectorXd right = forces;
     for (const Local i : pinned_) right[i] = 0;

@@ -1,5 +1,3 @@
-#include <cstdio>
-#include <cstdlib>
 // When face Newton ends: whether a point is what was asked for, and when there is no hope of one.
 #include <algorithm>
 #include <cmath>
@@ -86,7 +84,6 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   bool solved = small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal,
                                     worst <= tolerances::rounding * run.size);
   run.doubtful = small && !solved;
-  if (std::getenv("DBG")) fprintf(stderr, "is_solved worst %.3e size %.3e error %.3e rounding %.3e energy %.3e doubtful %d\n", worst, run.size, result.error, rounding_of_error(problem_, norm_), goal.energy_norm ? goal.energy_norm(z, result.nu) : -1.0, run.doubtful);
   std::optional<bool> converged;
   const auto contact = [&] {
     if (!converged) converged = contact_converged(run, natural);

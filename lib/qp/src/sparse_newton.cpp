@@ -38,7 +38,12 @@ CondensedNewton::Point SparseNewton::solve(const VectorXd& f, const VectorXd& c,
 {
   const FeasibleSet whole = with_equations(set, matrices_.b.rows());
   StateSearch search({std::make_unique<SparseSystem>(matrices_, whole), whole, -c, -f});
-  const bool converged = near ? search.from(near->x, near->nu, near->reaction) : search.from_anywhere();
+  bool converged = false;
+  try {
+    converged = near ? search.from(near->x, near->nu, near->reaction) : search.from_anywhere();
+  } catch (const Error& error) {
+    if (error.status() != ExitStatus::not_converged) throw;
+  }
   auto point = search.point();
   point.converged = converged;
   point.reaction = search.reaction();

@@ -162,7 +162,10 @@ void SparseSystem::solve(const Guess& guess, const VectorXd& b, const VectorXd& 
     near.push_back(guess.symmetric ? z[k] : MatrixXd(moving.test[k].transpose() * answered(moving.inverse[k]) * moving.test[k]));
     amount.emplace_back(moving.test[k] * (x - guess.base)(blocks[k]));
   }
-  if (!stiffness_.factorize(std::move(z), near)) fail();
+  if (!stiffness_.factorize(std::move(z), near)) {  // states that hold nothing
+    x.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   double before = std::numeric_limits<double>::infinity();
   for (int repeat = 0; repeat < repeats_of_guess; ++repeat) {
     x = moving.extend(blocks, amount, guess.base);
@@ -218,7 +221,7 @@ class SparseSystem::Step : public PathFactor {
     if (!system.stiffness_.factorize(inverse_, near)) fail();
   }
 
-  PathFactor::Step solve(const VectorXd& forces, const VectorXd& lack) const override
+  PathFactor::Step solve(const VectorXd& forces, const VectorXd& lack, bool roughly) const override
   {
     const auto& blocks = system_.stiffness_.blocks();
     const auto& b = system_.matrices_.b;
@@ -226,7 +229,7 @@ class SparseSystem::Step : public PathFactor {
     for (const Local i : pinned_) right[i] = 0;
     PathFactor::Step step{VectorXd::Zero(forces.size()), VectorXd::Zero(lack.size())};
     const VectorXd none = VectorXd::Zero(lack.size());
-    for (int repeat = 0; repeat < repeats_of_path; ++repeat) {
+    for (int repeat = 0; repeat < (roughly ? 1 : repeats_of_path); ++repeat) {
       VectorXd felt = right;
       VectorXd missing = lack;
       if (repeat > 0) {

@@ -1,6 +1,3 @@
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include "state_search.hpp"
 
 #include <algorithm>
@@ -44,6 +41,7 @@ constexpr int guesses_of_path = 100;        // and a path of them as long as so 
 constexpr int patience_with_radii = 6;      // radii in a row without a residual that is so much
 constexpr double nearer = 0.7;              // of the least before
 constexpr double end_of_path = 1e-13;       // of the first product
+constexpr double end_of_costly_path = 1e-7; // residual over x where guesses do not end it, and are all there is
 constexpr double settled_on_path = 1e-9;    // residual over x at which radii are those of the forces
 
 
@@ -121,10 +119,10 @@ bool StateSearch::guess(int look_back)
     programme_.solve(states_, point_.x, point_.nu);
     ++point_.steps;
     const double residual = programme_.residual(point_.x, point_.nu), size = programme_.size(point_.x);
+    if (!std::isfinite(residual) && programme_.system().costly()) return false;
     auto next = programme_.states(point_.x, point_.nu);
     const int changes = compare(states_, next, turns);
     states_ = std::move(next);
-    if (std::getenv("DBG")) fprintf(stderr, "  guess %d changes %d residual %.3e cpu %.1f\n", step, changes, residual / size, double(clock()) / CLOCKS_PER_SEC);
     if (changes < fewest) fewest = changes, fewest_at = step;
     const bool stands = residual > stalled * before, rounded = stands && residual <= roundings * programme_.rounding(point_.x, point_.nu);
     const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
@@ -208,16 +206,19 @@ bool StateSearch::follow_path()
   auto path = programme_.path_from(point_.x, point_.nu);
   const bool costly = programme_.system().costly();
   double wanted = costly ? path_nearer * path_near : path_near;
-  return walk(path, 0, [&] {
+  const bool ended = walk(path, 0, [&] {
     ++point_.steps;
     const double now = programme_.residual(path.x(), path.nu()) / programme_.size(path.x());
-    if (std::getenv("DBG")) fprintf(stderr, "path %d now %.3e product %.3e rounding %.2e cpu %.1f\n", point_.steps, now, path.product(), programme_.rounding(path.x(), path.nu()) / programme_.size(path.x()), double(clock()) / CLOCKS_PER_SEC);
     if (!(now <= wanted)) return false;
     wanted = path_nearer * now;
     point_.x = path.x(), point_.nu = path.nu();
     states_ = programme_.states(point_.x, point_.nu);
     return guess(now <= settled_residual ? to_the_end : costly ? look_back_at_first : look_back_on_path);
   });
+  if (ended || !costly) return ended;
+  point_.x = path.x(), point_.nu = path.nu();
+  states_ = programme_.states(point_.x, point_.nu);
+  return off() <= end_of_costly_path;
 }
 
 // Coulomb's law by radii that are given, those of the normal forces before: each of these programmes is convex, so its path leads

@@ -75,7 +75,8 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   std::vector<Local> number_;           // and their numbers, -1 for others
   std::unique_ptr<qp::SparseNewton> newton_;
   mutable Eigen::VectorXd last_, last_reaction_;        // displacements of the last solution, and s of its rows
-  mutable std::unique_ptr<qp::SparseInverse> inverse_;  // once it is asked for
+  mutable SparseMatrix regularised_;                    // what K^+ is the inverse of, lower triangle,
+  mutable std::unique_ptr<qp::SparseInverse> inverse_;  // once F^-1 is asked for
 };
 
 }  // namespace mortise::feti
