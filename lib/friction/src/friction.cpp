@@ -66,6 +66,7 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
       options_(options),
       tolerance_(solver.tolerance.value),
       patience_(patience),
+      from_direct_(solver.algorithm == "direct"),
       hessian_(problem.hessian(), 0),
       budget_(hessian_, solver.max_multiplications.value, qp::solver_kind(solver.algorithm).steady),
       driven_(problem.linear().getMap()),
@@ -327,7 +328,7 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   algorithm_->begin(run.solution, run.goal, run.watch);
   if (coulomb) {
     follow_law(run);
-    if (!run.solved || !patience_) fixed_point(run);
+    if (!run.solved || !patience_ || from_direct_) fixed_point(run);  // a few products each, from what A^-1 leads on from
     follow_cautiously(start, run);
     const bool spent = !run.limit.empty() || hessian_.exhausted();
     if (run.solved && (run.converged || !spent)) judge_by_law(problem_, laws_, hessian_, *run.solution);

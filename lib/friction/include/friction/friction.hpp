@@ -95,6 +95,7 @@ class Solver {
   Options options_;
   std::optional<double> tolerance_;  // of the residual; without one the error decides
   std::optional<qp::Patience> patience_;
+  bool from_direct_;  // a direct solution is where all begins
   qp::Hessian hessian_;
   qp::Budget budget_;
   std::unique_ptr<StateRecord> states_;
