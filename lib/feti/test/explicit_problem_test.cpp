@@ -15,6 +15,7 @@
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/row_distribution.hpp"
+#include "feti/sparse_problem.hpp"
 #include "qp/face_newton.hpp"
 
 namespace mortise::feti {
@@ -179,6 +180,46 @@ TEST_P(Varied, SolvesAsWithoutElimination)
   EXPECT_GT(expected.x.norm(), 0.1);
   EXPECT_LT((dense.whole(found.x) - expected.x).norm(), 1e-9 * expected.x.norm());
   EXPECT_LT((found.nu - expected.nu).norm(), 1e-9 * expected.nu.norm());
+}
+
+// On one rank, where G has rigid motions alone: with sparse matrices it is the same solution and the same inverse.
+TEST_P(Varied, SolvesAsWithSparseMatrices)
+{
+  const auto& [pieces, variant] = GetParam();
+  const Stack stack(Point(1, 0.5, -10), pieces, variant);
+  if (stack.comm.size() > 1 || variant.force) GTEST_SKIP() << "not for several ranks, nor for unknowns of their own";
+  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
+                      stack.context);
+  EXPECT_FALSE(SparseProblem::suits(problem));  // so few rows
+  auto& set = problem.set();
+  set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
+  set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
+  const SparseProblem sparse(problem);
+  const auto found = sparse.solve();
+  ASSERT_TRUE(found.converged);
+  const ExplicitProblem direct(problem);
+  const auto expected = direct.solve();
+  ASSERT_TRUE(expected.converged);
+  const auto expect_near = [](const Vector& a, const Vector& b) {
+    Vector difference(a, Teuchos::Copy);
+    difference.update(-1, b, 1);
+    EXPECT_LT(difference.norm2(), 1e-8 * b.norm2());
+  };
+  expect_near(found.x, expected.x);
+  EXPECT_LT((found.nu - expected.nu).norm(), 1e-8 * expected.nu.norm());
+
+  Vector in(found.x.getMap()), out(in.getMap()), other(in.getMap());
+  in.randomize();
+  direct.apply(in, out, Teuchos::NO_TRANS, 1, 0);
+  sparse.apply(in, other, Teuchos::NO_TRANS, 1, 0);
+  expect_near(other, out);
+
+  Vector linear(problem.linear(), Teuchos::Copy);
+  linear.update(1e-3, in, 1);
+  const Eigen::VectorXd e = problem.equality().right_side().array() + 1e-3;
+  const auto next = sparse.go_on(linear, e, found.x);
+  EXPECT_TRUE(next.converged);
+  expect_near(next.x, direct.solve(linear, e).x);
 }
 
 class Directly : public testing::TestWithParam<std::pair<double, int>> {};
