@@ -62,7 +62,8 @@ double work_of_sparse_solution(double entries, double unknowns)
 bool SparseProblem::suits(const DualProblem& problem)
 {
   const auto& subdomains = problem.clusters().subdomains();
-  if (problem.communicator().size() > 1 || problem.springs() || problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension())
+  if (problem.communicator().size() > 1 || problem.springs() || problem.clusters().kinds() > 0 ||
+      problem.equality().size() != problem.kernel_dimension())
     return false;
   std::vector<std::size_t> entries(problem.jump().rows()->getNodeNumElements(), 0);
   for (const auto& block : problem.jump().blocks())

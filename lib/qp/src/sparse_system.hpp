@@ -23,7 +23,7 @@ class JoinedStiffness {
  public:
   /// One block: its unknowns.
   using Block = std::vector<Local>;
-  /// `matrices` outlives it. `blocks`: every row of B once. `component`: unknowns of a node, for the ordering.
+  /// `matrices` outlives it. `blocks`: every row of B once.
   JoinedStiffness(const SparseMatrices& matrices, std::vector<Block> blocks);
 
   const std::vector<Block>& blocks() const { return blocks_; }

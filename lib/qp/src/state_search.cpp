@@ -124,7 +124,8 @@ bool StateSearch::guess(int look_back)
     const int changes = compare(states_, next, turns);
     states_ = std::move(next);
     if (changes < fewest) fewest = changes, fewest_at = step;
-    const bool stands = residual > stalled * before, rounded = stands && residual <= roundings * programme_.rounding(point_.x, point_.nu);
+    const bool stands = residual > stalled * before;
+    const bool rounded = stands && residual <= roundings * programme_.rounding(point_.x, point_.nu);
     const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
     // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
     const bool turns_on_rounding = residual <= flutter * size || (rounded && step - fewest_at >= idle);
