@@ -30,7 +30,7 @@ from reference_rows import Side, obstacle_rows, pair_rows  # noqa: E402
 ALLOWED = {"displacement": 1e-3, "energy": 1e-3, "force": 1e-3, "pressure": 5e-3}
 # A point that fulfils all conditions of a solution, with our own matrices, to this is one, whatever an interior point method says: where
 # moduli are a million apart its gaps stay open by as much as bodies slip. Most solutions of the direct method have 1e-11 and less.
-PROVEN = 1e-9
+PROVEN = 1e-8
 
 
 class Condensed:
@@ -169,6 +169,8 @@ def compare(folder):
         problem = Problem(folder)
         rows = [obstacle_rows(problem, c, Side(problem, c["secondary"])) if isinstance(c["primary"], dict) else pair_rows(problem, c)
                 for c in problem.deck["contacts"]]
+        if "narrow_contact" in (w["kind"] for w in result.summary["warnings"]):
+            raise Skip("a contact narrower than a face, which has rows between nodes")
         u = displacement_of(problem, result)
         condensed = Condensed(problem, rows, max(np.abs(u).max(), 1e-300))
         if len(condensed.c) > 3000:
