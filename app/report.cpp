@@ -59,7 +59,9 @@ void Report::resolution(const model::Resolution& resolved)
   print_header(deck_, resolved.contacts, resolved.decomposition, context_);
   end_stage("mesh", "mesh");
   end_stage("partition", "partition");
-  print_contact_candidates(resolved.found, deck_, resolved.contacts, resolved.decomposition, command_line_.check, context_);
+  if (auto warning = print_contact_candidates(resolved.found, deck_, resolved.contacts, resolved.decomposition,
+                                              command_line_.check, context_))
+    warnings_.report(std::move(*warning), context_.log);
   if (directory_) directory_->clear(command_line_.resume);
 }
 
@@ -77,6 +79,7 @@ void Report::rows(const model::Model& model, const analysis::Rows& first, const 
       warnings_.report(std::move(warning), log);
     for (auto& warning : post::uneven_clearances(first.initial_gaps, model.contacts().options))
       warnings_.report(std::move(warning), log);
+    for (auto& warning : post::bonded_gaps(first.initial_gaps, model.contacts().options)) warnings_.report(std::move(warning), log);
     analysis::check_unconstrained_bodies(model, first, context_, warnings_);
   }
 }

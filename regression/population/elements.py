@@ -62,6 +62,14 @@ def rule(element):
         return triangle
     if shape == "prism":
         return (np.array([(*p, z) for p in triangle[0] for z in x]), np.array([a * b for a in triangle[1] for b in w]))
+    if element == "tet10":  # of degree 5, fourteen points [Walkington]: on curved edges no rule is exact, so the program's is taken
+        places, sizes = [], []
+        for a, weight in ((0.31088591926330060980, 0.11268792571801585080), (0.092735250310891226402, 0.073493043116361949544)):
+            places += [(a, a, a), (1 - 3 * a, a, a), (a, 1 - 3 * a, a), (a, a, 1 - 3 * a)]
+            sizes += [weight / 6] * 4
+        a = 0.045503704125649649492
+        places += [tuple(a if axis in pair else 0.5 - a for axis in range(3)) for pair in itertools.combinations(range(4), 2)]
+        return np.array(places), np.array(sizes + [0.042546020777081466438 / 6] * 6)
     if shape == "tet":  # a cube's rule with three corners in one
         x, w = (x + 1) / 2, w / 2
         places = [(a * (1 - b) * (1 - c), b * (1 - c), c) for a, b, c in itertools.product(x, repeat=3)]

@@ -28,6 +28,9 @@ from reference_rows import Side, obstacle_rows, pair_rows  # noqa: E402
 # Relative differences that are allowed to a run at 1e-6. The program stops by a residual of the dual problem; displacements and forces are
 # off by that times a condition number, for which 1e3 is granted. The energy is off by the square of it, but for what gaps and bounds do.
 ALLOWED = {"displacement": 1e-3, "energy": 1e-3, "force": 1e-3, "pressure": 5e-3}
+# A point that fulfils all conditions of a solution, with our own matrices, to this is one, whatever an interior point method says: where
+# moduli are a million apart its gaps stay open by as much as bodies slip. Most solutions of the direct method have 1e-11 and less.
+PROVEN = 1e-8
 
 
 class Condensed:
@@ -90,11 +93,28 @@ class Condensed:
             raise Skip(f"Clarabel: {found.status}")
         return np.array(found.x[:count]) * self.size, np.array(found.z[:points]) * force
 
+    def all_forces(self, u):
+        """Forces of the rows that balance a given displacement, a column a direction, the normal first; what is left of the residual."""
+        residual = (self.problem.stiffness @ u - self.problem.force)[self.c]
+        rows = sparse.vstack([self.normal, *self.tangent])[:, self.c].T.tocsr()
+        forces = scipy.sparse.linalg.lsqr(rows, residual, atol=1e-14, btol=1e-14, iter_lim=20 * len(self.c))[0]
+        return forces.reshape(-1, len(self.gap)).T, residual - rows @ forces
+
     def forces(self, u):
         """Normal forces of the rows that balance a given displacement."""
-        residual = (self.problem.stiffness @ u - self.problem.force)[self.c]
-        rows = sparse.vstack([self.normal, *self.tangent])[:, self.c]
-        return scipy.sparse.linalg.lsqr(rows.T.tocsr(), residual, atol=1e-14, btol=1e-14, iter_lim=20 * len(self.c))[0][: len(self.gap)]
+        return self.all_forces(u)[0][:, 0]
+
+    def unsolved(self, u):
+        """By how much the conditions of a solution are missed: lengths over the largest displacement, forces over the largest of a row."""
+        forces, left = self.all_forces(u)
+        inner = (self.problem.stiffness @ u - self.problem.force)[self.i]
+        largest = max(np.abs(forces).max(), 1e-300)
+        normal, across, gap = forces[:, 0], forces[:, 1:], self.normal @ u + self.gap
+        slip = np.column_stack([t @ u for t in self.tangent])
+        bound, size, speed = self.bounds(normal), np.linalg.norm(across, axis=1), np.linalg.norm(slip, axis=1)
+        turned = np.sqrt(np.maximum(bound * speed + np.sum(across * slip, axis=1), 0) / (largest * self.size))  # friction opposes slip
+        return max(np.abs(np.concatenate([left, inner])).max() / largest, np.max(-gap) / self.size, np.max(-normal) / largest,
+                   np.max(np.minimum(np.abs(gap) / self.size, np.abs(normal) / largest)), np.max(size - bound) / largest, np.max(turned) ** 2)
 
     def bounds(self, forces):
         parts, start = [], 0
@@ -149,6 +169,8 @@ def compare(folder):
         problem = Problem(folder)
         rows = [obstacle_rows(problem, c, Side(problem, c["secondary"])) if isinstance(c["primary"], dict) else pair_rows(problem, c)
                 for c in problem.deck["contacts"]]
+        if "narrow_contact" in (w["kind"] for w in result.summary["warnings"]):
+            raise Skip("a contact narrower than a face, which has rows between nodes")
         u = displacement_of(problem, result)
         condensed = Condensed(problem, rows, max(np.abs(u).max(), 1e-300))
         if len(condensed.c) > 3000:
@@ -160,13 +182,14 @@ def compare(folder):
     if shared(problem):  # forces that two contacts share at a node are anybody's guess
         differences = {name: differences[name] for name in ("displacement", "energy")}
     differences = {name: float(value) for name, value in differences.items()}
+    differences["unsolved"] = float(condensed.unsolved(u))
     tolerance = problem.deck["solver"]["tolerance"]
     factor = 1.0 if tolerance == "auto" else max(1.0, tolerance / 1e-6)
     if tolerance == "auto":
         return {**differences, "steps": steps}, []
     complaints = [f"{name} differs from the reference by {value:.1e}, allowed {ALLOWED[name] * factor:.0e}"
-                  for name, value in differences.items() if not value <= ALLOWED[name] * factor]
-    return {**differences, "steps": steps}, complaints
+                  for name, value in differences.items() if name in ALLOWED and not value <= ALLOWED[name] * factor]
+    return {**differences, "steps": steps}, [] if differences["unsolved"] < PROVEN else complaints
 
 
 def shared(problem):

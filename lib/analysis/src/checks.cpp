@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "model/auto_contacts.hpp"
 #include "model/patterns.hpp"
 #include "post/deformation.hpp"
 #include "post/model_checks.hpp"
@@ -122,6 +123,27 @@ std::vector<Warning> short_searches(const Rows& rows, const post::Results& resul
     result.push_back(std::move(w));
   }
   return result;
+}
+
+// `contacts: auto` looks as far as it is told, and not at what moves farther.
+std::vector<Warning> crossings(const model::Model& model, const std::vector<Eigen::VectorXd>& displacement,
+                               const std::vector<std::string>& names, const Communicator& comm)
+{
+  const auto crossed = model::crossed_bodies(model, displacement, comm);
+  if (crossed.empty()) return {};
+  const auto& worst = crossed.front();
+  const auto& [a, b] = worst.bodies;
+  Warning w{"crossed_bodies",
+            fmt::format("bodies \"{}\" and \"{}\" stand in each other by {:.3g} at ({:.5g}, {:.5g}, {:.5g}): no contact between "
+                        "them was found or named{}",
+                        names[static_cast<std::size_t>(a)], names[static_cast<std::size_t>(b)], worst.depth, worst.at[0],
+                        worst.at[1], worst.at[2],
+                        crossed.size() > 1 ? fmt::format("; {} more pairs do", crossed.size() - 1) : ""),
+            "give the entry `auto` a larger search_distance, or name their boundaries in a contact"};
+  w.at = worst.at;
+  w.body = names[static_cast<std::size_t>(a)];
+  w.value = worst.depth;
+  return {std::move(w)};
 }
 
 void append(std::vector<Warning>& all, std::vector<Warning> more)
@@ -265,6 +287,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   append(result, post::coarse_mesh(results.mesh_error, names));
   append(result, post::facet_push(results.balance.push_of_facets, results.balance.gauges));
   append(result, short_searches(*state.rows, results, comm));
+  append(result, crossings(model, state.displacement, names, comm));
   for (auto& warning : result) warning.step = state.rows->acts.step;
   return result;
 }

@@ -14,6 +14,8 @@ namespace {
 constexpr double outside_facet = 1e-6;
 // Of a distance: what is longer is as long but for rounding.
 constexpr double nearer = 1 - 1e-6;
+// Of a facet: how far beyond a border others are looked for.
+constexpr double beyond = 1e-3;
 
 }  // namespace
 
@@ -110,6 +112,16 @@ const std::vector<OverFacets::RidgeOver>& OverFacets::ridges_over(std::size_t fa
   return found;
 }
 
+bool OverFacets::is_covered(std::size_t facet, const Point& at)
+{
+  const auto own = secondary_.geometry(facet);
+  const Point along = frame_of(own).normal;
+  return std::ranges::any_of(met_by(facet), [&](int met) {
+    const Hit hit = shoot(at, along, primary_.geometry(static_cast<std::size_t>(met)));
+    return hit.found && std::abs(hit.distance) <= reach_;
+  });
+}
+
 std::optional<OverFacets::OnRidge> OverFacets::nearest_on_ridge(std::size_t facet, const Point& from)
 {
   std::optional<OnRidge> best;
@@ -140,6 +152,7 @@ std::optional<OverFacets::OnRidge> OverFacets::nearest_on_ridge(std::size_t face
     const double gap = below.distance - rays_.own_bulge(facet)(below.shape), distance = (at - from).norm();
     if (std::abs(gap) > reach_ || (best && distance >= best->distance)) continue;
     if (sight_.hidden(at, along, below.distance, own.size())) continue;
+    if (ridge.border && !is_covered(facet, at + beyond * own.size() * ridge.across)) continue;
     best = OnRidge{below.shape, distance};
   }
   return best;

@@ -34,7 +34,8 @@ class OverFacets {
   std::optional<NearNode> nearest_node(std::size_t facet, const Point& from, double most, const Counts& counts);
 
   /// Where a convex edge comes nearer to a facet than the faces on both sides of it; of such places the one next to `from`, a node
-  /// of the facet. An edge that descends has its lower end alone.
+  /// of the facet. An edge that descends has its lower end alone. A border counts where the primary side has other faces beyond:
+  /// where it has none the facet is covered up to the border, and its multipliers have points there.
   struct OnRidge {
     Eigen::Vector4d shape;  ///< of the facet
     double distance;        ///< from `from`
@@ -57,6 +58,8 @@ class OverFacets {
   const std::vector<RidgeOver>& ridges_over(std::size_t facet);
   const std::vector<int>& met_by(std::size_t facet);
   bool is_hidden(std::size_t facet, const NodeOver& node) const;
+  // Whether the primary side lies over a place of a facet.
+  bool is_covered(std::size_t facet, const Point& at);
 
   const Side& secondary_;
   const Side& primary_;

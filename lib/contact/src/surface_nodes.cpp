@@ -102,8 +102,9 @@ std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nod
     border = nodes_on_border(surface_nodes, edges);
   }
 
-  // First from edges that lead inside; then corners, whose normal is wrong both ways, from all their neighbours. On a surface one
-  // cell wide all surface nodes are on the border: there those between two faces have the normal that the ends continue.
+  // First from edges that lead inside; then corners, whose normal is wrong both ways, from all their neighbours; last those that
+  // have corners alone round them, as the tips of a border of teeth. On a surface one cell wide all surface nodes are on the border:
+  // there those between two faces have the normal that the ends continue.
   const auto direction =
       plane ? std::vector<Point>(border.size(), Point::Zero()) : directions_of_border(side, surface_nodes, edges);
   const auto smooth = [&](std::size_t p) { return !direction[p].isZero(0); };
@@ -114,10 +115,11 @@ std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nod
     const bool along_kink = !plane && edge.count == 1 && !border[static_cast<std::size_t>(edge.to)];  // to where it ends
     return border[static_cast<std::size_t>(edge.from)] && !along_kink;
   });
-  for (int pass = 0; pass < 2; ++pass) {
+  for (int pass = 0; pass < 3; ++pass) {
     std::vector<bool> reached = known;
     const auto leads = [&](std::size_t b, std::size_t a) {
-      return pass == 0 ? known[b] && (plane || smooth(a)) : known[b] || (smooth(b) && !smooth(a));
+      if (pass == 1) return known[b] || (smooth(b) && !smooth(a));
+      return known[b] && (pass == 0 ? plane || smooth(a) : !smooth(a));
     };
     for (int sweep = 0; sweep < 10; ++sweep)
       for (const auto& edge : outer) {

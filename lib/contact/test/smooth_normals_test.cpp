@@ -77,6 +77,28 @@ TEST(SmoothNormals, OfASideOneCellLongDoNotTiltAlongIt)
     }
 }
 
+// As where faces with a node that a support holds are not part of the boundary: tips have corners of the border alone round them.
+TEST(SmoothNormals, AtABorderOfTeethAreExact)
+{
+  const Communicator comm;
+  const auto cylinder = [](double radius) {
+    return [radius](double x, double y) { return Point(radius * std::sin(x), y, radius * std::cos(x)); };
+  };
+  Grid teeth{9, 4, -0.7, 0.7, -1, 1, true, true};
+  teeth.teeth = true;
+  const Grid other{11, 5, -0.9, 0.9, -1.2, 1.2, false, true, primary_ids};
+  const auto pair = make_pair(surface(teeth, cylinder(2), comm), surface(other, cylinder(2.01), comm), Law::frictionless);
+  const auto nodes = nodes_of(pair, comm);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  double last = 0;
+  for (const auto& row : rows.rows) {
+    const Point& x = nodes.at(row.node);
+    last = std::max(last, x[0]);
+    EXPECT_LT((row.normal - Point(x[0] / 2, 0, x[2] / 2)).norm(), 1e-4) << "at " << x.transpose();
+  }
+  EXPECT_DOUBLE_EQ(last, 2 * std::sin(0.7));  // the tips have rows
+}
+
 // Half the size, an eighth of the error.
 TEST(SmoothNormals, AreOfThirdOrderOnOtherSurfaces)
 {

@@ -21,6 +21,7 @@ struct Grid {
   bool triangles = false;
   Global first_id = 0;
   double disturb = 0;  // of the inner nodes, part of the cell size
+  bool teeth = false;  // of the last column every second triangle is left out
 };
 
 template <class Height>
@@ -41,7 +42,7 @@ mesh::Surface surface(const Grid& g, const Height& height, const Communicator& c
     for (int i = 0; i < g.nx; ++i) {
       const int a = i + (g.nx + 1) * j, b = a + 1, c = b + g.nx + 1, d = a + g.nx + 1;
       if (g.triangles) {
-        faces.push_back({a, b, c});
+        if (!g.teeth || i + 1 < g.nx) faces.push_back({a, b, c});
         faces.push_back({a, c, d});
       } else {
         faces.push_back({a, b, c, d});

@@ -18,6 +18,8 @@ constexpr double most_stress = 0.1, least_stress = 1e-9;  // over Young's modulu
 constexpr double part_of_interference = 0.1;
 // Of a face: no mesh is wrong by more. A polygon of eight faces a turn lies a tenth of one beside its circle.
 constexpr double part_of_longest_face = 0.25;
+// Of a face: so far apart bonded sides that touch nowhere may be.
+constexpr double bonded_apart = 0.02;
 constexpr double longest = 1, shortest = 1e-10;  // seconds, or whatever unit: a wave through a body
 
 Warning stress_in_other_units(const AppliedStress& load)
@@ -202,6 +204,30 @@ std::vector<Warning> uneven_clearances(std::span<const contact::InitialGap> gaps
     warning.at = Point(gap.mesh_largest_at.data());
     warning.contact = contacts[c].name;
     warning.value = spread;
+    warning.limit = limit;
+    result.push_back(std::move(warning));
+  }
+  return worst(std::move(result), "contacts");
+}
+
+std::vector<Warning> bonded_gaps(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts)
+{
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < gaps.size(); ++c) {
+    const auto& gap = gaps[c];
+    const double limit = bonded_apart * gap.face;
+    if (contacts[c].law != contact::Law::bonded || contacts[c].preload || contacts[c].cyclic || !(gap.area > 0)) continue;
+    if (!(gap.mesh_smallest > limit)) continue;
+    Warning warning{"bonded_gap",
+                    fmt::format("contact {} bonds sides that touch nowhere: they are {:.3g} to {:.3g} apart, which is at ({:.5g}, "
+                                "{:.5g}, {:.5g}), and move as if there were something between them",
+                                contacts[c].name, gap.mesh_smallest, gap.mesh_largest, gap.mesh_largest_at[0],
+                                gap.mesh_largest_at[1], gap.mesh_largest_at[2]),
+                    fmt::format("if they are to be apart: a `search_distance` below {:.3g}, or name the pairs that are bonded",
+                                gap.mesh_smallest)};
+    warning.at = Point(gap.mesh_largest_at.data());
+    warning.contact = contacts[c].name;
+    warning.value = gap.mesh_smallest;
     warning.limit = limit;
     result.push_back(std::move(warning));
   }

@@ -188,5 +188,29 @@ TEST(ModelChecks, ClearancesThatCloseMoreThanErrorsOfMeshes)
   EXPECT_TRUE(uneven_clearances(std::vector{uneven}, std::vector{plain}).empty());
 }
 
+// A bond across a gap of a tenth of a face; where it touches somewhere the mesh may be to blame.
+TEST(ModelChecks, BondsBetweenSidesThatTouchNowhere)
+{
+  contact::Options bond;
+  bond.name = "glue";
+  bond.law = contact::Law::bonded;
+  contact::InitialGap apart;
+  apart.face = 2;
+  for (const double gap : {0.2, 0.3}) contact::note_gap(apart, 0, gap, false, 1, Point(gap, 2, 3));
+  auto touching = apart;
+  contact::note_gap(touching, 0, 0.03, false, 1, Point(4, 5, 6));
+  EXPECT_TRUE(bonded_gaps(std::vector{touching}, std::vector{bond}).empty());
+  const auto found = bonded_gaps(std::vector{touching, apart}, std::vector{bond, bond});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].value, 0.2);
+  EXPECT_EQ(found[0].limit, 0.04);
+  EXPECT_EQ(found[0].contact, "glue");
+  auto bolt = bond;
+  bolt.preload.emplace();
+  auto open = bond;
+  open.law = contact::Law::frictionless;
+  EXPECT_TRUE(bonded_gaps(std::vector{apart, apart}, std::vector{bolt, open}).empty());
+}
+
 }  // namespace
 }  // namespace mortise::post
