@@ -12,7 +12,7 @@ namespace {
 
 constexpr double dense_guesses = 8;      // of a direct solution with dense matrices
 constexpr double sparse_problems = 30;   // linear problems of one with sparse ones
-constexpr double steps_of_gmres = 40;    // in each of these
+constexpr double steps_of_gmres = 15;    // in each of these
 constexpr double slow = 8;               // operations of a factor in the time of one that a solution with it takes
 constexpr double joined = 1.3;           // entries of the factor of joined bodies, over those of their own
 constexpr std::size_t most_entries = 400;      // of a row of B, and of a column of K on average
