@@ -3,6 +3,7 @@
 
 #include "base/interruption.hpp"
 #include "base/submatrix.hpp"
+#include "gmres.hpp"
 #include "sparse_system.hpp"
 
 namespace mortise::qp {
@@ -90,41 +91,17 @@ VectorXd JoinedStiffness::apply(const VectorXd& u) const
   return result;
 }
 
-// Preconditioned from the right, so that residuals are true ones.
 VectorXd JoinedStiffness::solve(const VectorXd& r) const
 {
   const double size = r.norm();
   if (symmetric_ || !(size > 0) || !std::isfinite(size)) return factor_->solve(r);
-  std::vector<VectorXd> basis{r / size}, turned;
-  MatrixXd triangle = MatrixXd::Zero(most_steps_of_gmres + 1, most_steps_of_gmres);
-  std::vector<Eigen::JacobiRotation<double>> turns;
-  VectorXd left = VectorXd::Zero(most_steps_of_gmres + 1);
-  left[0] = size;
-  int count = 0;
-  while (count < most_steps_of_gmres && std::abs(left[count]) > reduction_of_gmres * size) {
-    turned.push_back(factor_->solve(basis.back()));
-    VectorXd next = apply(turned.back());
-    for (int repeat = 0; repeat < 2; ++repeat)
-      for (int i = 0; i <= count; ++i) {
-        const double part = basis[static_cast<std::size_t>(i)].dot(next);
-        triangle(i, count) += part;
-        next -= part * basis[static_cast<std::size_t>(i)];
-      }
-    const double length = next.norm();
-    triangle(count + 1, count) = length;
-    for (int i = 0; i < count; ++i) triangle.col(count).applyOnTheLeft(i, i + 1, turns[static_cast<std::size_t>(i)].adjoint());
-    Eigen::JacobiRotation<double> turn;
-    turn.makeGivens(triangle(count, count), triangle(count + 1, count));
-    triangle.col(count).applyOnTheLeft(count, count + 1, turn.adjoint());
-    left.applyOnTheLeft(count, count + 1, turn.adjoint());
-    turns.push_back(turn);
-    ++count;
-    if (!(length > 0) || !std::isfinite(length)) break;
-    basis.push_back(next / length);
-  }
-  const VectorXd y = triangle.topLeftCorner(count, count).triangularView<Eigen::Upper>().solve(left.head(count));
   VectorXd u = VectorXd::Zero(r.size());
-  for (int i = 0; i < count; ++i) u += y[i] * turned[static_cast<std::size_t>(i)];
+  const auto turned = [&](VectorXd& v) {
+    v = factor_->solve(v);
+    return apply(v);
+  };
+  const double left = gmres(turned, r, reduction_of_gmres * size, most_steps_of_gmres, u);
+  if (!std::isfinite(left)) u.setConstant(left);
   return u;
 }
 

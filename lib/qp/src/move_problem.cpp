@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "base/interruption.hpp"
 #include "dense_system.hpp"
+#include "gmres.hpp"
 
 namespace mortise::qp {
 
@@ -56,48 +56,6 @@ MatrixXd times_inverse(const Factor& factor, const MatrixXd& right)
 {
   if (right.cols() == 1) return VectorXd(factor.solve(right.col(0)));
   return factor.solve(right);
-}
-
-// Generalised minimal residuals for A P z = b in the ordinary norm; adds to z. Returns the residual that is left.
-template <class Apply>
-double gmres(const Apply& apply, const VectorXd& b, double goal, int most, VectorXd& z)
-{
-  std::vector<VectorXd> basis{b / b.norm()};
-  MatrixXd triangle = MatrixXd::Zero(most + 1, most);
-  std::vector<Eigen::JacobiRotation<double>> turns;
-  VectorXd left = VectorXd::Zero(most + 1);
-  const double left_at_start = b.norm();
-  left[0] = left_at_start;
-  int count = 0;
-  const auto hopeless = [&] {
-    const double part = std::log(std::abs(left[count]) / left_at_start) / std::log(goal / left_at_start);
-    return count >= look && count > 2 * part * most;
-  };
-  while (count < most && std::abs(left[count]) > goal && !hopeless()) {
-    stop_if_requested();
-    VectorXd next = apply(basis.back());
-    for (int repeat = 0; repeat < 2; ++repeat)
-      for (int i = 0; i <= count; ++i) {
-        const double part = basis[static_cast<std::size_t>(i)].dot(next);
-        triangle(i, count) += part;
-        next -= part * basis[static_cast<std::size_t>(i)];
-      }
-    const double size = next.norm();
-    if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
-    triangle(count + 1, count) = size;
-    for (int i = 0; i < count; ++i) triangle.col(count).applyOnTheLeft(i, i + 1, turns[static_cast<std::size_t>(i)].adjoint());
-    Eigen::JacobiRotation<double> turn;
-    turn.makeGivens(triangle(count, count), triangle(count + 1, count));
-    triangle.col(count).applyOnTheLeft(count, count + 1, turn.adjoint());
-    left.applyOnTheLeft(count, count + 1, turn.adjoint());
-    turns.push_back(turn);
-    ++count;
-    if (size == 0) break;
-    basis.push_back(next / size);
-  }
-  const VectorXd y = triangle.topLeftCorner(count, count).triangularView<Eigen::Upper>().solve(left.head(count));
-  for (int i = 0; i < count; ++i) z += y[i] * basis[static_cast<std::size_t>(i)];
-  return std::abs(left[count]);
 }
 
 }  // namespace
@@ -275,7 +233,7 @@ std::optional<MoveFactor::Solution> MoveFactor::iterate(const MoveProblem& probl
   }
   VectorXd z = VectorXd::Zero(n + m);
   const double goal = std::max(reduction * size, 0.1 * enough);
-  const double reached = gmres([&](const VectorXd& v) { return image(solve(v)); }, residual, goal, most, z);
+  const double reached = gmres([&](const VectorXd& v) { return image(solve(v)); }, residual, goal, most, z, look);
   if (!(reached <= goal)) return {};
   const Solution step = solve(z);
   at.amount += step.amount;
