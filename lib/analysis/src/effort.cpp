@@ -73,11 +73,11 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
   }
   // With sparse matrices nothing grows with the number of rows; see feti::SparseProblem.
   const double dense = feti::work_of_dense_solution(free, closing), sparse = feti::work_of_sparse_solution(factors, unknowns);
-  const bool rigid = constraints.springs.own.empty() && constraints.mean_motions.empty() &&
-                     constraints.pretension_sections.empty() && coupled == 0;
+  const bool rigid = !comm.any(!constraints.springs.own.empty() || !constraints.mean_motions.empty() ||
+                               !constraints.pretension_sections.empty() || coupled > 0);
   DirectEffort effort;
   effort.multipliers = static_cast<Global>(all);
-  effort.sparse = comm.size() == 1 && rigid && all >= feti::many_rows && sparse < feti::worth_of_sparse * dense;
+  effort.sparse = rigid && all >= feti::many_rows && sparse < feti::worth_of_sparse * dense;
   if (effort.sparse) {
     effort.seconds = (factorizing + sparse) / dense_rate;
     effort.products = set_up + effort.seconds * sparse_rate / (4 * entries);

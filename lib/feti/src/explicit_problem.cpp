@@ -4,25 +4,11 @@
 
 #include "base/error.hpp"
 #include "dirichlet_elimination.hpp"
+#include "rows_on_root.hpp"
 
 namespace mortise::feti {
 
 namespace {
-
-// To rank 0, in the order of ranks. Whether all ranks have room for it is seen before any of them sends: one alone cannot stop.
-std::vector<double> on_root(std::vector<double> values, const Communicator& comm)
-{
-  const auto arriving = static_cast<std::size_t>(comm.sum(static_cast<long long>(values.size())));
-  collectively(comm, [&] {
-    std::vector<double> room;
-    room.reserve(values.size() + (comm.root() ? 3 * arriving : 0));  // as bytes, as numbers, and all of them
-  });
-  std::vector<std::vector<double>> send(static_cast<std::size_t>(comm.size()));
-  send[0] = std::move(values);
-  std::vector<double> all;
-  for (const auto& part : comm.exchange(send)) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
 
 // Of each subdomain: how many rows and motions, where these start; which rows; W, H and C. Collective.
 std::vector<double> parts_on_root(const DirichletElimination& elimination, std::size_t subdomains, const Communicator& comm)
@@ -112,13 +98,14 @@ struct WholeMatrices {
 }  // namespace
 
 ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
-    : problem_(problem), elimination_(std::make_unique<DirichletElimination>(problem, few))
+    : problem_(problem), elimination_(std::make_unique<DirichletElimination>(problem, few)),
+      rows_(std::make_unique<RowsOnRoot>(elimination_->number(), problem.communicator()))
 {
   const auto& comm = problem.communicator();
   const auto& g = problem.equality().local();
   const auto parts = parts_on_root(*elimination_, problem.jump().blocks().size(), comm);
   const auto columns = columns_on_root(*elimination_, g, comm);
-  const qp::FeasibleSet set = whole_set();
+  const qp::FeasibleSet set = rows_->to_root(problem.set());
   const auto giving = compliance_on_root(*elimination_, problem.jump(), comm);
   const auto* springs = problem.springs();
   const auto spring_rows = springs ? rows_of_springs(*elimination_, *springs) : std::vector<int>();
@@ -139,73 +126,21 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
 
 ExplicitProblem::~ExplicitProblem() = default;
 
-// The sets of all ranks as one; of use on rank 0.
-qp::FeasibleSet ExplicitProblem::whole_set() const
-{
-  const auto& comm = problem_.communicator();
-  const auto& set = problem_.set();
-  const auto number = [&](Local i) {
-    return i < 0 ? -1.0 : static_cast<double>(elimination_->number()[static_cast<std::size_t>(i)]);
-  };
-  std::vector<double> bounds, discs;
-  for (const auto& bound : set.bounds()) bounds.insert(bounds.end(), {number(bound.index), bound.lower});
-  for (const auto& disc : set.discs())
-    discs.insert(discs.end(), {number(disc.index[0]), number(disc.index[1]), disc.radius, disc.centre[0], disc.centre[1],
-                               number(disc.normal), disc.coefficient});
-  bounds = on_root(std::move(bounds), comm);
-  discs = on_root(std::move(discs), comm);
-  std::vector<qp::Bound> all_bounds;
-  std::vector<qp::Disc> all_discs;
-  for (std::size_t i = 0; i < bounds.size(); i += 2) all_bounds.push_back({static_cast<Local>(bounds[i]), bounds[i + 1]});
-  for (std::size_t i = 0; i < discs.size(); i += 7)
-    all_discs.push_back({{static_cast<Local>(discs[i]), static_cast<Local>(discs[i + 1])},
-                         discs[i + 2],
-                         {discs[i + 3], discs[i + 4]},
-                         static_cast<Local>(discs[i + 5]),
-                         discs[i + 6]});
-  return {std::move(all_bounds), std::move(all_discs)};
-}
-
-// What a vector over the dual space has at the rows that are left, whole on rank 0 by their numbers.
-std::vector<double> ExplicitProblem::to_root(const Vector& x) const
-{
-  const auto own = view(x);
-  std::vector<double> entries;  // number and value of each row
-  for (Eigen::Index i = 0; i < own.size(); ++i)
-    if (const Global number = elimination_->number()[static_cast<std::size_t>(i)]; number >= 0)
-      entries.insert(entries.end(), {static_cast<double>(number), own[i]});
-  entries = on_root(std::move(entries), problem_.communicator());
-  std::vector<double> all(entries.size() / 2);
-  for (std::size_t i = 0; i < entries.size(); i += 2) all[static_cast<std::size_t>(entries[i])] = entries[i + 1];
-  return all;
-}
-
-// And back; zero at the others.
-Vector ExplicitProblem::from_root(std::vector<double> all) const
-{
-  problem_.communicator().broadcast(all);
-  Vector x(problem_.jump().rows());
-  auto values = view(x);
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    if (const Global number = elimination_->number()[static_cast<std::size_t>(i)]; number >= 0)
-      values[i] = all[static_cast<std::size_t>(number)];
-  return x;
-}
-
 void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
 {
   const auto& comm = problem_.communicator();
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
     Eigen::VectorXd motions = Eigen::VectorXd::Zero(problem_.equality().size());
-    auto all = to_root(elimination_->reduce(*in, motions));
+    auto all = rows_->to_root(view(elimination_->reduce(*in, motions)));
     collectively(comm, [&] {
       if (!comm.root()) return;
       const auto solved =
           newton_->inverse_times(Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
       all.assign(solved.begin(), solved.end());
     });
-    Vector result = from_root(std::move(all));
+    Vector result(problem_.jump().rows());
+    view(result) = rows_->from_root(std::move(all));
     elimination_->complete(*in, {}, result);
     y.getVectorNonConst(column)->update(alpha, result, beta);
   }
@@ -215,9 +150,9 @@ ExplicitProblem::Result ExplicitProblem::solve(const Vector& linear, Eigen::Vect
 {
   const auto& comm = problem_.communicator();
   const Eigen::VectorXd right_side = e;
-  const auto reduced = to_root(elimination_->reduce(linear, e));
-  const auto start = near ? to_root(near->x) : std::vector<double>();
-  const qp::FeasibleSet set = whole_set();
+  const auto reduced = rows_->to_root(view(elimination_->reduce(linear, e)));
+  const auto start = near ? rows_->to_root(view(near->x)) : std::vector<double>();
+  const qp::FeasibleSet set = rows_->to_root(problem_.set());
   const auto map = [](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   };
@@ -235,7 +170,10 @@ ExplicitProblem::Result ExplicitProblem::solve(const Vector& linear, Eigen::Vect
   });
   comm.broadcast(nu);
   comm.broadcast(outcome);
-  Result result{from_root(std::move(x)), map(nu), outcome[0] == 1, static_cast<int>(outcome[1]), from_root(std::move(reaction))};
+  Result result{Vector(problem_.jump().rows()), map(nu), outcome[0] == 1, static_cast<int>(outcome[1]),
+                Vector(problem_.jump().rows())};
+  view(result.x) = rows_->from_root(std::move(x));
+  view(result.reaction) = rows_->from_root(std::move(reaction));
   elimination_->complete(linear, result.nu, result.x);
   const auto& equality = problem_.equality();
   if (!comm.any(!problem_.set().constrained().empty()) && equality.size() > 0) {

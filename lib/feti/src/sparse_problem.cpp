@@ -1,10 +1,11 @@
 #include "feti/sparse_problem.hpp"
 
 #include <algorithm>
-#include <numeric>
 
-#include "base/submatrix.hpp"
+#include "base/error.hpp"
 #include "feti/explicit_problem.hpp"
+#include "rows_on_root.hpp"
+#include "whole_problem.hpp"
 
 namespace mortise::feti {
 
@@ -19,30 +20,35 @@ constexpr std::size_t most_entries = 400;      // of a row of B, and of a column
 
 using Eigen::VectorXd;
 
-// The matrix of all subdomains, lower triangle: K, or what K^+ is the inverse of.
-SparseMatrix of_all(const Subdomains& subdomains, const std::vector<int>& offset, bool regularised)
+Eigen::Map<const VectorXd> as_vector(const std::vector<double>& values)
 {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    const SparseMatrix k = regularised ? subdomains[s]->regularised() : subdomains[s]->lower();
-    for (int j = 0; j < k.cols(); ++j)
-      for (SparseMatrix::InnerIterator it(k, j); it; ++it)
-        entries.emplace_back(offset[s] + static_cast<int>(it.row()), offset[s] + j, it.value());
-  }
-  SparseMatrix result(offset.back(), offset.back());
-  result.setFromTriplets(entries.begin(), entries.end());
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+// A matrix from rows, columns and values.
+template <class Matrix>
+Matrix assembled(const std::vector<double>& entries, Eigen::Index rows, Eigen::Index columns)
+{
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(entries.size() / 3);
+  for (std::size_t i = 0; i < entries.size(); i += 3)
+    triplets.emplace_back(static_cast<int>(entries[i]), static_cast<int>(entries[i + 1]), entries[i + 2]);
+  Matrix result(rows, columns);
+  result.setFromTriplets(triplets.begin(), triplets.end());
   return result;
 }
 
-VectorXd joined_vector(const std::vector<VectorXd>& parts, Eigen::Index size)
+// How many entries each owned row of B has. Collective.
+std::vector<std::size_t> entries_of_rows(const JumpOperator& jump)
 {
-  VectorXd result(size);
-  Eigen::Index at = 0;
-  for (const auto& part : parts) {
-    result.segment(at, part.size()) = part;
-    at += part.size();
-  }
-  return result;
+  Vector touched(jump.touched_rows()), owned(jump.rows());
+  for (const auto& block : jump.blocks())
+    for (std::size_t r = 0; r < block.row.size(); ++r)
+      view(touched)[block.row[r]] += static_cast<double>(block.offset[r + 1] - block.offset[r]);
+  owned.doExport(touched, jump.import(), Tpetra::ADD);
+  std::vector<std::size_t> entries;
+  for (const double count : view(owned)) entries.push_back(static_cast<std::size_t>(count));
+  return entries;
 }
 
 }  // namespace
@@ -61,129 +67,97 @@ double work_of_sparse_solution(double entries, double unknowns)
 
 bool SparseProblem::suits(const DualProblem& problem)
 {
+  const auto& comm = problem.communicator();
   const auto& subdomains = problem.clusters().subdomains();
-  if (problem.communicator().size() > 1 || problem.springs() || problem.clusters().kinds() > 0 ||
-      problem.equality().size() != problem.kernel_dimension())
-    return false;
-  std::vector<std::size_t> entries(problem.jump().rows()->getNodeNumElements(), 0);
-  for (const auto& block : problem.jump().blocks())
-    for (std::size_t r = 0; r < block.row.size(); ++r)
-      entries[static_cast<std::size_t>(block.row[r])] += block.offset[r + 1] - block.offset[r];
-  if (std::any_of(entries.begin(), entries.end(), [](std::size_t count) { return count > most_entries; })) return false;
-  const auto constrained = problem.set().constrained();
-  for (const Local i : constrained) entries[static_cast<std::size_t>(i)] = 0;
-  const auto single = static_cast<Global>(std::count(entries.begin(), entries.end(), 1));
-  const Global rows = problem.dual_unknowns() - (single > few_supports ? single : 0);
-  if (rows < many_rows) return false;
+  auto entries = entries_of_rows(problem.jump());
+  bool dense = problem.springs() || problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension() ||
+               std::any_of(entries.begin(), entries.end(), [](std::size_t count) { return count > most_entries; });
   double unknowns = 0, factors = 0;
   for (const auto& subdomain : subdomains) {
-    if (subdomain->lower().nonZeros() > static_cast<Eigen::Index>(most_entries) * subdomain->size()) return false;
+    dense = dense || subdomain->lower().nonZeros() > static_cast<Eigen::Index>(most_entries) * subdomain->size();
     unknowns += subdomain->size();
     factors += static_cast<double>(subdomain->original().factor_bytes()) / sizeof(double);
   }
-  const auto closing = static_cast<double>(constrained.size());
-  return work_of_sparse_solution(factors, unknowns) <
-         worth_of_sparse * work_of_dense_solution(static_cast<double>(rows) - closing, closing);
+  const auto constrained = problem.set().constrained();
+  for (const Local i : constrained) entries[static_cast<std::size_t>(i)] = 0;
+  std::vector<double> sums{dense ? 1.0 : 0.0, unknowns, factors, static_cast<double>(constrained.size()),
+                           static_cast<double>(std::count(entries.begin(), entries.end(), 1))};
+  comm.sum_in_place(sums);
+  const double closing = sums[3], single = sums[4];
+  const double rows = static_cast<double>(problem.dual_unknowns()) - (single > few_supports ? single : 0);
+  return sums[0] == 0 && rows >= many_rows &&
+         work_of_sparse_solution(sums[2], sums[1]) < worth_of_sparse * work_of_dense_solution(rows - closing, closing);
 }
 
-SparseProblem::SparseProblem(const DualProblem& problem) : problem_(problem), offset_{0}
+SparseProblem::SparseProblem(const DualProblem& problem) : problem_(problem)
 {
-  const auto& subdomains = problem.clusters().subdomains();
-  for (const auto& subdomain : subdomains) offset_.push_back(offset_.back() + subdomain->size());
-  stiffness_ = of_all(subdomains, offset_, false);
+  const auto& comm = problem.communicator();
   const auto& jump = problem.jump();
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+  long long own = 0;
+  for (const auto& subdomain : problem.clusters().subdomains()) own += subdomain->size();
+  offset_.push_back(static_cast<int>(comm.offset(own)));
+  for (const auto& subdomain : problem.clusters().subdomains()) offset_.push_back(offset_.back() + subdomain->size());
+  unknowns_ = static_cast<int>(comm.sum(own));
+  const auto owned = jump.rows()->getMyGlobalIndices();
+  std::vector<Global> number;
+  for (std::size_t i = 0; i < owned.extent(0); ++i) number.push_back(owned[i]);
+  rows_ = std::make_unique<RowsOnRoot>(std::move(number), comm);
+
+  std::vector<double> entries;
+  for (std::size_t s = 0; s + 1 < offset_.size(); ++s) {
     const auto& block = jump.blocks()[s];
-    for (std::size_t r = 0; r < block.row.size(); ++r) {
-      const Local row = jump.rows()->getLocalElement(jump.touched_rows()->getGlobalElement(block.row[r]));
+    for (std::size_t r = 0; r < block.row.size(); ++r)
       for (auto i = block.offset[r]; i < block.offset[r + 1]; ++i)
-        entries.emplace_back(row, offset_[s] + block.unknown[i], block.coefficient[i]);
-    }
+        entries.insert(entries.end(), {static_cast<double>(jump.touched_rows()->getGlobalElement(block.row[r])),
+                                       static_cast<double>(offset_[s] + block.unknown[i]), block.coefficient[i]});
   }
-  rows_.resize(static_cast<Eigen::Index>(jump.rows()->getNodeNumElements()), offset_.back());
-  rows_.setFromTriplets(entries.begin(), entries.end());
-  choose_supports();
-  newton_ = std::make_unique<qp::SparseNewton>(reduced(stiffness_));
+  entries = feti::on_root(std::move(entries), comm);
+  const auto compliance = rows_->to_root(jump.compliance());
+  const auto set = rows_->to_root(problem.set());
+  SparseMatrix stiffness = stiffness_on_root(false);
+  collectively(comm, [&] {
+    if (comm.root())
+      whole_ = std::make_unique<WholeProblem>(std::move(stiffness),
+                                              assembled<WholeProblem::Rows>(entries, problem.dual_unknowns(), unknowns_),
+                                              as_vector(compliance), set);
+  });
 }
 
 SparseProblem::~SparseProblem() = default;
 
-// Rows without a constraint that hold one unknown, an unknown once.
-void SparseProblem::choose_supports()
+// The matrix of all subdomains, lower triangle: K, or what K^+ is the inverse of. Nothing elsewhere. Collective.
+SparseMatrix SparseProblem::stiffness_on_root(bool regularised) const
 {
-  std::vector<char> constrained(static_cast<std::size_t>(rows_.rows()), 0), taken(static_cast<std::size_t>(rows_.cols()), 0);
-  for (const Local i : problem_.set().constrained()) constrained[static_cast<std::size_t>(i)] = 1;
-  for (int row = 0; row < rows_.rows(); ++row) {
-    const Rows::InnerIterator first(rows_, row);
-    const bool single = rows_.outerIndexPtr()[row + 1] == rows_.outerIndexPtr()[row] + 1;
-    if (single && constrained[static_cast<std::size_t>(row)] == 0 && !(problem_.jump().compliance()[row] > 0) &&
-        taken[static_cast<std::size_t>(first.col())]++ == 0) {
-      supports_.push_back({row, static_cast<int>(first.col()), first.value()});
-      number_.push_back(-1);
-      continue;
+  const auto& comm = problem_.communicator();
+  const auto& subdomains = problem_.clusters().subdomains();
+  std::vector<double> entries;
+  SparseMatrix result;
+  collectively(comm, [&] {
+    for (std::size_t s = 0; s < subdomains.size(); ++s) {
+      const SparseMatrix k = regularised ? subdomains[s]->regularised() : subdomains[s]->lower();
+      for (int j = 0; j < k.cols(); ++j)
+        for (SparseMatrix::InnerIterator it(k, j); it; ++it)
+          entries.insert(entries.end(), {static_cast<double>(offset_[s] + it.row()), static_cast<double>(offset_[s] + j), it.value()});
     }
-    number_.push_back(static_cast<Local>(kept_.size()));
-    kept_.push_back(row);
-  }
-  for (int i = 0; i < rows_.cols(); ++i)
-    if (taken[static_cast<std::size_t>(i)] == 0) free_.push_back(i);
-}
-
-// Over the unknowns and rows that are left.
-qp::SparseMatrices SparseProblem::reduced(const SparseMatrix& stiffness) const
-{
-  std::vector<int> place(static_cast<std::size_t>(rows_.cols()), -1);
-  for (std::size_t i = 0; i < free_.size(); ++i) place[static_cast<std::size_t>(free_[i])] = static_cast<int>(i);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t i = 0; i < kept_.size(); ++i)
-    for (Rows::InnerIterator it(rows_, kept_[i]); it; ++it)
-      if (const int column = place[static_cast<std::size_t>(it.col())]; column >= 0)
-        entries.emplace_back(static_cast<int>(i), column, it.value());
-  qp::SparseMatrices result;
-  result.k = submatrix(stiffness, free_, free_, true);
-  result.b.resize(static_cast<Eigen::Index>(kept_.size()), static_cast<Eigen::Index>(free_.size()));
-  result.b.setFromTriplets(entries.begin(), entries.end());
-  result.s = problem_.jump().compliance()(kept_);
+  });
+  entries = feti::on_root(std::move(entries), comm);
+  collectively(comm, [&] {
+    if (comm.root()) result = assembled<SparseMatrix>(entries, unknowns_, unknowns_);
+  });
   return result;
 }
 
-qp::FeasibleSet SparseProblem::reduced_set() const
+// What the subdomains of all ranks have, one after the other. Collective.
+VectorXd SparseProblem::on_root(const std::vector<VectorXd>& parts) const
 {
-  const auto number = [&](Local row) { return row < 0 ? -1 : number_[static_cast<std::size_t>(row)]; };
-  std::vector<qp::Bound> bounds(problem_.set().bounds().begin(), problem_.set().bounds().end());
-  std::vector<qp::Disc> discs(problem_.set().discs().begin(), problem_.set().discs().end());
-  for (auto& bound : bounds) bound.index = number(bound.index);
-  for (auto& disc : discs) {
-    disc.index = {number(disc.index[0]), number(disc.index[1])};
-    disc.normal = number(disc.normal);
-  }
-  return {std::move(bounds), std::move(discs)};
-}
-
-// The unknowns that supports hold, over all unknowns, where their rows are to see these bounds.
-VectorXd SparseProblem::held(const Eigen::Ref<const VectorXd>& bounds) const
-{
-  VectorXd u = VectorXd::Zero(rows_.cols());
-  for (const auto& support : supports_) u[support.unknown] = bounds[support.row] / support.coefficient;
-  return u;
-}
-
-// The multipliers of all rows from those of the rows that are kept, where supports take up what `forces` lack.
-Vector SparseProblem::complete(const VectorXd& kept, const VectorXd& forces) const
-{
-  Vector x(problem_.jump().rows());
-  auto values = view(x);
-  values.setZero();
-  values(kept_) = kept;
-  const VectorXd left = forces - rows_.transpose() * VectorXd(values);
-  for (const auto& support : supports_) values[support.row] = left[support.unknown] / support.coefficient;
-  return x;
+  std::vector<double> own;
+  for (const auto& part : parts) own.insert(own.end(), part.begin(), part.end());
+  return as_vector(feti::on_root(std::move(own), problem_.communicator()));
 }
 
 SparseProblem::Result SparseProblem::solve() const
 {
-  return solve(joined_vector(problem_.load(), rows_.cols()), problem_.jump().bound(), nullptr);
+  return solve(problem_.load(), problem_.jump().bound(), nullptr);
 }
 
 // Forces R de move bodies and nothing else: c' = c + d - d' + B K^+ R de.
@@ -191,62 +165,73 @@ SparseProblem::Result SparseProblem::go_on(const Vector& linear, const VectorXd&
 {
   const auto& clusters = problem_.clusters();
   const VectorXd more = e - problem_.equality().right_side();
-  VectorXd f = joined_vector(problem_.load(), rows_.cols()), bound = problem_.jump().bound();
-  std::vector<VectorXd> push;
-  for (std::size_t s = 0; s + 1 < offset_.size(); ++s) {
+  std::vector<VectorXd> push, f = problem_.load();
+  for (std::size_t s = 0; s < f.size(); ++s) {
     push.push_back(clusters.motion(s, more.segment(clusters.first(s), clusters.modes())));
-    f.segment(offset_[s], push[s].size()) += push[s];
+    f[s] += push[s];
   }
   clusters.apply_inverse(push);
-  bound += view(problem_.linear()) - view(linear) + rows_ * joined_vector(push, rows_.cols());
+  const Vector moved = problem_.jump().apply(push);
+  const VectorXd bound = problem_.jump().bound() + view(problem_.linear()) - view(linear) + view(moved);
   return solve(f, bound, &near);
 }
 
-SparseProblem::Result SparseProblem::solve(const VectorXd& f, const VectorXd& bound, const Vector* near) const
+SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const Vector* near) const
 {
-  VectorXd u = held(bound);
-  VectorXd load = f;
-  load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
-  const VectorXd gap = bound - rows_ * u;
-  qp::CondensedNewton::Point from;
-  if (near) from = {view(*near)(kept_), last_(free_), false, 0, last_reaction_};
-  const auto found = newton_->solve(load(free_), gap(kept_), reduced_set(), near ? &from : nullptr);
-  u(free_) = found.nu;
-  load = f;
-  load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
-  const auto& clusters = problem_.clusters();
-  Result result{complete(found.x, load), VectorXd::Zero(problem_.equality().size()), found.converged, found.steps,
-                Vector(problem_.jump().rows())};
+  const auto& comm = problem_.communicator();
+  const VectorXd load = on_root(f);
+  const auto c = rows_->to_root(bound), start = near ? rows_->to_root(view(*near)) : std::vector<double>();
+  const auto set = rows_->to_root(problem_.set());
+  std::vector<double> x, u, reaction;
+  std::vector<long long> outcome;
+  collectively(comm, [&] {
+    if (!comm.root()) return;
+    const VectorXd from = as_vector(start);
+    const auto found = whole_->solve(load, as_vector(c), set, near ? &from : nullptr);
+    x.assign(found.x.begin(), found.x.end());
+    u.assign(found.u.begin(), found.u.end());
+    reaction.assign(found.reaction.begin(), found.reaction.end());
+    outcome = {found.converged ? 1 : 0, found.steps};
+  });
+  comm.broadcast(u);
+  comm.broadcast(outcome);
+  Result result{Vector(problem_.jump().rows()), VectorXd::Zero(problem_.equality().size()), outcome[0] == 1,
+                static_cast<int>(outcome[1]), Vector(problem_.jump().rows())};
+  view(result.x) = rows_->from_root(std::move(x));
+  view(result.reaction) = rows_->from_root(std::move(reaction));
+
+  const auto& clusters = problem_.clusters();  // R nu = K^+ (f - B'x) - u
   std::vector<VectorXd> elastic = problem_.jump().apply_transpose(result.x);
-  for (std::size_t s = 0; s < elastic.size(); ++s)
-    elastic[s] = f.segment(offset_[s], elastic[s].size()) - elastic[s];
+  for (std::size_t s = 0; s < elastic.size(); ++s) elastic[s] = f[s] - elastic[s];
   clusters.apply_inverse(elastic);
   for (std::size_t s = 0; s < elastic.size(); ++s)
     result.nu.segment(clusters.first(s), clusters.modes()) =
-        clusters.coordinates(s, elastic[s] - u.segment(offset_[s], elastic[s].size()));
-  for (const Local i : problem_.set().constrained())
-    view(result.reaction)[i] = found.reaction[number_[static_cast<std::size_t>(i)]];
-  last_ = std::move(u);
-  last_reaction_ = found.reaction;
+        clusters.coordinates(s, elastic[s] - as_vector(u).segment(offset_[s], elastic[s].size()));
+  comm.sum_in_place({result.nu.data(), static_cast<std::size_t>(result.nu.size())});
   return result;
 }
 
 void SparseProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
 {
-  if (!inverse_) {
-    regularised_ = of_all(problem_.clusters().subdomains(), offset_, true);
-    inverse_ = std::make_unique<qp::SparseInverse>(reduced(regularised_));
+  const auto& comm = problem_.communicator();
+  if (!has_inverse_) {
+    SparseMatrix regularised = stiffness_on_root(true);
+    collectively(comm, [&] {
+      if (comm.root()) whole_->make_inverse(std::move(regularised));
+    });
+    has_inverse_ = true;
   }
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
-    VectorXd u = held(view(*in));
-    VectorXd force = VectorXd::Zero(u.size());
-    force -= regularised_.selfadjointView<Eigen::Lower>() * u;
-    const VectorXd jump = view(*in) - rows_ * u;
-    const auto found = inverse_->solve(jump(kept_), force(free_));
-    u(free_) = found.u;
-    force = regularised_.selfadjointView<Eigen::Lower>() * u;
-    y.getVectorNonConst(column)->update(alpha, complete(found.x, force), beta);
+    auto all = rows_->to_root(view(*in));
+    collectively(comm, [&] {
+      if (!comm.root()) return;
+      const VectorXd solved = whole_->inverse_times(as_vector(all));
+      all.assign(solved.begin(), solved.end());
+    });
+    Vector result(problem_.jump().rows());
+    view(result) = rows_->from_root(std::move(all));
+    y.getVectorNonConst(column)->update(alpha, result, beta);
   }
 }
 

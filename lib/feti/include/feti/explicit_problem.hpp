@@ -7,6 +7,7 @@
 namespace mortise::feti {
 
 class DirichletElimination;
+class RowsOnRoot;
 
 /// So many rows of supports along axes are not worth an elimination. It costs figures where F is large beside what balanced
 /// forces do, as on a thin plate: the products with F that show a solution to be one have the rounding of another factor.
@@ -46,12 +47,9 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   void fix(std::span<const Local>) override {}  // energy() is a bound over all x, and so over those with zeros
 
  private:
-  qp::FeasibleSet whole_set() const;
-  std::vector<double> to_root(const Vector& x) const;
-  Vector from_root(std::vector<double> all) const;
-
   const DualProblem& problem_;
   std::unique_ptr<const DirichletElimination> elimination_;
+  std::unique_ptr<const RowsOnRoot> rows_;
   std::unique_ptr<qp::CondensedNewton> newton_;  // rank 0
   bool separated_ = false, eliminated_ = false;
 };

@@ -19,64 +19,52 @@ constexpr double worth_of_sparse = 3;
 double work_of_dense_solution(double free, double closing);
 double work_of_sparse_solution(double entries, double unknowns);
 
-/// K and B of all subdomains as sparse matrices, less supports that hold one unknown each. As an operator it is F^-1, by a sparse
-/// factor of its own. On one rank. Heavy: neither copies nor moves.
+class RowsOnRoot;
+class WholeProblem;
+
+/// K and B of all subdomains as sparse matrices on rank 0. As an operator it is F^-1, by a sparse factor of its own. Heavy:
+/// neither copies nor moves.
 class SparseProblem : public qp::ActiveSetPreconditioner {
  public:
-  /// Whether there are many rows, and sparse matrices take less time: on one rank, for bodies whose stiffness is sparse, with
-  /// nothing but rigid motions in G, without springs and without rows over whole bodies (gauges).
+  /// Whether there are many rows, and sparse matrices take less time: for bodies whose stiffness is sparse, with nothing but
+  /// rigid motions in G, without springs and without rows over whole bodies (gauges). The same on every rank. Collective.
   static bool suits(const DualProblem& problem);
 
-  /// The problem outlives it.
+  /// The problem outlives it. Throws Error(machine) if memory runs out. Collective.
   explicit SparseProblem(const DualProblem& problem);
   ~SparseProblem() override;
 
   struct Result {
     Vector x;                ///< lambda, over the rows of B
-    Eigen::VectorXd nu;      ///< of the motions of all subdomains
+    Eigen::VectorXd nu;      ///< of the motions of all subdomains, the same on every rank
     bool converged = false;  ///< exact to rounding; else the last guess
     int steps = 0;           ///< linear problems solved
     Vector reaction;         ///< F lambda - d + G'nu by these matrices, zero at rows without a constraint
   };
   /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Throws as qp::SparseNewton.
+  /// Collective.
   Result solve() const;
   /// The same for another linear term d and another e, that differ by little: from the last solution on, whose lambda is given.
+  /// Collective.
   Result go_on(const Vector& linear, const Eigen::VectorXd& e, const Vector& near) const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
-  /// y = alpha F^-1 x + beta y. Throws as qp::SparseInverse.
+  /// y = alpha F^-1 x + beta y. Throws as qp::SparseInverse. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
   void fix(std::span<const Local>) override {}  // energy() is a bound over all x, and so over those with zeros
 
  private:
-  using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-  // A row that holds one unknown.
-  struct Support {
-    Local row;
-    int unknown;
-    double coefficient;
-  };
-
-  void choose_supports();
-  qp::SparseMatrices reduced(const SparseMatrix& stiffness) const;
-  qp::FeasibleSet reduced_set() const;
-  Eigen::VectorXd held(const Eigen::Ref<const Eigen::VectorXd>& bounds) const;
-  Result solve(const Eigen::VectorXd& f, const Eigen::VectorXd& bound, const Vector* near) const;
-  Vector complete(const Eigen::VectorXd& kept, const Eigen::VectorXd& forces) const;
+  SparseMatrix stiffness_on_root(bool regularised) const;
+  Eigen::VectorXd on_root(const std::vector<Eigen::VectorXd>& parts) const;
+  Result solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const Vector* near) const;
 
   const DualProblem& problem_;
-  std::vector<int> offset_;  // of each subdomain's unknowns
-  SparseMatrix stiffness_;   // K, lower triangle
-  Rows rows_;                // B
-  std::vector<Support> supports_;
-  std::vector<int> free_;               // unknowns that no support holds
-  std::vector<int> kept_;               // rows that are none of these,
-  std::vector<Local> number_;           // and their numbers, -1 for others
-  std::unique_ptr<qp::SparseNewton> newton_;
-  mutable Eigen::VectorXd last_, last_reaction_;        // displacements of the last solution, and s of its rows
-  mutable SparseMatrix regularised_;                    // what K^+ is the inverse of, lower triangle,
-  mutable std::unique_ptr<qp::SparseInverse> inverse_;  // once F^-1 is asked for
+  std::unique_ptr<const RowsOnRoot> rows_;
+  std::vector<int> offset_;              // of the unknowns of this rank's subdomains among all; one past the last
+  int unknowns_ = 0;                     // of all ranks
+  std::unique_ptr<WholeProblem> whole_;  // rank 0
+  mutable bool has_inverse_ = false;
 };
 
 }  // namespace mortise::feti
