@@ -166,12 +166,12 @@ ExplicitProblem::Result ExplicitProblem::solve(const Vector& linear, Eigen::Vect
     x.assign(found.x.begin(), found.x.end());
     nu.assign(found.nu.begin(), found.nu.end());
     reaction.assign(found.reaction.begin(), found.reaction.end());
-    outcome = {found.converged ? 1 : 0, found.steps};
+    outcome = {found.converged ? 1 : 0, found.steps, found.settled ? 1 : 0};
   });
   comm.broadcast(nu);
   comm.broadcast(outcome);
   Result result{Vector(problem_.jump().rows()), map(nu), outcome[0] == 1, static_cast<int>(outcome[1]),
-                Vector(problem_.jump().rows())};
+                Vector(problem_.jump().rows()), outcome[2] == 1};
   view(result.x) = rows_->from_root(std::move(x));
   view(result.reaction) = rows_->from_root(std::move(reaction));
   elimination_->complete(linear, result.nu, result.x);

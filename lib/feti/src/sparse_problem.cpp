@@ -15,6 +15,7 @@ constexpr double dense_guesses = 8;      // of a direct solution with dense matr
 constexpr double sparse_problems = 30;   // linear problems of one with sparse ones
 constexpr double steps_of_gmres = 15;    // in each of these
 constexpr double slow = 8;               // operations of a factor in the time of one that a solution with it takes
+constexpr double some_seconds = 1e11;    // operations
 constexpr double joined = 1.3;           // entries of the factor of joined bodies, over those of their own
 constexpr std::size_t most_entries = 400;      // of a row of B, and of a column of K on average
 
@@ -65,7 +66,7 @@ double work_of_sparse_solution(double entries, double unknowns)
   return sparse_problems * (2 * l * l / std::max(unknowns, 1.0) + steps_of_gmres * slow * 4 * l);
 }
 
-bool SparseProblem::suits(const DualProblem& problem)
+SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
 {
   const auto& comm = problem.communicator();
   const auto& subdomains = problem.clusters().subdomains();
@@ -85,8 +86,11 @@ bool SparseProblem::suits(const DualProblem& problem)
   comm.sum_in_place(sums);
   const double closing = sums[3], single = sums[4];
   const double rows = static_cast<double>(problem.dual_unknowns()) - (single > few_supports ? single : 0);
-  return sums[0] == 0 && rows >= many_rows &&
-         work_of_sparse_solution(sums[2], sums[1]) < worth_of_sparse * work_of_dense_solution(rows - closing, closing);
+  const double work = work_of_sparse_solution(sums[2], sums[1]);
+  const bool quick = work < worth_of_sparse * work_of_dense_solution(rows - closing, closing);
+  if (sums[0] > 0) return Turn::never;
+  if (quick && rows >= many_rows) return Turn::first;
+  return quick || work < some_seconds ? Turn::second : Turn::never;
 }
 
 SparseProblem::SparseProblem(const DualProblem& problem) : problem_(problem)
@@ -191,12 +195,12 @@ SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const
     x.assign(found.x.begin(), found.x.end());
     u.assign(found.u.begin(), found.u.end());
     reaction.assign(found.reaction.begin(), found.reaction.end());
-    outcome = {found.converged ? 1 : 0, found.steps};
+    outcome = {found.converged ? 1 : 0, found.steps, found.settled ? 1 : 0};
   });
   comm.broadcast(u);
   comm.broadcast(outcome);
   Result result{Vector(problem_.jump().rows()), VectorXd::Zero(problem_.equality().size()), outcome[0] == 1,
-                static_cast<int>(outcome[1]), Vector(problem_.jump().rows())};
+                static_cast<int>(outcome[1]), Vector(problem_.jump().rows()), outcome[2] == 1};
   view(result.x) = rows_->from_root(std::move(x));
   view(result.reaction) = rows_->from_root(std::move(reaction));
 

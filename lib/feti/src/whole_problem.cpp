@@ -96,7 +96,7 @@ WholeProblem::Solution WholeProblem::solve(const VectorXd& f, const VectorXd& c,
   u(free_) = found.nu;
   load = f;
   load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
-  Solution result{complete(found.x, load), u, VectorXd::Zero(rows_.rows()), found.converged, found.steps};
+  Solution result{complete(found.x, load), u, VectorXd::Zero(rows_.rows()), found.converged, found.steps, found.settled};
   for (const Local i : set.constrained()) result.reaction[i] = found.reaction[number_[static_cast<std::size_t>(i)]];
   last_ = std::move(u);
   last_reaction_ = found.reaction;

@@ -22,6 +22,7 @@ class WholeProblem {
     Eigen::VectorXd reaction;  ///< c - B u + S x, zero at rows without a constraint
     bool converged = false;    ///< exact to rounding; else the last guess
     int steps = 0;             ///< linear problems solved
+    bool settled = true;       ///< if it converged: no state of a constraint rests on rounding
   };
   /// For the load f, the bounds c and the set; `near`: x of the last solution, to go on from. Throws as qp::SparseNewton.
   Solution solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const qp::FeasibleSet& set,

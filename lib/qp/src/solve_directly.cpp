@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "make_solvers.hpp"
 
@@ -19,15 +20,18 @@ constexpr double of_energy = 3e-5;           // or of the energy norm
 class DirectSolver : public Solver {
  public:
   DirectSolver(const Problem& problem, const Means& means)
-      : problem_(problem), matrices_(means.make_explicit()), faces_(face_newton_with(matrices_.inverse.get(), problem, means))
+      : problem_(problem),
+        means_(means),
+        matrices_(means.make_explicit()),
+        faces_(face_newton_with(matrices_.inverse.get(), problem, means))
   {
   }
 
   void begin(std::optional<Solution>& start, Goal& goal, const Observer& observer) override
   {
-    faces_->begin(start, goal, observer);
     if (observer) observer({"direct", 0, problem_.hessian.count()});
-    auto found = matrices_.solve();
+    auto found = solve_with_matrices();
+    faces_->begin(start, goal, observer);
     if (found.converged && matrices_.go_on && !goal.allowed_error) correct(found, goal);
     if (found.converged && goal.allowed_error) goal.exact = rounding_of_direct;
     Solution solution(found.x, found.x, found.nu);
@@ -46,6 +50,20 @@ class DirectSolver : public Solver {
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
  private:
+  // With the other matrices, if there are any, where these do not tell the states of all constraints.
+  ExplicitProgramme::Point solve_with_matrices()
+  {
+    auto found = matrices_.solve();
+    if ((found.converged && found.settled) || !matrices_.instead) return found;
+    const auto make_others = std::exchange(matrices_.instead, {});
+    auto others = make_others();
+    auto next = others.solve();
+    if (!next.converged || (found.converged && !next.settled)) return found;
+    matrices_ = std::move(others);
+    faces_ = face_newton_with(matrices_.inverse.get(), problem_, means_);
+    return next;
+  }
+
   // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M) x:
   // less that, b gives the next one [Stetter, The defect correction principle and discretization methods, Numer. Math. 29
   // (1978)]. One product each.
@@ -91,6 +109,7 @@ class DirectSolver : public Solver {
   }
 
   const Problem& problem_;
+  Means means_;
   ExplicitProgramme matrices_;
   std::unique_ptr<Solver> faces_;
 };

@@ -129,6 +129,7 @@ bool StateSearch::guess(int look_back)
     const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
     // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
     const bool turns_on_rounding = residual <= flutter * size || (rounded && step - fewest_at >= idle);
+    point_.settled = changes == 0 || residual <= flutter * size;
     if (step > 0 && small && (changes == 0 || turns_on_rounding)) return true;
     if (changes == 0 && residual <= settled_residual * size) return true;
     history.push_back(changes);
@@ -219,6 +220,7 @@ bool StateSearch::follow_path()
   if (ended || !costly) return ended;
   point_.x = path.x(), point_.nu = path.nu();
   states_ = programme_.states(point_.x, point_.nu);
+  point_.settled = off() <= flutter;
   return off() <= end_of_costly_path;
 }
 

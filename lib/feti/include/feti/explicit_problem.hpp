@@ -30,6 +30,7 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
     bool converged = false;  ///< exact to rounding; else the last guess
     int steps = 0;           ///< linear problems solved
     Vector reaction;         ///< F lambda - d + G'nu by the matrices, zero at rows without a constraint
+    bool settled = true;     ///< if it converged: no state of a constraint rests on rounding
   };
   /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Collective.
   Result solve() const { return solve(problem_.linear(), problem_.equality().right_side()); }

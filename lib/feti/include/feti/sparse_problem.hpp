@@ -26,9 +26,12 @@ class WholeProblem;
 /// neither copies nor moves.
 class SparseProblem : public qp::ActiveSetPreconditioner {
  public:
-  /// Whether there are many rows, and sparse matrices take less time: for bodies whose stiffness is sparse, with nothing but
-  /// rigid motions in G, without springs and without rows over whole bodies (gauges). The same on every rank. Collective.
-  static bool suits(const DualProblem& problem);
+  /// When a direct solution should take these: never, first, or after dense matrices have failed.
+  enum class Turn { never, first, second };
+  /// Possible for bodies whose stiffness is sparse, with nothing but rigid motions in G, without springs and without rows over
+  /// whole bodies (gauges). First where there are many rows and sparse matrices take less time; second where they take no more
+  /// than some times as long, or some seconds. The same on every rank. Collective.
+  static Turn turn(const DualProblem& problem);
 
   /// The problem outlives it. Throws Error(machine) if memory runs out. Collective.
   explicit SparseProblem(const DualProblem& problem);
@@ -40,6 +43,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
     bool converged = false;  ///< exact to rounding; else the last guess
     int steps = 0;           ///< linear problems solved
     Vector reaction;         ///< F lambda - d + G'nu by these matrices, zero at rows without a constraint
+    bool settled = true;     ///< if it converged: no state of a constraint rests on rounding
   };
   /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Throws as qp::SparseNewton.
   /// Collective.

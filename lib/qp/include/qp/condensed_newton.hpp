@@ -39,6 +39,7 @@ class CondensedNewton {
     bool converged = false;        ///< to rounding; else the last guess
     int steps = 0;                 ///< linear problems solved
     Eigen::VectorXd reaction = {};  ///< A x - b + G'nu, zero at unknowns without a constraint
+    bool settled = true;            ///< if it converged: with states that the next guess left as they are, not by rounding alone
   };
   /// For the linear term b and the right-hand side e. `near`: a solution for others that differ by little, from whose states
   /// guesses go on; nothing else is tried then.

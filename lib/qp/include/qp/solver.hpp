@@ -37,6 +37,7 @@ struct ExplicitProgramme {
     bool converged = false;  ///< exact to rounding; else the last guess
     /// A x - b + G'nu by the matrix, zero where there is no constraint; there if go_on() is.
     std::optional<Vector> reaction = {};
+    bool settled = true;  ///< if it converged: no state of a constraint rests on rounding
   };
   std::shared_ptr<ActiveSetPreconditioner> inverse;  ///< A^-1
   /// Solves with the linear term, right-hand side and set that the programme has by now; radii of discs with a coefficient follow
@@ -45,6 +46,8 @@ struct ExplicitProgramme {
   /// Where the matrix differs from A by a little: the same for another linear term and right-hand side that differ by little from
   /// those of a solution `near`, from which it goes on. Else empty. Collective.
   std::function<Point(const Vector& b, const Eigen::VectorXd& e, const Point& near)> go_on = {};
+  /// Other matrices, for where a solution with these does not converge or settle. Else empty. Collective.
+  std::function<ExplicitProgramme()> instead = {};
 };
 
 /// What a solver may use besides the problem.
