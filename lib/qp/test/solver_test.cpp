@@ -141,6 +141,44 @@ TEST(Solvers, ANearbyMatrixIsCorrectedByAFewProducts)
   EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
 }
 
+// Matrices whose solution is none, or one whose states rest on rounding, give way to others that have one, and to no others.
+TEST(Solvers, OtherMatricesFollowThoseThatFail)
+{
+  struct Outcome {
+    bool converged, settled;
+  };
+  const auto solve = [](Outcome first, Outcome second) {
+    Setting setting;
+    const auto programme_with = [&setting](Outcome outcome, double scale) {
+      const auto matrices = std::make_shared<DenseProgramme>(setting.programme);
+      return ExplicitProgramme{matrices, [matrices, outcome, scale] {
+                                 auto found = matrices->solve();
+                                 found.x.scale(scale);
+                                 found.converged = outcome.converged;
+                                 found.settled = outcome.settled;
+                                 return found;
+                               }};
+    };
+    setting.means.make_explicit = [&] {
+      auto programme = programme_with(first, 1);
+      programme.instead = [&] { return programme_with(second, 2); };
+      return programme;
+    };
+    const auto solver = setting.make(solver_kind("direct"));
+    Goal goal{1e-12};
+    std::optional<Solution> start;
+    solver->begin(start, goal, {});
+    return gathered(start->x, world()).norm();
+  };
+  const double first = solve({true, true}, {true, true}), second = solve({false, true}, {true, true});
+  EXPECT_NEAR(second, 2 * first, 1e-12 * first);
+  EXPECT_NEAR(solve({true, false}, {true, true}), second, 1e-12 * first);
+  EXPECT_NEAR(solve({false, false}, {true, false}), second, 1e-12 * first);
+  EXPECT_NEAR(solve({true, false}, {true, false}), first, 1e-12 * first);
+  EXPECT_NEAR(solve({true, false}, {false, true}), first, 1e-12 * first);
+  EXPECT_NEAR(solve({false, true}, {false, true}), first, 1e-12 * first);
+}
+
 // Coulomb's law as SlipLaw; radii are infinite to begin with.
 SlipLaw coulomb(FeasibleSet& set, double coefficient)
 {
