@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "model/auto_contacts.hpp"
+#include "model/crossed_bodies.hpp"
 #include "model/patterns.hpp"
 #include "post/deformation.hpp"
 #include "post/model_checks.hpp"
@@ -125,7 +125,7 @@ std::vector<Warning> short_searches(const Rows& rows, const post::Results& resul
   return result;
 }
 
-// `contacts: auto` looks as far as it is told, and not at what moves farther.
+// `contacts: auto` looks as far as it is told, and not at what moves farther; a named contact looks at its faces.
 std::vector<Warning> crossings(const model::Model& model, const std::vector<Eigen::VectorXd>& displacement,
                                const std::vector<std::string>& names, const Communicator& comm)
 {
@@ -134,12 +134,12 @@ std::vector<Warning> crossings(const model::Model& model, const std::vector<Eige
   const auto& worst = crossed.front();
   const auto& [a, b] = worst.bodies;
   Warning w{"crossed_bodies",
-            fmt::format("bodies \"{}\" and \"{}\" stand in each other by {:.3g} at ({:.5g}, {:.5g}, {:.5g}): no contact between "
-                        "them was found or named{}",
+            fmt::format("bodies \"{}\" and \"{}\" stand in each other by {:.3g} at ({:.5g}, {:.5g}, {:.5g}): no contact there "
+                        "was found or named{}",
                         names[static_cast<std::size_t>(a)], names[static_cast<std::size_t>(b)], worst.depth, worst.at[0],
                         worst.at[1], worst.at[2],
                         crossed.size() > 1 ? fmt::format("; {} more pairs do", crossed.size() - 1) : ""),
-            "give the entry `auto` a larger search_distance, or name their boundaries in a contact"};
+            "name the faces that meet in a contact, or give the entry `auto` a larger search_distance"};
   w.at = worst.at;
   w.body = names[static_cast<std::size_t>(a)];
   w.value = worst.depth;

@@ -75,7 +75,7 @@ struct OuterFaces {
     return result;
   }
 
-  std::vector<ContactCandidate> candidates(const Options& options = {}, const std::set<Bodies>& known = {}) const
+  std::vector<ContactCandidate> candidates(const Options& options = {}, const KnownContacts& known = {}) const
   {
     const Communicator comm;
     const int bodies = 1 + *std::max_element(body.begin(), body.end());
@@ -131,8 +131,22 @@ TEST(Pairing, Distance)
   EXPECT_EQ(two_blocks(0.5).candidates(within(0.6)).size(), 1u);
   EXPECT_EQ(two_blocks(-0.5).candidates(within(0.6)).size(), 1u);
   EXPECT_EQ(two_blocks(0.5).candidates(within(0.4)).size(), 0u);
-  EXPECT_EQ(two_blocks(0.5).candidates(within(0.6), {{0, 1}}).size(), 0u);
+  EXPECT_EQ(two_blocks(0.5).candidates(within(0.6), {{{0, 1}}, {}}).size(), 0u);
   EXPECT_EQ(two_blocks(0.5).candidates(within(0.6))[0].reach, 0.6);
+}
+
+TEST(Pairing, FacesOfAContactAreKnown)
+{
+  const auto skin = two_blocks(0.1);
+  const auto found = skin.candidates();
+  ASSERT_EQ(found.size(), 1u);
+  KnownContacts sides, others;
+  for (const auto face : found[0].secondary_faces) sides.sides_of[face] = {4}, others.sides_of[face] = {3, 4};
+  for (const auto face : found[0].primary_faces) sides.sides_of[face] = {5}, others.sides_of[face] = {6};
+  EXPECT_EQ(skin.candidates({}, sides).size(), 0u);
+  EXPECT_EQ(skin.candidates({}, others).size(), 1u);  // sides of two contacts
+  sides.sides_of.erase(found[0].secondary_faces.front());
+  EXPECT_EQ(skin.candidates({}, sides).size(), 1u);
 }
 
 TEST(Pairing, GapsThatInterferenceCloses)

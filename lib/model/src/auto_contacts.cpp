@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -73,46 +72,6 @@ std::vector<bool> unnamed_bodies(const mesh::Surface& skin, const std::set<conta
   return result;
 }
 
-// Of the largest displacement: what bodies cross by less is no more than corners that meet.
-constexpr double crossed = 0.01;
-
-// Moves the points of a skin by the displacements of its nodes, nodes x dimension of each subdomain. Returns the longest.
-double displace(mesh::Surface& skin, const partition::Decomposition& decomposition,
-                const std::vector<Eigen::VectorXd>& displacement, int dimension)
-{
-  double longest = 0;
-  std::vector<char> moved(skin.points.size(), 0);
-  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const auto& ids = decomposition.subdomains[s].mesh.node_id;
-    for (std::size_t n = 0; n < ids.size(); ++n) {
-      const auto found = std::lower_bound(skin.node_id.begin(), skin.node_id.end(), ids[n]);
-      if (found == skin.node_id.end() || *found != ids[n]) continue;
-      const auto at = static_cast<std::size_t>(found - skin.node_id.begin());
-      if (std::exchange(moved[at], 1)) continue;
-      Point u = Point::Zero();
-      u.head(dimension) = displacement[s].segment(dimension * static_cast<Eigen::Index>(n), dimension);
-      skin.points[at] += u;
-      longest = std::max(longest, u.norm());
-    }
-  }
-  return longest;
-}
-
-// The mean of the middles of faces, of all ranks.
-Point middle_of(const mesh::Surface& skin, const std::vector<Global>& faces, const Communicator& comm)
-{
-  std::vector<double> sum(4, 0.0);
-  for (std::size_t f = 0; f < skin.faces.size(); ++f) {
-    if (!std::binary_search(faces.begin(), faces.end(), skin.face_id[f])) continue;
-    for (const Local n : skin.faces[f]) {
-      for (int k = 0; k < 3; ++k) sum[static_cast<std::size_t>(k)] += skin.points[static_cast<std::size_t>(n)][k];
-      sum[3] += 1;
-    }
-  }
-  comm.sum_in_place(sum);
-  return Point(sum[0], sum[1], sum[2]) / std::max(sum[3], 1.0);
-}
-
 // Of Young's modulus: from here on the softer side is secondary, whichever has the smaller faces; see post::scattered_contacts().
 constexpr double stiffer = 4;
 
@@ -175,7 +134,7 @@ std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& 
   const auto& bodies = decomposition.catalogue.bodies;
   auto candidates = contact::find_contact_candidates(
       partition::outer_surface(decomposition, context.comm), static_cast<int>(bodies.size()),
-      pairs_that_are_named(contacts.options, decomposition, context.comm), entry, deck.kinematics, context.comm);
+      {pairs_that_are_named(contacts.options, decomposition, context.comm), {}}, entry, deck.kinematics, context.comm);
   for (auto& candidate : candidates)
     if (modulus_of(deck, bodies, candidate.secondary) > stiffer * modulus_of(deck, bodies, candidate.primary))
       swap_sides(candidate);
@@ -205,40 +164,6 @@ std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& 
   contacts.options.insert(contacts.options.begin() + at, found.begin(), found.end());
   check_contacts(contacts, deck.kinematics, document);
   return candidates;
-}
-
-std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<Eigen::VectorXd>& displacement,
-                                          const Communicator& comm)
-{
-  const auto& deck = model.deck();
-  const std::size_t place = auto_entry(deck.contacts);
-  if (place == deck.contacts.size()) return {};
-  const auto& decomposition = model.decomposition();
-  const auto skin = partition::outer_surface(decomposition, comm);
-  Eigen::AlignedBox3d box;
-  for (const auto& x : skin.points) box.extend(x);
-  auto deformed = skin;
-  const double longest = comm.max(displace(deformed, decomposition, displacement, fem::dimension(deck.kinematics)));
-  // Two bodies come nearer by twice the longest displacement. What moves by more than the model's size is told as such.
-  contact::Options search;
-  search.search_distance = 2 * longest;
-  if (!(longest > 0) || !(longest < comm.max(box.isEmpty() ? 0.0 : box.diagonal().norm()))) return {};
-  // Where one body stands in another, sides of it look through that as well: of all patches the shallowest.
-  std::map<contact::Bodies, CrossedBodies> shallowest;
-  for (const auto& candidate : contact::find_contact_candidates(
-           deformed, static_cast<int>(decomposition.catalogue.bodies.size()),
-           pairs_that_are_named(model.contacts().options, decomposition, comm), search, deck.kinematics, comm)) {
-    const double depth = -candidate.least_gap;
-    if (!(depth > crossed * longest)) continue;
-    const contact::Bodies bodies = std::minmax(candidate.secondary, candidate.primary);
-    const auto found = shallowest.find(bodies);
-    if (found != shallowest.end() && found->second.depth <= depth) continue;
-    shallowest.insert_or_assign(bodies, CrossedBodies{bodies, depth, middle_of(skin, candidate.secondary_faces, comm)});
-  }
-  std::vector<CrossedBodies> result;
-  for (const auto& [bodies, crossing] : shallowest) result.push_back(crossing);
-  std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.depth > b.depth; });
-  return result;
 }
 
 std::optional<Warning> print_contact_candidates(const std::vector<contact::ContactCandidate>& candidates, const Deck& deck,
