@@ -38,11 +38,11 @@ CondensedProgramme::CondensedProgramme(std::unique_ptr<ContactSystem> system, Fe
   system_->begin(own_, guess_of(all_closed()).moves);
 }
 
-void CondensedProgramme::soften(double softness)
+void CondensedProgramme::soften(double softness, double scale)
 {
   softness_ = softness;
   softening_ = softness * own_;
-  step_ = (own_ * (1 + softness)).cwiseInverse();
+  step_ = scale * (own_ * (1 + softness)).cwiseInverse();
 }
 
 VectorXd CondensedProgramme::gradient(const VectorXd& x, const VectorXd& nu) const

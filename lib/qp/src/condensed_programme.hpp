@@ -34,8 +34,8 @@ class CondensedProgramme {
   /// The same of any system.
   CondensedProgramme(std::unique_ptr<ContactSystem> system, FeasibleSet set, Eigen::VectorXd b, Eigen::VectorXd e);
 
-  /// Steps of unknowns become the inverse of their compliance, so softened, too.
-  void soften(double softness);
+  /// Steps of unknowns become the inverse of their compliance, so softened, too, times `scale`.
+  void soften(double softness, double scale = 1);
   double softness() const { return softness_; }
   /// Everything closed and sticking.
   ConstraintStates all_closed() const;

@@ -77,7 +77,7 @@ bool StateSearch::from_anywhere()
   if (guess(look_back_at_first)) return true;
   if (programme_.unknowns() == 0) return false;
   const bool small = programme_.unknowns() <= few_unknowns;
-  return harden(small ? 0 : guesses_of_path) || follow_path() || (small && repeat_paths()) || harden(INT_MAX);
+  return harden(small ? 0 : guesses_of_path) || follow_path() || (small && (repeat_paths() || change_steps())) || harden(INT_MAX);
 }
 
 bool StateSearch::from(VectorXd x, VectorXd nu)
@@ -246,6 +246,20 @@ bool StateSearch::repeat_paths()
     }
     since_best = now < nearer * best ? 0 : since_best + 1;
     best = std::min(best, now);
+  }
+  return false;
+}
+
+// States are guessed from x - step s. Guesses that take turns with one step may not with another, longer or shorter.
+bool StateSearch::change_steps()
+{
+  for (const double scale : {0.1, 10.0, 0.01, 0.3, 1e-3, 0.03}) {
+    states_ = programme_.all_closed();
+    point_.nu.setZero();
+    programme_.soften(0, scale);
+    const bool converged = guess(to_the_end);
+    programme_.soften(0);
+    if (converged && guess(to_the_end)) return true;
   }
   return false;
 }

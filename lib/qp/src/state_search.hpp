@@ -38,6 +38,7 @@ class StateSearch {
   bool harden(int patience);
   bool follow_path();
   bool repeat_paths();
+  bool change_steps();
   void start_soft();
   template <class Visit>
   static bool walk(CentralPath& path, double last, const Visit& is_end);
