@@ -142,12 +142,19 @@ void DenseSystem::solve(const Guess& guess, const VectorXd& b, const VectorXd& e
     return;
   }
   MoveFactor factor(problem);
-  const VectorXd alone = factor.solve(right);
-  VectorXd amount = alone;
+  VectorXd amount = factor.solve(right);
   if (motions() > 0) {
-    const MatrixXd response = factor.solve(problem.push());
-    solve_with_springs(matrices_.c + problem.motion() * response, problem.motion() * alone - lacking, nu);
+    const MatrixXd response = factor.solve(problem.push()), stiffness = matrices_.c + problem.motion() * response;
+    solve_with_springs(stiffness, problem.motion() * amount - lacking, nu);
     amount -= response * nu;
+    // Once more: where rows depend on each other, or motions do much, figures are lost that decide about states.
+    const VectorXd r = right - problem.matrix() * amount - problem.push() * nu;
+    const VectorXd l = lacking - problem.motion() * amount + matrices_.c * nu;
+    const VectorXd alone = factor.solve(r);
+    VectorXd change = VectorXd::Zero(nu.size());
+    solve_with_springs(stiffness, problem.motion() * alone - l, change);
+    amount += alone - response * change;
+    nu += change;
   }
   x += problem.extend(amount);
   if (problem.size() >= many) factor_ = std::move(factor);
