@@ -1,5 +1,6 @@
 #include "qp/condensed_newton.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "dense_system.hpp"
@@ -10,7 +11,8 @@ namespace mortise::qp {
 namespace {
 
 constexpr double dependent = 1e-10;         // of what a row gives way with all others: less alone comes of rounding
-constexpr double apart = 1e-8;              // compliance of its own that such a row is given, over that
+constexpr double apart = 1e-8;              // compliance of its own that such a row is given, over that,
+constexpr double told_apart = 1e-4;         // and that it is taken to have, so that rounding of what it feels is no force
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -50,8 +52,11 @@ CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const Feasi
   matrices_.c = std::move(c);
   matrices_.c.noalias() += g_free * motion_;
   measure();
-  separated_ = separate_dependent_rows();
-  if (separated_) measure();
+  const auto dependent_rows = separate_dependent_rows();
+  separated_ = !dependent_rows.empty();
+  if (!separated_) return;
+  measure();
+  for (const auto i : dependent_rows) matrices_.own[i] = std::max(matrices_.own[i], told_apart * matrices_.w(i, i));
 }
 
 // What each point gives way alone.
@@ -63,17 +68,17 @@ void CondensedNewton::measure()
 
 // Rows that depend on each other, as those of two contacts along the edge that a body has in a corner: how a force is shared out
 // between them is open, and rounding alone would tell their states. A little compliance of their own shares it out evenly.
-// Returns whether there are any.
-bool CondensedNewton::separate_dependent_rows()
+// Returns which they are.
+std::vector<Eigen::Index> CondensedNewton::separate_dependent_rows()
 {
   auto diagonal = matrices_.w.diagonal();
-  bool any = false;
+  std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
     if (matrices_.own[i] > dependent * diagonal[i]) continue;
     diagonal[i] *= 1 + apart;
-    any = true;
+    rows.push_back(i);
   }
-  return any;
+  return rows;
 }
 
 VectorXd CondensedNewton::inverse_times(const VectorXd& r) const

@@ -113,7 +113,8 @@ bool StateSearch::guess(int look_back)
   const double few = std::max(few_changes * static_cast<double>(states_.closed.size() + states_.kind.size()), handful);
   const int guesses = look_back > 0 || programme_.softness() > 0 ? max_guesses : max_last_guesses;
   int fewest = INT_MAX, fewest_at = 0;
-  double before = 0;
+  double before = 0, least = 0;
+  VectorXd best_x, best_nu;
   for (int step = 0; step < guesses; ++step) {
     stop_if_requested();
     programme_.solve(states_, point_.x, point_.nu);
@@ -130,7 +131,14 @@ bool StateSearch::guess(int look_back)
     // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
     const bool turns_on_rounding = residual <= flutter * size || (rounded && step - fewest_at >= idle);
     point_.settled = changes == 0 || residual <= flutter * size;
-    if (step > 0 && small && (changes == 0 || turns_on_rounding)) return true;
+    if (residual < least || step == 0) {
+      least = residual;
+      best_x = point_.x, best_nu = point_.nu;
+    }
+    if (step > 0 && small && (changes == 0 || turns_on_rounding)) {
+      if (!point_.settled) point_.x = std::move(best_x), point_.nu = std::move(best_nu);
+      return true;
+    }
     if (changes == 0 && residual <= settled_residual * size) return true;
     history.push_back(changes);
     if (look_back > 0 && step >= look_back && changes > few &&

@@ -51,7 +51,7 @@ class CondensedNewton {
 
  private:
   void measure();
-  bool separate_dependent_rows();
+  std::vector<Eigen::Index> separate_dependent_rows();
 
   std::vector<Local> constrained_, others_;  // unknowns
   CondensedMatrices matrices_;
