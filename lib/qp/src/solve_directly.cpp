@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "make_solvers.hpp"
@@ -32,7 +33,7 @@ class DirectSolver : public Solver {
     if (observer) observer({"direct", 0, problem_.hessian.count()});
     auto found = solve_with_matrices();
     faces_->begin(start, goal, observer);
-    if (found.converged && matrices_.go_on && !goal.allowed_error) correct(found, goal);
+    if (found.converged && matrices_.go_on) correct(found, goal);
     if (found.converged && goal.allowed_error) goal.exact = rounding_of_direct;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
@@ -50,16 +51,16 @@ class DirectSolver : public Solver {
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
  private:
-  // With the other matrices, if there are any, where these do not tell the states of all constraints.
+  // With the matrices that served last, or the other ones, if there are any, where these do not tell the states of all constraints.
   ExplicitProgramme::Point solve_with_matrices()
   {
     auto found = matrices_.solve();
-    if ((found.converged && found.settled) || !matrices_.instead) return found;
-    const auto make_others = std::exchange(matrices_.instead, {});
-    auto others = make_others();
-    auto next = others.solve();
+    if (found.converged && found.settled) return found;
+    if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
+    if (!others_) return found;
+    auto next = others_->solve();
     if (!next.converged || (found.converged && !next.settled)) return found;
-    matrices_ = std::move(others);
+    std::swap(matrices_, *others_);
     faces_ = face_newton_with(matrices_.inverse.get(), problem_, means_);
     return next;
   }
@@ -111,6 +112,7 @@ class DirectSolver : public Solver {
   const Problem& problem_;
   Means means_;
   ExplicitProgramme matrices_;
+  std::optional<ExplicitProgramme> others_;
   std::unique_ptr<Solver> faces_;
 };
 

@@ -22,6 +22,7 @@ constexpr double handful = 8;               // or so few in all
 constexpr int max_turns = 3;                // of the slip at a point; then it sticks before it turns
 constexpr double settled_residual = 1e-10;  // residual over x
 constexpr double flutter = 1e-12;           // the same below which guesses differ by rounding
+constexpr int most_polishing = 4;           // guesses more, as long as they make the residual smaller
 constexpr double stalled = 0.5;             // of the residual before: what rounding has left of it,
 constexpr double rounded_residual = 1e-6;   // over x, which is no more than this, or than so many times
 constexpr double roundings = 1e4;           // what rounding makes of W x,
@@ -96,13 +97,19 @@ bool StateSearch::from(VectorXd x, VectorXd nu, const VectorXd& reaction)
 
 void StateSearch::polish()
 {
-  const double before = off();
-  if (before <= flutter) return;
-  const VectorXd x = point_.x, nu = point_.nu;
-  programme_.solve(states_, point_.x, point_.nu);
-  if (off() <= before) return;
-  point_.x = x;
-  point_.nu = nu;
+  for (int step = 0; step < most_polishing; ++step) {
+    const double before = off();
+    if (before <= flutter) return;
+    const VectorXd x = point_.x, nu = point_.nu;
+    programme_.solve(states_, point_.x, point_.nu);
+    if (off() <= before) {
+      states_ = programme_.states(point_.x, point_.nu);
+      continue;
+    }
+    point_.x = x;
+    point_.nu = nu;
+    return;
+  }
 }
 
 // Guesses from `states_` on; false if they do not converge. Those that something else comes after end sooner: if in `look_back`
@@ -130,7 +137,7 @@ bool StateSearch::guess(int look_back)
     const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
     // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
     const bool turns_on_rounding = residual <= flutter * size || (rounded && step - fewest_at >= idle);
-    point_.settled = changes == 0 || residual <= flutter * size;
+    point_.settled = residual <= flutter * size || (changes == 0 && (rounded || residual <= settled_residual * size));
     if (residual < least || step == 0) {
       least = residual;
       best_x = point_.x, best_nu = point_.nu;
