@@ -219,6 +219,29 @@ supports:
   }
 }
 
+// Where the body reaches beyond the plane stress has no limit, nor in an edge of 120 degrees.
+TEST(SymmetricNodes, EdgesOfMoreThanARightAngle)
+{
+  const std::string part = R"(
+dimension: plane_strain
+mesh: {file: )" MORTISE_SOURCE_DIR R"(/lib/analysis/test/ledge.geo}
+materials: {steel: {young_modulus: 1000, poisson_ratio: 0.3}}
+bodies: {part: {material: steel}}
+supports:
+)";
+  const Found ledge(part + "  - {boundary: ledge, displacement: {y: 0}}\n", 2);
+  EXPECT_EQ(ledge.on(0, along_y), 2);
+  EXPECT_TRUE(ledge.at(0, 1, 1, 0).empty());
+  const std::string foot = "  - {boundary: foot, displacement: {y: 0}}\n";
+  EXPECT_EQ(Found(part + foot, 2).on(0, -along_y), 5);
+  const Found right(part + foot + "  - {boundary: side, displacement: {normal: 0}}\n", 2);
+  EXPECT_EQ(right.on(0, -along_y), 5);
+  EXPECT_EQ(right.on(0, along_x), 3);
+  const Found blunt(part + foot + "  - {boundary: flank, displacement: {normal: 0}}\n", 2);
+  EXPECT_TRUE(blunt.at(0, 0, 0, 0).empty());
+  EXPECT_EQ(blunt.on(0, -along_y), 4);  // those of faces away from the edge
+}
+
 // On the axis of revolution stress is the same all round; of the end that a support holds, too.
 TEST(SymmetricNodes, TheAxisOfRevolution)
 {
