@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/symmetric_nodes.hpp"
 #include "base/error.hpp"
 #include "constraint/right_hand_sides.hpp"
 #include "contact/sliding_surfaces.hpp"
@@ -59,7 +60,8 @@ qp::Solution carry_multipliers(const feti::DualProblem& from, const qp::Solution
   return start;
 }
 
-post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem::Constitution> constitution)
+post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem::Constitution> constitution,
+                                   const SymmetricNodes& symmetric)
 {
   return {assembly.decomposition(),
           assembly.interface(),
@@ -67,7 +69,8 @@ post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem
           constitution,
           assembly.model().most_materials(),
           assembly.copies(),
-          assembly.system().clusters.subdomains()};
+          assembly.system().clusters.subdomains(),
+          symmetric};
 }
 
 }  // namespace
@@ -79,12 +82,20 @@ LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach& a
   std::vector<Eigen::VectorXd> load;
   {
     const auto scope = context.timers.scope("assembly");
-    rows_ = std::make_shared<const Rows>(place(std::move(first), model, assembly.directory(), {}, context.comm));
+    take_rows(place(std::move(first), model, assembly.directory(), {}, context.comm));
     load = assembly.loads(rows_->acts, context.comm);
   }
   const auto scope = context.timers.scope("solve");
   problem_ = make_problem(std::move(load));
   make_solver();
+}
+
+// The rows of a state, and what goes with them. Collective.
+void LoadStepSolver::take_rows(Rows rows)
+{
+  symmetric_ = std::make_shared<const SymmetricNodes>(
+      find_symmetric_nodes(assembly_.model(), rows, assembly_.directory(), assembly_.interface(), context_.comm));
+  rows_ = std::make_shared<const Rows>(std::move(rows));
 }
 
 namespace {
@@ -175,14 +186,14 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   auto same = with_new_bounds(rows, model, assembly_.directory(), acts, from.shortenings, comm);
   const bool same_sections = rows.constraints.pretension_sections.empty() || acts.locked == rows.acts.locked;
   if (same && same_sections && problem_->update_rhs(same->constraints, load)) {
-    rows_ = std::make_shared<const Rows>(std::move(*same));
+    take_rows(std::move(*same));
     return;
   }
   if (!same) {
     same = place(make_rows(model, acts, from.shortenings, context_), model, assembly_.directory(), from.shortenings, comm);
     carry_slip(rows.constraints.contacts, same->constraints.contacts);
   }
-  rows_ = std::make_shared<const Rows>(std::move(*same));
+  take_rows(std::move(*same));
   before_ = applications();
   solver_.reset();
   auto next = make_problem(std::move(load));
@@ -194,7 +205,8 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
 LoadStepSolver::Norms LoadStepSolver::norms(std::span<const fem::Constitution> constitution, const Vector& lambda,
                                             const std::vector<Eigen::VectorXd>& displacement) const
 {
-  const auto [error, strain] = post::energy_norms(elastic_bodies(assembly_, constitution), displacement, context_.comm);
+  const auto bodies = elastic_bodies(assembly_, constitution, *symmetric_);
+  const auto [error, strain] = post::energy_norms(bodies, displacement, context_.comm);
   const double whole =
       std::hypot(strain, problem_->springs() ? std::sqrt(std::max(problem_->springs()->stored(lambda), 0.0)) : 0);
   return {error, std::max(strain, strained * whole), whole};
@@ -231,7 +243,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
     observer(step, change, progress);
   };
   auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
-  if (found.gave_up) return {rows_, std::move(found), {}, {}};
+  if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}};
   if (approach_.kind == Approach::Kind::direct_instead) {  // what it has solved is not thrown away for a later state
     approach_.patience.reset();
     solver_->be_patient();
@@ -240,7 +252,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   refuse_support_of_facets(*problem_, assembly_, *rows_, found, displacement);
   auto shortenings = problem_->shortenings(found.solution.nu);
-  return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};
+  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings)};
 }
 
 StepState LoadStepSolver::take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record)
@@ -250,7 +262,7 @@ StepState LoadStepSolver::take_up(const model::LoadState& acts, std::optional<St
   before_ += found.applications;
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   auto shortenings = problem_->shortenings(found.solution.nu);
-  return {rows_, std::move(found), std::move(displacement), std::move(shortenings)};
+  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings)};
 }
 
 post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,
@@ -268,7 +280,7 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
                                       deck.solver.programme.tolerance.value.value_or(0),
                                       solver.negligible(),
                                       solver.rounding_before()};
-  const auto bodies = elastic_bodies(assembly, constitution);
+  const auto bodies = elastic_bodies(assembly, constitution, *state.symmetric);
   auto results = [&] {
     const auto scope = context.timers.scope("stresses");
     return post::evaluate(equilibrium, bodies, comm);

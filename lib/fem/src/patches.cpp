@@ -6,6 +6,7 @@
 
 #include "cell_stress.hpp"
 #include "mesh/shape_functions.hpp"
+#include "tensor.hpp"
 
 namespace mortise::fem {
 
@@ -204,6 +205,56 @@ Patches sums_of(const mesh::Mesh& mesh, const Constitution& constitution, Kinema
   return patches;
 }
 
+// Of x -> mirror x: the monomials at the image are this times those at x.
+template <int terms>
+Eigen::Matrix<double, terms, terms> mirrored_monomials(const Eigen::Matrix3d& mirror)
+{
+  constexpr int dimension = terms == 3 || terms == 6 ? 2 : 3;
+  Eigen::Matrix<double, terms, terms> result = Eigen::Matrix<double, terms, terms>::Zero();
+  result(0, 0) = 1;
+  for (int i = 0; i < dimension; ++i)
+    for (int k = 0; k < dimension; ++k) result(1 + i, 1 + k) = mirror(i, k);
+  if constexpr (terms > 4) {
+    int row = 1 + dimension;
+    for (int i = 0; i < dimension; ++i)
+      for (int j = i; j < dimension; ++j, ++row) {
+        int column = 1 + dimension;
+        for (int k = 0; k < dimension; ++k)
+          for (int l = k; l < dimension; ++l, ++column)
+            result(row, column) = mirror(i, k) * mirror(j, l) + (k == l ? 0 : mirror(i, l) * mirror(j, k));
+      }
+  }
+  return result;
+}
+
+template <int terms>
+void add_image(Patches& patches, Local corner, const Point& normal)
+{
+  using Parts = Layout<terms>;
+  const Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity() - 2 * normal * normal.transpose();
+  const auto change = mirrored_monomials<terms>(mirror);
+  auto column = patches.sums.col(corner);
+  for (double* block = column.data(); block != column.data() + column.size(); block += Parts::width) {
+    Eigen::Matrix<double, terms, terms> equations;
+    double* entry = block;
+    for (int i = 0; i < terms; ++i)
+      for (int j = 0; j <= i; ++j) equations(i, j) = equations(j, i) = *entry++;
+    const Eigen::Matrix<double, terms, terms> image = change.lazyProduct(equations).lazyProduct(change.transpose());
+    entry = block;
+    for (int i = 0; i < terms; ++i)
+      for (int j = 0; j <= i; ++j) *entry++ += image(i, j);
+    Eigen::Map<Polynomial<terms>> right(block + Parts::right);
+    Polynomial<terms> stresses = change.lazyProduct(right);
+    for (int i = 0; i < terms; ++i)
+      stresses.row(i) = entries(mirror * tensor(stresses.row(i).transpose()) * mirror).transpose();
+    right += stresses;
+    block[Parts::seconds] *= 2;
+    Eigen::Map<Point> area(block + Parts::areas);
+    area += Point(mirror * area);
+    block[Parts::areas + 3] *= 2;
+  }
+}
+
 template <int terms>
 Eigen::MatrixXd stresses_of(const mesh::Mesh& mesh, const Materials& materials, const Patches& patches, std::size_t blocks)
 {
@@ -281,6 +332,13 @@ Patches patch_sums(const mesh::Mesh& mesh, const Constitution& constitution, Kin
 {
   return for_terms(term_count(order, dimension(kinematics)),
                    [&](auto terms) { return sums_of<terms.value>(mesh, constitution, kinematics, u, blocks, order); });
+}
+
+void add_mirror_image(Patches& patches, Local corner, const Point& normal, Kinematics kinematics)
+{
+  const Local row = patches.row[static_cast<std::size_t>(corner)];
+  for_terms(term_count(patches.order, dimension(kinematics)),
+            [&](auto terms) { add_image<terms.value>(patches, row, normal); });
 }
 
 Eigen::MatrixXd patch_stresses(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Patches& patches,

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "fem/quantity.hpp"
+#include "fem/symmetry.hpp"
 #include "sample.hpp"
 
 namespace mortise::fem {
@@ -31,6 +32,34 @@ TEST(Stress, VonMisesOfSimpleStates)
     s[shear] = 2;
     EXPECT_DOUBLE_EQ(von_mises(s), 2 * std::sqrt(3.0));
   }
+}
+
+// The mean over all products of mirror images, which are finitely many where planes meet at a part of a half turn.
+TEST(Stress, SymmetricOnesAreMeansOfMirrorImages)
+{
+  const Eigen::Matrix3d q = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Stress stress = (Stress() << 3, -1, 4, 1, -5, 9).finished();
+  const auto s = (Eigen::Matrix3d() << 3, 1, 9, 1, -1, -5, 9, -5, 4).finished();
+  const auto at = [&](double degrees) {
+    const double angle = degrees * M_PI / 180;
+    return Point(q * Point(std::cos(angle), std::sin(angle), 0));
+  };
+  const Point up = q * Point(0, 0, 1);
+  for (const std::vector<Point>& normals :
+       {std::vector<Point>{at(20)}, {at(10), at(100)}, {at(10), up, at(100)}, {at(0), at(120)}, {up, at(30), at(165)},
+        {at(0), at(120), at(240)}}) {
+    std::vector<Eigen::Matrix3d> images{Eigen::Matrix3d::Identity()};
+    for (std::size_t i = 0; i < images.size(); ++i)
+      for (const Point& n : normals) {
+        const Eigen::Matrix3d next = (Eigen::Matrix3d::Identity() - 2 * n * n.transpose()) * images[i];
+        if (std::none_of(images.begin(), images.end(), [&](const auto& m) { return (m - next).norm() < 1e-9; }))
+          images.push_back(next);
+      }
+    Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+    for (const auto& m : images) mean += m * s * m.transpose() / static_cast<double>(images.size());
+    EXPECT_LT((symmetric_stress(stress, normals) - components(mean)).norm(), 1e-12) << images.size();
+  }
+  EXPECT_EQ(symmetric_stress(stress, std::vector<Point>{-Point::UnitX()}), (Stress() << 3, -1, 4, 0, -5, 0).finished());
 }
 
 // A tensor of known eigenvalues, rotated; pure shear; equal ones.

@@ -7,6 +7,7 @@
 #include "boundary_stress.hpp"
 #include "fem/patches.hpp"
 #include "fem/stress.hpp"
+#include "fem/symmetry.hpp"
 
 namespace mortise::post {
 
@@ -43,6 +44,32 @@ Eigen::MatrixXd means(const Eigen::MatrixXd& sums, Eigen::MatrixXd otherwise = {
   return stress;
 }
 
+// Makes the stress of nodes on planes of symmetry, nodes x 6 blocks of subdomain s, that of the whole body.
+void make_symmetric(const ElasticBodies& bodies, std::size_t s, Eigen::MatrixXd& stress)
+{
+  if (bodies.symmetric.empty()) return;
+  for (const auto& at : bodies.symmetric[s])
+    for (Eigen::Index k = 0; k < stress.cols(); k += 6) {
+      auto own = stress.row(at.node).segment(k, 6);
+      own = fem::symmetric_stress(own.transpose(), at.normals).transpose();
+    }
+}
+
+// Goes on beyond planes of symmetry that are at right angles to each other.
+void mirror_patches(const ElasticBodies& bodies, std::size_t s, fem::Patches& patches)
+{
+  if (bodies.symmetric.empty()) return;
+  for (const auto& at : bodies.symmetric[s]) {
+    if (patches.row[static_cast<std::size_t>(at.node)] < 0) continue;
+    std::vector<Point> in_model;  // in plane models a turn about an axis is none
+    for (const Point& n : at.normals)
+      if (fem::dimension(bodies.kinematics) == 3 || n[2] == 0) in_model.push_back(n);
+    const auto spaces = fem::mirrored_spaces(in_model);
+    if (spaces.size() < in_model.size()) continue;
+    for (const auto& space : spaces) fem::add_mirror_image(patches, at.node, space.front(), bodies.kinematics);
+  }
+}
+
 // By polynomials on patches of cells (fem/patches.hpp): sums over all copies, nodes x 7 blocks of each subdomain; of boundary
 // elements nothing.
 std::vector<Eigen::MatrixXd> patch_sums(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
@@ -75,6 +102,8 @@ std::vector<Eigen::MatrixXd> patch_sums(const ElasticBodies& bodies, const std::
   partition::sum_shared(bodies.decomposition, bodies.interface, shared, comm);
   each_shared_corner([](auto&& row, auto&& sums) { sums = row.transpose(); });
   std::vector<Eigen::MatrixXd> result;
+  for (std::size_t s = 0; s < subdomains.size(); ++s)
+    if (!subdomains[s].skin) mirror_patches(bodies, s, patches[s]);
   for (std::size_t s = 0; s < subdomains.size(); ++s)
     result.push_back(subdomains[s].skin ? Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(subdomains[s].mesh.node_count()),
                                                                 7 * static_cast<Eigen::Index>(bodies.blocks))
@@ -112,13 +141,16 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
   const auto patches = patch_sums(bodies, displacement, comm);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     Eigen::MatrixXd stress = means(result.nodal[s]);
+    make_symmetric(bodies, s, stress);
     const auto& mesh = subdomains[s].mesh;
     const auto body = static_cast<std::size_t>(subdomains[s].body);
     const auto& own = bodies.constitution[s];
     const auto errors = [&] {
       if (subdomains[s].skin) return boundary_errors(bodies, s, boundary[s], stress);
-      return fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], means(patches[s], stress), stress,
-                                 own.formulation, own.temperature_change);
+      Eigen::MatrixXd of_patches = means(patches[s], stress);
+      make_symmetric(bodies, s, of_patches);
+      return fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], of_patches, stress, own.formulation,
+                                 own.temperature_change);
     }();
     result.squared_error += errors.sum();
     result.body_error[body] += errors.sum();
@@ -203,10 +235,13 @@ EnergyNorms energy_norms(const ElasticBodies& bodies, const std::vector<Eigen::V
     nodal.push_back(std::move(field.nodal_sums));
   }
   partition::sum_over_copies(bodies.decomposition, bodies.interface, nodal, comm);
-  for (std::size_t s = 0; s < subdomains.size(); ++s)
-    if (!subdomains[s].skin)
-      squared_error += fem::squared_error(subdomains[s].mesh, bodies.constitution[s].materials, bodies.kinematics, points[s],
-                                          means(nodal[s]));
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    if (subdomains[s].skin) continue;
+    Eigen::MatrixXd stress = means(nodal[s]);
+    make_symmetric(bodies, s, stress);
+    squared_error +=
+        fem::squared_error(subdomains[s].mesh, bodies.constitution[s].materials, bodies.kinematics, points[s], stress);
+  }
   return {std::sqrt(comm.sum(squared_error)), std::sqrt(2 * comm.sum(strain_energy))};
 }
 

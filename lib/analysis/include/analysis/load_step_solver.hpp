@@ -13,9 +13,13 @@
 
 namespace mortise::analysis {
 
+/// Of each subdomain of this rank, see find_symmetric_nodes().
+using SymmetricNodes = std::vector<std::vector<post::SymmetricNode>>;
+
 /// A solved load state, from which the next one starts. A value.
 struct StepState {
   std::shared_ptr<const Rows> rows;
+  std::shared_ptr<const SymmetricNodes> symmetric;
   friction::Result solved;
   std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
   std::vector<double> shortenings;            ///< of the preloaded contacts, lengths
@@ -61,6 +65,7 @@ class LoadStepSolver {
               const std::vector<Eigen::VectorXd>& displacement) const;
   std::unique_ptr<feti::DualProblem> make_problem(std::vector<Eigen::VectorXd> load) const;
   void make_solver();
+  void take_rows(Rows rows);
   void note_sizes(const StepState& state);
   void update(const model::LoadState& acts, StepState& from);
 
@@ -69,6 +74,7 @@ class LoadStepSolver {
   Approach& approach_;
   const int spent_before_;
   std::shared_ptr<const Rows> rows_;  // of the problem
+  std::shared_ptr<const SymmetricNodes> symmetric_;
   std::unique_ptr<feti::DualProblem> problem_;
   std::optional<friction::Solver> solver_;  // refers to the problem
   int before_ = 0;                          // products of the solvers and approaches before this one

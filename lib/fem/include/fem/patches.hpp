@@ -33,6 +33,10 @@ int largest_order(const mesh::Mesh& mesh);
 Patches patch_sums(const mesh::Mesh& mesh, const Constitution& constitution, Kinematics kinematics, const Eigen::VectorXd& u,
                    std::size_t blocks, int order);
 
+/// Adds to the sums about a corner, which are those over all pieces, their mirror images in the plane through it with the unit
+/// normal `normal`, as cells beyond the plane would have them.
+void add_mirror_image(Patches& patches, Local corner, const Point& normal, Kinematics kinematics);
+
 /// From sums over all pieces: nodes x 7 blocks, sums over the cells of this piece of weight * stress, and of the weights, as
 /// StressField::nodal_sums has them; weights that add up to nothing where nothing is recovered.
 Eigen::MatrixXd patch_stresses(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Patches& patches,

@@ -9,6 +9,7 @@
 #include "friction/friction.hpp"
 #include "io/nodal_field.hpp"
 #include "model/deck.hpp"
+#include "model/face_action.hpp"
 #include "partition/congruence.hpp"
 
 namespace mortise::model {
@@ -69,6 +70,9 @@ class Model {
   std::vector<mesh::Surface> support_surfaces() const;
   /// The boundaries of supports that act along their normals alone, this rank's faces: prescribed or on springs.
   std::vector<mesh::Surface> surfaces_held_along_normals(const LoadState& state) const;
+  /// What supports, loads and couplings of a state do at the nodes of this rank's faces. In axisymmetry the axis is a face as well.
+  /// Collective.
+  std::vector<FaceAction> face_actions(const LoadState& state, const Communicator& comm) const;
   /// For each body whether one of the deck's supports lies on it. Collective.
   std::vector<bool> supported(const Communicator& comm) const;
   struct Facts {

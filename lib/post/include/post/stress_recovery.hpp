@@ -9,6 +9,9 @@
 // Where stresses are smooth both recoveries are an order more exact than sigma_h and the second term is next to nothing; near
 // clamped edges, corners and edges of punches neither is, and what they differ by says how far sigma_p itself may be off.
 //
+// At nodes on planes of symmetry both are those of the whole body: cells beyond the plane have the mirror images of the stresses,
+// so that the shear across it cancels in averages (fem/symmetry.hpp), and patches go on in them (of planes at right angles).
+//
 // Of boundary elements stresses are known at the surface, panel by panel, and averaged in the same way.
 #pragma once
 
@@ -24,6 +27,13 @@
 
 namespace mortise::post {
 
+/// A node on planes that bear no traction along themselves, as planes of symmetry: their unit normals, out of the body. Between
+/// two of them the body has a right angle or less.
+struct SymmetricNode {
+  Local node;
+  std::vector<Point> normals;
+};
+
 /// What the recovery works on. Refers to its parts.
 struct ElasticBodies {
   const partition::Decomposition& decomposition;
@@ -34,6 +44,8 @@ struct ElasticBodies {
   /// What subdomains of boundary elements need as well: what each is a copy of, and the operators.
   std::span<const partition::CopyOf> copies = {};
   std::span<const std::shared_ptr<const feti::SubdomainOperator>> operators = {};
+  /// Of each subdomain of this rank, ascending; all copies of a node have the same normals. None at all: empty.
+  std::span<const std::vector<SymmetricNode>> symmetric = {};
 };
 
 /// What the inside of a subdomain of boundary elements follows from: displacements (3 n) and tractions (3 m) of its surface, less

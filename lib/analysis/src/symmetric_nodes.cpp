@@ -1,0 +1,326 @@
+#include "analysis/symmetric_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+namespace mortise::analysis {
+
+namespace {
+
+using Kind = model::FaceAction::Kind;
+
+constexpr double parallel = 1e-3;     // angle between what is meant to be parallel in a mesh, and distance from a plane over size
+constexpr double right_angle = 1e-2;  // its cosine, likewise
+
+Point point(const std::array<double, 3>& x)
+{
+  return {x[0], x[1], x[2]};
+}
+
+std::array<double, 3> components(const Point& x)
+{
+  return {x[0], x[1], x[2]};
+}
+
+std::size_t home(Global node, const Communicator& comm)
+{
+  return static_cast<std::size_t>(node % comm.size());
+}
+
+// To rank node % ranks.
+std::vector<model::FaceAction> sent_home(const std::vector<model::FaceAction>& actions, const Communicator& comm)
+{
+  std::vector<std::vector<model::FaceAction>> send(static_cast<std::size_t>(comm.size()));
+  for (const auto& action : actions) send[home(action.node, comm)].push_back(action);
+  std::vector<model::FaceAction> result;
+  for (const auto& part : comm.exchange(send)) result.insert(result.end(), part.begin(), part.end());
+  return result;
+}
+
+// The nodes that the rows of a contact node speak of, each once.
+std::vector<Global> nodes_of(const constraint::Contacts& contacts, const constraint::ContactNode& node)
+{
+  std::vector<Global> nodes{node.node};
+  for (std::size_t row = node.row; row <= node.row + node.tangents.size(); ++row)
+    for (const auto& entry : contacts.rows[row]) nodes.push_back(entry.node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+// A node that supports hold along this normal.
+struct Held {
+  Global node;
+  std::array<double, 3> normal;
+};
+
+// Those of one node.
+std::span<const Held> planes_at(std::span<const Held> held, Global node)
+{
+  const auto [begin, end] = std::equal_range(held.begin(), held.end(), Held{node, {}},
+                                             [](const Held& a, const Held& b) { return a.node < b.node; });
+  return {begin, end};
+}
+
+// The planes of those of `nodes` that `actions`, on the ranks node % ranks, hold; ascending. Collective.
+std::vector<Held> held_nodes(std::span<const Global> nodes, const std::vector<model::FaceAction>& actions,
+                             const Communicator& comm)
+{
+  const auto by_node = [](const Held& a, const Held& b) { return a.node < b.node; };
+  std::vector<Held> held;
+  for (const auto& action : actions)
+    if (action.kind == Kind::held) held.push_back({action.node, action.normal});
+  std::sort(held.begin(), held.end(), by_node);
+  std::vector<std::vector<Global>> asked(static_cast<std::size_t>(comm.size()));
+  for (const Global node : nodes) asked[home(node, comm)].push_back(node);
+  std::vector<std::vector<Held>> answers;
+  for (const auto& part : comm.exchange(asked)) {
+    auto& answer = answers.emplace_back();
+    for (const Global node : part) {
+      const auto planes = planes_at(held, node);
+      answer.insert(answer.end(), planes.begin(), planes.end());
+    }
+  }
+  std::vector<Held> result;
+  for (const auto& part : comm.exchange(answers)) result.insert(result.end(), part.begin(), part.end());
+  std::sort(result.begin(), result.end(), by_node);
+  return result;
+}
+
+// Drops faces of curved surfaces, which have neighbours that are held along other normals, and faces at edges with more than a
+// right angle. Collective.
+void drop_curved(std::vector<model::FaceAction>& actions, const Communicator& comm)
+{
+  std::vector<Global> nodes;
+  for (const auto& action : actions)
+    if (action.kind == Kind::held) nodes.push_back(action.node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto held = held_nodes(nodes, sent_home(actions, comm), comm);
+  std::set<std::size_t> curved;
+  for (const auto& action : actions) {
+    if (action.kind != Kind::held) continue;
+    const Point normal = point(action.normal);
+    for (const auto& other : planes_at(held, action.node))
+      if (const Point n = point(other.normal); (n - normal).norm() > parallel && n.dot(normal) > right_angle)
+        curved.insert(action.face);
+  }
+  std::erase_if(actions, [&](const auto& action) { return action.kind == Kind::held && curved.contains(action.face); });
+}
+
+// What contacts push along their surfaces with, at nodes that supports hold along normals. Rows along which supports hold both
+// sides have no entries. Bonds have no row where supports hold the secondary side; they push all the same unless the primary side
+// is held as well.
+class ContactForces {
+ public:
+  // Collective.
+  ContactForces(const constraint::Contacts& contacts, const std::vector<model::FaceAction>& actions, const Communicator& comm)
+      : contacts_(contacts)
+  {
+    std::vector<Global> all;
+    for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
+      if (contacts.bonded[i] || !contacts.nodes[i].tangents.empty()) {
+        const auto nodes = nodes_of(contacts, contacts.nodes[i]);
+        all.insert(all.end(), nodes.begin(), nodes.end());
+      }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    held_ = held_nodes(all, actions, comm);
+    for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
+      const auto& node = contacts.nodes[i];
+      for (std::size_t t = 0; t < node.tangents.size(); ++t) add_row(node, node.row + 1 + t, node.tangents[t]);
+      if (contacts.bonded[i]) add_bond(node);
+    }
+  }
+
+  std::vector<model::FaceAction> found;
+
+ private:
+  void add(Global node, const constraint::ContactNode& at, const Point& direction)
+  {
+    found.push_back({node, components(at.at), components(at.normal), components(direction), 0, 0, Kind::pushed});
+  }
+
+  void add_row(const constraint::ContactNode& at, std::size_t row, const Point& tangent)
+  {
+    if (contacts_.rows[row].empty() && contacts_.rows.bound[row] == 0) return;
+    for (const Global node : nodes_of(contacts_, at))
+      if (!planes_at(held_, node).empty()) add(node, at, tangent);
+  }
+
+  void add_bond(const constraint::ContactNode& at)
+  {
+    for (const auto& own : planes_at(held_, at.node)) {
+      bool both = false;
+      for (std::size_t row = at.row; row <= at.row + at.tangents.size(); ++row)
+        for (const auto& entry : contacts_.rows[row])
+          for (const auto& other : planes_at(held_, entry.node))
+            both = both || (entry.node != at.node && (point(own.normal) - point(other.normal)).norm() < parallel);
+      if (!both) add(at.node, at, point(own.normal));
+    }
+  }
+
+  const constraint::Contacts& contacts_;
+  std::vector<Held> held_;
+};
+
+// What acts at one node.
+using Actions = std::span<const model::FaceAction>;
+
+// Whether it shears the plane with this normal through the node's place.
+bool shears(const model::FaceAction& action, const Point& normal, const Point& place, double rounding)
+{
+  if (action.kind == Kind::held) return false;
+  if (action.kind == Kind::coupled) return true;
+  const double beyond = (point(action.at) - place).dot(normal);
+  if (std::abs(beyond) > rounding) return beyond > 0;
+  const Point face = point(action.normal), direction = point(action.direction);
+  const Point tangential = direction - direction.dot(face) * face;
+  if (face.cross(normal).norm() < parallel) return tangential.norm() > parallel;
+  return action.kind == Kind::pushed && std::abs(tangential.dot(normal)) > parallel;
+}
+
+// The normals of planes of symmetry.
+std::vector<Point> normals_of(Actions actions)
+{
+  std::vector<Point> normals;
+  Point place = Point::Zero();
+  double rounding = 0;
+  for (const auto& action : actions) {
+    if (action.kind != Kind::held) continue;
+    const Point normal = point(action.normal);
+    if (std::none_of(normals.begin(), normals.end(), [&](const Point& n) { return (n - normal).norm() < parallel; }))
+      normals.push_back(normal);
+    place = point(action.at);
+    rounding = std::max(rounding, parallel * action.size);
+  }
+  std::erase_if(normals, [&](const Point& normal) {
+    return std::any_of(actions.begin(), actions.end(),
+                       [&](const auto& action) { return shears(action, normal, place, rounding); });
+  });
+  return normals;
+}
+
+struct PlaneAtCopy {
+  Global subdomain;
+  Local node;
+  int number;  // among the planes of the node
+  std::array<double, 3> normal;
+};
+
+// The planes of each node at all of its copies, from what acts there, on rank node % ranks. Collective.
+std::vector<std::vector<post::SymmetricNode>> at_copies(std::vector<model::FaceAction> actions,
+                                                        const partition::Decomposition& decomposition,
+                                                        const partition::NodeDirectory& directory, const Communicator& comm)
+{
+  std::sort(actions.begin(), actions.end(), [](const model::FaceAction& a, const model::FaceAction& b) {
+    return std::tie(a.node, a.kind, a.normal, a.at, a.direction, a.size) <
+           std::tie(b.node, b.kind, b.normal, b.at, b.direction, b.size);
+  });
+  std::vector<Global> nodes;
+  std::vector<std::vector<Point>> normals;
+  for (std::size_t i = 0, end = 0; i < actions.size(); i = end) {
+    while (end < actions.size() && actions[end].node == actions[i].node) ++end;
+    auto found = normals_of(std::span(actions).subspan(i, end - i));
+    if (found.empty()) continue;
+    nodes.push_back(actions[i].node);
+    normals.push_back(std::move(found));
+  }
+  const auto copies = directory.find(nodes, comm);
+  std::vector<std::vector<PlaneAtCopy>> planes(static_cast<std::size_t>(comm.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const auto& copy : copies[i])
+      for (std::size_t k = 0; k < normals[i].size(); ++k)
+        planes[static_cast<std::size_t>(decomposition.rank_of(copy.subdomain))].push_back(
+            {copy.subdomain, copy.node, static_cast<int>(k), components(normals[i][k])});
+  std::vector<PlaneAtCopy> own;
+  for (const auto& part : comm.exchange(planes)) own.insert(own.end(), part.begin(), part.end());
+  std::sort(own.begin(), own.end(), [](const PlaneAtCopy& a, const PlaneAtCopy& b) {
+    return std::tie(a.subdomain, a.node, a.number) < std::tie(b.subdomain, b.node, b.number);
+  });
+  std::vector<std::vector<post::SymmetricNode>> result(decomposition.subdomains.size());
+  const Global first = decomposition.first[static_cast<std::size_t>(comm.rank())];
+  for (const auto& plane : own) {
+    auto& of_subdomain = result[static_cast<std::size_t>(plane.subdomain - first)];
+    if (of_subdomain.empty() || of_subdomain.back().node != plane.node) of_subdomain.push_back({plane.node, {}});
+    of_subdomain.back().normals.push_back(point(plane.normal));
+  }
+  return result;
+}
+
+// Whether a cell at the node reaches beyond the plane.
+bool reaches_beyond(const mesh::Mesh& mesh, std::size_t cell, Local node, const Point& normal)
+{
+  const Point& x = mesh.points[static_cast<std::size_t>(node)];
+  const auto nodes = mesh.cells[cell];
+  return std::any_of(nodes.begin(), nodes.end(), [&](Local n) {
+    const Point to = mesh.points[static_cast<std::size_t>(n)] - x;
+    return to.dot(normal) > 2 * parallel * to.norm();
+  });
+}
+
+// Drops planes that the body crosses, in any of the subdomains round the node.
+void drop_crossed(std::vector<std::vector<post::SymmetricNode>>& symmetric, const partition::Decomposition& decomposition,
+                  const partition::Interface& interface, const Communicator& comm)
+{
+  std::size_t most = 0;
+  for (const auto& nodes : symmetric)
+    for (const auto& at : nodes) most = std::max(most, at.normals.size());
+  most = static_cast<std::size_t>(comm.max(static_cast<long long>(most)));
+  std::vector<Eigen::MatrixXd> crossings;
+  for (std::size_t s = 0; s < symmetric.size(); ++s) {
+    const auto& mesh = decomposition.subdomains[s].mesh;
+    auto& count = crossings.emplace_back(
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.node_count()), static_cast<Eigen::Index>(most)));
+    std::vector<const post::SymmetricNode*> at(mesh.node_count(), nullptr);
+    for (const auto& own : symmetric[s]) at[static_cast<std::size_t>(own.node)] = &own;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      for (const Local n : mesh.cells[c])
+        if (const auto* own = at[static_cast<std::size_t>(n)])
+          for (std::size_t k = 0; k < own->normals.size(); ++k)
+            count(n, static_cast<Eigen::Index>(k)) += reaches_beyond(mesh, c, n, own->normals[k]);
+  }
+  partition::sum_over_copies(decomposition, interface, crossings, comm);
+  for (std::size_t s = 0; s < symmetric.size(); ++s) {
+    for (auto& at : symmetric[s]) {
+      Eigen::Index k = 0;
+      std::erase_if(at.normals, [&](const Point&) { return crossings[s](at.node, k++) > 0; });
+    }
+    std::erase_if(symmetric[s], [](const auto& at) { return at.normals.empty(); });
+  }
+}
+
+// Nodes on the axis of revolution are on all planes through it: two stand for them, that across the model and one askew.
+void turn_about_axis(std::vector<std::vector<post::SymmetricNode>>& symmetric, const partition::Decomposition& decomposition,
+                     double rounding)
+{
+  const Point askew(0.5, 0, std::sqrt(0.75));
+  for (std::size_t s = 0; s < symmetric.size(); ++s)
+    for (auto& at : symmetric[s]) {
+      const bool on_axis = std::abs(decomposition.subdomains[s].mesh.points[static_cast<std::size_t>(at.node)][0]) <= rounding;
+      if (on_axis && at.normals.front()[0] == -1) at.normals.push_back(askew);
+    }
+}
+
+}  // namespace
+
+std::vector<std::vector<post::SymmetricNode>> find_symmetric_nodes(const model::Model& model, const Rows& rows,
+                                                                   const partition::NodeDirectory& directory,
+                                                                   const partition::Interface& interface,
+                                                                   const Communicator& comm)
+{
+  auto actions = model.face_actions(rows.acts, comm);
+  if (!comm.any(std::any_of(actions.begin(), actions.end(), [](const auto& a) { return a.kind == Kind::held; }))) return {};
+  drop_curved(actions, comm);
+  actions = sent_home(actions, comm);
+  const auto pushed = sent_home(ContactForces(rows.constraints.contacts, actions, comm).found, comm);
+  actions.insert(actions.end(), pushed.begin(), pushed.end());
+  auto symmetric = at_copies(std::move(actions), model.decomposition(), directory, comm);
+  drop_crossed(symmetric, model.decomposition(), interface, comm);
+  if (model.deck().axisymmetric()) turn_about_axis(symmetric, model.decomposition(), model.rounding(comm));
+  return symmetric;
+}
+
+}  // namespace mortise::analysis
