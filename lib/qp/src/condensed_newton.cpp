@@ -11,7 +11,7 @@ namespace mortise::qp {
 namespace {
 
 constexpr double dependent = 1e-10;         // of what a row gives way with all others: less alone comes of rounding
-constexpr double apart = 1e-8;              // compliance of its own that such a row is given, over that,
+constexpr double apart = 1e-6;              // compliance of its own that such a row is given, over that,
 constexpr double told_apart = 1e-4;         // and that it is taken to have, so that rounding of what it feels is no force
 
 using Eigen::MatrixXd;
