@@ -33,8 +33,9 @@ class DirectSolver : public Solver {
     if (observer) observer({"direct", 0, problem_.hessian.count()});
     auto found = solve_with_matrices();
     faces_->begin(start, goal, observer);
-    if (found.converged && matrices_.go_on) correct(found, goal);
-    if (found.converged && goal.allowed_error) goal.exact = rounding_of_direct;
+    if (!found.converged) return;  // a guess of states that are none leads faces astray
+    if (matrices_.go_on) correct(found, goal);
+    if (goal.allowed_error) goal.exact = rounding_of_direct;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
     start = std::move(solution);

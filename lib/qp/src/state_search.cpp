@@ -39,9 +39,12 @@ constexpr double path_near = 1e-3;          // residual over x from which on gue
 constexpr double path_nearer = 0.1;         // and of what it was then, to try again
 constexpr Eigen::Index few_unknowns = 2000; // up to which a factor of W takes a moment; beyond, as long as many guesses,
 constexpr int guesses_of_path = 100;        // and a path of them as long as so many
-constexpr int patience_with_radii = 6;      // radii in a row without a residual that is so much
+constexpr int patience_with_radii = 6;      // radii in a row without a residual that is so much,
+constexpr int patience_with_costly_radii = 1;
 constexpr double nearer = 0.7;              // of the least before
-constexpr double end_of_path = 1e-13;       // of the first product
+constexpr double end_of_path = 1e-13;       // of the first product,
+constexpr double end_of_rough_path = 1e-7;  // where guesses go on from it,
+constexpr double worth_a_guess = 0.1;       // if the residual over x is so small
 constexpr double end_of_costly_path = 1e-7; // residual over x where guesses do not end it, and are all there is
 constexpr double settled_on_path = 1e-9;    // residual over x at which radii are those of the forces
 
@@ -74,7 +77,7 @@ StateSearch::StateSearch(CondensedProgramme programme) : programme_(std::move(pr
 
 bool StateSearch::from_anywhere()
 {
-  if (programme_.system().costly()) return follow_path();
+  if (programme_.system().costly()) return follow_path() || repeat_paths();
   if (guess(look_back_at_first)) return true;
   if (programme_.unknowns() == 0) return false;
   const bool small = programme_.unknowns() <= few_unknowns;
@@ -244,21 +247,22 @@ bool StateSearch::follow_path()
 bool StateSearch::repeat_paths()
 {
   if (!programme_.follows()) return false;
+  const bool costly = programme_.system().costly();
   start_soft();
   double best = std::numeric_limits<double>::infinity();
-  for (int since_best = 0; since_best < patience_with_radii;) {
+  for (int since_best = 0; since_best < (costly ? patience_with_costly_radii : patience_with_radii);) {
     auto path = programme_.path_with_radii(point_.x, point_.nu);
-    walk(path, end_of_path, [&] {
+    walk(path, costly ? end_of_rough_path : end_of_path, [&] {
       ++point_.steps;
       return false;
     });
     point_.x = path.x(), point_.nu = path.nu();
     const double now = off();
     if (!std::isfinite(now)) return false;
-    if (now <= settled_on_path) {
-      states_ = programme_.states(point_.x, point_.nu);
-      return true;
-    }
+    states_ = programme_.states(point_.x, point_.nu);
+    if (now <= settled_on_path) return true;
+    if (costly && now <= worth_a_guess && guess(look_back_at_first)) return true;
+    if (costly) point_.x = path.x(), point_.nu = path.nu();
     since_best = now < nearer * best ? 0 : since_best + 1;
     best = std::min(best, now);
   }

@@ -141,7 +141,8 @@ TEST(Solvers, ANearbyMatrixIsCorrectedByAFewProducts)
   EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
 }
 
-// Matrices whose solution is none, or one whose states rest on rounding, give way to others that have one, and to no others.
+// Matrices whose solution is none, or one whose states rest on rounding, give way to others that have one, and to no others. Where
+// nothing has converged faces begin by themselves.
 TEST(Solvers, OtherMatricesFollowThoseThatFail)
 {
   struct Outcome {
@@ -168,7 +169,7 @@ TEST(Solvers, OtherMatricesFollowThoseThatFail)
     Goal goal{1e-12};
     std::optional<Solution> start;
     solver->begin(start, goal, {});
-    return gathered(start->x, world()).norm();
+    return start ? gathered(start->x, world()).norm() : 0;
   };
   const double first = solve({true, true}, {true, true}), second = solve({false, true}, {true, true});
   EXPECT_NEAR(second, 2 * first, 1e-12 * first);
@@ -176,7 +177,7 @@ TEST(Solvers, OtherMatricesFollowThoseThatFail)
   EXPECT_NEAR(solve({false, false}, {true, false}), second, 1e-12 * first);
   EXPECT_NEAR(solve({true, false}, {true, false}), first, 1e-12 * first);
   EXPECT_NEAR(solve({true, false}, {false, true}), first, 1e-12 * first);
-  EXPECT_NEAR(solve({false, true}, {false, true}), first, 1e-12 * first);
+  EXPECT_EQ(solve({false, true}, {false, true}), 0);  // no start
 }
 
 // Coulomb's law as SlipLaw; radii are infinite to begin with.
