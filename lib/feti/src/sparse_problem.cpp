@@ -141,7 +141,8 @@ SparseMatrix SparseProblem::stiffness_on_root(bool regularised) const
       const SparseMatrix k = regularised ? subdomains[s]->regularised() : subdomains[s]->lower();
       for (int j = 0; j < k.cols(); ++j)
         for (SparseMatrix::InnerIterator it(k, j); it; ++it)
-          entries.insert(entries.end(), {static_cast<double>(offset_[s] + it.row()), static_cast<double>(offset_[s] + j), it.value()});
+          entries.insert(entries.end(),
+                         {static_cast<double>(offset_[s] + it.row()), static_cast<double>(offset_[s] + j), it.value()});
     }
   });
   entries = feti::on_root(std::move(entries), comm);

@@ -86,8 +86,8 @@ contact::KnownContacts sides_of_contacts(const std::vector<contact::Options>& co
   return known;
 }
 
-// Of each two bodies the shallowest crossing that is deeper than `least`: where one body stands in another, sides of it look through
-// that as well. Depths are negative gaps; places are those of `skin`.
+// Of each two bodies the shallowest crossing that is deeper than `least`: where one body stands in another, sides of it look
+// through that as well. Depths are negative gaps; places are those of `skin`.
 std::map<contact::Bodies, CrossedBodies> crossings(const std::vector<contact::ContactCandidate>& candidates, double least,
                                                    const mesh::Surface& skin, const Communicator& comm)
 {

@@ -120,7 +120,8 @@ void describe(deck::Description<StepOptions>& d)
   d.key("scale", &StepOptions::scale,
         "Factors, reached at the end of the step, of loads, of the displacements of supports and of the interference or preload "
         "of contacts, by their names. After the first step a preloaded bolt keeps its length but where a step names it here.");
-  d.key("off", &StepOptions::off, "Names of loads and supports that cease to act.");
+  d.key("off", &StepOptions::off,
+        "Names of loads and supports that cease to act: supports at once, loads little by little over the increments of the step.");
   d.key("on", &StepOptions::on, "Names of loads and supports that act again.");
   d.key("increments", &StepOptions::increments, "Equilibria on the way, between which the factors change linearly.")
       .at_least(1)

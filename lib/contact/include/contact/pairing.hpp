@@ -37,14 +37,15 @@ struct ContactCandidate {
 
 /// What is in contacts already. The same on every rank.
 struct KnownContacts {
-  std::set<Bodies> bodies;                      ///< with all faces
-  std::map<Global, std::vector<int>> sides_of;  ///< of faces (Surface::face_id): 2 c, 2 c + 1 where they are on the sides of contact c
+  std::set<Bodies> bodies;  ///< with all faces
+  /// Of faces, by Surface::face_id: 2 c and 2 c + 1 where they are on the two sides of contact c.
+  std::map<Global, std::vector<int>> sides_of;
 
   bool have(Global face, Global other) const;
 };
 
-/// All pairs of bodies that face each other but by faces of contacts in `known`, ordered by bodies. `skin`: the outer surface of all bodies,
-/// this rank's faces; `bodies`: how many there are. Of `options` the search distance, the interference and whether the contact is
+/// All pairs of bodies that face each other but by faces of contacts in `known`, ordered by bodies. `skin`: the outer surface of
+/// all bodies, this rank's faces; `bodies`: how many there are. Of `options` the search distance, the interference and whether the contact is
 /// bonded are used.
 ///
 /// Faces f and g face each other if the line along the normal of one meets the other, their normals are opposed, and the gap is
