@@ -39,8 +39,9 @@ constexpr double path_near = 1e-3;          // residual over x from which on gue
 constexpr double path_nearer = 0.1;         // and of what it was then, to try again
 constexpr Eigen::Index few_unknowns = 2000; // up to which a factor of W takes a moment; beyond, as long as many guesses,
 constexpr int guesses_of_path = 100;        // and a path of them as long as so many
+constexpr Eigen::Index very_few_unknowns = 800;  // up to which steps of other lengths are tried: hundreds of guesses
 constexpr int patience_with_radii = 6;      // radii in a row without a residual that is so much,
-constexpr int patience_with_costly_radii = 1;
+constexpr int patience_with_costly_radii = 1;  // with sparse matrices
 constexpr double nearer = 0.7;              // of the least before
 constexpr double end_of_path = 1e-13;       // of the first product,
 constexpr double end_of_rough_path = 1e-7;  // where guesses go on from it,
@@ -80,8 +81,9 @@ bool StateSearch::from_anywhere()
   if (programme_.system().costly()) return follow_path() || repeat_paths();
   if (guess(look_back_at_first)) return true;
   if (programme_.unknowns() == 0) return false;
-  const bool small = programme_.unknowns() <= few_unknowns;
-  return harden(small ? 0 : guesses_of_path) || follow_path() || (small && (repeat_paths() || change_steps())) || harden(INT_MAX);
+  const bool small = programme_.unknowns() <= few_unknowns, very_small = programme_.unknowns() <= very_few_unknowns;
+  return harden(small ? 0 : guesses_of_path) || follow_path() || (small && repeat_paths()) || (very_small && change_steps()) ||
+         harden(INT_MAX);
 }
 
 bool StateSearch::from(VectorXd x, VectorXd nu)
