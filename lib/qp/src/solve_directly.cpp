@@ -15,7 +15,8 @@ namespace {
 constexpr double rounding_of_direct = 1e-4;  // of the energy norm: error that a direct solution may leave
 constexpr int most_corrections = 4;          // of what the matrix differs from A by, as long as each leaves
 constexpr double better = 0.3;               // times the defect before,
-constexpr double of_goal = 0.1;              // and more than so much of the residual that is asked for,
+constexpr double of_goal = 0.1;              // and more than so much of the residual that is asked for, or of
+constexpr double asked_at_least = 1e-6;      // for what is left makes states turn,
 constexpr double of_energy = 3e-5;           // or of the energy norm
 
 class DirectSolver : public Solver {
@@ -72,7 +73,7 @@ class DirectSolver : public Solver {
   void correct(ExplicitProgramme::Point& found, const Goal& goal)
   {
     const auto& equality = problem_.equality;
-    const double enough = of_goal * goal.residual * relative_size(problem_, goal.residual);
+    const double enough = of_goal * std::min(goal.residual, asked_at_least) * relative_size(problem_, goal.residual);
     Vector linear(problem_.linear, Teuchos::Copy), defect(linear.getMap());
     Eigen::VectorXd right_side = equality.right_side();
     std::optional<ExplicitProgramme::Point> best;
