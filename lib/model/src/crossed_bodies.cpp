@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "contact/pairing.hpp"
@@ -53,8 +54,9 @@ Point middle_of(const mesh::Surface& skin, const std::vector<Global>& faces, con
   return Point(sum[0], sum[1], sum[2]) / std::max(sum[3], 1.0);
 }
 
-// The faces on the two sides of each contact. Collective.
-contact::KnownContacts sides_of_contacts(const std::vector<contact::Options>& contacts,
+// The faces on the two sides of each contact, and those round them: where the sides stand in each other by next to nothing, as where
+// bodies turn, faces across their edges look through that. Collective.
+contact::KnownContacts sides_of_contacts(const std::vector<contact::Options>& contacts, const mesh::Surface& skin,
                                          const partition::Decomposition& decomposition, const Communicator& comm)
 {
   const auto& catalogue = decomposition.catalogue;
@@ -69,20 +71,33 @@ contact::KnownContacts sides_of_contacts(const std::vector<contact::Options>& co
     }
   }
   struct Of {
-    Global face;
-    int side;
+    Global number;  // of a face or a node
+    int side, body;
   };
-  std::vector<Of> mine;
+  std::vector<Of> mine, nodes;
   for (const auto& subdomain : decomposition.subdomains) {
     const auto& facets = subdomain.mesh.facets;
     for (std::size_t f = 0; f < facets.boundary.size(); ++f)
       if (const auto found = sides.find(facets.boundary[f]); found != sides.end())
         for (const auto& [body, side] : found->second)
-          if (body.empty() || matches_name(catalogue.bodies[static_cast<std::size_t>(subdomain.body)], body))
-            mine.push_back({partition::face_number(subdomain.mesh, f), side});
+          if (body.empty() || matches_name(catalogue.bodies[static_cast<std::size_t>(subdomain.body)], body)) {
+            mine.push_back({partition::face_number(subdomain.mesh, f), side, subdomain.body});
+            for (const Local n : facets.cells[f])
+              nodes.push_back({subdomain.mesh.node_id[static_cast<std::size_t>(n)], side, subdomain.body});
+          }
   }
+  std::map<Global, std::set<std::pair<int, int>>> sides_at;  // of nodes: body and side
+  for (const auto& [node, side, body] : comm.all_gather(nodes)) sides_at[node].emplace(body, side);
+  for (std::size_t f = 0; f < skin.faces.size(); ++f)
+    for (const Local n : skin.faces[f])
+      if (const auto found = sides_at.find(skin.node_id[static_cast<std::size_t>(n)]); found != sides_at.end())
+        for (const auto& [body, side] : found->second)
+          if (body == skin.body[f]) mine.push_back({skin.face_id[f], side, body});
   contact::KnownContacts known;
-  for (const auto& [face, side] : comm.all_gather(mine)) known.sides_of[face].push_back(side);
+  for (const auto& [face, side, body] : comm.all_gather(mine)) {
+    auto& of_face = known.sides_of[face];
+    if (std::find(of_face.begin(), of_face.end(), side) == of_face.end()) of_face.push_back(side);
+  }
   return known;
 }
 
@@ -121,18 +136,19 @@ std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<
   contact::Options search;
   search.search_distance = 2 * longest;
   if (!(longest > 0) || !(longest < comm.max(box.isEmpty() ? 0.0 : box.diagonal().norm()))) return {};
-  const auto known = sides_of_contacts(model.contacts().options, decomposition, comm);
+  const auto known = sides_of_contacts(model.contacts().options, skin, decomposition, comm);
   const auto find = [&](const mesh::Surface& surface) {
     return contact::find_contact_candidates(surface, bodies, known, search, deck.kinematics, comm);
   };
   const auto crossed_now = crossings(find(deformed), crossed * longest, skin, comm);
   if (crossed_now.empty()) return {};
-  // Facets of bodies that fit may cross before anything moves.
+  // Facets of bodies that fit may cross before anything moves. Nothing gets deeper by more than it moves.
   const auto crossed_before = crossings(find(skin), 0, skin, comm);
   std::vector<CrossedBodies> result;
   for (const auto& [two, crossing] : crossed_now) {
     const auto before = crossed_before.find(two);
-    if (before == crossed_before.end() || crossing.depth - before->second.depth > crossed * longest) result.push_back(crossing);
+    const double deeper = crossing.depth - (before == crossed_before.end() ? 0 : before->second.depth);
+    if (deeper > crossed * longest && deeper <= 2 * longest) result.push_back(crossing);
   }
   std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.depth > b.depth; });
   return result;
