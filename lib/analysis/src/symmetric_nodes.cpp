@@ -179,7 +179,8 @@ bool shears(const model::FaceAction& action, const Point& normal, const Point& p
   const Point face = point(action.normal), direction = point(action.direction);
   const Point tangential = direction - direction.dot(face) * face;
   if (face.cross(normal).norm() < parallel) return tangential.norm() > parallel;
-  return action.kind == Kind::pushed && std::abs(tangential.dot(normal)) > parallel;
+  // What pushes along the plane is its own mirror image, however faces of the mesh are inclined.
+  return action.kind == Kind::pushed && std::abs(tangential.dot(normal)) > parallel && std::abs(direction.dot(normal)) > parallel;
 }
 
 // The normals of planes of symmetry.

@@ -124,6 +124,8 @@ TEST(SymmetricNodes, LoadsAlongTheNormal)
   const Found pushed(two_blocks + quarter + "loads:\n  - {boundary: upper.zmax, traction: [1, 0, -2]}\n");
   EXPECT_EQ(pushed.on(1, -along_x), 6);
   EXPECT_EQ(pushed.on(1, -along_y), 9);
+  const Found rounded(two_blocks + quarter + "loads:\n  - {boundary: upper.zmax, traction: [1.0e-15, 0, -2]}\n");
+  EXPECT_EQ(rounded.on(1, -along_x), 9);
   const Found along(two_blocks + quarter + "loads:\n  - {boundary: upper.xmin, traction: [1, 0, -2]}\n");
   EXPECT_EQ(along.on(1, -along_x), 0);
   EXPECT_EQ(along.on(1, -along_y), 9);

@@ -58,6 +58,17 @@ std::vector<std::pair<Local, Point>> directions(const mesh::Mesh& mesh, std::siz
   return result;
 }
 
+// The force or traction of a load, if it is the same everywhere in its axes.
+std::optional<Point> constant_push(const fem::LoadOptions& load)
+{
+  Point push = Point::Zero();
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (load.traction && !(*load.traction)[c].is_constant()) return {};
+    push[static_cast<Eigen::Index>(c)] = load.force ? (*load.force)[c] : load.traction ? (*load.traction)[c].constant() : 0.0;
+  }
+  return push;
+}
+
 bool along(const Point& direction, const Point& normal)
 {
   return direction.cross(normal).norm() < parallel;
@@ -115,12 +126,16 @@ std::vector<FaceAction> Model::face_actions(const LoadState& state, const Commun
       for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
         const auto& load = deck_.loads[i];
         if (state.load[i] == 0 || !here(load.boundary)) continue;
+        const auto push = constant_push(load);
+        if (push && push->isZero(0)) continue;
         const auto pushes = [&](std::size_t c) {
-          if (load.force) return (*load.force)[c] != 0;
-          return load.traction && !((*load.traction)[c].is_constant() && (*load.traction)[c].constant() == 0);
+          return !push && !((*load.traction)[c].is_constant() && (*load.traction)[c].constant() == 0);
         };
         for (const auto& [n, direction] : directions(mesh, f, load_axes[i], pushes))
           note(n, Kind::pushed, plane.normal, direction);
+        for (const Local n : mesh.facets.cells[f])
+          if (const auto rows = load_axes[i].value_or(deck::LocalAxes()).at(mesh.points[static_cast<std::size_t>(n)]); push && rows)
+            note(n, Kind::pushed, plane.normal, (rows->transpose() * *push).normalized());
       }
       for (const auto& [name, coupling] : deck_.couplings)
         if (here(coupling.boundary)) note_all(Kind::coupled, plane.normal, plane.normal);
