@@ -66,7 +66,7 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
                     "\" is made of boundary elements and cut into several subdomains: `solver.algorithm: direct` wants " +
                     "it whole (decomposition.subdomains), `auto` and `face_newton` do not");
   if (!cut.empty()) return approach;
-  const auto effort = [&] { return effort_of_direct(assembly.decomposition(), assembly.system(), constraints, comm); };
+  const auto effort = [&] { return effort_of_direct(assembly, constraints, comm); };
   if (approach.kind == Approach::Kind::direct_instead)
     approach.patience = products_of_check;
   else if (approach.algorithm == "auto") {

@@ -11,40 +11,50 @@
 #include "base/timer.hpp"
 #include "feti/explicit_problem.hpp"
 #include "feti/sparse_problem.hpp"
+#include "partition/interface_elimination.hpp"
 
 namespace mortise::analysis {
 
 namespace {
 
 // Measured on one core of 2025: dense algebra on matrices is bound by arithmetic, a product with F by memory.
-constexpr double dense_rate = 15e9, sparse_rate = 1.5e9;  // operations a second
+constexpr double dense_rate = 30e9, sparse_rate = 1.5e9;  // operations a second
 constexpr double set_up = 10;                             // products that assembling and cutting anew take
 constexpr double shortest = 15;         // products that are tried in any case
-constexpr double a_second = 8;          // products more for each second that a direct solution takes,
+constexpr double a_second = 16;         // products more for each second that a direct solution takes,
 constexpr double a_moment = 60;         // where these are less,
 constexpr double longest = 100;         // up to so many
-constexpr double part_of_rest = 0.125;  // of what a direct solution takes that an end of products in sight may,
+constexpr double part_of_rest = 0.25;   // of what a direct solution takes that an end of products in sight may,
 constexpr double most_of_rest = 40;     // products at most,
 constexpr double at_once = 0.1;         // if it takes so many seconds
 constexpr double part_of_memory = 0.5;  // of what is available
 
+// Of a body with n unknowns whose subdomains have factors of `inside` entries: their factors and that of the interface, or what the
+// law of nested dissection makes of them where that is less. Each column of a factor has the average height, twice over.
+partition::FactorSize whole_factor(double n, double inside, double by_law, const partition::FactorSize& interface)
+{
+  const partition::FactorSize joined{inside + interface.entries, 2 * inside * inside / n + interface.operations};
+  return by_law < joined.entries ? partition::FactorSize{by_law, 2 * by_law * by_law / n} : joined;
+}
+
 }  // namespace
 
-DirectEffort effort_of_direct(const partition::Decomposition& decomposition, const feti::SubdomainSystem& system,
-                              const constraint::Constraints& constraints, const Communicator& comm)
+DirectEffort effort_of_direct(const Assembly& assembly, const constraint::Constraints& constraints, const Communicator& comm)
 {
+  const auto& decomposition = assembly.decomposition();
   const int dimension = decomposition.catalogue.dimension;
-  const auto& subdomains = system.clusters.subdomains();
+  const auto& subdomains = assembly.system().clusters.subdomains();
   const auto bodies = decomposition.catalogue.bodies.size();
-  std::vector<double> sums(2 + bodies, 0.0);  // entries of the factors, what the law says of them, unknowns of each body
+  // Of each body: its unknowns, and of the factors of its subdomains what they hold and what the law says of them.
+  std::vector<double> sums(3 * bodies, 0.0);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    const double unknowns = subdomains[s]->size();
-    sums[0] += static_cast<double>(subdomains[s]->original().factor_bytes()) / sizeof(double);
-    sums[1] += of_nested_dissection(unknowns, dimension);
-    sums[2 + static_cast<std::size_t>(decomposition.subdomains[s].body)] += unknowns;
+    const auto b = 3 * static_cast<std::size_t>(decomposition.subdomains[s].body);
+    const double n = subdomains[s]->size();
+    sums[b] += n;
+    sums[b + 1] += static_cast<double>(subdomains[s]->original().factor_bytes()) / sizeof(double);
+    sums[b + 2] += of_nested_dissection(n, dimension);
   }
   comm.sum_in_place(sums);
-  const double entries = std::max(sums[0], sums[1]), law = entries / sums[1];
   const auto& contacts = constraints.contacts;
   double closing = 0;
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
@@ -63,14 +73,19 @@ DirectEffort effort_of_direct(const partition::Decomposition& decomposition, con
   const double all = prescribed + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size())));
   const double free = all - closing;
 
-  double factors = 0, factorizing = 0, weighted = 0, unknowns = 0;
+  const auto interfaces = partition::interface_elimination(decomposition, assembly.interface(), comm);
+  double inside = 0, law = 0, factors = 0, factorizing = 0, weighted = 0, unknowns = 0;
   for (std::size_t b = 0; b < bodies; ++b) {
-    const double n = std::max(sums[2 + b], 1.0), body = law * of_nested_dissection(n, dimension);
-    factors += body;
-    factorizing += 2 * body * body / n;
-    weighted += body * n;
+    const double n = std::max(sums[3 * b], 1.0), own = sums[3 * b + 1], own_law = sums[3 * b + 2];
+    const auto whole = whole_factor(n, own, own / std::max(own_law, 1.0) * of_nested_dissection(n, dimension), interfaces[b]);
+    inside += own;
+    law += own_law;
+    factors += whole.entries;
+    factorizing += whole.operations;
+    weighted += whole.entries * n;
     unknowns += n;
   }
+  const double entries = std::max(inside, law);  // that a product with F reads
   // With sparse matrices nothing grows with the number of rows; see feti::SparseProblem.
   const double dense = feti::work_of_dense_solution(free, closing), sparse = feti::work_of_sparse_solution(factors, unknowns);
   const bool rigid = !comm.any(!constraints.springs.own.empty() || !constraints.mean_motions.empty() ||

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "feti/dual_problem.hpp"
-#include "partition/decomposition.hpp"
+#include "analysis/assembly.hpp"
+#include "constraint/constraints.hpp"
 #include "qp/budget.hpp"
 
 namespace mortise::analysis {
@@ -20,10 +20,9 @@ struct DirectEffort {
   bool too_many() const { return !sparse && multipliers > most_multipliers; }
 };
 
-/// What a direct solution costs, from the sizes of the present factors and the laws of nested dissection; nothing is factorized
+/// What a direct solution costs, from the sizes of the present factors and the laws of nested dissection and an order of the interface; nothing is factorized
 /// for it. The same on every rank and, but for rounding, for every number of ranks. Collective.
-DirectEffort effort_of_direct(const partition::Decomposition& decomposition, const feti::SubdomainSystem& system,
-                              const constraint::Constraints& constraints, const Communicator& comm);
+DirectEffort effort_of_direct(const Assembly& assembly, const constraint::Constraints& constraints, const Communicator& comm);
 
 /// The products with F after which a direct solution is worth more than going on; nothing where it is out of reach. Collective.
 std::optional<qp::Patience> patience_with_products(const DirectEffort& effort, const Communicator& comm);
