@@ -20,17 +20,17 @@ namespace {
 // Measured on one core of 2025: dense algebra on matrices is bound by arithmetic, a product with F by memory.
 constexpr double dense_rate = 30e9, sparse_rate = 1.5e9;  // operations a second
 constexpr double set_up = 10;                             // products that assembling and cutting anew take
-constexpr double shortest = 15;         // products that are tried in any case
-constexpr double a_second = 16;         // products more for each second that a direct solution takes,
-constexpr double a_moment = 60;         // where these are less,
-constexpr double longest = 100;         // up to so many
-constexpr double part_of_rest = 0.25;   // of what a direct solution takes that an end of products in sight may,
-constexpr double most_of_rest = 40;     // products at most,
-constexpr double at_once = 0.1;         // if it takes so many seconds
-constexpr double part_of_memory = 0.5;  // of what is available
+constexpr double shortest = 15;                           // products that are tried in any case
+constexpr double a_second = 16;                           // products more for each second that a direct solution takes,
+constexpr double a_moment = 60;                           // where these are less,
+constexpr double longest = 100;                           // up to so many
+constexpr double part_of_rest = 0.25;                     // of what a direct solution takes that an end of products in sight may,
+constexpr double most_of_rest = 40;                       // products at most,
+constexpr double at_once = 0.1;                           // if it takes so many seconds
+constexpr double part_of_memory = 0.5;                    // of what is available
 
-// Of a body with n unknowns whose subdomains have factors of `inside` entries: their factors and that of the interface, or what the
-// law of nested dissection makes of them where that is less. Each column of a factor has the average height, twice over.
+// Of a body with n unknowns whose subdomains have factors of `inside` entries: their factors and that of the interface, or what
+// the law of nested dissection makes of them where that is less. Each column of a factor has the average height, twice over.
 partition::FactorSize whole_factor(double n, double inside, double by_law, const partition::FactorSize& interface)
 {
   const partition::FactorSize joined{inside + interface.entries, 2 * inside * inside / n + interface.operations};

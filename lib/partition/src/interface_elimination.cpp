@@ -72,8 +72,8 @@ std::vector<int> elimination_order(std::span<const Group> groups, std::span<cons
   auto vertices = static_cast<idx_t>(groups.size());
   std::vector<idx_t> order(groups.size()), position(groups.size());
   std::iota(position.begin(), position.end(), idx_t{0});
-  if (vertices > 1 &&
-      METIS_NodeND(&vertices, offset.data(), neighbours.data(), weight.data(), nullptr, order.data(), position.data()) != METIS_OK)
+  if (vertices > 1 && METIS_NodeND(&vertices, offset.data(), neighbours.data(), weight.data(), nullptr, order.data(),
+                                   position.data()) != METIS_OK)
     throw Error(ExitStatus::machine, "METIS could not order the interface of a body");
   return {position.begin(), position.end()};
 }
@@ -83,7 +83,8 @@ FactorSize eliminate(std::span<const Group> groups, std::span<const std::vector<
 {
   const auto position = elimination_order(groups, cliques);
   std::vector<double> width(groups.size());
-  for (std::size_t g = 0; g < groups.size(); ++g) width[static_cast<std::size_t>(position[g])] = unknowns_a_node * groups[g].nodes;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    width[static_cast<std::size_t>(position[g])] = unknowns_a_node * groups[g].nodes;
   std::vector<std::vector<std::vector<int>>> beginning_at(groups.size());  // cliques, as positions, ascending
   const auto file = [&](std::vector<int> clique) {
     if (!clique.empty()) beginning_at[static_cast<std::size_t>(clique.front())].push_back(std::move(clique));
@@ -113,7 +114,8 @@ FactorSize eliminate(std::span<const Group> groups, std::span<const std::vector<
 
 }  // namespace
 
-std::vector<FactorSize> interface_elimination(const Decomposition& decomposition, const Interface& interface, const Communicator& comm)
+std::vector<FactorSize> interface_elimination(const Decomposition& decomposition, const Interface& interface,
+                                              const Communicator& comm)
 {
   auto all = groups(decomposition, interface, comm);
   std::sort(all.begin(), all.end(), [](const Group& a, const Group& b) { return a.subdomains < b.subdomains; });

@@ -20,8 +20,8 @@ struct DirectEffort {
   bool too_many() const { return !sparse && multipliers > most_multipliers; }
 };
 
-/// What a direct solution costs, from the sizes of the present factors and the laws of nested dissection and an order of the interface; nothing is factorized
-/// for it. The same on every rank and, but for rounding, for every number of ranks. Collective.
+/// What a direct solution costs, from the sizes of the present factors and the laws of nested dissection and an order of the
+/// interface; nothing is factorized for it. The same on every rank and, but for rounding, for every number of ranks. Collective.
 DirectEffort effort_of_direct(const Assembly& assembly, const constraint::Constraints& constraints, const Communicator& comm);
 
 /// The products with F after which a direct solution is worth more than going on; nothing where it is out of reach. Collective.

@@ -18,6 +18,7 @@ struct FactorSize {
 /// For each body what eliminating the interface between its subdomains takes once their insides are eliminated. Nodes that the
 /// same subdomains share are one vertex of a graph, in which every subdomain is a clique; METIS orders it. As large as the
 /// coarse problem, whatever the mesh. The same on every rank and for every number of ranks. Collective.
-std::vector<FactorSize> interface_elimination(const Decomposition& decomposition, const Interface& interface, const Communicator& comm);
+std::vector<FactorSize> interface_elimination(const Decomposition& decomposition, const Interface& interface,
+                                              const Communicator& comm);
 
 }  // namespace mortise::partition
