@@ -42,7 +42,8 @@ std::vector<double> columns_on_root(const DirichletElimination& elimination, con
 }
 
 // Of each row that gives way: its number and its compliance. Collective.
-std::vector<double> compliance_on_root(const DirichletElimination& elimination, const JumpOperator& jump, const Communicator& comm)
+std::vector<double> compliance_on_root(const DirichletElimination& elimination, const JumpOperator& jump,
+                                       const Communicator& comm)
 {
   std::vector<double> giving;
   for (Eigen::Index i = 0; i < jump.compliance().size(); ++i)
@@ -98,7 +99,8 @@ struct WholeMatrices {
 }  // namespace
 
 ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
-    : problem_(problem), elimination_(std::make_unique<DirichletElimination>(problem, few)),
+    : problem_(problem),
+      elimination_(std::make_unique<DirichletElimination>(problem, few)),
       rows_(std::make_unique<RowsOnRoot>(elimination_->number(), problem.communicator()))
 {
   const auto& comm = problem.communicator();
@@ -128,25 +130,18 @@ ExplicitProblem::~ExplicitProblem() = default;
 
 void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
 {
-  const auto& comm = problem_.communicator();
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
     Eigen::VectorXd motions = Eigen::VectorXd::Zero(problem_.equality().size());
-    auto all = rows_->to_root(view(elimination_->reduce(*in, motions)));
-    collectively(comm, [&] {
-      if (!comm.root()) return;
-      const auto solved =
-          newton_->inverse_times(Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
-      all.assign(solved.begin(), solved.end());
-    });
     Vector result(problem_.jump().rows());
-    view(result) = rows_->from_root(std::move(all));
+    view(result) = rows_->map_on_root(view(elimination_->reduce(*in, motions)),
+                                      [&](const Eigen::VectorXd& all) { return newton_->inverse_times(all); });
     elimination_->complete(*in, {}, result);
     y.getVectorNonConst(column)->update(alpha, result, beta);
   }
 }
 
-ExplicitProblem::Result ExplicitProblem::solve(const Vector& linear, Eigen::VectorXd e, const Result* near) const
+ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::VectorXd e, const Point* near) const
 {
   const auto& comm = problem_.communicator();
   const Eigen::VectorXd right_side = e;
@@ -166,14 +161,13 @@ ExplicitProblem::Result ExplicitProblem::solve(const Vector& linear, Eigen::Vect
     x.assign(found.x.begin(), found.x.end());
     nu.assign(found.nu.begin(), found.nu.end());
     reaction.assign(found.reaction.begin(), found.reaction.end());
-    outcome = {found.converged ? 1 : 0, found.steps, found.settled ? 1 : 0};
+    outcome = {found.converged ? 1 : 0, found.settled ? 1 : 0};
   });
   comm.broadcast(nu);
   comm.broadcast(outcome);
-  Result result{Vector(problem_.jump().rows()), map(nu), outcome[0] == 1, static_cast<int>(outcome[1]),
-                Vector(problem_.jump().rows()), outcome[2] == 1};
+  Point result{Vector(problem_.jump().rows()), map(nu), outcome[0] == 1, Vector(problem_.jump().rows()), outcome[1] == 1};
   view(result.x) = rows_->from_root(std::move(x));
-  view(result.reaction) = rows_->from_root(std::move(reaction));
+  view(*result.reaction) = rows_->from_root(std::move(reaction));
   elimination_->complete(linear, result.nu, result.x);
   const auto& equality = problem_.equality();
   if (!comm.any(!problem_.set().constrained().empty()) && equality.size() > 0) {

@@ -43,6 +43,17 @@ VectorXd RowsOnRoot::from_root(std::vector<double> all) const
   return own;
 }
 
+VectorXd RowsOnRoot::map_on_root(const Eigen::Ref<const VectorXd>& own, const std::function<VectorXd(const VectorXd&)>& map) const
+{
+  auto all = to_root(own);
+  collectively(comm_, [&] {
+    if (!comm_.root()) return;
+    const VectorXd mapped = map(Eigen::Map<const VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
+    all.assign(mapped.begin(), mapped.end());
+  });
+  return from_root(std::move(all));
+}
+
 qp::FeasibleSet RowsOnRoot::to_root(const qp::FeasibleSet& set) const
 {
   const auto number = [&](Local i) { return i < 0 ? -1.0 : static_cast<double>(number_[static_cast<std::size_t>(i)]); };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -23,6 +24,9 @@ class RowsOnRoot {
   std::vector<double> to_root(const Eigen::Ref<const Eigen::VectorXd>& own) const;
   /// And back, `all` of rank 0; zero at the others. Collective.
   Eigen::VectorXd from_root(std::vector<double> all) const;
+  /// What `map` makes on rank 0 of a vector over the numbers, back on the owned rows; zero at those without a number. Collective.
+  Eigen::VectorXd map_on_root(const Eigen::Ref<const Eigen::VectorXd>& own,
+                              const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& map) const;
   /// The sets of all ranks as one, over the numbers; of use on rank 0. Collective.
   qp::FeasibleSet to_root(const qp::FeasibleSet& set) const;
 

@@ -11,13 +11,13 @@ namespace mortise::feti {
 
 namespace {
 
-constexpr double dense_guesses = 8;      // of a direct solution with dense matrices
-constexpr double sparse_problems = 30;   // linear problems of one with sparse ones
-constexpr double steps_of_gmres = 15;    // in each of these
-constexpr double slow = 8;               // operations of a factor in the time of one that a solution with it takes
-constexpr double some_seconds = 1e11;    // operations
-constexpr double joined = 1.3;           // entries of the factor of joined bodies, over those of their own
-constexpr std::size_t most_entries = 400;      // of a row of B, and of a column of K on average
+constexpr double dense_guesses = 8;        // of a direct solution with dense matrices
+constexpr double sparse_problems = 30;     // linear problems of one with sparse ones
+constexpr double steps_of_gmres = 15;      // in each of these
+constexpr double slow = 8;                 // operations of a factor in the time of one that a solution with it takes
+constexpr double some_seconds = 1e11;      // operations
+constexpr double joined = 1.3;             // entries of the factor of joined bodies, over those of their own
+constexpr std::size_t most_entries = 400;  // of a row of B, and of a column of K on average
 
 using Eigen::VectorXd;
 
@@ -160,13 +160,13 @@ VectorXd SparseProblem::on_root(const std::vector<VectorXd>& parts) const
   return as_vector(feti::on_root(std::move(own), problem_.communicator()));
 }
 
-SparseProblem::Result SparseProblem::solve() const
+SparseProblem::Point SparseProblem::solve() const
 {
   return solve(problem_.load(), problem_.jump().bound(), nullptr);
 }
 
 // Forces R de move bodies and nothing else: c' = c + d - d' + B K^+ R de.
-SparseProblem::Result SparseProblem::go_on(const Vector& linear, const VectorXd& e, const Vector& near) const
+SparseProblem::Point SparseProblem::go_on(const Vector& linear, const VectorXd& e, const Vector& near) const
 {
   const auto& clusters = problem_.clusters();
   const VectorXd more = e - problem_.equality().right_side();
@@ -181,7 +181,7 @@ SparseProblem::Result SparseProblem::go_on(const Vector& linear, const VectorXd&
   return solve(f, bound, &near);
 }
 
-SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const Vector* near) const
+SparseProblem::Point SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const Vector* near) const
 {
   const auto& comm = problem_.communicator();
   const VectorXd load = on_root(f);
@@ -196,14 +196,14 @@ SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const
     x.assign(found.x.begin(), found.x.end());
     u.assign(found.u.begin(), found.u.end());
     reaction.assign(found.reaction.begin(), found.reaction.end());
-    outcome = {found.converged ? 1 : 0, found.steps, found.settled ? 1 : 0};
+    outcome = {found.converged ? 1 : 0, found.settled ? 1 : 0};
   });
   comm.broadcast(u);
   comm.broadcast(outcome);
-  Result result{Vector(problem_.jump().rows()), VectorXd::Zero(problem_.equality().size()), outcome[0] == 1,
-                static_cast<int>(outcome[1]), Vector(problem_.jump().rows()), outcome[2] == 1};
+  Point result{Vector(problem_.jump().rows()), VectorXd::Zero(problem_.equality().size()), outcome[0] == 1,
+               Vector(problem_.jump().rows()), outcome[1] == 1};
   view(result.x) = rows_->from_root(std::move(x));
-  view(result.reaction) = rows_->from_root(std::move(reaction));
+  view(*result.reaction) = rows_->from_root(std::move(reaction));
 
   const auto& clusters = problem_.clusters();  // R nu = K^+ (f - B'x) - u
   std::vector<VectorXd> elastic = problem_.jump().apply_transpose(result.x);
@@ -227,15 +227,9 @@ void SparseProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp
     has_inverse_ = true;
   }
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-    const auto in = x.getVector(column);
-    auto all = rows_->to_root(view(*in));
-    collectively(comm, [&] {
-      if (!comm.root()) return;
-      const VectorXd solved = whole_->inverse_times(as_vector(all));
-      all.assign(solved.begin(), solved.end());
-    });
     Vector result(problem_.jump().rows());
-    view(result) = rows_->from_root(std::move(all));
+    view(result) =
+        rows_->map_on_root(view(*x.getVector(column)), [&](const VectorXd& all) { return whole_->inverse_times(all); });
     y.getVectorNonConst(column)->update(alpha, result, beta);
   }
 }

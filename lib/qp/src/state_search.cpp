@@ -262,6 +262,7 @@ bool StateSearch::repeat_paths()
     const double now = off();
     if (!std::isfinite(now)) return false;
     states_ = programme_.states(point_.x, point_.nu);
+    point_.settled = now <= flutter;
     if (now <= settled_on_path) return true;
     if (costly && now <= worth_a_guess && guess(look_back_at_first)) return true;
     if (costly) point_.x = path.x(), point_.nu = path.nu();

@@ -3,6 +3,7 @@
 
 #include "feti/dual_problem.hpp"
 #include "qp/condensed_newton.hpp"
+#include "qp/solver.hpp"
 
 namespace mortise::feti {
 
@@ -24,21 +25,14 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   explicit ExplicitProblem(const DualProblem& problem, Global few = few_supports);
   ~ExplicitProblem() override;
 
-  struct Result {
-    Vector x;                ///< lambda, over the rows of B
-    Eigen::VectorXd nu;      ///< the same on every rank
-    bool converged = false;  ///< exact to rounding; else the last guess
-    int steps = 0;           ///< linear problems solved
-    Vector reaction;         ///< F lambda - d + G'nu by the matrices, zero at rows without a constraint
-    bool settled = true;     ///< if it converged: no state of a constraint rests on rounding
-  };
+  using Point = qp::ExplicitProgramme::Point;
   /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Collective.
-  Result solve() const { return solve(problem_.linear(), problem_.equality().right_side()); }
+  Point solve() const { return solve(problem_.linear(), problem_.equality().right_side()); }
   /// The same for another linear term d and another e, the latter the same on every rank. `near`: a solution for others that
   /// differ by little, to go on from. Collective.
-  Result solve(const Vector& linear, Eigen::VectorXd e, const Result* near = nullptr) const;
-  /// Whether the matrices differ from F by a little: where rows depend on each other they have some compliance that F has not, and
-  /// where supports are eliminated the rounding of other factors. The same on every rank.
+  Point solve(const Vector& linear, Eigen::VectorXd e, const Point* near = nullptr) const;
+  /// Whether the matrices differ from F by a little: where rows depend on each other they have some compliance that F has not,
+  /// and where supports are eliminated the rounding of other factors. The same on every rank.
   bool differs() const { return separated_ || eliminated_; }
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }

@@ -5,6 +5,7 @@
 
 #include "base/cholesky.hpp"
 #include "feti/dual_problem.hpp"
+#include "qp/solver.hpp"
 #include "qp/sparse_newton.hpp"
 
 namespace mortise::feti {
@@ -14,8 +15,8 @@ namespace mortise::feti {
 constexpr Global many_rows = 2500;
 constexpr double worth_of_sparse = 3;
 
-/// Operations of a direct solution with dense matrices, over `free` rows without a constraint and `closing` others; and with sparse
-/// ones, for bodies of so many unknowns, whose factors together have so many entries.
+/// Operations of a direct solution with dense matrices, over `free` rows without a constraint and `closing` others; and with
+/// sparse ones, for bodies of so many unknowns, whose factors together have so many entries.
 double work_of_dense_solution(double free, double closing);
 double work_of_sparse_solution(double entries, double unknowns);
 
@@ -37,20 +38,13 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   explicit SparseProblem(const DualProblem& problem);
   ~SparseProblem() override;
 
-  struct Result {
-    Vector x;                ///< lambda, over the rows of B
-    Eigen::VectorXd nu;      ///< of the motions of all subdomains, the same on every rank
-    bool converged = false;  ///< exact to rounding; else the last guess
-    int steps = 0;           ///< linear problems solved
-    Vector reaction;         ///< F lambda - d + G'nu by these matrices, zero at rows without a constraint
-    bool settled = true;     ///< if it converged: no state of a constraint rests on rounding
-  };
+  using Point = qp::ExplicitProgramme::Point;
   /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Throws as qp::SparseNewton.
   /// Collective.
-  Result solve() const;
+  Point solve() const;
   /// The same for another linear term d and another e, that differ by little: from the last solution on, whose lambda is given.
   /// Collective.
-  Result go_on(const Vector& linear, const Eigen::VectorXd& e, const Vector& near) const;
+  Point go_on(const Vector& linear, const Eigen::VectorXd& e, const Vector& near) const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
@@ -61,7 +55,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
  private:
   SparseMatrix stiffness_on_root(bool regularised) const;
   Eigen::VectorXd on_root(const std::vector<Eigen::VectorXd>& parts) const;
-  Result solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const Vector* near) const;
+  Point solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const Vector* near) const;
 
   const DualProblem& problem_;
   std::unique_ptr<const RowsOnRoot> rows_;
