@@ -9,6 +9,8 @@ namespace {
 
 // Less than this part of a facet is covered by chance.
 constexpr double least_piece = 0.01;
+// A node that looks past the border with more of its surroundings covered is one on it.
+constexpr double most_cover = 0.6;
 
 // Where functions with half of a piece's cover would be dropped, as opposite a foot smaller than the faces it stands on, they
 // stay: so does the border of the contact.
@@ -44,6 +46,28 @@ void keep_corners(CutFaces& faces, const std::vector<char>& allowed, std::vector
     }
 }
 
+// Surface nodes past the border of the primary side that share faces with others, all of which hold whole facets.
+std::vector<char> past_the_border(const Side& side, const SurfaceNodes& surface_nodes, std::span<const char> met,
+                                  std::span<const double> cover)
+{
+  const auto at = [](const mesh::Cells& cells, const std::vector<Local>& places, std::size_t f) {
+    return std::span(places).subspan(static_cast<std::size_t>(cells.offset[f]), cells[f].size());
+  };
+  const auto meets = [&](Local p) { return met[static_cast<std::size_t>(p)] != 0; };
+  std::vector<char> holds(met.size(), 0), beside_some(met.size(), 0), beside_weak(met.size(), 0);
+  for (std::size_t f = 0; f < side.facets.size(); ++f)
+    if (const auto corners = at(side.facets, surface_nodes.of_corner, f); std::ranges::all_of(corners, meets))
+      for (const Local p : corners) holds[static_cast<std::size_t>(p)] = 1;
+  for (std::size_t f = 0; f < side.faces.size(); ++f)
+    for (const auto nodes = at(side.faces, surface_nodes.of_node, f); const Local p : nodes)
+      for (const Local q : nodes)
+        if (!meets(p) && meets(q))
+          (holds[static_cast<std::size_t>(q)] ? beside_some : beside_weak)[static_cast<std::size_t>(p)] = 1;
+  std::vector<char> result(met.size(), 0);
+  for (std::size_t p = 0; p < result.size(); ++p) result[p] = beside_some[p] && !beside_weak[p] && cover[p] < most_cover;
+  return result;
+}
+
 // Marks the surface nodes of faces at which `holds` of all of them.
 template <class Holds>
 std::vector<char> at_all_nodes_of_a_face(const CutFaces& faces, std::size_t count, const Holds& holds)
@@ -75,7 +99,8 @@ std::vector<double> sum_areas(CutFaces& faces, std::vector<double>& covered)
 }  // namespace
 
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
-                                  const SupportedNodes& supports, std::span<const char> seams_end, bool bonded, int dimension)
+                                  const SupportedNodes& supports, std::span<const char> seams_end, std::span<const char> met,
+                                  bool bonded, int dimension)
 {
   const auto count = faces.places();
   ContactNodes nodes;
@@ -96,10 +121,16 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   // along a curved surface there as an overlap. In a bond they would hold the primary side to the mean of what it meets, and
   // leave their share to the others of the face, as those at a seam's end do; where a face has no others, as on a surface that a
   // support moves as a whole, they stay.
-  const auto left_out = [&](std::size_t p) { return !nodes.directions[p].free_normal || seams_end[faces.surface_node(p)]; };
+  nodes.cover.assign(count, 0);
+  for (std::size_t p = 0; p < count; ++p) nodes.cover[p] = whole[p] > 0 ? std::min(nodes.covered[p] / whole[p], 1.0) : 0.0;
+  const auto past =
+      met.empty() ? std::vector<char>(surface_nodes.all.size(), 0) : past_the_border(secondary, surface_nodes, met, nodes.cover);
+  const auto left_out = [&](std::size_t p) {
+    const auto s = faces.surface_node(p);
+    return !nodes.directions[p].free_normal || seams_end[s] || past[s];
+  };
   nodes.stranded = at_all_nodes_of_a_face(faces, count, left_out);
   std::vector<char> allowed(count, 0);
-  nodes.cover.assign(count, 0);
   nodes.kept.assign(count, 0);
   nodes.freed.assign(count, 0);
   for (std::size_t p = 0; p < count; ++p) {
@@ -107,7 +138,6 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
     allowed[p] = !left_out(p) || nodes.stranded[p] || nodes.freed[p];
     if (nodes.freed[p])  // what moves decides about the tangents
       nodes.directions[p] = directions(surface_nodes.all[faces.surface_node(p)].normal, {false, false, false}, {}, dimension);
-    nodes.cover[p] = whole[p] > 0 ? std::min(nodes.covered[p] / whole[p], 1.0) : 0.0;
     nodes.kept[p] = allowed[p] && nodes.cover[p] > least_cover;
   }
   keep_small_pieces(secondary, faces, allowed, nodes.kept);

@@ -73,9 +73,9 @@ class Builder {
         nearest_(mesh_gaps_ ? find_nearest_points() : std::vector<NearestPoint>()),
         bonded_nodes_(held_together(primary_at_bonds_)),
         discretization_(make_discretization(
-            options.discretization, {secondary_, nodes_, primary_, primary_nodes_, tree_, sight_, faces_, rays_,
-                                     options.obstacle.has_value(), reach, mesh_gaps_, options.law != Law::bonded, nearest_,
-                                     bonded_nodes_})),
+            options.discretization,
+            {secondary_, nodes_, primary_, primary_nodes_, tree_, sight_, faces_, rays_, options.obstacle.has_value(), reach,
+             mesh_gaps_, options.law != Law::bonded, nearest_, bonded_nodes_})),
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
         points_(secondary_, nodes_, faces_, rays_, nearest_),
@@ -117,7 +117,7 @@ class Builder {
     for (const std::size_t f : faces_.round()) discretization_->add_face(f, between.in_facets[f] != 0);
     between_.emplace(std::move(between.places), secondary_, share_.own, comm);
     faces_.number_corners();
-    chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, seams_end(), bonded(), dimension_);
+    chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, seams_end(), met(), bonded(), dimension_);
     if (bonded() && !options_.preload && !options_.obstacle)
       for (std::size_t p = 0; p < nodes_.all.size(); ++p)
         if (own(p) && !chosen_.kept[p] && chosen_.cover[p] > least_cover)
@@ -152,6 +152,16 @@ class Builder {
       result[p] = std::binary_search(unbonded_nodes_.begin(), unbonded_nodes_.end(),
                                      UnbondedNode{secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)]},
                                      [](const UnbondedNode& a, const UnbondedNode& b) { return a.node < b.node; });
+    return result;
+  }
+
+  // Of each surface node of a bond whether the primary side lies opposite; of seams between sectors and pretension sections,
+  // which lie on each other, nothing.
+  std::vector<char> met()
+  {
+    std::vector<char> result;
+    if (!bonded() || options_.preload || options_.cyclic || options_.obstacle) return result;
+    for (std::size_t p = 0; p < nodes_.all.size(); ++p) result.push_back(rays_.meets(p));
     return result;
   }
 
@@ -215,7 +225,7 @@ class Builder {
     const double mean = (normal.dot(separation) - rise / d) / weight,
                  mesh_gap = without_rounding(p, nearest, points_.gap(p, normal, mean), at, normal);
     const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, nearest, starting_gap_at(p, normal, mean), at, normal);
-    note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d, point.at);
+    note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d * weight, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
       conflicts_.note_crossing(terms_, d, normal, point.gap, chosen_.directions[p], prescribed && chosen_.stranded[p]);
@@ -339,7 +349,7 @@ class Builder {
   SurfaceNodes nodes_, primary_nodes_;
   CutFaces faces_;  // once dual, those near have their share of the rows
   Tree tree_;
-  LineOfSight sight_;       // of the primary facets
+  LineOfSight sight_;  // of the primary facets
   Rays rays_;
   bool mesh_gaps_;
   std::vector<NearestPoint> nearest_;  // of each surface node, or none

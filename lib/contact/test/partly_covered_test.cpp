@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <set>
 
 #include "surfaces.hpp"
 
@@ -309,6 +310,55 @@ TEST(PartlyCovered, DirectionsAreThoseOfTheFlatterSide)
   EXPECT_LT(directions(surface({5, 3, -3, 3, 0, 1, true}, flat, comm),
                        surface({8, 2, -2, 2, 0, 1, false, false, primary_ids}, curved, comm)),
             1e-7);
+}
+
+// Coordinates of the nodes at which a bond of a side of 12 x 10 cells of length 1 has multipliers, and the force of a unit
+// pressure.
+struct BondedNodes {
+  std::set<double> x, y;
+  double force = 0;
+};
+BondedNodes bonded_to(const Grid& other, bool triangles, const Communicator& comm)
+{
+  const auto pair =
+      make_pair(surface({12, 10, 0, 12, 0, 10, true, triangles}, flat, comm), surface(other, flat, comm), Law::bonded);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  const auto nodes = nodes_of(pair, comm);
+  BondedNodes result;
+  for (const auto& row : rows.rows) {
+    if (!row.is_normal) continue;
+    result.x.insert(nodes.at(row.node)[0]);
+    result.y.insert(nodes.at(row.node)[1]);
+    result.force += row.area * row.weight;
+    double sum = 0;
+    for (const auto& e : row.entries) sum += e.coefficient;
+    EXPECT_NEAR(sum, 0, 1e-12);
+  }
+  return result;
+}
+
+// A bond to a smaller side is no wider than that: nodes past its border leave their multipliers to others, and nothing of a
+// constant pressure is lost.
+TEST(PartlyCovered, ABondHasNoMultipliersPastTheBorder)
+{
+  const Communicator comm;
+  for (const bool triangles : {false, true}) {
+    const auto found = bonded_to({3, 2, 2.6, 7.3, 3.3, 6.6, false, triangles, primary_ids}, triangles, comm);
+    EXPECT_EQ(found.x, (std::set<double>{3, 4, 5, 6, 7}));
+    EXPECT_EQ(found.y, (std::set<double>{4, 5, 6}));
+    EXPECT_NEAR(found.force, 4.7 * 3.3, 1e-10);
+  }
+}
+
+// A single row of nodes would be a hinge.
+TEST(PartlyCovered, ABondToAStripOverOneRowOfNodesKeepsThoseBesideIt)
+{
+  const Communicator comm;
+  for (const bool triangles : {false, true}) {
+    const auto found = bonded_to({4, 1, 2.6, 7.3, 3.6, 4.4, false, triangles, primary_ids}, triangles, comm);
+    EXPECT_EQ(found.y, (std::set<double>{3, 4, 5}));
+    EXPECT_NEAR(found.force, 4.7 * 0.8, 1e-10);
+  }
 }
 
 class Flat : public testing::TestWithParam<mesh::CellType> {};
