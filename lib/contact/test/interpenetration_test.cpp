@@ -73,6 +73,46 @@ TEST(Interpenetration, WhollyInside)
   }
 }
 
+std::vector<Interpenetration> enclosed(const OuterFaces& skin, const ContactSides& sides = {})
+{
+  const Communicator comm;
+  const auto surface = skin.on_rank(comm);
+  const auto kinematics = skin.faces[0].size() == 2 ? fem::Kinematics::plane_strain : fem::Kinematics::solid;
+  return find_enclosed_bodies(surface, surface, 2, [&] { return sides; }, kinematics, comm);
+}
+
+// However deep, and however coarse the outer body is; not in a hollow of it, nor where it sticks out, nor bodies in contact.
+TEST(Interpenetration, EnclosedFromTheStart)
+{
+  OuterFaces skin;
+  skin.add_box(0, Point(0, 0, 0), Point(10, 10, 10), {2, 2, 2});
+  const auto first = skin.faces.size();
+  auto out = skin;
+  skin.add_box(1, Point(3, 4, 5), Point(0.2, 0.2, 0.2), {1, 1, 1});
+  const auto found = enclosed(skin);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].body, 1);
+  EXPECT_EQ(found[0].other, 0);
+  EXPECT_NEAR(found[0].depth, 3.2, 1e-12);
+  EXPECT_NEAR((found[0].at - Point(3.2, 4.1, 5.1)).norm(), 0, 1e-12);
+  ContactSides sides;
+  sides.of_face[0] = {0};
+  sides.of_face[static_cast<Global>(first)] = {1};
+  EXPECT_TRUE(enclosed(skin, sides).empty());
+  out.add_box(1, Point(3, 4, 5), Point(0.2, 0.2, 5.2), {1, 1, 1});
+  EXPECT_TRUE(enclosed(out).empty());
+
+  OuterFaces plane;
+  plane.add_line(0, {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}});
+  auto hollow = plane;
+  const std::vector<Point> square{{4, 4, 0}, {5, 4, 0}, {5, 5, 0}, {4, 5, 0}};
+  plane.add_line(1, square);
+  EXPECT_EQ(enclosed(plane).size(), 1u);
+  hollow.add_line(0, {{3, 3, 0}, {3, 6, 0}, {6, 6, 0}, {6, 3, 0}});
+  hollow.add_line(1, square);
+  EXPECT_TRUE(enclosed(hollow).empty());
+}
+
 // Bars of one cell across, of which all nodes lie on edges of both: where the other body's surface continues one's own there is no
 // way out.
 TEST(Interpenetration, BarsOfEqualSection)

@@ -39,8 +39,8 @@ double displace(mesh::Surface& skin, const partition::Decomposition& decompositi
   return longest;
 }
 
-// The faces on the two sides of each contact, and those round them: where the sides stand in each other by next to nothing, as where
-// bodies turn, faces across their edges look through that. Collective.
+// The faces on the two sides of each contact, and those round them: where the sides stand in each other by next to nothing, as
+// where bodies turn, the nearest face may be one across their edges. Collective.
 contact::ContactSides sides_of_contacts(const std::vector<contact::Options>& contacts, const mesh::Surface& skin,
                                         const partition::Decomposition& decomposition, const Communicator& comm)
 {
@@ -120,10 +120,12 @@ std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<
   if (!(longest > 0) || !(longest < comm.max(box.isEmpty() ? 0.0 : box.diagonal().norm()))) return {};
   const auto sides = [&] { return sides_of_contacts(model.contacts().options, skin, decomposition, comm); };
   // Two bodies come nearer by twice the longest displacement.
-  const auto places = contact::find_interpenetrations(skin, deformed, bodies, sides, {crossed * longest, 2 * longest},
-                                                      deck.kinematics, comm);
   std::map<contact::Bodies, std::vector<contact::Interpenetration>> of_bodies;
-  for (const auto& place : places) of_bodies[std::minmax(place.body, place.other)].push_back(place);
+  for (const auto& place : contact::find_interpenetrations(skin, deformed, bodies, sides, {crossed * longest, 2 * longest},
+                                                           deck.kinematics, comm))
+    of_bodies[std::minmax(place.body, place.other)].push_back(place);
+  for (const auto& place : contact::find_enclosed_bodies(skin, deformed, bodies, sides, deck.kinematics, comm))
+    of_bodies.try_emplace(std::minmax(place.body, place.other), 1, place);
   std::vector<CrossedBodies> result;
   for (auto& [two, their] : of_bodies) {
     double depth = 0;

@@ -46,4 +46,11 @@ std::vector<Interpenetration> find_interpenetrations(const mesh::Surface& before
                                                      const std::function<ContactSides()>& sides, const DepthRange& range,
                                                      fem::Kinematics kinematics, const Communicator& comm);
 
+/// Bodies that lie wholly inside another one, however deep: the middles of those of their faces that are outermost along the axes
+/// do. One place of each, the deepest of these. Not of bodies that are in contact with each other by any face; `sides` as above.
+/// Work: bodies whose box lies in that of another one times faces of that. Collective.
+std::vector<Interpenetration> find_enclosed_bodies(const mesh::Surface& before, const mesh::Surface& now, int bodies,
+                                                   const std::function<ContactSides()>& sides, fem::Kinematics kinematics,
+                                                   const Communicator& comm);
+
 }  // namespace mortise::contact

@@ -20,7 +20,7 @@ struct CrossedBodies {
 };
 
 /// All of them, the deepest first. What has become deeper by less than a hundredth of the largest displacement is none, and what
-/// stood in each other from the start by less than a quarter of a face.
+/// stood in each other from the start by less than a quarter of a face, but for bodies that lie wholly inside another one.
 /// `displacement`: of each subdomain, nodes x dimension. Collective.
 std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<Eigen::VectorXd>& displacement,
                                           const Communicator& comm);
