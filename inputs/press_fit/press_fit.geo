@@ -2,6 +2,7 @@
 DefineConstant[ n = 8 ];      // cells across the shaft
 DefineConstant[ a = 25, b = 50, c = 100 ];
 DefineConstant[ hub = 3 ];    // cells round the hub, in n; 2 for meshes that match on the interface
+DefineConstant[ across = n + 2 ];   // cells across the hub
 ns = 2 * n; nh = hub * n;     // round the shaft, round the hub
 
 Point(1) = {0, 0, 0};
@@ -14,7 +15,7 @@ Line(11) = {12, 13}; Circle(12) = {13, 1, 14}; Line(13) = {14, 15}; Circle(14) =
 Curve Loop(11) = {11, 12, 13, 14}; Plane Surface(11) = {11};
 
 Transfinite Curve {1, 3} = n + 1; Transfinite Curve {2, 4} = ns + 1;
-Transfinite Curve {11, 13} = n + 3; Transfinite Curve {12, 14} = nh + 1;
+Transfinite Curve {11, 13} = across + 1; Transfinite Curve {12, 14} = nh + 1;
 Transfinite Surface {1, 11}; Recombine Surface {1, 11};
 DefineConstant[ order = 1 ];   // 2: cells of second order
 Mesh.ElementOrder = order;

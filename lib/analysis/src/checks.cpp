@@ -133,12 +133,14 @@ std::vector<Warning> crossings(const model::Model& model, const std::vector<Eige
   if (crossed.empty()) return {};
   const auto& worst = crossed.front();
   const auto& [a, b] = worst.bodies;
+  const std::string others = crossed.size() > 2    ? fmt::format("; {} more pairs do", crossed.size() - 1)
+                             : crossed.size() == 2 ? "; another pair does"
+                                                   : "";
   Warning w{"crossed_bodies",
             fmt::format("bodies \"{}\" and \"{}\" stand in each other by {:.3g} at ({:.5g}, {:.5g}, {:.5g}): no contact there "
                         "was found or named{}",
                         names[static_cast<std::size_t>(a)], names[static_cast<std::size_t>(b)], worst.depth, worst.at[0],
-                        worst.at[1], worst.at[2],
-                        crossed.size() > 1 ? fmt::format("; {} more pairs do", crossed.size() - 1) : ""),
+                        worst.at[1], worst.at[2], others),
             "name the faces that meet in a contact, or give the entry `auto` a larger search_distance"};
   w.at = worst.at;
   w.body = names[static_cast<std::size_t>(a)];

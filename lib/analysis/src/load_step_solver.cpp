@@ -279,7 +279,8 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
                                       deck.supports.size(),
                                       deck.solver.programme.tolerance.value.value_or(0),
                                       solver.negligible(),
-                                      solver.rounding_before()};
+                                      solver.rounding_before(),
+                                      solver.largest_force_before()};
   const auto bodies = elastic_bodies(assembly, constitution, *state.symmetric);
   auto results = [&] {
     const auto scope = context.timers.scope("stresses");

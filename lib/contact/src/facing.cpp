@@ -75,7 +75,7 @@ bool in_sight(const Crossing& seen, int from, const std::vector<Crossing>& cross
   });
 }
 
-std::vector<Facing> find_facing(const Skin& skin, const Tree& facets, const Lengths& lengths, const KnownContacts& known,
+std::vector<Facing> find_facing(const Skin& skin, const Tree& facets, const Lengths& lengths, const std::set<Bodies>& known,
                                 const Communicator& comm)
 {
   std::vector<Facing> mine;
@@ -86,10 +86,8 @@ std::vector<Facing> find_facing(const Skin& skin, const Tree& facets, const Leng
     for (const auto& corner : skin.facet[i].nodes)
       look(centre + to_corners * (corner - centre), skin.facet_normal[i], face, lengths, skin, facets, mine);
   }
-  std::erase_if(mine, [&](const Facing& f) {
-    return known.bodies.contains(std::minmax(skin.body[at(f.face)], skin.body[at(f.other)])) ||
-           known.have(skin.face_id[at(f.face)], skin.face_id[at(f.other)]);
-  });
+  std::erase_if(mine,
+                [&](const Facing& f) { return known.contains(std::minmax(skin.body[at(f.face)], skin.body[at(f.other)])); });
   auto all = comm.all_gather(mine);
   std::sort(all.begin(), all.end(),
             [](const Facing& a, const Facing& b) { return std::tie(a.face, a.other, a.gap) < std::tie(b.face, b.other, b.gap); });

@@ -31,8 +31,8 @@ struct Facing {
   double gap;
 };
 
-/// All faces that face each other but those of contacts in `known`, ordered. Collective.
-std::vector<Facing> find_facing(const Skin& skin, const Tree& facets, const Lengths& lengths, const KnownContacts& known,
+/// All faces that face each other but those of bodies in `known`, ordered. Collective.
+std::vector<Facing> find_facing(const Skin& skin, const Tree& facets, const Lengths& lengths, const std::set<Bodies>& known,
                                 const Communicator& comm);
 
 }  // namespace mortise::contact

@@ -80,15 +80,7 @@ ContactCandidate describe_candidate(const Bodies& bodies, const std::vector<int>
 
 }  // namespace
 
-bool KnownContacts::have(Global face, Global other) const
-{
-  const auto a = sides_of.find(face), b = sides_of.find(other);
-  return a != sides_of.end() && b != sides_of.end() && std::any_of(a->second.begin(), a->second.end(), [&](int side) {
-           return std::find(b->second.begin(), b->second.end(), side ^ 1) != b->second.end();
-         });
-}
-
-std::vector<ContactCandidate> find_contact_candidates(const mesh::Surface& skin, int bodies, const KnownContacts& known,
+std::vector<ContactCandidate> find_contact_candidates(const mesh::Surface& skin, int bodies, const std::set<Bodies>& known,
                                                       const Options& options, fem::Kinematics kinematics,
                                                       const Communicator& comm)
 {

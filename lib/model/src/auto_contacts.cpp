@@ -134,7 +134,7 @@ std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& 
   const auto& bodies = decomposition.catalogue.bodies;
   auto candidates = contact::find_contact_candidates(
       partition::outer_surface(decomposition, context.comm), static_cast<int>(bodies.size()),
-      {pairs_that_are_named(contacts.options, decomposition, context.comm), {}}, entry, deck.kinematics, context.comm);
+      pairs_that_are_named(contacts.options, decomposition, context.comm), entry, deck.kinematics, context.comm);
   for (auto& candidate : candidates)
     if (modulus_of(deck, bodies, candidate.secondary) > stiffer * modulus_of(deck, bodies, candidate.primary))
       swap_sides(candidate);

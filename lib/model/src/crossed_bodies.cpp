@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "contact/pairing.hpp"
+#include "contact/interpenetration.hpp"
 #include "model/patterns.hpp"
 #include "partition/skin.hpp"
 
@@ -39,25 +39,10 @@ double displace(mesh::Surface& skin, const partition::Decomposition& decompositi
   return longest;
 }
 
-// The mean of the middles of faces, of all ranks.
-Point middle_of(const mesh::Surface& skin, const std::vector<Global>& faces, const Communicator& comm)
-{
-  std::vector<double> sum(4, 0.0);
-  for (std::size_t f = 0; f < skin.faces.size(); ++f) {
-    if (!std::binary_search(faces.begin(), faces.end(), skin.face_id[f])) continue;
-    for (const Local n : skin.faces[f]) {
-      for (int k = 0; k < 3; ++k) sum[static_cast<std::size_t>(k)] += skin.points[static_cast<std::size_t>(n)][k];
-      sum[3] += 1;
-    }
-  }
-  comm.sum_in_place(sum);
-  return Point(sum[0], sum[1], sum[2]) / std::max(sum[3], 1.0);
-}
-
-// The faces on the two sides of each contact, and those round them: where the sides stand in each other by next to nothing, as where
-// bodies turn, faces across their edges look through that. Collective.
-contact::KnownContacts sides_of_contacts(const std::vector<contact::Options>& contacts, const mesh::Surface& skin,
-                                         const partition::Decomposition& decomposition, const Communicator& comm)
+// The faces on the two sides of each contact, and those round them: where the sides stand in each other by next to nothing, as
+// where bodies turn, the nearest face may be one across their edges. Collective.
+contact::ContactSides sides_of_contacts(const std::vector<contact::Options>& contacts, const mesh::Surface& skin,
+                                        const partition::Decomposition& decomposition, const Communicator& comm)
 {
   const auto& catalogue = decomposition.catalogue;
   std::map<int, std::vector<std::pair<std::string, int>>> sides;  // boundary: body's name, if any, and side
@@ -93,29 +78,28 @@ contact::KnownContacts sides_of_contacts(const std::vector<contact::Options>& co
       if (const auto found = sides_at.find(skin.node_id[static_cast<std::size_t>(n)]); found != sides_at.end())
         for (const auto& [body, side] : found->second)
           if (body == skin.body[f]) mine.push_back({skin.face_id[f], side, body});
-  contact::KnownContacts known;
+  contact::ContactSides known;
   for (const auto& [face, side, body] : comm.all_gather(mine)) {
-    auto& of_face = known.sides_of[face];
+    auto& of_face = known.of_face[face];
     if (std::find(of_face.begin(), of_face.end(), side) == of_face.end()) of_face.push_back(side);
   }
   return known;
 }
 
-// Of each two bodies the shallowest crossing that is deeper than `least`: where one body stands in another, sides of it look
-// through that as well. Depths are negative gaps; places are those of `skin`.
-std::map<contact::Bodies, CrossedBodies> crossings(const std::vector<contact::ContactCandidate>& candidates, double least,
-                                                   const mesh::Surface& skin, const Communicator& comm)
+// Of the places of one body in another, the same on every rank, the deepest: of those that are deep alike the one in their middle.
+Point deepest_place(const std::vector<contact::Interpenetration>& places, double depth)
 {
-  std::map<contact::Bodies, CrossedBodies> shallowest;
-  for (const auto& candidate : candidates) {
-    const double depth = -candidate.least_gap;
-    if (!(depth > least)) continue;
-    const contact::Bodies bodies = std::minmax(candidate.secondary, candidate.primary);
-    const auto found = shallowest.find(bodies);
-    if (found != shallowest.end() && found->second.depth <= depth) continue;
-    shallowest.insert_or_assign(bodies, CrossedBodies{bodies, depth, middle_of(skin, candidate.secondary_faces, comm)});
-  }
-  return shallowest;
+  constexpr double alike = 0.99, nearer = 1e-6;
+  const auto first = std::find_if(places.begin(), places.end(), [&](const auto& p) { return p.depth >= alike * depth; });
+  std::vector<Point> deep;
+  Point mean = Point::Zero();
+  for (auto place = first; place != places.end() && place->body == first->body; ++place)
+    if (place->depth >= alike * depth) mean += deep.emplace_back(place->at);
+  mean /= static_cast<double>(deep.size());
+  const Point* best = &deep.front();
+  for (const auto& x : deep)
+    if ((x - mean).norm() < (1 - nearer) * (*best - mean).norm()) best = &x;
+  return *best;
 }
 
 }  // namespace
@@ -132,23 +116,21 @@ std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<
   for (const auto& x : skin.points) box.extend(x);
   auto deformed = skin;
   const double longest = comm.max(displace(deformed, decomposition, displacement, fem::dimension(deck.kinematics)));
-  // Two bodies come nearer by twice the longest displacement. What moves by more than the model's size is told as such.
-  contact::Options search;
-  search.search_distance = 2 * longest;
+  // What moves by more than the model's size is told as such.
   if (!(longest > 0) || !(longest < comm.max(box.isEmpty() ? 0.0 : box.diagonal().norm()))) return {};
-  const auto known = sides_of_contacts(model.contacts().options, skin, decomposition, comm);
-  const auto find = [&](const mesh::Surface& surface) {
-    return contact::find_contact_candidates(surface, bodies, known, search, deck.kinematics, comm);
-  };
-  const auto crossed_now = crossings(find(deformed), crossed * longest, skin, comm);
-  if (crossed_now.empty()) return {};
-  // Facets of bodies that fit may cross before anything moves. Nothing gets deeper by more than it moves.
-  const auto crossed_before = crossings(find(skin), 0, skin, comm);
+  const auto sides = [&] { return sides_of_contacts(model.contacts().options, skin, decomposition, comm); };
+  // Two bodies come nearer by twice the longest displacement.
+  std::map<contact::Bodies, std::vector<contact::Interpenetration>> of_bodies;
+  for (const auto& place : contact::find_interpenetrations(skin, deformed, bodies, sides, {crossed * longest, 2 * longest},
+                                                           deck.kinematics, comm))
+    of_bodies[std::minmax(place.body, place.other)].push_back(place);
+  for (const auto& place : contact::find_enclosed_bodies(skin, deformed, bodies, sides, deck.kinematics, comm))
+    of_bodies.try_emplace(std::minmax(place.body, place.other), 1, place);
   std::vector<CrossedBodies> result;
-  for (const auto& [two, crossing] : crossed_now) {
-    const auto before = crossed_before.find(two);
-    const double deeper = crossing.depth - (before == crossed_before.end() ? 0 : before->second.depth);
-    if (deeper > crossed * longest && deeper <= 2 * longest) result.push_back(crossing);
+  for (auto& [two, their] : of_bodies) {
+    double depth = 0;
+    for (const auto& place : their) depth = std::max(depth, place.depth);
+    result.push_back({two, depth, deepest_place(their, depth)});
   }
   std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.depth > b.depth; });
   return result;

@@ -12,14 +12,41 @@ namespace {
 
 // A point is open while its pressure is at most this part of the largest of its contact.
 constexpr double nothing = 1e-4;
+// Of the largest force: contacts with less bear the rounding of an unloaded state, which differs by ranks.
+constexpr double rounding_of_forces = 1e-12;
+
+// Forces of the rows, those of contacts without any set to 0. Collective.
+Eigen::VectorXd forces_of_rows(const feti::DualProblem& problem, const Vector& lambda, std::size_t contacts, double largest_force)
+{
+  const auto& comm = problem.communicator();
+  Eigen::VectorXd forces = problem.forces(lambda);
+  const auto& nodes = problem.constraints().contacts;
+  const auto of_node = [&](std::size_t i) {
+    const auto& rows = problem.node_rows()[i];
+    return forces.segment(rows.normal, 1 + rows.tangents);
+  };
+  const double largest = std::max(largest_force, comm.max(forces.size() > 0 ? forces.lpNorm<Eigen::Infinity>() : 0.0));
+  std::vector<double> most(contacts, 0.0);  // of each contact
+  for (std::size_t i = 0; i < nodes.nodes.size(); ++i) {
+    auto& force = most[static_cast<std::size_t>(nodes.nodes[i].contact)];
+    force = std::max(force, of_node(i).lpNorm<Eigen::Infinity>());
+  }
+  for (auto& force : most) force = comm.max(force);
+  for (std::size_t i = 0; i < nodes.nodes.size(); ++i)
+    if (!nodes.bonded[i] && most[static_cast<std::size_t>(nodes.nodes[i].contact)] <= rounding_of_forces * largest)
+      of_node(i).setZero();
+  return forces;
+}
 
 }  // namespace
 
 ContactResults contact_results(const feti::DualProblem& problem, const Vector& lambda, const Eigen::VectorXd& nu,
-                               const std::vector<Eigen::VectorXd>& displacement, std::span<const contact::Pair> pairs)
+                               const std::vector<Eigen::VectorXd>& displacement, std::span<const contact::Pair> pairs,
+                               double largest_force)
 {
   const auto& comm = problem.communicator();
-  const Eigen::VectorXd forces = problem.forces(lambda), jumps = problem.jumps(displacement) - problem.jump().given_way(lambda);
+  const Eigen::VectorXd forces = forces_of_rows(problem, lambda, pairs.size(), largest_force);
+  const Eigen::VectorXd jumps = problem.jumps(displacement) - problem.jump().given_way(lambda);
   const auto& contacts = problem.constraints().contacts;
   const auto bound = contact_bounds(problem, nu);
   std::vector<double> largest(pairs.size(), 0.0);  // pressure of each contact

@@ -84,7 +84,8 @@ void estimate_errors(const friction::Result& solved, const Rounding& rounding, d
 
 Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, const Communicator& comm)
 {
-  const auto& [problem, system, pairs, solved, displacement, supports, tolerance, negligible, before] = equilibrium;
+  const auto& [problem, system, pairs, solved, displacement, supports, tolerance, negligible, before, largest_force] =
+      equilibrium;
   const auto& lambda = solved.solution.x;
   const auto& nu = solved.solution.nu;
   const int dimension = problem.dimension();
@@ -101,7 +102,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   results.max_displacement = largest_displacement(displacement, dimension, comm);
   results.stress = recover_stress(bodies, displacement, comm);
   estimate_errors(solved, rounding, stored, comm, results);
-  results.contact = contact_results(problem, lambda, nu, displacement, pairs);
+  results.contact = contact_results(problem, lambda, nu, displacement, pairs, largest_force);
   if (bodies.kinematics != fem::Kinematics::axisymmetric)
     results.moments = contact_moments(problem, lambda, bodies.decomposition, pairs, results.contact.points);
   results.reactions = reactions(problem, lambda, supports);

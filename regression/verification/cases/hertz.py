@@ -120,7 +120,8 @@ def point(result, mesh):
 
 def point_case(name, element, order, sizes, bounds):
     """Multipliers converge in H^-1/2 with the order of the traces; in L2, on cells without any regularity, theory gives half an order
-    less than 1 for first order, and 1, that of a square root at the border, for second."""
+    less than 1 for first order, and 1, that of a square root at the border, for second. A radius of the contact takes three cells at
+    least: with two (h = 0.14) there is no border to speak of, and the error, 8 %, is less than the 9 % with h = 0.12."""
     rough = 0.5 if order == 1 else 1
     return Case(
         name,
@@ -263,7 +264,7 @@ CASES = [
     line_case("hertz_line", "quad4", 1, (0.12, 0.02, 0.03, 0.02, 0.07, 0.1)),
     line_case("hertz_line_2", "quad9", 2, (0.1, 0.02, 0.03, 0.02, 0.03, 0.02)),
     point_case("hertz_point", "tet4", 1, (0.1, 0.07, 0.05, 0.035), (0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.1)),
-    point_case("hertz_point_2", "tet10", 2, (0.14, 0.1, 0.07, 0.05), (0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.1)),
+    point_case("hertz_point_2", "tet10", 2, (0.1, 0.07, 0.05, 0.035), (0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.1)),
     Case(
         "two_spheres",
         "Two spheres, approach 4 mm: a/R = 0.2",

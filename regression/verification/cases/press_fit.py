@@ -51,7 +51,10 @@ def quantities(order, bound):
 
 
 def plane_case(name, plane, order, sizes):
-    meshes = [Mesh(f"n = {n}", 1 / n, constants(n=n, order=order) + [f"dimension={plane}", "solver.tolerance=1e-8"]) for n in sizes]
+    """The hub has 3n/2 cells across. With the n + 2 of the input its cells do not shrink as 1/n: an error of h^2 then falls by 9, not by 16,
+    from n = 4 to 16, and seems of order 1.6."""
+    size = lambda n: constants(n=n, order=order, across=3 * n // 2)
+    meshes = [Mesh(f"n = {n}", 1 / n, size(n) + [f"dimension={plane}", "solver.tolerance=1e-8"]) for n in sizes]
     return Case(
         name,
         f"Press fit, {plane.replace('_', ' ')}, {'quad4' if order == 1 else 'quad9'}",

@@ -9,7 +9,7 @@ Point(12) = {b, 0, 0}; Point(13) = {c, 0, 0}; Point(14) = {0, c, 0}; Point(15) =
 Line(11) = {12, 13}; Circle(12) = {13, 1, 14}; Line(13) = {14, 15}; Circle(14) = {15, 1, 12};
 Curve Loop(11) = {11, 12, 13, 14}; Plane Surface(11) = {11};
 Transfinite Curve {1, 3} = n + 1; Transfinite Curve {2, 4} = 2 * n + 1;
-Transfinite Curve {11, 13} = n + 3; Transfinite Curve {12, 14} = 3 * n + 1;
+Transfinite Curve {11, 13} = 3 * n / 2 + 1; Transfinite Curve {12, 14} = 3 * n + 1;
 Transfinite Surface {1, 11}; Recombine Surface {1, 11};
 shaft() = Extrude {0, 0, H} { Surface{1}; Layers{layers}; Recombine; };
 hub() = Extrude {0, 0, H} { Surface{11}; Layers{layers + 1}; Recombine; };

@@ -50,6 +50,8 @@ class LoadStepSolver {
   double negligible() const { return 1e-8 * largest_norm_; }
   /// What counts as rounding in the states before this one.
   const post::Rounding& rounding_before() const { return rounding_before_; }
+  /// ||B'lambda||, the largest of the states before.
+  double largest_force_before() const { return largest_force_; }
   /// Products with F of the earlier approaches.
   int spent_before() const { return spent_before_; }
   /// Products with F of all load steps and of the earlier approaches, also of a load step that threw.

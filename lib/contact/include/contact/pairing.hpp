@@ -7,7 +7,6 @@
 // contact. The faces near other bodies stand on every rank; the work is shared out.
 #pragma once
 
-#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -35,17 +34,8 @@ struct ContactCandidate {
   double reach = 0;  ///< for Options::search_distance of the contact
 };
 
-/// What is in contacts already. The same on every rank.
-struct KnownContacts {
-  std::set<Bodies> bodies;  ///< with all faces
-  /// Of faces, by Surface::face_id: 2 c and 2 c + 1 where they are on the two sides of contact c.
-  std::map<Global, std::vector<int>> sides_of;
-
-  bool have(Global face, Global other) const;
-};
-
-/// All pairs of bodies that face each other but by faces of contacts in `known`, ordered by bodies. `skin`: the outer surface of
-/// all bodies, this rank's faces; `bodies`: how many there are. Of `options` the search distance, the interference and whether the contact is
+/// All pairs of bodies that face each other but those in `known`, ordered by bodies. `skin`: the outer surface of all bodies,
+/// this rank's faces; `bodies`: how many there are. Of `options` the search distance, the interference and whether the contact is
 /// bonded are used.
 ///
 /// Faces f and g face each other if the line along the normal of one meets the other, their normals are opposed, and the gap is
@@ -56,7 +46,7 @@ struct KnownContacts {
 /// one, else that of the lower body.
 /// The reach is search_distance or, if that is 0, the size of the largest facing face, or a fiftieth of the diagonal of the
 /// smaller body where that is more; bonded sides are tied only where they face each other within the distance above. Collective.
-std::vector<ContactCandidate> find_contact_candidates(const mesh::Surface& skin, int bodies, const KnownContacts& known,
+std::vector<ContactCandidate> find_contact_candidates(const mesh::Surface& skin, int bodies, const std::set<Bodies>& known,
                                                       const Options& options, fem::Kinematics kinematics,
                                                       const Communicator& comm);
 

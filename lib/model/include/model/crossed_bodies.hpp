@@ -1,5 +1,5 @@
-// Bodies that have moved into each other where no contact keeps them apart: none was found by `contacts: auto`, or their faces have
-// no name in one.
+// Bodies that stand in each other where no contact keeps them apart: none was found by `contacts: auto`, or their faces have no
+// name in one.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,14 +12,15 @@
 
 namespace mortise::model {
 
-/// Two bodies by faces that are not the two sides of one contact.
+/// Two bodies of which one has nodes, or middles of facets, in the other, by faces that are not the two sides of one contact.
 struct CrossedBodies {
   contact::Bodies bodies;
-  double depth;  ///< a length: where the way out is shortest
-  Point at;      ///< in the middle of what crossed, before it moved
+  double depth;  ///< a length: how far the deepest place is from the other body's surface
+  Point at;      ///< the deepest place, before it moved; of several as deep to a hundredth the one in their middle
 };
 
-/// All of them, the deepest first; what has become deeper by less than a hundredth of the largest displacement is none.
+/// All of them, the deepest first. What has become deeper by less than a hundredth of the largest displacement is none, and what
+/// stood in each other from the start by less than a quarter of a face, but for bodies that lie wholly inside another one.
 /// `displacement`: of each subdomain, nodes x dimension. Collective.
 std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<Eigen::VectorXd>& displacement,
                                           const Communicator& comm);

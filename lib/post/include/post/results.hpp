@@ -35,7 +35,8 @@ struct Results {
 double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, int dimension, const Communicator& comm);
 
 /// A solved equilibrium. `displacement`: of each subdomain; `tolerance`: the deck's, 0 where it is auto; `negligible`: an energy
-/// norm that is nothing, see qp::Goal; `before`: the rounding of the states before, which is none in this one either.
+/// norm that is nothing, see qp::Goal; `before`: the rounding of the states before, which is none in this one either;
+/// `largest_force`: of them, see contact_results().
 struct Equilibrium {
   const feti::DualProblem& problem;
   const feti::SubdomainSystem& system;
@@ -46,6 +47,7 @@ struct Equilibrium {
   double tolerance = 0;
   double negligible = 0;
   Rounding before;
+  double largest_force = 0;
 };
 
 /// Evaluates, and changes nothing. Whether it is solved, and what to say if not, stands in the verdict. Collective.
