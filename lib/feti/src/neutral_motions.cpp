@@ -32,18 +32,20 @@ Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now
   constexpr int most = 20;            // times that what stops a motion is taken for closed
   constexpr double rounding = 1e-10;  // of the change
   constexpr double whole = 0.999;     // of the way: what stops it there is where it was before it moved
-  Eigen::VectorXd closed = felt.closed;
+  Eigen::VectorXd closed = felt.closed, gap = felt.gap, way = Eigen::VectorXd::Zero(now.size());
   for (int pass = 0;; ++pass) {
-    const Eigen::VectorXd change = unfelt_change(felt.rows, closed, now, comm);
+    const Eigen::VectorXd change = unfelt_change(felt.rows, closed, now + way, comm);
     const Eigen::VectorXd closing = felt.rows * change;
     const double least = rounding * change.lpNorm<Eigen::Infinity>();
     double part = 1;
     for (Eigen::Index i = 0; i < closing.size(); ++i)
-      if (closing[i] > least && felt.gap[i] < part * closing[i]) part = std::max(felt.gap[i], 0.0) / closing[i];
+      if (closing[i] > least && gap[i] < part * closing[i]) part = std::max(gap[i], 0.0) / closing[i];
     part = -comm.max(-part);
-    if (part >= whole || pass == most) return part * change;
+    way += part * change;
+    if (part >= whole || pass == most) return way;
+    gap -= part * closing;
     for (Eigen::Index i = 0; i < closing.size(); ++i)
-      if (closing[i] > least && felt.gap[i] <= part * closing[i] + least) closed[i] = 1;
+      if (closing[i] > least && gap[i] <= least) closed[i] = 1;
   }
 }
 

@@ -1,0 +1,50 @@
+// How far bodies that a solution leaves open return to where they were drawn.
+#include "../src/neutral_motions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace mortise::feti {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+// Rows on the last rank, the amplitudes on all.
+FeltMotions felt(const Eigen::MatrixXd& rows, const VectorXd& closed, const VectorXd& gap, const Communicator& comm)
+{
+  if (comm.rank() + 1 == comm.size()) return {SparseMatrix(rows.sparseView()), closed, gap};
+  return {SparseMatrix(0, rows.cols()), VectorXd(0), VectorXd(0)};
+}
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+TEST(NeutralMotions, ABodyReturnsAsFarAsAGapLetsIt)
+{
+  const Communicator comm;
+  const Vector2d now(27, 3), closed(1, 0), gap(none, 26.9);
+  const auto way = towards_rest(felt(Eigen::Matrix2d{{0, 1}, {-1, 0}}, closed, gap, comm), now, comm);
+  EXPECT_NEAR(way[0], -26.9, 1e-12);
+  EXPECT_NEAR(way[1], 0, 1e-12);  // felt by a row that holds
+}
+
+TEST(NeutralMotions, ItGoesOnBesideWhatStopsIt)
+{
+  const Communicator comm;
+  const Vector2d now(10, 10);
+  const auto way = towards_rest(felt(Eigen::RowVector2d(-1, 0), VectorXd::Zero(1), VectorXd::Constant(1, 4.0), comm), now, comm);
+  EXPECT_NEAR(way[0], -4, 1e-12);
+  EXPECT_NEAR(way[1], -10, 1e-12);
+}
+
+TEST(NeutralMotions, NothingMovesThroughAGapThatIsClosed)
+{
+  const Communicator comm;
+  const Vector2d now(10, 0);
+  const auto way = towards_rest(felt(Eigen::RowVector2d(-1, 0), VectorXd::Zero(1), VectorXd::Zero(1), comm), now, comm);
+  EXPECT_NEAR(way.norm(), 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace mortise::feti
