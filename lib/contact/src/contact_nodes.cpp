@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace mortise::contact {
 
@@ -46,26 +47,55 @@ void keep_corners(CutFaces& faces, const std::vector<char>& allowed, std::vector
     }
 }
 
-// Surface nodes past the border of the primary side that share faces with others, all of which hold whole facets.
+// Surface nodes past the border of the primary side that share faces with others, all of which hold whole faces, or
+// whole facets beside these. `met`: which
+// the primary side lies opposite; `holding`: which of these have multipliers whatever happens here.
 std::vector<char> past_the_border(const Side& side, const SurfaceNodes& surface_nodes, std::span<const char> met,
-                                  std::span<const double> cover)
+                                  std::span<const char> holding, std::span<const double> cover)
 {
   const auto at = [](const mesh::Cells& cells, const std::vector<Local>& places, std::size_t f) {
     return std::span(places).subspan(static_cast<std::size_t>(cells.offset[f]), cells[f].size());
   };
-  const auto meets = [&](Local p) { return met[static_cast<std::size_t>(p)] != 0; };
-  std::vector<char> holds(met.size(), 0), beside_some(met.size(), 0), beside_weak(met.size(), 0);
+  const auto is = [](std::span<const char> marks, Local p) { return marks[static_cast<std::size_t>(p)] != 0; };
+  const auto whole = [&](std::span<const Local> nodes) {
+    return std::ranges::all_of(nodes, [&](Local p) { return is(met, p) && is(holding, p); });
+  };
+  std::vector<char> in_face(met.size(), 0), beside_some(met.size(), 0), beside_weak(met.size(), 0);
+  for (std::size_t f = 0; f < side.faces.size(); ++f)
+    if (const auto nodes = at(side.faces, surface_nodes.of_node, f); whole(nodes))
+      for (const Local p : nodes) in_face[static_cast<std::size_t>(p)] = 1;
+  auto holds = in_face;
   for (std::size_t f = 0; f < side.facets.size(); ++f)
-    if (const auto corners = at(side.facets, surface_nodes.of_corner, f); std::ranges::all_of(corners, meets))
+    if (const auto corners = at(side.facets, surface_nodes.of_corner, f);
+        whole(corners) && std::ranges::any_of(corners, [&](Local p) { return is(in_face, p); }))
       for (const Local p : corners) holds[static_cast<std::size_t>(p)] = 1;
   for (std::size_t f = 0; f < side.faces.size(); ++f)
     for (const auto nodes = at(side.faces, surface_nodes.of_node, f); const Local p : nodes)
       for (const Local q : nodes)
-        if (!meets(p) && meets(q))
-          (holds[static_cast<std::size_t>(q)] ? beside_some : beside_weak)[static_cast<std::size_t>(p)] = 1;
+        if (!is(met, p) && is(met, q)) (is(holds, q) ? beside_some : beside_weak)[static_cast<std::size_t>(p)] = 1;
   std::vector<char> result(met.size(), 0);
   for (std::size_t p = 0; p < result.size(); ++p) result[p] = beside_some[p] && !beside_weak[p] && cover[p] < most_cover;
   return result;
+}
+
+// Of a piece that would lose all its functions the one with the largest cover stays, for the pressure of all of it.
+void keep_one_of_each_piece(CutFaces& faces, std::span<const char> past, std::vector<char>& keep)
+{
+  std::vector<std::size_t> more;
+  for (const std::size_t f : faces.round())
+    for (const std::size_t i : faces.pieces(f)) {
+      const auto piece = faces.piece(i);
+      std::optional<std::size_t> largest;
+      double most = 0;
+      bool has = false;
+      for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
+        const auto p = faces.place_of(f, piece, k);
+        has = has || keep[p];
+        if (past[faces.surface_node(p)] && piece.covered[k] > most) most = piece.covered[k], largest = p;
+      }
+      if (!has && largest) more.push_back(*largest);
+    }
+  for (const std::size_t p : more) keep[p] = 1;
 }
 
 // Marks the surface nodes of faces at which `holds` of all of them.
@@ -121,16 +151,10 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   // along a curved surface there as an overlap. In a bond they would hold the primary side to the mean of what it meets, and
   // leave their share to the others of the face, as those at a seam's end do; where a face has no others, as on a surface that a
   // support moves as a whole, they stay.
-  nodes.cover.assign(count, 0);
-  for (std::size_t p = 0; p < count; ++p) nodes.cover[p] = whole[p] > 0 ? std::min(nodes.covered[p] / whole[p], 1.0) : 0.0;
-  const auto past =
-      met.empty() ? std::vector<char>(surface_nodes.all.size(), 0) : past_the_border(secondary, surface_nodes, met, nodes.cover);
-  const auto left_out = [&](std::size_t p) {
-    const auto s = faces.surface_node(p);
-    return !nodes.directions[p].free_normal || seams_end[s] || past[s];
-  };
+  const auto left_out = [&](std::size_t p) { return !nodes.directions[p].free_normal || seams_end[faces.surface_node(p)]; };
   nodes.stranded = at_all_nodes_of_a_face(faces, count, left_out);
   std::vector<char> allowed(count, 0);
+  nodes.cover.assign(count, 0);
   nodes.kept.assign(count, 0);
   nodes.freed.assign(count, 0);
   for (std::size_t p = 0; p < count; ++p) {
@@ -138,10 +162,17 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
     allowed[p] = !left_out(p) || nodes.stranded[p] || nodes.freed[p];
     if (nodes.freed[p])  // what moves decides about the tangents
       nodes.directions[p] = directions(surface_nodes.all[faces.surface_node(p)].normal, {false, false, false}, {}, dimension);
+    nodes.cover[p] = whole[p] > 0 ? std::min(nodes.covered[p] / whole[p], 1.0) : 0.0;
     nodes.kept[p] = allowed[p] && nodes.cover[p] > least_cover;
   }
   keep_small_pieces(secondary, faces, allowed, nodes.kept);
   keep_corners(faces, allowed, nodes.kept);
+  if (met.empty()) return nodes;
+  std::vector<char> holding(surface_nodes.all.size(), 0);
+  for (std::size_t p = 0; p < holding.size(); ++p) holding[p] = !left_out(p);
+  const auto past = past_the_border(secondary, surface_nodes, met, holding, nodes.cover);
+  for (std::size_t p = 0; p < past.size(); ++p) nodes.kept[p] = nodes.kept[p] && !past[p];
+  keep_one_of_each_piece(faces, past, nodes.kept);
   return nodes;
 }
 
