@@ -129,8 +129,7 @@ std::vector<double> sum_areas(CutFaces& faces, std::vector<double>& covered)
 }  // namespace
 
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
-                                  const SupportedNodes& supports, std::span<const char> seams_end, std::span<const char> met,
-                                  bool bonded, int dimension)
+                                  const SupportedNodes& supports, const std::optional<BondedNodes>& bond, int dimension)
 {
   const auto count = faces.places();
   ContactNodes nodes;
@@ -144,21 +143,22 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
                                          supports.find(node, 2) != nullptr};
     nodes.directions.push_back(directions(surface_node.normal, prescribed, supports.skew_supports(node), dimension));
   }
-  nodes.held_through = at_all_nodes_of_a_face(
-      faces, count, [&](std::size_t p) { return nodes.directions[p].tangents.size() + 1 < static_cast<std::size_t>(dimension); });
   // Surface nodes prescribed along their normal keep their rows in a contact: the primary side alone feels them (rows that it
   // does not feel either, as of an obstacle, are dropped). If their neighbours took over their share, these would see what moves
-  // along a curved surface there as an overlap. In a bond they would hold the primary side to the mean of what it meets, and
-  // leave their share to the others of the face, as those at a seam's end do; where a face has no others, as on a surface that a
-  // support moves as a whole, they stay.
-  const auto left_out = [&](std::size_t p) { return !nodes.directions[p].free_normal || seams_end[faces.surface_node(p)]; };
+  // along a curved surface there as an overlap. In a bond they would, where the primary side is held as well, hold the mean of
+  // what it meets once more, and leave their share to the others of the face, as those at a seam's end do; where a face has no
+  // others, as on a surface that a support moves as a whole, they stay.
+  const auto needed = [&](std::size_t p) { return !bond || !bond->primary_held[faces.surface_node(p)]; };
+  const auto left_out = [&](std::size_t p) {
+    return (!nodes.directions[p].free_normal && (!bond || !needed(p))) || (bond && bond->seam_ends[faces.surface_node(p)]);
+  };
   nodes.stranded = at_all_nodes_of_a_face(faces, count, left_out);
   std::vector<char> allowed(count, 0);
   nodes.cover.assign(count, 0);
   nodes.kept.assign(count, 0);
   nodes.freed.assign(count, 0);
   for (std::size_t p = 0; p < count; ++p) {
-    nodes.freed[p] = (nodes.stranded[p] || !bonded) && !nodes.directions[p].free_normal;
+    nodes.freed[p] = (nodes.stranded[p] || needed(p)) && !nodes.directions[p].free_normal;
     allowed[p] = !left_out(p) || nodes.stranded[p] || nodes.freed[p];
     if (nodes.freed[p])  // what moves decides about the tangents
       nodes.directions[p] = directions(surface_nodes.all[faces.surface_node(p)].normal, {false, false, false}, {}, dimension);
@@ -167,10 +167,10 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   }
   keep_small_pieces(secondary, faces, allowed, nodes.kept);
   keep_corners(faces, allowed, nodes.kept);
-  if (met.empty()) return nodes;
+  if (!bond || bond->met.empty()) return nodes;
   std::vector<char> holding(surface_nodes.all.size(), 0);
   for (std::size_t p = 0; p < holding.size(); ++p) holding[p] = !left_out(p);
-  const auto past = past_the_border(secondary, surface_nodes, met, holding, nodes.cover);
+  const auto past = past_the_border(secondary, surface_nodes, bond->met, holding, nodes.cover);
   for (std::size_t p = 0; p < past.size(); ++p) nodes.kept[p] = nodes.kept[p] && !past[p];
   keep_one_of_each_piece(faces, past, nodes.kept);
   return nodes;

@@ -117,7 +117,7 @@ class Builder {
     for (const std::size_t f : faces_.round()) discretization_->add_face(f, between.in_facets[f] != 0);
     between_.emplace(std::move(between.places), secondary_, share_.own, comm);
     faces_.number_corners();
-    chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, seams_end(), met(), bonded(), dimension_);
+    chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, bonded_nodes(), dimension_);
     if (bonded() && !options_.preload && !options_.obstacle)
       for (std::size_t p = 0; p < nodes_.all.size(); ++p)
         if (own(p) && !chosen_.kept[p] && chosen_.cover[p] > least_cover)
@@ -144,25 +144,21 @@ class Builder {
   bool at_nearest_place(std::size_t p) const { return !nearest_.empty() && !faces_.is_corner(p) && nearest_[p].found; }
   bool bonded() const { return options_.law == Law::bonded; }
 
-  // Of each surface node whether this seam ends there at a contact.
-  std::vector<char> seams_end() const
+  std::optional<BondedNodes> bonded_nodes()
   {
-    std::vector<char> result(nodes_.all.size(), 0);
-    for (std::size_t p = 0; p < result.size() && discretization_->seams_end_at_contacts(); ++p)
-      result[p] = std::binary_search(unbonded_nodes_.begin(), unbonded_nodes_.end(),
-                                     UnbondedNode{secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)]},
-                                     [](const UnbondedNode& a, const UnbondedNode& b) { return a.node < b.node; });
-    return result;
-  }
-
-  // Of each surface node of a bond whether the primary side lies opposite; of seams between sectors and pretension sections,
-  // which lie on each other, nothing.
-  std::vector<char> met()
-  {
-    std::vector<char> result;
-    if (!bonded() || options_.preload || options_.cyclic || options_.obstacle) return result;
-    for (std::size_t p = 0; p < nodes_.all.size(); ++p) result.push_back(rays_.meets(p));
-    return result;
+    if (!bonded()) return {};
+    BondedNodes known;
+    const bool end_together = options_.preload || options_.cyclic || options_.obstacle;
+    for (std::size_t p = 0; p < nodes_.all.size(); ++p) {
+      const auto& [node, normal, continued] = nodes_.all[p];
+      known.seam_ends.push_back(discretization_->seams_end_at_contacts() &&
+                                std::binary_search(unbonded_nodes_.begin(), unbonded_nodes_.end(),
+                                                   UnbondedNode{secondary_.node_id[static_cast<std::size_t>(node)]},
+                                                   [](const UnbondedNode& a, const UnbondedNode& b) { return a.node < b.node; }));
+      known.primary_held.push_back(primary_held(p, normal));
+      if (!end_together) known.met.push_back(rays_.meets(p));
+    }
+    return known;
   }
 
   void add_place(std::size_t p, constraint::Contacts& contacts)
@@ -249,12 +245,11 @@ class Builder {
   }
 
   // The tangents of a row's direction: those that supports leave, and where the primary side moves past what they hold, these as
-  // well, which it alone feels. In a bond they would hold its mean where the neighbours' rows hold it already, but for faces that
-  // have no others. Where both sides are held, as in a plane of symmetry, nothing moves.
+  // well, which it alone feels. Where both sides are held, as in a plane of symmetry, nothing moves.
   Few<Point, 2> tangents(std::size_t p, const Point& normal)
   {
     Few<Point, 2> result = free_tangents(p, normal);
-    if (options_.cyclic || options_.obstacle || (bonded() && !chosen_.held_through[p])) return result;
+    if (options_.cyclic || options_.obstacle) return result;
     for (const auto& tangent : other_tangents(normal, result, dimension_))
       if (!primary_held(p, tangent)) result.push_back(tangent);
     return result;

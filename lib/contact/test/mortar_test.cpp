@@ -109,14 +109,12 @@ TEST(Mortar, MatchingMeshesGiveNodePairsAlsoAtTheBorderOfTheOverlap)
   }
 }
 
-// A side of which one border is prescribed along the normal: in a bond its nodes leave their share to the others, in a contact
-// they keep rows that the primary side alone feels.
+// A side of which one border is prescribed along the normal: its nodes keep rows that the primary side alone feels.
 class PrescribedBorder : public testing::TestWithParam<Law> {};
 
 TEST_P(PrescribedBorder, ForcesAreConsistentWithWhatGoesIntoSupports)
 {
   const Communicator comm;
-  const bool bonded = GetParam() == Law::bonded;
   const auto flat = [](double x, double y) { return Point(x, y, 0); };
   const auto pair = make_pair(surface({4, 4, 0, 1, 0, 1, true}, flat, comm),
                               surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), GetParam());
@@ -130,19 +128,14 @@ TEST_P(PrescribedBorder, ForcesAreConsistentWithWhatGoesIntoSupports)
   const auto contacts = discretize(std::vector<Pair>{pair}, prescribed, fem::Kinematics::solid, comm);
   for (const auto& point : contacts.nodes) {
     const bool of_border = point.node % 5 == 0;
-    EXPECT_FALSE(bonded && of_border);
     const auto& bound = contacts.rows.bound[point.row];
-    if (!bonded) {
-      EXPECT_NEAR(point.gap - bound, of_border ? 0.5 * point.normal[2] : 0.0, 1e-12) << "node " << point.node;
-    }
+    EXPECT_NEAR(point.gap - bound, of_border ? 0.5 * point.normal[2] : 0.0, 1e-12) << "node " << point.node;
     for (const auto& entry : contacts.rows[point.row]) EXPECT_TRUE(!of_border || entry.node >= primary_ids);
     if (point.node == 24) {
-      ASSERT_EQ(point.tangents.size(), bonded ? 1U : 2U);
+      ASSERT_EQ(point.tangents.size(), 2U);
       EXPECT_NEAR(std::abs(point.tangents[0][1]), 1, 1e-12);
-      if (!bonded) {  // friction along x, too, which the primary side alone feels
-        EXPECT_NEAR(std::abs(point.tangents[1][0]), 1, 1e-12);
-        for (const auto& entry : contacts.rows[point.row + 2]) EXPECT_GE(entry.node, primary_ids);
-      }
+      EXPECT_NEAR(std::abs(point.tangents[1][0]), 1, 1e-12);  // along x, too, which the primary side alone feels
+      for (const auto& entry : contacts.rows[point.row + 2]) EXPECT_GE(entry.node, primary_ids);
     }
   }
   const auto rows = gather_rows(contacts, comm);
@@ -178,6 +171,29 @@ TEST_P(PrescribedBorder, ForcesAreConsistentWithWhatGoesIntoSupports)
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, PrescribedBorder, testing::Values(Law::bonded, Law::tresca));
+
+// Where supports hold the primary side as well, a row of a bond would hold what lies beside them.
+TEST(Mortar, NodesOfABondLeaveTheirShareWhereBothSidesAreHeld)
+{
+  const Communicator comm;
+  const auto flat = [](double x, double y) { return Point(x, y, 0); };
+  const auto pair = make_pair(surface({4, 4, 0, 1, 0, 1, true}, flat, comm),
+                              surface({5, 3, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::bonded);
+  std::vector<constraint::PrescribedDof> prescribed;
+  if (comm.root())
+    for (int row = 0; row < 5; ++row)
+      for (int component = 0; component < 3; ++component) {
+        prescribed.push_back({5 * row, component, 0, 0});
+        if (row < 4) prescribed.push_back({primary_ids + 6 * row, component, 0, 1});
+      }
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, prescribed, fem::Kinematics::solid, comm), comm);
+  double force = 0;
+  for (const auto& row : rows.rows) {
+    EXPECT_NE(row.node % 5, 0);
+    if (row.is_normal) force += row.area * row.weight;
+  }
+  EXPECT_NEAR(force, 1, 1e-12);
+}
 
 TEST(Mortar, KinksHaveAPointForEachSide)
 {
