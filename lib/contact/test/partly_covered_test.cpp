@@ -314,17 +314,17 @@ TEST(PartlyCovered, DirectionsAreThoseOfTheFlatterSide)
 
 // Coordinates of the nodes at which a bond of a side of 12 x 10 cells of length 1 has multipliers, and the force of a unit
 // pressure.
-struct BondedNodes {
+struct MultiplierNodes {
   std::set<double> x, y;
   double force = 0;
 };
-BondedNodes bonded_to(const Grid& other, bool triangles, const Communicator& comm)
+MultiplierNodes bonded_to(const Grid& other, bool triangles, const Communicator& comm)
 {
   const auto pair =
       make_pair(surface({12, 10, 0, 12, 0, 10, true, triangles}, flat, comm), surface(other, flat, comm), Law::bonded);
   const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
   const auto nodes = nodes_of(pair, comm);
-  BondedNodes result;
+  MultiplierNodes result;
   for (const auto& row : rows.rows) {
     if (!row.is_normal) continue;
     result.x.insert(nodes.at(row.node)[0]);
