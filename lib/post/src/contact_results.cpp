@@ -13,7 +13,7 @@ namespace {
 // A point is open while its pressure is at most this part of the largest of its contact.
 constexpr double nothing = 1e-4;
 // Of the largest force: contacts with less bear the rounding of an unloaded state, which differs by ranks.
-constexpr double rounding_of_forces = 1e-12;
+constexpr double rounding_of_forces = 1e-10;
 
 // Forces of the rows, those of contacts without any set to 0. Collective.
 Eigen::VectorXd forces_of_rows(const feti::DualProblem& problem, const Vector& lambda, std::size_t contacts, double largest_force)

@@ -19,7 +19,7 @@ struct ContactResults {
 };
 
 /// At the multipliers lambda of rows and nu of kernels; `displacement`: of each subdomain. A contact, bonded ones aside, whose
-/// forces are all below 1e-12 of the largest force of a row, or of `largest_force` of the states before, is open with forces of 0.
+/// forces are all below 1e-10 of the largest force of a row, or of `largest_force` of the states before, is open with forces of 0.
 /// Collective.
 ContactResults contact_results(const feti::DualProblem& problem, const Vector& lambda, const Eigen::VectorXd& nu,
                                const std::vector<Eigen::VectorXd>& displacement, std::span<const contact::Pair> pairs,
