@@ -63,12 +63,12 @@ double area(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
   return sum;
 }
 
-Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
+Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& origin)
 {
   Moments result;
   for_each_point(mesh, boundary, kinematics,
                  [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
-                   const Point x = place(mesh, shape, nodes);
+                   const Point x = place(mesh, shape, nodes) - origin;
                    result.area += normal.norm();
                    result.first += normal.norm() * x;
                    result.normal += normal;
@@ -86,12 +86,12 @@ void for_each_point_of_boundary(const mesh::Mesh& mesh, int boundary, Kinematics
       Kinematics::axisymmetric);
 }
 
-Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics)
+Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& origin)
 {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(4, static_cast<Eigen::Index>(mesh.node_count()));
   for_each_point(mesh, boundary, kinematics,
                  [&](const Eigen::VectorXd& shape, const Point& normal, std::span<const Local> nodes) {
-                   const Point x = place(mesh, shape, nodes);
+                   const Point x = place(mesh, shape, nodes) - origin;
                    for (std::size_t i = 0; i < nodes.size(); ++i) {
                      const double weight = shape[static_cast<Eigen::Index>(i)] * normal.norm();
                      result.col(nodes[i]) += weight * Eigen::Vector4d(1, x[0], x[1], x[2]);

@@ -68,6 +68,24 @@ TEST(Loads, PressureAndTractionOnOneSideHaveTheirResultantAndMoment)
   }
 }
 
+// Moments about a boundary's own centre are those of the same boundary at the origin, wherever it lies.
+TEST(Loads, MomentsAboutABoundaryKeepTheirFiguresFarFromTheOrigin)
+{
+  for (const auto& [name, kinematics] : all_cases()) {
+    if (kinematics == Kinematics::axisymmetric) continue;
+    Block block(name, {3, 2, 2}, {1, 2, 3});
+    const int d = block.dimension, side = block.boundary("xmax");
+    const Point centre(1, 1, d == 3 ? 1.5 : 0), away(1e6, -2e6, d == 3 ? 1e6 : 0);
+    const auto here = moments(block.mesh, side, kinematics, centre);
+    const auto nodes = nodal_moments(block.mesh, side, kinematics, centre);
+    for (auto& p : block.mesh.points) p += away;
+    const auto there = moments(block.mesh, side, kinematics, centre + away);
+    EXPECT_LT(there.first.norm(), 1e-8) << name;
+    EXPECT_LT((there.second - here.second).norm(), 1e-8) << name;
+    EXPECT_LT((nodal_moments(block.mesh, side, kinematics, centre + away) - nodes).norm(), 1e-8) << name;
+  }
+}
+
 // The same pressure all around, warped faces included: no resultant, no moment, and the work -p div(u) V in a linear
 // displacement.
 TEST(Loads, PressureAllAroundIsInBalance)

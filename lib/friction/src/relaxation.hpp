@@ -11,7 +11,8 @@
 namespace mortise::friction {
 
 // How far to go towards the next bounds of the fixed point: Aitken's rule, which makes a swing about a point converge there
-// [Irons and Tuck, IJNME 1 (1969)].
+// [Irons and Tuck, IJNME 1 (1969)]. Steps that grow in their own direction lead away from a point behind: all the way, for where
+// nothing holds a body, as a plug on its way out of its seat, bounds that fall to nothing are what shows it.
 class Relaxation {
  public:
   explicit Relaxation(const Communicator& comm) : comm_(comm) {}
@@ -28,16 +29,20 @@ class Relaxation {
     }
     product = comm_.sum(product);
     square = comm_.sum(square);
-    if (square > 0) part_ = std::clamp(-part_ * product / square, shortest, 1.0);
+    growing_ = product > 0 ? growing_ + 1 : 0;
+    if (square > 0) part_ = product > 0 ? 1.0 : std::clamp(-part_ * product / square, shortest, 1.0);
     step_ = std::move(step);
     return part_;
   }
+  // Of the last steps, how many were each longer than the one before, in its direction.
+  int growing() const { return growing_; }
 
  private:
   static constexpr double shortest = 0.05;
   const Communicator& comm_;
   std::vector<double> step_;  // the one before
   double part_ = 1;
+  int growing_ = 0;
 };
 
 }  // namespace mortise::friction

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace mortise::friction {
@@ -39,7 +40,23 @@ TEST(Relaxation, GoesAllTheWayAtFirstAndNeverBeyond)
   EXPECT_EQ(relaxation({0}, {1}), 1);
   EXPECT_EQ(relaxation({1}, {1.9}), 1);               // steps that hardly shrink ask for 10
   EXPECT_NEAR(relaxation({1.9}, {1.0}), 0.5, 1e-12);  // 0.9 there, 0.9 back
-  EXPECT_EQ(relaxation({1.45}, {-100}), 0.05);        // and never less
+  EXPECT_EQ(relaxation({1.45}, {100}), 0.05);         // and never less
+}
+
+// From 6 on below a point at 10 that repels: steps that grow are taken as they are, and counted.
+TEST(Relaxation, LeavesAPointThatRepels)
+{
+  const Communicator comm(MPI_COMM_SELF);
+  Relaxation relaxation(comm);
+  std::vector<double> now{6.0};
+  for (int step = 0; step < 5; ++step) {
+    EXPECT_EQ(relaxation.growing(), std::max(step - 1, 0));
+    const std::vector<double> next{1.2 * now[0] - 2};
+    EXPECT_EQ(relaxation(now, next), 1);
+    now = next;
+  }
+  relaxation(now, {now[0] + 1});
+  EXPECT_EQ(relaxation.growing(), 0);
 }
 
 TEST(Relaxation, PointsThatStickWithoutALimitHaveNoSay)

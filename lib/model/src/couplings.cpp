@@ -21,28 +21,31 @@ struct Model::Area {
 Model::Area Model::area_of(const constraint::CouplingOptions& coupling, const Communicator& comm) const
 {
   const auto [boundary, on_body] = select(coupling.boundary);
-  fem::Moments sum;
-  for (const auto& subdomain : decomposition_.subdomains) {
-    if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
-    const auto own = fem::moments(subdomain.mesh, boundary, deck_.kinematics);
-    sum.area += own.area, sum.first += own.first, sum.second += own.second;
-  }
-  std::vector<double> sums{sum.area};
-  sums.insert(sums.end(), sum.first.begin(), sum.first.end());
-  sums.insert(sums.end(), sum.second.data(), sum.second.data() + 9);
-  comm.sum_in_place(sums);
+  const auto moments_about = [&, &boundary = boundary, &on_body = on_body](const Point& origin) {
+    fem::Moments sum;
+    for (const auto& subdomain : decomposition_.subdomains) {
+      if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+      const auto own = fem::moments(subdomain.mesh, boundary, deck_.kinematics, origin);
+      sum.area += own.area, sum.first += own.first, sum.second += own.second;
+    }
+    comm.sum_in_place({&sum.area, 1});
+    comm.sum_in_place({sum.first.data(), 3});
+    comm.sum_in_place({sum.second.data(), 9});
+    return sum;
+  };
   Area area;
-  area.size = sums[0];
+  const Point point = place(coupling.point);
+  const auto about_point = moments_about(point);
+  area.size = about_point.area;
   if (!(area.size > 0)) throw Error(ExitStatus::bad_input, "the coupled boundary \"" + coupling.boundary + "\" has no area");
-  area.centre = Point(sums[1], sums[2], sums[3]) / area.size;
-  const Eigen::Matrix3d about_centre =
-      Eigen::Map<const Eigen::Matrix3d>(&sums[4]) - area.size * area.centre * area.centre.transpose();
+  area.centre = point + about_point.first / area.size;
+  const Eigen::Matrix3d about_centre = moments_about(area.centre).second;
   const Eigen::Matrix3d inertia = about_centre.trace() * Eigen::Matrix3d::Identity() - about_centre;
   if (deck_.dimension() == 3)
     area.inverse = inertia.inverse();
   else
     area.inverse(2, 2) = 1 / inertia(2, 2);
-  area.arm = std::sqrt(about_centre.trace() / area.size + (area.centre - place(coupling.point)).squaredNorm());
+  area.arm = std::sqrt(about_centre.trace() / area.size + (area.centre - point).squaredNorm());
   return area;
 }
 
@@ -61,11 +64,10 @@ void Model::add_distributed(const std::vector<constraint::Coupling>& couplings, 
     for (std::size_t s = 0; s < f.size(); ++s) {
       const auto& subdomain = decomposition_.subdomains[s];
       if (!selection.on_body[static_cast<std::size_t>(subdomain.body)]) continue;
-      const auto moments = fem::nodal_moments(subdomain.mesh, selection.boundary, deck_.kinematics);
+      const auto moments = fem::nodal_moments(subdomain.mesh, selection.boundary, deck_.kinematics, area.centre);
       for (Eigen::Index n = 0; n < moments.cols(); ++n) {
-        const double weight = moments(0, n);
-        const Point arm = moments.col(n).tail<3>() - weight * area.centre;
-        f[s].segment(n * dimension, dimension) += (weight / area.size * force + turn.cross(arm)).head(dimension);
+        const Point arm = moments.col(n).tail<3>();
+        f[s].segment(n * dimension, dimension) += (moments(0, n) / area.size * force + turn.cross(arm)).head(dimension);
       }
     }
   }
@@ -129,7 +131,7 @@ std::vector<constraint::MeanMotion> Model::mean_motions(const std::vector<constr
     std::vector<std::vector<Share>> send(static_cast<std::size_t>(comm.size()));
     for (const auto& subdomain : decomposition_.subdomains) {
       if (!selection.on_body[static_cast<std::size_t>(subdomain.body)]) continue;
-      const auto moments = fem::nodal_moments(subdomain.mesh, selection.boundary, deck_.kinematics);
+      const auto moments = fem::nodal_moments(subdomain.mesh, selection.boundary, deck_.kinematics, area.centre);
       for (Eigen::Index n = 0; n < moments.cols(); ++n)
         if (!moments.col(n).isZero(0))
           send[0].push_back({subdomain.mesh.node_id[static_cast<std::size_t>(n)],
@@ -152,7 +154,7 @@ std::vector<constraint::MeanMotion> Model::mean_motions(const std::vector<constr
       const Point moment = k < 3 ? Point(offset.cross(force)) : Point(Point::Unit(k - 3));
       const Point turn = area.inverse * moment;
       for (const auto& [node, moments] : nodes) {
-        const Point arm = moments.tail<3>() - moments[0] * area.centre;
+        const Point arm = moments.tail<3>();
         const Point at_node = moments[0] / area.size * force + turn.cross(arm);
         for (int c = 0; c < dimension; ++c) row.entries.push_back({node, c, length * at_node[c]});
       }
@@ -174,11 +176,11 @@ std::vector<std::array<double, 6>> Model::motions_of_points(const std::vector<Ei
     for (std::size_t s = 0; s < displacement.size(); ++s) {
       const auto& subdomain = decomposition_.subdomains[s];
       if (!selection.on_body[static_cast<std::size_t>(subdomain.body)]) continue;
-      const auto moments = fem::nodal_moments(subdomain.mesh, selection.boundary, deck_.kinematics);
+      const auto moments = fem::nodal_moments(subdomain.mesh, selection.boundary, deck_.kinematics, area.centre);
       for (Eigen::Index n = 0; n < moments.cols(); ++n) {
         Point u = Point::Zero();
         u.head(dimension) = displacement[s].segment(n * dimension, dimension);
-        const Point turned = (moments.col(n).tail<3>() - moments(0, n) * area.centre).cross(u);
+        const Point turned = moments.col(n).tail<3>().cross(u);
         for (int c = 0; c < 3; ++c) {
           sums[static_cast<std::size_t>(c)] += moments(0, n) * u[c];
           sums[static_cast<std::size_t>(3 + c)] += turned[c];

@@ -62,19 +62,20 @@ std::pair<double, double> turning(std::span<const constraint::ContactNode> nodes
                                   std::span<const contact::ContactNodeState> points, int contact, const Communicator& comm)
 {
   double largest = 0;            // area of a point: a force at one point alone may act somewhere within it
-  std::array<double, 5> sums{};  // size, size * place, size * distance^2 from the origin
+  std::array<double, 4> sums{};  // size, size * place
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].contact != contact) continue;
     const double size = points[i].force_on_secondary.norm();
     sums[0] += size;
     if (size > 0) largest = std::max(largest, points[i].area);
     for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(1 + c)] += size * nodes[i].at[c];
-    sums[4] += size * nodes[i].at.squaredNorm();
   }
   comm.sum_in_place(sums);
   const Point centre = sums[0] > 0 ? Point(Point(sums[1], sums[2], sums[3]) / sums[0]) : Point::Zero();
-  const double apart = std::sqrt(std::max(sums[0] * (sums[4] - sums[0] * centre.squaredNorm()), 0.0));
-  return {sums[0], std::max(apart, sums[0] * std::sqrt(comm.max(largest)))};
+  double second = 0;  // size * distance^2 from there
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].contact == contact) second += points[i].force_on_secondary.norm() * (nodes[i].at - centre).squaredNorm();
+  return {sums[0], std::max(std::sqrt(sums[0] * comm.sum(second)), sums[0] * std::sqrt(comm.max(largest)))};
 }
 
 Warning about(const contact::Pair& pair, const char* kind, std::string text, const char* cure, double value, double limit)

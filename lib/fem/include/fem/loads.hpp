@@ -44,7 +44,7 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double dens
 void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
                    const Temperature& temperature_change, Eigen::VectorXd& f);
 
-/// Integrals over the facets of a boundary in this piece.
+/// Integrals over the facets of a boundary in this piece, x measured from an origin: far from the boundary, x x' loses it.
 struct Moments {
   double area = 0;                                   ///< as area()
   Point first = Point::Zero();                       ///< of x
@@ -52,7 +52,7 @@ struct Moments {
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  ///< of x x'
 };
 /// Of one boundary.
-Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
+Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& origin = Point::Zero());
 
 /// An integration point of a boundary's facet: the facet's nodes, their shape functions there, and the area that the point stands
 /// for times the outward normal.
@@ -61,7 +61,7 @@ using BoundaryVisitor = std::function<void(std::span<const Local> nodes, const E
 /// plane facets.
 void for_each_point_of_boundary(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const BoundaryVisitor& visit);
 
-/// 4 x nodes of the piece: column n has the integrals of N_n and of N_n x over the boundary.
-Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics);
+/// 4 x nodes of the piece: column n has the integrals of N_n and of N_n x over the boundary, x measured from `origin`.
+Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& origin);
 
 }  // namespace mortise::fem
