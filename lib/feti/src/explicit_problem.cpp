@@ -161,11 +161,12 @@ ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::Vecto
     x.assign(found.x.begin(), found.x.end());
     nu.assign(found.nu.begin(), found.nu.end());
     reaction.assign(found.reaction.begin(), found.reaction.end());
-    outcome = {found.converged ? 1 : 0, found.settled ? 1 : 0};
+    outcome = {found.converged ? 1 : 0, found.settled ? 1 : 0, found.slides ? 1 : 0};
   });
   comm.broadcast(nu);
   comm.broadcast(outcome);
-  Point result{Vector(problem_.jump().rows()), map(nu), outcome[0] == 1, Vector(problem_.jump().rows()), outcome[1] == 1};
+  Point result{Vector(problem_.jump().rows()), map(nu),         outcome[0] == 1,
+               Vector(problem_.jump().rows()), outcome[1] == 1, outcome[2] == 1};
   view(result.x) = rows_->from_root(std::move(x));
   view(*result.reaction) = rows_->from_root(std::move(reaction));
   elimination_->complete(linear, result.nu, result.x);

@@ -58,15 +58,29 @@ bool balances(const feti::DualProblem& problem, const std::vector<double>& bound
   return !qp::project(x, problem.equality(), given).empty;
 }
 
-void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x, double response)
+namespace {
+
+// Throws if bounds that are larger than those at x by a part do not balance the loads.
+void refuse_if_short(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x, double short_of)
 {
-  constexpr double little = 0.3;  // of an answer
-  const double short_of = response < little ? 2e-3 : 0.05;
   auto larger = slip_bounds(problem, laws, &x);
   for (auto& bound : larger) bound *= 1 + short_of;
   problem.set().set_radii(larger);
   const qp::Projection nearest = qp::project(x, problem.equality(), problem.set());
   if (nearest.empty) no_equilibrium(problem, nearest.nu, true);
+}
+
+}  // namespace
+
+void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x, double response)
+{
+  constexpr double little = 0.3;  // of an answer
+  refuse_if_short(problem, laws, x, response < little ? 2e-3 : 0.05);
+}
+
+void refuse_if_sliding(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x)
+{
+  refuse_if_short(problem, laws, x, 1e-4);
 }
 
 }  // namespace mortise::friction

@@ -30,6 +30,10 @@ void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::
 /// than 0.2 %: `response` is the part of a change of bounds that their answer changes by. Changes radii. Collective.
 void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x, double response);
 
+/// Throws as no_equilibrium() if bodies slide on for ever with the forces x (qp::Solution::slides), whose normal forces slip
+/// changes no more, and friction falls short by more than a ten-thousandth. Changes radii. Collective.
+void refuse_if_sliding(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x);
+
 /// Whether slip bounds leave forces that balance the loads, to a thousandth. What a solution at other bounds would still change
 /// by does not tell it: where all slips, no stiffness resists. Collective.
 bool balances(const feti::DualProblem& problem, const std::vector<double>& bounds, const Vector& x);

@@ -94,6 +94,10 @@ void Solver::follow_law(Run& run)
   const qp::SlipLaw law{problem_.set(), [this](const Vector* x) { return slip_bounds(problem_, laws_, x); }};
   run.step = 1;
   auto found = algorithm_->solve(law, run.solution, run.goal, run.watch);
+  if (found && found->slides) {
+    refuse_if_sliding(problem_, laws_, found->x);
+    found = algorithm_->solve(law, run.solution, run.goal, run.watch);
+  }
   if (!found) {
     run.step = 0;
     return;
@@ -249,8 +253,9 @@ void Solver::fixed_point(Run& run)
 {
   constexpr int retreats = 4;  // in a row
   constexpr int most_failures = 15;
+  constexpr int steps_of_fall = 2, most_falls = 2;
   Relaxation relaxation(problem_.communicator());
-  int infeasible = 0, failures = 0;
+  int infeasible = 0, failures = 0, falls = 0;
   double strictness = 1;
   if (!run.converged) budget_.change_algorithm();
   while (!run.converged) {
@@ -264,6 +269,10 @@ void Solver::fixed_point(Run& run)
     const bool first = !run.solved;
     if (!solve_tresca({tolerance}, run)) {
       if (!run.solved) nothing_found(problem_, problem_.set().with_cones(), run.escape, run.proven);
+      // Bounds fell ever faster until they were too small, and did so again from those that are surely enough.
+      if (infeasible == 0 && relaxation.growing() >= steps_of_fall && ++falls >= most_falls)
+        refuse_if_far(problem_, laws_, run.solution->x, run.response);
+      problem_.set().set_radii(run.bounds);
       if (++failures > most_failures || run.step >= options_.max_steps) {
         refuse_if_far(problem_, laws_, run.solution->x, run.response);
         return;

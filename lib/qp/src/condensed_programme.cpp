@@ -110,6 +110,31 @@ double CondensedProgramme::size(const VectorXd& x) const
   return std::sqrt(square > 0 || motions() == 0 ? square : system_->square(e_));
 }
 
+double CondensedProgramme::friction_power(const VectorXd& x, const VectorXd& step) const
+{
+  const VectorXd moved = system_->push(step);
+  double power = 0;
+  for (std::size_t d = 0; d < bound_of_.size(); ++d)
+    if (bound_of_[d] >= 0) power -= from_centre(set_.discs()[d], x).dot(from_centre({set_.discs()[d].index}, moved));
+  return power;
+}
+
+double CondensedProgramme::slip(const VectorXd& step) const
+{
+  const VectorXd moved = system_->push(step);
+  double most = 0;
+  for (const auto& disc : set_.discs()) most = std::max(most, from_centre({disc.index}, moved).norm());
+  return most;
+}
+
+double CondensedProgramme::opening(const VectorXd& step) const
+{
+  const VectorXd moved = system_->push(step);
+  double most = 0;
+  for (const auto& bound : set_.bounds()) most = std::max(most, moved[bound.index]);
+  return most;
+}
+
 double CondensedProgramme::rounding(const VectorXd& x, const VectorXd& nu) const
 {
   const VectorXd sum = system_->size_of_give(x) + b_.cwiseAbs();

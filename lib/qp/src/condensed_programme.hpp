@@ -48,6 +48,11 @@ class CondensedProgramme {
   double residual(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
   /// That of x, which a residual is to be small beside; that of e where x is zero, for all may be open.
   double size(const Eigen::VectorXd& x) const;
+  /// What the tangential forces at x do against a step of nu, by which the points that they are at slip.
+  double friction_power(const Eigen::VectorXd& x, const Eigen::VectorXd& step) const;
+  /// The most that a step of nu makes a point slip, and the most that it opens one by.
+  double slip(const Eigen::VectorXd& step) const;
+  double opening(const Eigen::VectorXd& step) const;
   /// What rounding of W x and C nu makes of the residual.
   double rounding(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
   /// x and nu become the solution of the linear problem with these states. Weak springs hold motions near the nu that comes in,

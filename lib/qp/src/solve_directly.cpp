@@ -34,6 +34,12 @@ class DirectSolver : public Solver {
     if (observer) observer({"direct", 0, problem_.hessian.count()});
     auto found = solve_with_matrices();
     faces_->begin(start, goal, observer);
+    sliding_.reset();
+    if (found.slides) {
+      sliding_.emplace(found.x, found.x, found.nu);
+      sliding_->feasible = false;
+      sliding_->slides = true;
+    }
     if (!found.converged) return;  // a guess of states that are none leads faces astray
     if (matrices_.go_on) correct(found, goal);
     if (goal.allowed_error) goal.exact = rounding_of_direct;
@@ -48,16 +54,18 @@ class DirectSolver : public Solver {
   std::optional<Solution> solve(const SlipLaw& law, const std::optional<Solution>& start, const Goal& goal,
                                 const Observer& observer) override
   {
+    if (sliding_) return std::exchange(sliding_, {});
     return faces_->solve(law, start, goal, observer);
   }
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
  private:
-  // With the matrices that served last, or the other ones, if there are any, where these do not tell the states of all constraints.
+  // With the matrices that served last, or the other ones, if there are any, where these do not tell the states of all
+  // constraints.
   ExplicitProgramme::Point solve_with_matrices()
   {
     auto found = matrices_.solve();
-    if (found.converged && found.settled) return found;
+    if ((found.converged && found.settled) || found.slides) return found;
     if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
     if (!others_) return found;
     auto next = others_->solve();
@@ -67,8 +75,8 @@ class DirectSolver : public Solver {
     return next;
   }
 
-  // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M) x:
-  // less that, b gives the next one [Stetter, The defect correction principle and discretization methods, Numer. Math. 29
+  // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M)
+  // x: less that, b gives the next one [Stetter, The defect correction principle and discretization methods, Numer. Math. 29
   // (1978)]. One product each.
   void correct(ExplicitProgramme::Point& found, const Goal& goal)
   {
@@ -115,6 +123,7 @@ class DirectSolver : public Solver {
   Means means_;
   ExplicitProgramme matrices_;
   std::optional<ExplicitProgramme> others_;
+  std::optional<Solution> sliding_;  // told once
   std::unique_ptr<Solver> faces_;
 };
 

@@ -17,38 +17,39 @@ constexpr int max_last_guesses = 60;   // once it is none: forces that hardly co
 constexpr int look_back_at_first = 4;  // guesses that must have halved changes, if these are more than so few
 constexpr int look_back_on_path = 1;
 constexpr int to_the_end = 0;
-constexpr double few_changes = 0.02;        // of all constraints, or so few,
-constexpr double handful = 8;               // or so few in all
-constexpr int max_turns = 3;                // of the slip at a point; then it sticks before it turns
-constexpr double settled_residual = 1e-10;  // residual over x
-constexpr double flutter = 1e-12;           // the same below which guesses differ by rounding
-constexpr int most_polishing = 4;           // guesses more, as long as they make the residual smaller
-constexpr double stalled = 0.5;             // of the residual before: what rounding has left of it,
-constexpr double rounded_residual = 1e-6;   // over x, which is no more than this, or than so many times
-constexpr double roundings = 1e4;           // what rounding makes of W x,
-constexpr int idle = 8;                     // and so many guesses have not brought fewer changes
-constexpr double softest = 0.1;             // of what a point gives way together with all others
-constexpr double hardest = 1e-4;            // softness that is as good as none
-constexpr double stride = 0.1;              // from one softness to the next
-constexpr double least_stride = 0.8;        // as slow as it gets,
-constexpr double largest_stride = 1e-4;     // and as fast, where
-constexpr int at_once = 2;                  // guesses were enough
-constexpr int most_on_path = 100;           // linear problems along the central path,
-constexpr int stuck_on_path = 12;           // the last of so many must have brought it half as near as it was
-constexpr double path_near = 1e-3;          // residual over x from which on guesses are tried from the path,
-constexpr double path_nearer = 0.1;         // and of what it was then, to try again
-constexpr Eigen::Index few_unknowns = 2000; // up to which a factor of W takes a moment; beyond, as long as many guesses,
-constexpr int guesses_of_path = 100;        // and a path of them as long as so many
+constexpr double few_changes = 0.02;             // of all constraints, or so few,
+constexpr double handful = 8;                    // or so few in all
+constexpr int max_turns = 3;                     // of the slip at a point; then it sticks before it turns
+constexpr double settled_residual = 1e-10;       // residual over x
+constexpr double flutter = 1e-12;                // the same below which guesses differ by rounding
+constexpr int most_polishing = 4;                // guesses more, as long as they make the residual smaller
+constexpr double stalled = 0.5;                  // of the residual before: what rounding has left of it,
+constexpr double rounded_residual = 1e-6;        // over x, which is no more than this, or than so many times
+constexpr double roundings = 1e4;                // what rounding makes of W x,
+constexpr int idle = 8;                          // and so many guesses have not brought fewer changes
+constexpr double same_step = 1e-6;               // of motions that go on for ever
+constexpr double way_out = 0.05;                 // of the slip, that a motion may open contact by and still be a slide
+constexpr double softest = 0.1;                  // of what a point gives way together with all others
+constexpr double hardest = 1e-4;                 // softness that is as good as none
+constexpr double stride = 0.1;                   // from one softness to the next
+constexpr double least_stride = 0.8;             // as slow as it gets,
+constexpr double largest_stride = 1e-4;          // and as fast, where
+constexpr int at_once = 2;                       // guesses were enough
+constexpr int most_on_path = 100;                // linear problems along the central path,
+constexpr int stuck_on_path = 12;                // the last of so many must have brought it half as near as it was
+constexpr double path_near = 1e-3;               // residual over x from which on guesses are tried from the path,
+constexpr double path_nearer = 0.1;              // and of what it was then, to try again
+constexpr Eigen::Index few_unknowns = 2000;      // up to which a factor of W takes a moment; beyond, as long as many guesses,
+constexpr int guesses_of_path = 100;             // and a path of them as long as so many
 constexpr Eigen::Index very_few_unknowns = 800;  // up to which steps of other lengths are tried: hundreds of guesses
-constexpr int patience_with_radii = 6;      // radii in a row without a residual that is so much,
-constexpr int patience_with_costly_radii = 1;  // with sparse matrices
-constexpr double nearer = 0.7;              // of the least before
-constexpr double end_of_path = 1e-13;       // of the first product,
-constexpr double end_of_rough_path = 1e-7;  // where guesses go on from it,
-constexpr double worth_a_guess = 0.1;       // if the residual over x is so small
-constexpr double end_of_costly_path = 1e-7; // residual over x where guesses do not end it, and are all there is
-constexpr double settled_on_path = 1e-9;    // residual over x at which radii are those of the forces
-
+constexpr int patience_with_radii = 6;           // radii in a row without a residual that is so much,
+constexpr int patience_with_costly_radii = 1;    // with sparse matrices
+constexpr double nearer = 0.7;                   // of the least before
+constexpr double end_of_path = 1e-13;            // of the first product,
+constexpr double end_of_rough_path = 1e-7;       // where guesses go on from it,
+constexpr double worth_a_guess = 0.1;            // if the residual over x is so small
+constexpr double end_of_costly_path = 1e-7;      // residual over x where guesses do not end it, and are all there is
+constexpr double settled_on_path = 1e-9;         // residual over x at which radii are those of the forces
 
 using Eigen::VectorXd;
 
@@ -80,10 +81,11 @@ bool StateSearch::from_anywhere()
 {
   if (programme_.system().costly()) return follow_path() || repeat_paths();
   if (guess(look_back_at_first)) return true;
-  if (programme_.unknowns() == 0) return false;
+  if (programme_.unknowns() == 0 || slides()) return false;
   const bool small = programme_.unknowns() <= few_unknowns, very_small = programme_.unknowns() <= very_few_unknowns;
-  return harden(small ? 0 : guesses_of_path) || follow_path() || (small && repeat_paths()) || (very_small && change_steps()) ||
-         harden(INT_MAX);
+  if (harden(small ? 0 : guesses_of_path)) return true;
+  if (point_.slides) return false;
+  return follow_path() || (small && repeat_paths()) || (very_small && change_steps()) || harden(INT_MAX);
 }
 
 bool StateSearch::from(VectorXd x, VectorXd nu)
@@ -117,8 +119,17 @@ void StateSearch::polish()
   }
 }
 
+// Whether motions go on by the same step for ever while forces stay what they are, and friction resists that.
+bool StateSearch::runs_away(const VectorXd& step, const VectorXd& last_step) const
+{
+  return last_step.size() == step.size() && (step - last_step).norm() <= same_step * step.norm() &&
+         programme_.friction_power(point_.x, step) > 0;
+}
+
 // Guesses from `states_` on; false if they do not converge. Those that something else comes after end sooner: if in `look_back`
-// of them changes have not become half as many.
+// of them changes have not become half as many. So do those of bodies that run away: no state changes any more, and each solution
+// leads as far from the last one as this from the one before, as weak springs allow. Where no force answers there is no solution
+// [Pazy, Israel J. Math. 9 (1971), of monotone problems].
 bool StateSearch::guess(int look_back)
 {
   std::vector<int> turns(states_.kind.size(), 0), history;
@@ -126,9 +137,11 @@ bool StateSearch::guess(int look_back)
   const int guesses = look_back > 0 || programme_.softness() > 0 ? max_guesses : max_last_guesses;
   int fewest = INT_MAX, fewest_at = 0;
   double before = 0, least = 0;
-  VectorXd best_x, best_nu;
+  VectorXd best_x, best_nu, last_step;
+  run_away_ = false;
   for (int step = 0; step < guesses; ++step) {
     stop_if_requested();
+    const VectorXd nu_before = point_.nu;
     programme_.solve(states_, point_.x, point_.nu);
     ++point_.steps;
     const double residual = programme_.residual(point_.x, point_.nu), size = programme_.size(point_.x);
@@ -152,6 +165,13 @@ bool StateSearch::guess(int look_back)
       return true;
     }
     if (changes == 0 && residual <= settled_residual * size) return true;
+    VectorXd nu_step = point_.nu - nu_before;
+    if (changes == 0 && !small && runs_away(nu_step, last_step)) {
+      run_away_ = true;
+      last_step_ = std::move(nu_step);
+      return false;
+    }
+    last_step = std::move(nu_step);
     history.push_back(changes);
     if (look_back > 0 && step >= look_back && changes > few &&
         2 * changes > history[history.size() - 1 - static_cast<std::size_t>(look_back)])
@@ -159,6 +179,15 @@ bool StateSearch::guess(int look_back)
     before = residual;
   }
   return false;
+}
+
+// Whether bodies have run away in the last guesses and slide along contact without softness, rather than leave it: then there is
+// nothing else to look for. What leaves may still be held by forces that are locked in.
+bool StateSearch::slides()
+{
+  point_.slides =
+      run_away_ && programme_.softness() == 0 && programme_.opening(last_step_) <= way_out * programme_.slip(last_step_);
+  return point_.slides;
 }
 
 // Guesses from a soft contact on, which becomes harder as fast as they converge. Where they do not, it becomes harder slower, for
@@ -182,6 +211,11 @@ bool StateSearch::harden(int patience)
     programme_.soften(next);
     const bool converged = guess(to_the_end), slowest = part >= least_stride;
     const int taken = point_.steps - before;
+    if (run_away_) {  // nothing harder will converge from there, unless it is what stops them
+      programme_.soften(0);
+      if (guess(to_the_end)) return true;
+      if (slides()) return false;
+    }
     if (!converged) left = std::min(left, patience);
     if (left < INT_MAX) left -= taken;
     if (!converged && slowest && next == 0) break;

@@ -35,6 +35,8 @@ class StateSearch {
   // The residual over x.
   double off() const { return programme_.residual(point_.x, point_.nu) / programme_.size(point_.x); }
   bool guess(int look_back);
+  bool runs_away(const Eigen::VectorXd& step, const Eigen::VectorXd& last_step) const;
+  bool slides();
   bool harden(int patience);
   bool follow_path();
   bool repeat_paths();
@@ -46,6 +48,8 @@ class StateSearch {
   CondensedProgramme programme_;
   ConstraintStates states_;
   CondensedNewton::Point point_;
+  bool run_away_ = false;      // how the last guesses ended,
+  Eigen::VectorXd last_step_;  // and their last step of nu
   double softest_ = 0;
   std::optional<Soft> soft_;
 };

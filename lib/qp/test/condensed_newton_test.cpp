@@ -198,6 +198,47 @@ TEST(CondensedNewton, WhatIsNotSolvableIsNotSettled)
       }
 }
 
+// Points under 1 each on a plane, pushed along it: friction holds 0.3 a point. With more they slide on, forces as they are then;
+// what is pulled off is no slide.
+TEST(CondensedNewton, SlidesOnWhereFrictionFallsShort)
+{
+  for (const int tangents : {1, 2})
+    for (const double push : {0.29, 0.2999, 0.3001, 0.31, 3.0}) {
+      const Index points = 20, each = 1 + tangents, n = points * each;
+      Random random(7);
+      Programme p;
+      p.a = random.definite(n, 0.5);
+      for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < n; ++j)
+          if ((i % each == 0) != (j % each == 0)) p.a(i, j) *= 0.02;
+      p.b = VectorXd::Zero(n);
+      p.g = MatrixXd::Zero(each, n);
+      p.e = VectorXd::Zero(each);
+      std::vector<Bound> bounds;
+      std::vector<Disc> discs;
+      for (Index i = 0; i < points; ++i) {
+        const auto at = static_cast<Local>(i * each);
+        for (Index k = 0; k < each; ++k) p.g(k, at + k) = 1;
+        bounds.push_back({at});
+        discs.push_back({{at + 1, tangents == 2 ? at + 2 : -1}, 0, {0, 0}, at, 0.3});
+      }
+      p.e[0] = static_cast<double>(points);
+      p.e[each - 1] = push * static_cast<double>(points);
+      p.set = FeasibleSet(std::move(bounds), std::move(discs));
+      const auto point = p.solve();
+      EXPECT_EQ(point.converged, push < 0.3) << tangents << " " << push;
+      EXPECT_EQ(point.slides, push > 0.3) << tangents << " " << push;
+      if (push < 0.3) {
+        EXPECT_LT(violation(p, point), 1e-9) << tangents << " " << push;
+      } else {
+        EXPECT_NEAR(point.x.dot(p.g.row(each - 1)), 0.3 * static_cast<double>(points), 1e-6) << push;
+      }
+      p.e[0] = -1;
+      const auto pulled = p.solve();
+      EXPECT_FALSE(pulled.converged || pulled.slides);
+    }
+}
+
 TEST(CondensedNewton, TimesTheInverse)
 {
   for (const auto& [points, free] : {std::pair{10, 15}, {10, 0}, {0, 15}}) {

@@ -35,11 +35,13 @@ class CondensedNewton {
   CondensedNewton(Eigen::MatrixXd a, Eigen::MatrixXd g, Eigen::MatrixXd c, const FeasibleSet& set);
 
   struct Point {
-    Eigen::VectorXd x, nu;         ///< A x - b + G'nu in the normal cone of -Omega, G x - C_0 nu = e
-    bool converged = false;        ///< to rounding; else the last guess
-    int steps = 0;                 ///< linear problems solved
+    Eigen::VectorXd x, nu;          ///< A x - b + G'nu in the normal cone of -Omega, G x - C_0 nu = e
+    bool converged = false;         ///< to rounding; else the last guess
+    int steps = 0;                  ///< linear problems solved
     Eigen::VectorXd reaction = {};  ///< A x - b + G'nu, zero at unknowns without a constraint
-    bool settled = true;            ///< if it converged: with states that the next guess left as they are, not by rounding alone
+    /// If it did not converge: x are forces under which bodies slide along each other for ever, nu is somewhere on their way.
+    bool slides = false;
+    bool settled = true;  ///< if it converged: with states that the next guess left as they are, not by rounding alone
   };
   /// For the linear term b and the right-hand side e. `near`: a solution for others that differ by little, from whose states
   /// guesses go on; nothing else is tried then.

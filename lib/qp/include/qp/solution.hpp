@@ -70,7 +70,11 @@ struct Solution {
   Eigen::VectorXd nu;  ///< multipliers of G x = e: A x - b + G' nu lies in the normal cone of -Omega; same on all ranks
   bool converged = false;
   bool feasible = true;  ///< false: {G x = e} and Omega do not meet; nu is then a direction that proves it, x is not solved for
-  bool empty = false;    ///< not feasible, and nu proves it, see Projection::empty
+  /// Not feasible: x is in Omega and obeys Coulomb's law, but G x falls short of e, and bodies slide along each other for ever
+  /// without a change of x. If radii a little larger than those of x leave no feasible point either, nothing else will come of
+  /// it.
+  bool slides = false;
+  bool empty = false;  ///< not feasible, and nu proves it, see Projection::empty
   int outer_iterations = 0;
   int preconditionings = 0;
   int safeguards = 0;             ///< steps of face Newton that went up and were taken back

@@ -22,7 +22,8 @@ struct SlipLaw {
   FeasibleSet& set;  ///< that of the problem
   /// The radii that the law gives at x; without x those to begin with, before any force is known. One for each disc of `set`.
   std::function<std::vector<double>(const Vector* x)> radii;
-  /// Whether steps that make the residual larger than it has been of late are shortened: more of them, for where nothing else ends.
+  /// Whether steps that make the residual larger than it has been of late are shortened: more of them, for where nothing else
+  /// ends.
   bool cautious = false;
 };
 
@@ -38,6 +39,7 @@ struct ExplicitProgramme {
     /// A x - b + G'nu by the matrix, zero where there is no constraint; there if go_on() is.
     std::optional<Vector> reaction = {};
     bool settled = true;  ///< if it converged: no state of a constraint rests on rounding
+    bool slides = false;  ///< if it did not converge: see Solution::slides
   };
   std::shared_ptr<ActiveSetPreconditioner> inverse;  ///< A^-1
   /// Solves with the linear term, right-hand side and set that the programme has by now; radii of discs with a coefficient follow
