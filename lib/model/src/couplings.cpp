@@ -9,6 +9,12 @@
 
 namespace mortise::model {
 
+namespace {
+
+constexpr double rounding_of_mean = 1e-9;  // of the largest coefficient of a mean motion: smaller ones are none
+
+}  // namespace
+
 // Of a coupling's boundary: area, centre, and the inverse of its second moment of area about the centre (of a plane: about z
 // alone).
 struct Model::Area {
@@ -158,6 +164,10 @@ std::vector<constraint::MeanMotion> Model::mean_motions(const std::vector<constr
         const Point at_node = moments[0] / area.size * force + turn.cross(arm);
         for (int c = 0; c < dimension; ++c) row.entries.push_back({node, c, length * at_node[c]});
       }
+      double largest = 0;
+      for (const auto& entry : row.entries) largest = std::max(largest, std::abs(entry.coefficient));
+      for (auto& entry : row.entries)
+        if (std::abs(entry.coefficient) < rounding_of_mean * largest) entry.coefficient = 0;
       rows.push_back(std::move(row));
     }
   }
