@@ -47,9 +47,8 @@ void keep_corners(CutFaces& faces, const std::vector<char>& allowed, std::vector
     }
 }
 
-// Surface nodes past the border of the primary side that share faces with others, all of which hold whole faces, or
-// whole facets beside these. `met`: which
-// the primary side lies opposite; `holding`: which of these have multipliers whatever happens here.
+// Surface nodes past the border of the primary side that share faces with others, all of which hold whole faces, or whole facets
+// beside these. `met`: which the primary side lies opposite; `holding`: which have multipliers whatever happens here.
 std::vector<char> past_the_border(const Side& side, const SurfaceNodes& surface_nodes, std::span<const char> met,
                                   std::span<const char> holding, std::span<const double> cover)
 {

@@ -31,7 +31,7 @@ struct BondedNodes {
   /// the bond would hold whole faces, and be as wide as those. Unless what is left holds no whole face there, as on a strip with
   /// a single row of nodes. Empty where sides end together, as cuts of sectors do.
   std::vector<char> met;
-  std::vector<char> primary_held;  ///< supports hold the primary side along the normal there
+  std::vector<char> primary_held;  ///< supports hold the primary side along the normal there; all of cuts of sectors
 };
 
 /// `faces` in pieces, with their integrals. `bond`: none of a contact. `dimension`: 2 or 3.

@@ -155,7 +155,7 @@ class Builder {
                                 std::binary_search(unbonded_nodes_.begin(), unbonded_nodes_.end(),
                                                    UnbondedNode{secondary_.node_id[static_cast<std::size_t>(node)]},
                                                    [](const UnbondedNode& a, const UnbondedNode& b) { return a.node < b.node; }));
-      known.primary_held.push_back(primary_held(p, normal));
+      known.primary_held.push_back(end_together || primary_held(p, normal));
       if (!end_together) known.met.push_back(rays_.meets(p));
     }
     return known;

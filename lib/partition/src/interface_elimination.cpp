@@ -119,8 +119,7 @@ std::vector<FactorSize> interface_elimination(const Decomposition& decomposition
 {
   auto all = groups(decomposition, interface, comm);
   std::sort(all.begin(), all.end(), [](const Group& a, const Group& b) { return a.subdomains < b.subdomains; });
-  std::vector<Global> count(decomposition.catalogue.bodies.size(), 0);
-  std::vector<double> subdomains(count.size(), 0.0);
+  std::vector<double> subdomains(decomposition.catalogue.bodies.size(), 0.0);
   for (const auto& subdomain : decomposition.subdomains) subdomains[static_cast<std::size_t>(subdomain.body)] += 1;
   comm.sum_in_place(subdomains);
   std::vector<FactorSize> result;
