@@ -16,11 +16,13 @@ class LineOfSight {
   {
   }
 
-  /// Whether a facet of either side lies between x and x + gap direction. `size`: of a face; bodies are not as thin as a hundredth
-  /// of it.
+  /// Whether a facet of either side lies between x and x + gap direction, or, if gap < 0, the sides overlap by less than -gap
+  /// across this line: the head of a bolt that stands in its plate by a little is not as deep in the wall of the hole as its rim
+  /// is wide. `size`: of a face; bodies are not as thin as a hundredth of it.
   bool hidden(const Point& x, const Point& direction, double gap, double size) const;
 
  private:
+  bool overlaps_less_across(const Point& x, const Point& way) const;
   const Side &secondary_, &primary_;
   Tree secondary_tree_;
   const Tree& primary_tree_;

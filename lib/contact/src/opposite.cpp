@@ -139,6 +139,8 @@ Opposite Rays::shoot_past(const Point& from, const Point& direction, double leng
     least = by;
     best = {gap, facet, hit};
   }
+  if (std::isfinite(best.gap) && sight_.hidden(from, direction, best.hit.distance, primary_.geometry(best.facet).size()))
+    return {};
   return best;
 }
 
