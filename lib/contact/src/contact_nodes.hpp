@@ -26,12 +26,13 @@ struct ContactNodes {
 struct BondedNodes {
   /// The seam ends there at a contact: both sides of the seam have rows of that contact, each of which says what the other and
   /// the seam say: pressures that nothing shares out. As the mortar method does where multipliers meet, the seam has none there.
+  /// Not past the border of the primary side, where multipliers stand inside, at places that the contact knows nothing of.
   std::vector<char> seam_ends;
   /// The primary side lies opposite. Nodes past its border leave their multipliers to the others of their faces: with their own
   /// the bond would hold whole faces, and be as wide as those. Unless what is left holds no whole face there, as on a strip with
   /// a single row of nodes. Empty where sides end together, as cuts of sectors do.
   std::vector<char> met;
-  std::vector<char> primary_held;  ///< supports hold the primary side along the normal there; all of cuts of sectors
+  std::vector<char> primary_held;  ///< supports hold the primary side along the normal where multipliers stand; all of cuts of sectors
 };
 
 /// `faces` in pieces, with their integrals. `bond`: none of a contact. `dimension`: 2 or 3.

@@ -21,6 +21,7 @@
 #include "one_part.hpp"
 #include "one_surface.hpp"
 #include "opposite.hpp"
+#include "opposite_supports.hpp"
 #include "over_facets.hpp"
 #include "rows.hpp"
 #include "rows_between.hpp"
@@ -79,6 +80,7 @@ class Builder {
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
         points_(secondary_, nodes_, faces_, rays_, nearest_),
+        held_(secondary_, nodes_, primary_, primary_supports_, rays_, dimension_),
         writer_(secondary_, primary_, supports_, primary_supports_, dimension_, rotation_of(options)),
         conflicts_(primary_, writer_, dimension_)
   {
@@ -149,15 +151,17 @@ class Builder {
     if (!bonded()) return {};
     BondedNodes known;
     const bool end_together = options_.preload || options_.cyclic || options_.obstacle;
+    const auto unbonded = [&](Local node) {
+      return std::binary_search(unbonded_nodes_.begin(), unbonded_nodes_.end(),
+                                UnbondedNode{secondary_.node_id[static_cast<std::size_t>(node)]},
+                                [](const UnbondedNode& a, const UnbondedNode& b) { return a.node < b.node; });
+    };
     for (std::size_t p = 0; p < nodes_.all.size(); ++p) {
-      const auto& [node, normal, continued] = nodes_.all[p];
-      known.seam_ends.push_back(discretization_->seams_end_at_contacts() &&
-                                std::binary_search(unbonded_nodes_.begin(), unbonded_nodes_.end(),
-                                                   UnbondedNode{secondary_.node_id[static_cast<std::size_t>(node)]},
-                                                   [](const UnbondedNode& a, const UnbondedNode& b) { return a.node < b.node; }));
-      known.primary_held.push_back(end_together || primary_held(p, normal));
-      if (!end_together) known.met.push_back(rays_.meets(p));
+      const bool met = end_together || rays_.meets(p);
+      if (!end_together) known.met.push_back(met);
+      known.seam_ends.push_back(met && discretization_->seams_end_at_contacts() && unbonded(nodes_.all[p].node));
     }
+    known.primary_held = end_together ? std::vector<char>(nodes_.all.size(), 1) : held_.hold_along_normals(faces_);
     return known;
   }
 
@@ -250,23 +254,20 @@ class Builder {
   {
     Few<Point, 2> result = free_tangents(p, normal);
     if (options_.cyclic || options_.obstacle) return result;
-    for (const auto& tangent : other_tangents(normal, result, dimension_))
-      if (!primary_held(p, tangent)) result.push_back(tangent);
+    const auto others = other_tangents(normal, result, dimension_);
+    if (others.empty()) return result;
+    const Opposite opposite = opposite_of(p);
+    for (const auto& tangent : others)
+      if (!held_.hold(opposite, tangent)) result.push_back(tangent);
     return result;
   }
 
-  // Whether supports hold the primary side along a direction where a surface node meets it.
-  bool primary_held(std::size_t p, const Point& direction)
+  // What lies opposite a place's multiplier, which past the border of the primary side stands beside its node.
+  Opposite opposite_of(std::size_t p)
   {
-    constexpr double none = 1e-6;  // of shape functions
-    const Opposite& opposite = rays_.meet(faces_.surface_node(p));
-    if (!std::isfinite(opposite.gap)) return true;
-    const auto nodes = primary_.facets[opposite.facet];
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]) > none &&
-          !primary_supports_.holds(primary_.node_id[static_cast<std::size_t>(nodes[k])], direction, dimension_))
-        return false;
-    return true;
+    const auto node = faces_.surface_node(p);
+    const Opposite& at_node = rays_.meet(node);
+    return std::isfinite(at_node.gap) ? at_node : rays_.met_from(node, points_.at(p).first, nodes_.all[node].normal);
   }
 
   Few<Point, 2> free_tangents(std::size_t p, const Point& normal) const
@@ -355,6 +356,7 @@ class Builder {
   OneSurface one_surface_;
   InitialGap initial_gap_;
   ContactPoints points_;
+  OppositeSupports held_;
   RowWriter writer_;
   SupportConflicts conflicts_;
   ContactNodes chosen_;

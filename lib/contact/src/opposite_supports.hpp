@@ -1,0 +1,37 @@
+// What supports hold of the primary side, opposite the secondary one.
+#pragma once
+
+#include <vector>
+
+#include "cut_faces.hpp"
+#include "opposite.hpp"
+#include "supported_nodes.hpp"
+
+namespace mortise::contact {
+
+class OppositeSupports {
+ public:
+  /// All of which must outlive it. `supports` at the nodes of the primary side. `dimension`: 2 or 3.
+  OppositeSupports(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary, const SupportedNodes& supports,
+                   Rays& rays, int dimension)
+      : secondary_(secondary), nodes_(surface_nodes), primary_(primary), supports_(supports), rays_(rays), dimension_(dimension)
+  {
+  }
+
+  /// Whether supports hold what a line meets, along a direction; true where it meets nothing.
+  bool hold(const Opposite& opposite, const Point& direction) const;
+
+  /// Of each surface node whether they do along its normal where its multipliers stand: at the node, or, past the border of the
+  /// primary side, at the points inside to which the functions of faces that it covers in part belong; of several points all.
+  std::vector<char> hold_along_normals(CutFaces& faces) const;
+
+ private:
+  const Side& secondary_;
+  const SurfaceNodes& nodes_;
+  const Side& primary_;
+  const SupportedNodes& supports_;
+  Rays& rays_;
+  int dimension_;
+};
+
+}  // namespace mortise::contact
