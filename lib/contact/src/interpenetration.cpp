@@ -3,28 +3,41 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "closest_place.hpp"
 #include "facing.hpp"
 #include "near.hpp"
 #include "skin.hpp"
+#include "skin_edges.hpp"
 
 namespace mortise::contact {
 
 namespace {
 
 // A facet continues the surface of the other body if their normals enclose less than 25 degrees, by their cosine, and the place
-// lies in the facet's plane or a little below it, in parts of its size. What lies above is outside: a coating is not in its plate.
-constexpr double continued = 0.9, below = 0.1;
-// Parts of a face's size. Facets of bodies that fit cross by less than the first, those of a circle of eight facets by a tenth. As
-// far as the second at least the way out is looked for.
-constexpr double of_facets = 0.25, looked_for = 0.5;
+// lies in the facet's plane, or below it by no more than facets that fit cross. What lies above is outside: a coating is not in
+// its plate.
+constexpr double continued = 0.9;
+// Facets of bodies that fit cross by less than this many times what their smooth surfaces stand out of them, or this part of a
+// face's size.
+constexpr double of_bulges = 1.5, of_face = 0.01;
+// Part of a face's size as far as which at least the way out is looked for.
+constexpr double looked_for = 0.5;
+// Facets whose planes enclose less than 25 degrees, by the cosine, are along each other.
+constexpr double along_each_other = 0.9;
+
+// By how much facets that fit may cross. `size`: of the smaller one.
+double fit(double size, double bulge, double other)
+{
+  return std::max(of_face * size, of_bulges * (bulge + other));
+}
 
 // Facets at some points in space, by bodies.
 class Surfaces {
  public:
-  Surfaces(const Skin& skin, const std::vector<Point>& points) : skin_(skin)
+  Surfaces(const Skin& skin, const std::vector<SkinEdge>& edges, const std::vector<Point>& points) : skin_(skin)
   {
     const auto& side = skin.side;
     std::map<int, std::vector<FaceGeometry>> of_body;
@@ -39,6 +52,13 @@ class Surfaces {
       facet_.push_back(facet);
     }
     for (auto& [body, facets] : of_body) bodies_.at(body).tree.emplace_back(tree_of(facets));
+    bulge_ = bulges_of(edges, facet_, normal_);
+    std::vector<Box> boxes;
+    for (const auto& body : bodies_) {
+      boxes.push_back(body.second.box);
+      boxed_.push_back(&body);
+    }
+    box_tree_.emplace_back(std::move(boxes));
   }
 
   // Of the largest facet of `own`.
@@ -47,6 +67,38 @@ class Surfaces {
     double size = 0;
     for (const std::size_t f : own) size = std::max(size, facet_[f].size());
     return size;
+  }
+
+  // Of the facet of `own` that has the largest.
+  double bulge_of(const std::vector<std::size_t>& own) const
+  {
+    double bulge = 0;
+    for (const std::size_t f : own) bulge = std::max(bulge, bulge_[f]);
+    return bulge;
+  }
+
+  // Calls use(t) for the middle of each part of an edge, from 0 to 1, between two passages through facets of another body that
+  // are not along its own.
+  template <class Use>
+  void each_part_between(const SkinEdge& edge, const Point& a, const Point& b, const Use& use)
+  {
+    Box box(a, a);
+    box.extend(b);
+    for (const int near : box_tree_.front().candidates(box)) {
+      const auto& [number, body] = *boxed_[at(near)];
+      if (number == edge.body) continue;
+      body.tree.front().candidates(box, found_);
+      passages_.clear();
+      for (const int f : found_) {
+        const std::size_t facet = body.facets[at(f)];
+        if (std::any_of(edge.facets.begin(), edge.facets.end(),
+                        [&](std::size_t own) { return std::abs(normal_[own].dot(normal_[facet])) < along_each_other; }))
+          add_passages(a, b, facet_[facet], passages_);
+      }
+      std::sort(passages_.begin(), passages_.end());
+      for (std::size_t i = 1; i < passages_.size(); ++i)
+        if (passages_[i] - passages_[i - 1] > rounding) use((passages_[i] + passages_[i - 1]) / 2);
+    }
   }
 
   // Bodies whose facets, or what lies behind them by up to `depth`, may reach a point.
@@ -61,6 +113,7 @@ class Surfaces {
   struct Depth {
     double depth = 0;        // 0: outside, or farther from the surface than asked
     double size = 0;         // of the smaller face, here or there
+    double bulge = 0;        // at the nearest place
     std::vector<int> faces;  // at the nearest place
   };
 
@@ -91,12 +144,13 @@ class Surfaces {
     const auto& best = std::min_element(places.begin(), places.end(), [](const auto& a, const auto& b) {
                          return a.first.distance < b.first.distance;
                        })->first;
-    Depth result{0, size, {}};
+    Depth result{0, size, 0, {}};
     Point normal = Point::Zero();
     for (const auto& [place, facet] : places) {
       if ((place.at - best.at).norm() > rounding * facet_[facet].size()) continue;
       normal += place.normal;
       result.size = std::min(result.size, facet_[facet].size());
+      result.bulge = std::max(result.bulge, bulge_[facet]);
       result.faces.push_back(skin_.side.face_of[facet]);
     }
     if (normal.dot(x - best.at) < 0) result.depth = best.distance;
@@ -108,7 +162,7 @@ class Surfaces {
   bool goes_on(const Point& x, const std::vector<std::size_t>& own, std::size_t facet, double least) const
   {
     const double height = normal_[facet].dot(x - facet_[facet].nodes[0]), size = facet_[facet].size();
-    return height <= rounding * size && -height <= std::max(least, below * size) &&
+    return height <= rounding * size && -height <= std::max(least, fit(size, bulge_of(own), bulge_[facet])) &&
            std::any_of(own.begin(), own.end(), [&](std::size_t f) { return normal_[f].dot(normal_[facet]) > continued; });
   }
 
@@ -120,17 +174,25 @@ class Surfaces {
   const Skin& skin_;
   std::vector<FaceGeometry> facet_;
   std::vector<Point> normal_;
+  std::vector<double> bulge_;
   std::map<int, OfBody> bodies_;
+  std::vector<const std::pair<const int, OfBody>*> boxed_;
+  std::vector<Tree> box_tree_;  // one, of these
+  std::vector<int> found_;      // for the edge at work, as what follows
+  std::vector<double> passages_;
 };
 
-// A node, or the middle of a facet, and the facets that meet there.
+// A node, a place on an edge, or the middle of a facet, and the facets that meet there.
 struct PlaceOfSkin {
-  int node;  // -1: the middle of its facet
+  int node;                 // -1: the middle of its facet, if the edge is none
+  std::array<int, 2> edge;  // the nodes of an edge, or -1
+  double part;              // of the way from its first node
   std::vector<std::size_t> facets;
 
   Point at_points(const Side& side, const std::vector<Point>& points) const
   {
     if (node >= 0) return points[at(node)];
+    if (edge[0] >= 0) return points[at(edge[0])] + part * (points[at(edge[1])] - points[at(edge[0])]);
     Point sum = Point::Zero();
     const auto nodes = side.facets[facets.front()];
     for (const Local n : nodes) sum += points[at(n)];
@@ -140,10 +202,10 @@ struct PlaceOfSkin {
 
 // A place in another body.
 struct Deep {
-  std::size_t place;
+  PlaceOfSkin place;
   int body, other;
   double depth;
-  bool by_facets;  // may be the facets' doing alone
+  bool by_facets;          // may be the facets' doing alone
   std::vector<int> faces;  // of the other body, next to the place
 };
 
@@ -171,43 +233,88 @@ std::vector<PlaceOfSkin> places_of(const Side& side, const Communicator& comm)
   std::vector<std::size_t> place_of(side.points.size(), side.points.size());
   for (std::size_t n = rank; n < side.points.size(); n += ranks) {
     place_of[n] = places.size();
-    places.push_back({static_cast<int>(n), {}});
+    places.push_back({static_cast<int>(n), {-1, -1}, 0, {}});
   }
   for (std::size_t i = 0; i < side.facets.size(); ++i) {
     for (const Local n : side.facets[i])
       if (place_of[at(n)] < side.points.size()) places[place_of[at(n)]].facets.push_back(i);
-    if (i % ranks == rank) places.push_back({-1, {i}});
+    if (i % ranks == rank) places.push_back({-1, {-1, -1}, 0, {i}});
   }
   return places;
 }
 
-bool in_contact(const Skin& skin, const std::vector<std::size_t>& facets, const std::vector<int>& others,
-                const ContactSides& sides)
-{
-  return std::any_of(facets.begin(), facets.end(), [&](std::size_t facet) {
-    return std::any_of(others.begin(), others.end(), [&](int other) {
-      return sides.opposite(skin.face_id[at(skin.side.face_of[facet])], skin.face_id[at(other)]);
-    });
-  });
-}
+// What is known of contacts, by faces and bodies of a skin.
+class Touching {
+ public:
+  Touching(const Skin& skin, const ContactSides& sides) : skin_(skin), sides_(sides)
+  {
+    for (std::size_t f = 0; f < skin.face_id.size(); ++f)
+      for (const int side : sides_at(static_cast<int>(f))) bodies_[side].insert(skin.body[f]);
+  }
 
-// What of this rank's places lies deeper than `least` in other bodies, at these points.
-std::vector<Deep> deep_places(const Skin& skin, const std::vector<Point>& points, const std::vector<PlaceOfSkin>& places,
-                              const DepthRange& range)
+  // Whether contacts keep a place apart from the other body: they have its faces and those next to it on their two sides, or,
+  // where facets that fit cross, as those of a shaft and a hub round a thin sleeve, a third body on the other sides of both.
+  bool keep_apart(const Deep& d) const
+  {
+    std::set<int> own, other;
+    for (const std::size_t facet : d.place.facets) {
+      const int face = skin_.side.face_of[facet];
+      for (const int near : d.faces)
+        if (sides_.opposite(skin_.face_id[at(face)], skin_.face_id[at(near)])) return true;
+      add_partners(face, own);
+    }
+    for (const int near : d.faces) add_partners(near, other);
+    return d.by_facets && std::any_of(own.begin(), own.end(),
+                                      [&](int body) { return body != d.body && body != d.other && other.contains(body); });
+  }
+
+ private:
+  const std::vector<int>& sides_at(int face) const
+  {
+    static const std::vector<int> none;
+    const auto found = sides_.of_face.find(skin_.face_id[at(face)]);
+    return found == sides_.of_face.end() ? none : found->second;
+  }
+
+  void add_partners(int face, std::set<int>& bodies) const
+  {
+    for (const int side : sides_at(face))
+      if (const auto found = bodies_.find(side ^ 1); found != bodies_.end())
+        bodies.insert(found->second.begin(), found->second.end());
+  }
+
+  const Skin& skin_;
+  const ContactSides& sides_;
+  std::map<int, std::set<int>> bodies_;  // of each side
+};
+
+// What of this rank's places, and of what passes through other bodies of its share of the edges, lies deeper than `least` in
+// other bodies, at these points.
+std::vector<Deep> deep_places(const Skin& skin, const std::vector<SkinEdge>& edges, const std::vector<Point>& points,
+                              const std::vector<PlaceOfSkin>& places, const DepthRange& range, const Communicator& comm)
 {
-  const Surfaces surfaces(skin, points);
+  Surfaces surfaces(skin, edges, points);
   std::vector<Deep> deep;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto& facets = places[i].facets;
+  const auto look = [&](const PlaceOfSkin& place) {
+    const auto& facets = place.facets;
     const int own = skin.body[at(skin.side.face_of[facets.front()])];
-    const Point x = places[i].at_points(skin.side, points);
+    const Point x = place.at_points(skin.side, points);
     const DepthRange here{range.least, std::max(range.largest, looked_for * surfaces.size_of(facets))};
     for (const int other : surfaces.near(x, here.largest)) {
       if (other == own) continue;
       auto found = surfaces.depth(x, facets, other, here);
-      if (found.depth > range.least)
-        deep.push_back({i, own, other, found.depth, found.depth <= of_facets * found.size, std::move(found.faces)});
+      if (!(found.depth > range.least)) continue;
+      const bool by_facets = found.depth <= fit(found.size, surfaces.bulge_of(facets), found.bulge);
+      deep.push_back({place, own, other, found.depth, by_facets, std::move(found.faces)});
     }
+  };
+  for (const auto& place : places) look(place);
+  const auto ranks = static_cast<std::size_t>(comm.size());
+  for (auto i = static_cast<std::size_t>(comm.rank()); i < edges.size(); i += ranks) {
+    const auto& edge = edges[i];
+    surfaces.each_part_between(edge, points[at(edge.nodes[0])], points[at(edge.nodes[1])], [&](double part) {
+      look({-1, {edge.nodes[0], edge.nodes[1]}, part, edge.facets});
+    });
   }
   return deep;
 }
@@ -243,25 +350,27 @@ std::vector<Interpenetration> find_interpenetrations(const mesh::Surface& before
   const Lengths lengths{range.largest, 0, false, diagonals(now, bodies, comm)};
   const auto near = near_others(now, lengths, comm);
   const Skin skin = gather_skin(near, kinematics, comm);
+  const auto edges = edges_of(skin);
   const auto places = places_of(skin.side, comm);
-  auto deep = deep_places(skin, skin.side.points, places, range);
+  auto deep = deep_places(skin, edges, skin.side.points, places, range, comm);
   if (!comm.any(!deep.empty())) return {};
   const auto known = sides();
+  const Touching touching(skin, known);
   const auto drop_contacts = [&](std::vector<Deep>& some) {
-    std::erase_if(some, [&](const Deep& d) { return in_contact(skin, places[d.place].facets, d.faces, known); });
+    std::erase_if(some, [&](const Deep& d) { return touching.keep_apart(d); });
   };
   drop_contacts(deep);
   if (!comm.any(!deep.empty())) return {};
   // Facets of bodies that fit cross before anything moves.
   const auto points = gather(same_faces(before, near), kinematics, comm).points;
-  auto deep_before = deep_places(skin, points, places, {range.least, 2 * range.largest});
+  auto deep_before = deep_places(skin, edges, points, places, {range.least, 2 * range.largest}, comm);
   drop_contacts(deep_before);
   const auto deepest = deepest_facets(deep_before, comm);
   std::vector<SentPlace> deeper;
   for (const auto& d : deep) {
     const auto found = deepest.find(std::minmax(d.body, d.other));
-    const Point x = places[d.place].at_points(skin.side, points);
-    if (found == deepest.end() || d.depth - found->second > range.least)
+    const Point x = d.place.at_points(skin.side, points);
+    if (!d.by_facets || found == deepest.end() || d.depth - found->second > range.least)
       deeper.push_back({d.body, d.other, d.depth, {x[0], x[1], x[2]}});
   }
   deeper = comm.all_gather(deeper);

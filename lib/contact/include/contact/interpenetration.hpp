@@ -1,4 +1,5 @@
-// Where bodies stand in each other: nodes of one body's surface, and the middles of its facets, that lie inside another body.
+// Where bodies stand in each other: nodes of one body's surface, the middles of its facets, and the middles of what its edges
+// have between two facets of another body, that lie inside that body.
 //
 // The nearest place c of the other surface tells on which side a place x is: inside if n . (x - c) < 0, n the mean of the normals
 // of the facets that meet at c, weighted with their angles there [Baerentzen and Aanaes, IEEE TVCG 11 (2005)]. Facets in whose
@@ -38,10 +39,12 @@ struct DepthRange {
 };
 
 /// All places inside other bodies, ordered by bodies: the same on every rank. Bodies that stood in each other before are found if
-/// they did by more than a quarter of a face, which facets of bodies that fit do not. `before`, `now`: the outer surface of all
-/// bodies, this rank's faces, the same faces with the points before and after something moved. Places whose faces, and those of
-/// the other body next to them, are the two sides of a contact are left out; `sides` says so, and is called on all
-/// ranks or on none. Edges that cross, with no node or middle of a facet inside, are not found. Collective.
+/// they did by more than facets of bodies that fit do: 1.5 times what the smooth surfaces of both stand out of theirs, each about
+/// s / 2 tan(phi / 4), s the facet's size and phi its angle with its neighbours, or a hundredth of a face. `before`, `now`: the
+/// outer surface of all bodies, this rank's faces, the same faces with the points before and after something moved. Places are
+/// left out whose faces, and those of the other body next to them, are the two sides of a contact, and where facets that fit
+/// cross if contacts have a third body on the other sides of both; `sides` says so, and is called on all ranks or on none.
+/// Collective.
 std::vector<Interpenetration> find_interpenetrations(const mesh::Surface& before, const mesh::Surface& now, int bodies,
                                                      const std::function<ContactSides()>& sides, const DepthRange& range,
                                                      fem::Kinematics kinematics, const Communicator& comm);
