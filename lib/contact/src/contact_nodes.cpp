@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "held_by_others.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -147,7 +149,22 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   // along a curved surface there as an overlap. In a bond they would, where the primary side is held as well, hold the mean of
   // what it meets once more, and leave their share to the others of the face, as those at a seam's end do; where a face has no
   // others, as on a surface that a support moves as a whole, they stay.
-  const auto needed = [&](std::size_t p) { return !bond || !bond->primary_held[faces.surface_node(p)]; };
+  // Past the primary side's border they stay only where the others do not hold what is covered: what they see is the primary side
+  // alone, which they would hold to what the few nodes that move leave of the face, as stiffly as that.
+  std::vector<char> others_hold;
+  if (bond && !bond->met.empty()) {
+    std::vector<char> aside(surface_nodes.all.size(), 0);
+    auto stay = aside;
+    for (std::size_t p = 0; p < aside.size(); ++p) {
+      aside[p] = !nodes.directions[p].free_normal && !bond->met[p];
+      stay[p] = !aside[p] && nodes.covered[p] > least_cover * whole[p];
+    }
+    others_hold = held_by_others(secondary, faces, aside, stay, dimension);
+  }
+  const auto needed = [&](std::size_t place) {
+    const auto p = faces.surface_node(place);
+    return !bond || (!bond->primary_held[p] && (others_hold.empty() || !others_hold[p]));
+  };
   const auto left_out = [&](std::size_t p) {
     return (!nodes.directions[p].free_normal && (!bond || !needed(p))) || (bond && bond->seam_ends[faces.surface_node(p)]);
   };

@@ -4,7 +4,7 @@
 
 namespace mortise::contact {
 
-CutFaces::CutFaces(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<char>& own)
+CutFaces::CutFaces(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<char>& own, int rings)
     : side_(side), nodes_(surface_nodes), begin_(side.faces.size(), 0), end_(side.faces.size(), 0)
 {
   std::vector<char> touched = own;
@@ -14,10 +14,14 @@ CutFaces::CutFaces(const Side& side, const SurfaceNodes& surface_nodes, const st
   };
   for (std::size_t f = 0; f < side.faces.size(); ++f)
     if (touches(f)) near_.push_back(f);
-  for (const std::size_t f : near_)
-    for (const Local n : side.faces[f]) touched[static_cast<std::size_t>(n)] = 1;
-  for (std::size_t f = 0; f < side.faces.size(); ++f)
-    if (touches(f)) round_.push_back(f);
+  round_ = near_;
+  for (int ring = 0; ring < rings; ++ring) {
+    for (const std::size_t f : round_)
+      for (const Local n : side.faces[f]) touched[static_cast<std::size_t>(n)] = 1;
+    round_.clear();
+    for (std::size_t f = 0; f < side.faces.size(); ++f)
+      if (touches(f)) round_.push_back(f);
+  }
 }
 
 void CutFaces::add(std::size_t face, std::span<const PieceIntegrals> pieces)

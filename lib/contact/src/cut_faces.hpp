@@ -18,12 +18,12 @@ class CutFaces {
     Eigen::Index k;
   };
 
-  /// Both must outlive it. `own`: of each node whether this rank makes its rows.
-  CutFaces(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<char>& own);
+  /// Both must outlive it. `own`: of each node whether this rank makes its rows. `rings`: of round(), round those of near().
+  CutFaces(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<char>& own, int rings = 1);
 
   /// Faces round this rank's nodes, whose share of the rows is needed; ascending.
   const std::vector<std::size_t>& near() const { return near_; }
-  /// And those round their nodes, whose integrals are.
+  /// And those round their nodes, ring by ring, whose integrals are.
   const std::vector<std::size_t>& round() const { return round_; }
 
   /// The next face of round() with its pieces.

@@ -66,7 +66,7 @@ class Builder {
         primary_at_bonds_(at_bonds.nodes_of(primary_, comm)),
         nodes_(find_surface_nodes(secondary_, supports_, at_bonds, at_bonds.nodes_of(secondary_, comm))),
         primary_nodes_(find_surface_nodes(primary_, primary_supports_, at_bonds, primary_at_bonds_)),
-        faces_(secondary_, nodes_, share.own),
+        faces_(secondary_, nodes_, share.own, options.law == Law::bonded ? 3 : 1),
         tree_(tree_of_facets(primary_)),
         sight_(secondary_, primary_, tree_),
         rays_(secondary_, nodes_, primary_, primary_nodes_, tree_, sight_, options.obstacle, reach),
