@@ -93,21 +93,24 @@ void DualProblem::make_equality(SparseMatrix g)
   equality_ = std::make_unique<qp::EqualityConstraint>(std::move(g), Eigen::VectorXd::Zero(size), comm_);
 }
 
+Eigen::VectorXd DualProblem::bound() const
+{
+  Eigen::VectorXd c = jump_->bound();
+  for (const auto& section : constraints_.pretension_sections)
+    if (!section.preload.force)
+      for (const auto& [row, part] : section.rows) {
+        const auto at = jump_->ranges().contacts + static_cast<Local>(row);
+        c[at] += jump_->scaled(at, part * section.preload.shortening);
+      }
+  return c;
+}
+
 void DualProblem::make_rhs()
 {
   loaded_ = load_;
   system_.clusters.apply_inverse(loaded_);
   Vector d = jump_->apply(loaded_);
-  {
-    auto linear = view(d);
-    linear -= jump_->bound();
-    for (const auto& section : constraints_.pretension_sections)
-      if (!section.preload.force)
-        for (const auto& [row, part] : section.rows) {
-          const auto at = jump_->ranges().contacts + static_cast<Local>(row);
-          linear[at] -= jump_->scaled(at, part * section.preload.shortening);
-        }
-  }
+  view(d) -= bound();
   if (linear_)
     linear_->assign(d);  // solvers refer to it
   else

@@ -147,6 +147,7 @@ ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::Vecto
   const Eigen::VectorXd right_side = e;
   const auto reduced = rows_->to_root(view(elimination_->reduce(linear, e)));
   const auto start = near ? rows_->to_root(view(near->x)) : std::vector<double>();
+  const auto felt = near ? rows_->to_root(view(*near->reaction)) : std::vector<double>();
   const qp::FeasibleSet set = rows_->to_root(problem_.set());
   const auto map = [](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
@@ -156,7 +157,7 @@ ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::Vecto
   collectively(comm, [&] {
     if (!comm.root()) return;
     qp::CondensedNewton::Point from;
-    if (near) from = {map(start), near->nu};
+    if (near) from = {map(start), near->nu, true, 0, map(felt)};
     const auto found = newton_->solve(map(reduced), e, set, near ? &from : nullptr);
     x.assign(found.x.begin(), found.x.end());
     nu.assign(found.nu.begin(), found.nu.end());

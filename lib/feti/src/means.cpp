@@ -17,7 +17,7 @@ qp::ExplicitProgramme sparse_programme(const DualProblem& problem)
   const auto go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const Point& near) {
     return matrices->go_on(linear, e, near.x);
   };
-  return {matrices, [matrices] { return matrices->solve(); }, go_on};
+  return {matrices, [matrices] { return matrices->solve(); }, go_on, true};
 }
 
 }  // namespace
@@ -30,10 +30,10 @@ qp::Means means_of(const DualProblem& problem, qp::Budget& budget)
     const auto matrices = std::make_shared<ExplicitProblem>(problem);
     using Point = qp::ExplicitProgramme::Point;
     qp::ExplicitProgramme programme{matrices, [matrices] { return matrices->solve(); }};
-    if (matrices->differs())
-      programme.go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const Point& near) {
-        return matrices->solve(linear, e, &near);
-      };
+    programme.go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const Point& near) {
+      return matrices->solve(linear, e, &near);
+    };
+    programme.differs = matrices->differs();
     if (turn == SparseProblem::Turn::second) programme.instead = [&problem] { return sparse_programme(problem); };
     return programme;
   };

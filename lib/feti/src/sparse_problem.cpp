@@ -162,7 +162,7 @@ VectorXd SparseProblem::on_root(const std::vector<VectorXd>& parts) const
 
 SparseProblem::Point SparseProblem::solve() const
 {
-  return solve(problem_.load(), problem_.jump().bound(), nullptr);
+  return solve(problem_.load(), problem_.bound(), nullptr);
 }
 
 // Forces R de move bodies and nothing else: c' = c + d - d' + B K^+ R de.
@@ -177,7 +177,7 @@ SparseProblem::Point SparseProblem::go_on(const Vector& linear, const VectorXd& 
   }
   clusters.apply_inverse(push);
   const Vector moved = problem_.jump().apply(push);
-  const VectorXd bound = problem_.jump().bound() + view(problem_.linear()) - view(linear) + view(moved);
+  const VectorXd bound = problem_.bound() + view(problem_.linear()) - view(linear) + view(moved);
   return solve(f, bound, &near);
 }
 

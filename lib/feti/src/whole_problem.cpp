@@ -91,7 +91,8 @@ WholeProblem::Solution WholeProblem::solve(const VectorXd& f, const VectorXd& c,
   load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
   const VectorXd gap = c - rows_ * u;
   qp::CondensedNewton::Point from;
-  if (near) from = {(*near)(kept_), last_(free_), false, 0, last_reaction_};
+  if (last_.size() == 0) near = nullptr;
+  if (near) from = {(*near)(kept_), last_(free_), true, 0, last_reaction_};
   const auto found = newton_->solve(load(free_), gap(kept_), reduced(set), near ? &from : nullptr);
   u(free_) = found.nu;
   load = f;

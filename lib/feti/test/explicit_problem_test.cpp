@@ -25,11 +25,14 @@ constexpr double coefficient = 0.4;
 
 // What a stack has beside the supports below.
 struct Variant {
-  bool upper_held = false;           // along x on top, where there is a preload along all axes
-  bool skew_supports = false;        // at nodes of the lower block that are prescribed along another axis, too
-  bool rotated = false;              // the operator of the upper block is that of a rotated copy
-  double moved = 0;                  // along x, by all supports
-  std::optional<double> force = {};  // of a preload: the blocks are bonded and drawn together
+  bool upper_held = false;                // along x on top, where there is a preload along all axes
+  bool skew_supports = false;             // at nodes of the lower block that are prescribed along another axis, too
+  bool rotated = false;                   // the operator of the upper block is that of a rotated copy
+  double moved = 0;                       // along x, by all supports
+  std::optional<double> force = {};       // of a preload: the blocks are bonded and drawn together,
+  std::optional<double> shortening = {};  // or by so much
+
+  bool preloaded() const { return force || shortening; }
 };
 
 // Held at z = 0; pressed down and pushed sideways on top, where the upper block stands on the nodes of the lower one.
@@ -45,15 +48,16 @@ struct Stack : Blocks {
     pretension_multipliers("upper.zmax", traction);
     std::vector<constraint::Support> supports{{"lower.zmin", {variant.moved, 0, 0}}};
     if (variant.upper_held) {
-      const std::optional<double> others = variant.force ? std::optional(0.0) : std::nullopt;
+      const std::optional<double> others = variant.preloaded() ? std::optional(0.0) : std::nullopt;
       supports.push_back({"upper.zmax", {variant.moved, others, others}});
     }
     dirichlet_rows(supports);
     if (variant.skew_supports) skew_support_rows();
-    join("upper.zmin", "lower.zmax", variant.force.has_value());
-    if (variant.force)
+    join("upper.zmin", "lower.zmax", variant.preloaded());
+    if (variant.preloaded())
       constraints.pretension_sections = constraint::find_pretension_sections(
-          constraints.contacts, std::vector{constraint::Preload{0, "cut", variant.force}}, false, comm);
+          constraints.contacts, std::vector{constraint::Preload{0, "cut", variant.force, variant.shortening.value_or(0)}}, false,
+          comm);
     constraints.prescribed = distribute_rows(constraints.prescribed, decomposition, *directory, comm);
     constraints.skew_supports = distribute_rows(constraints.skew_supports, decomposition, *directory, comm);
   }
@@ -136,7 +140,8 @@ INSTANTIATE_TEST_SUITE_P(Piecewise, Varied,
                          testing::Combine(testing::Values(1, 2),
                                           testing::Values(Variant{}, Variant{true}, Variant{false, true, false, 0.02},
                                                           Variant{true, true, false, 0.02}, Variant{true, false, true, 0.02},
-                                                          Variant{false, true, true}, Variant{true, false, false, 0.01, 3.0})));
+                                                          Variant{false, true, true}, Variant{true, false, false, 0.01, 3.0},
+                                                          Variant{true, false, false, 0.01, {}, 0.02})));
 
 TEST_P(Varied, HasTheInverseOfTheDualOperator)
 {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -83,6 +84,13 @@ class CondensedProgramme {
   bool follows() const
   {
     return std::any_of(bound_of_.begin(), bound_of_.end(), [](int bound) { return bound >= 0; });
+  }
+
+  /// Whether there are equations alone, so that there is one guess.
+  bool linear() const
+  {
+    return set_.bounds().empty() &&
+           std::all_of(set_.discs().begin(), set_.discs().end(), [](const Disc& disc) { return std::isinf(disc.radius); });
   }
 
   const ContactSystem& system() const { return *system_; }

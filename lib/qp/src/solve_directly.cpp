@@ -32,7 +32,7 @@ class DirectSolver : public Solver {
   void begin(std::optional<Solution>& start, Goal& goal, const Observer& observer) override
   {
     if (observer) observer({"direct", 0, problem_.hessian.count()});
-    auto found = solve_with_matrices();
+    auto found = solve_with_matrices(start);
     faces_->begin(start, goal, observer);
     sliding_.reset();
     if (found.slides) {
@@ -41,7 +41,7 @@ class DirectSolver : public Solver {
       sliding_->slides = true;
     }
     if (!found.converged) return;  // a guess of states that are none leads faces astray
-    if (matrices_.go_on) correct(found, goal);
+    if (matrices_.differs) correct(found, goal);
     if (goal.allowed_error) goal.exact = rounding_of_direct;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
@@ -60,10 +60,16 @@ class DirectSolver : public Solver {
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
  private:
-  // With the matrices that served last, or the other ones, if there are any, where these do not tell the states of all
-  // constraints.
-  ExplicitProgramme::Point solve_with_matrices()
+  // From the states of the problem before, if there was one; else from anywhere with the matrices that served last, or the other
+  // ones, if there are any, where these do not tell the states of all constraints.
+  ExplicitProgramme::Point solve_with_matrices(const std::optional<Solution>& before)
   {
+    if (before && matrices_.go_on) {
+      Vector reaction(before->gradient, Teuchos::Copy);
+      problem_.equality.add_transpose(1, before->nu, reaction);
+      auto next = matrices_.go_on(problem_.linear, problem_.equality.right_side(), {before->x, before->nu, true, reaction});
+      if (next.converged && next.settled) return next;
+    }
     auto found = matrices_.solve();
     if ((found.converged && found.settled) || found.slides) return found;
     if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();

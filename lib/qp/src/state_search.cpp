@@ -31,6 +31,8 @@ constexpr double same_step = 1e-6;               // of motions that go on for ev
 constexpr double way_out = 0.05;                 // of the slip, that a motion may open contact by and still be a slide
 constexpr double softest = 0.1;                  // of what a point gives way together with all others
 constexpr double hardest = 1e-4;                 // softness that is as good as none
+constexpr double worse = 3;                      // times the residual before: such a step is shortened,
+constexpr int halvings = 6;                      // so often at most
 constexpr double stride = 0.1;                   // from one softness to the next
 constexpr double least_stride = 0.8;             // as slow as it gets,
 constexpr double largest_stride = 1e-4;          // and as fast, where
@@ -40,7 +42,8 @@ constexpr int stuck_on_path = 12;                // the last of so many must hav
 constexpr double path_near = 1e-3;               // residual over x from which on guesses are tried from the path,
 constexpr double path_nearer = 0.1;              // and of what it was then, to try again
 constexpr Eigen::Index few_unknowns = 2000;      // up to which a factor of W takes a moment; beyond, as long as many guesses,
-constexpr int guesses_of_path = 100;             // and a path of them as long as so many
+constexpr int guesses_of_path = 100;             // and a path of them as long as so many; then all that is tried with small ones
+constexpr double most_operations = 3e12;         // of factors that a last search may take
 constexpr Eigen::Index very_few_unknowns = 800;  // up to which steps of other lengths are tried: hundreds of guesses
 constexpr int patience_with_radii = 6;           // radii in a row without a residual that is so much,
 constexpr int patience_with_costly_radii = 1;    // with sparse matrices
@@ -79,19 +82,14 @@ StateSearch::StateSearch(CondensedProgramme programme) : programme_(std::move(pr
 
 bool StateSearch::from_anywhere()
 {
-  if (programme_.system().costly()) return follow_path() || repeat_paths();
+  if (programme_.system().costly()) return (programme_.linear() && guess(to_the_end)) || follow_path() || repeat_paths();
   if (guess(look_back_at_first)) return true;
   if (programme_.unknowns() == 0 || slides()) return false;
   const bool small = programme_.unknowns() <= few_unknowns, very_small = programme_.unknowns() <= very_few_unknowns;
   if (harden(small ? 0 : guesses_of_path)) return true;
   if (point_.slides) return false;
-  return follow_path() || (small && repeat_paths()) || (very_small && change_steps()) || harden(INT_MAX);
-}
-
-bool StateSearch::from(VectorXd x, VectorXd nu)
-{
-  const VectorXd reaction = programme_.gradient(x, nu);
-  return from(std::move(x), std::move(nu), reaction);
+  if (follow_path() || (small && repeat_paths()) || (very_small && change_steps())) return true;
+  return harden(small ? affordable_guesses() : guesses_of_path);
 }
 
 bool StateSearch::from(VectorXd x, VectorXd nu, const VectorXd& reaction)
@@ -99,7 +97,7 @@ bool StateSearch::from(VectorXd x, VectorXd nu, const VectorXd& reaction)
   point_.x = std::move(x);
   point_.nu = std::move(nu);
   states_ = programme_.states_at(point_.x, reaction);
-  return guess(programme_.system().costly() ? look_back_at_first : to_the_end);
+  return guess(look_back_at_first);
 }
 
 void StateSearch::polish()
@@ -119,6 +117,28 @@ void StateSearch::polish()
   }
 }
 
+// Guesses that fit into `most_operations`, each a factor of W.
+int StateSearch::affordable_guesses() const
+{
+  const auto n = static_cast<double>(programme_.unknowns());
+  return static_cast<int>(std::min(most_operations / (2 * n * n * n / 3), 1e4));
+}
+
+// Back towards the x and nu before, as long as that makes the residual smaller.
+void StateSearch::shorten(const VectorXd& x_before, const VectorXd& nu_before)
+{
+  const VectorXd x_step = point_.x - x_before, nu_step = point_.nu - nu_before;
+  double part = 1, least = programme_.residual(point_.x, point_.nu);
+  for (int i = 0; i < halvings; ++i) {
+    part /= 2;
+    const VectorXd x = x_before + part * x_step, nu = nu_before + part * nu_step;
+    const double residual = programme_.residual(x, nu);
+    if (!(residual < least)) return;
+    least = residual;
+    point_.x = x, point_.nu = nu;
+  }
+}
+
 // Whether motions go on by the same step for ever while forces stay what they are, and friction resists that.
 bool StateSearch::runs_away(const VectorXd& step, const VectorXd& last_step) const
 {
@@ -129,7 +149,8 @@ bool StateSearch::runs_away(const VectorXd& step, const VectorXd& last_step) con
 // Guesses from `states_` on; false if they do not converge. Those that something else comes after end sooner: if in `look_back`
 // of them changes have not become half as many. So do those of bodies that run away: no state changes any more, and each solution
 // leads as far from the last one as this from the one before, as weak springs allow. Where no force answers there is no solution
-// [Pazy, Israel J. Math. 9 (1971), of monotone problems].
+// [Pazy, Israel J. Math. 9 (1971), of monotone problems]. Steps between soft contacts that make the residual larger are
+// shortened: where friction passes forces on, whole ones take turns for ever.
 bool StateSearch::guess(int look_back)
 {
   std::vector<int> turns(states_.kind.size(), 0), history;
@@ -141,10 +162,15 @@ bool StateSearch::guess(int look_back)
   run_away_ = false;
   for (int step = 0; step < guesses; ++step) {
     stop_if_requested();
-    const VectorXd nu_before = point_.nu;
+    const VectorXd x_before = point_.x, nu_before = point_.nu;
     programme_.solve(states_, point_.x, point_.nu);
     ++point_.steps;
-    const double residual = programme_.residual(point_.x, point_.nu), size = programme_.size(point_.x);
+    double residual = programme_.residual(point_.x, point_.nu);
+    if (step > 0 && programme_.softness() > 0 && residual > worse * before) {
+      shorten(x_before, nu_before);
+      residual = programme_.residual(point_.x, point_.nu);
+    }
+    const double size = programme_.size(point_.x);
     if (!std::isfinite(residual) && programme_.system().costly()) return false;
     auto next = programme_.states(point_.x, point_.nu);
     const int changes = compare(states_, next, turns);

@@ -14,9 +14,7 @@ class StateSearch {
 
   /// From closed contact that sticks, by whatever leads to a solution.
   bool from_anywhere();
-  /// From the states at a point near.
-  bool from(Eigen::VectorXd x, Eigen::VectorXd nu);
-  /// The same where s is another: that of the problem which x and nu solve.
+  /// From the states of the problem that x, nu and the reaction s solve.
   bool from(Eigen::VectorXd x, Eigen::VectorXd nu, const Eigen::VectorXd& reaction);
   /// Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
   void polish();
@@ -35,6 +33,8 @@ class StateSearch {
   // The residual over x.
   double off() const { return programme_.residual(point_.x, point_.nu) / programme_.size(point_.x); }
   bool guess(int look_back);
+  void shorten(const Eigen::VectorXd& x_before, const Eigen::VectorXd& nu_before);
+  int affordable_guesses() const;
   bool runs_away(const Eigen::VectorXd& step, const Eigen::VectorXd& last_step) const;
   bool slides();
   bool harden(int patience);

@@ -39,7 +39,7 @@ class DenseProgramme : public ActiveSetPreconditioner {
     const CondensedNewton newton(programme_.dense + compliance_ * Eigen::MatrixXd::Identity(n, n), programme_.g,
                                  Eigen::MatrixXd::Zero(programme_.g.rows(), programme_.g.rows()), set);
     CondensedNewton::Point from;
-    if (near) from = {gathered(near->x, world()), near->nu};
+    if (near) from = {gathered(near->x, world()), near->nu, true, 0, gathered(*near->reaction, world())};
     const auto found = newton.solve(gathered(b, world()), e, set, near ? &from : nullptr);
     return {local_part(found.x, programme_.map), found.nu, found.converged, local_part(found.reaction, programme_.map)};
   }
@@ -132,6 +132,7 @@ TEST(Solvers, ANearbyMatrixIsCorrectedByAFewProducts)
     programme.go_on = [matrices](const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Point& near) {
       return matrices->solve(b, e, &near);
     };
+    programme.differs = true;
     return programme;
   };
   const Eigen::VectorXd expected = solve(exact), x = solve(nearby);
@@ -141,8 +142,42 @@ TEST(Solvers, ANearbyMatrixIsCorrectedByAFewProducts)
   EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
 }
 
-// Matrices whose solution is none, or one whose states rest on rounding, give way to others that have one, and to no others. Where
-// nothing has converged faces begin by themselves.
+// A load step begins with the states at the end of the last one; where these lead nowhere it begins anew.
+TEST(Solvers, ADirectSolutionBeginsWithTheStatesBefore)
+{
+  for (const bool lead_on : {true, false}) {
+    Setting setting;
+    int anew = 0, on = 0;
+    setting.means.make_explicit = [&] {
+      const auto matrices = std::make_shared<DenseProgramme>(setting.programme);
+      ExplicitProgramme programme{matrices, [&anew, matrices] { return ++anew, matrices->solve(); }};
+      programme.go_on = [&, matrices](const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Point& near) {
+        ++on;
+        auto found = matrices->solve(b, e, &near);
+        EXPECT_TRUE(found.converged);
+        found.converged = lead_on;
+        return found;
+      };
+      return programme;
+    };
+    const auto solver = setting.make(solver_kind("direct"));
+    Goal goal{1e-10};
+    std::optional<Solution> start;
+    solver->begin(start, goal, {});
+    EXPECT_EQ(on, 0);
+    start = solver->solve(start, goal, {});
+    setting.programme.b.scale(1.1);
+    solver->begin(start, goal, {});
+    EXPECT_EQ(on, 1);
+    EXPECT_EQ(anew, lead_on ? 1 : 2);
+    const auto expected = DenseProgramme(setting.programme).solve();
+    EXPECT_LT((gathered(start->x, world()) - gathered(expected.x, world())).norm(), 1e-8 * gathered(expected.x, world()).norm());
+    EXPECT_TRUE(solver->solve(start, goal, {}).converged);
+  }
+}
+
+// Matrices whose solution is none, or one whose states rest on rounding, give way to others that have one, and to no others.
+// Where nothing has converged faces begin by themselves.
 TEST(Solvers, OtherMatricesFollowThoseThatFail)
 {
   struct Outcome {

@@ -65,6 +65,9 @@ class DualProblem {
   const ElasticRows* springs() const { return springs_.get(); }                          ///< null if there are none
   const std::vector<NodeRows>& node_rows() const { return node_rows_; }  ///< one for each contact node of this rank
 
+  /// c of B u = c: the bounds of the jumps, and the shortenings that are given.
+  Eigen::VectorXd bound() const;
+
   /// What the rows of B come from, in mesh numbering.
   const constraint::Constraints& constraints() const { return constraints_; }
   /// f of each subdomain.

@@ -28,8 +28,8 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   using Point = qp::ExplicitProgramme::Point;
   /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Collective.
   Point solve() const { return solve(problem_.linear(), problem_.equality().right_side()); }
-  /// The same for another linear term d and another e, the latter the same on every rank. `near`: a solution for others that
-  /// differ by little, to go on from. Collective.
+  /// The same for another linear term d and another e, the latter the same on every rank. `near`: the solution of a problem
+  /// before, with its reaction, to go on from; nothing else is tried. Collective.
   Point solve(const Vector& linear, Eigen::VectorXd e, const Point* near = nullptr) const;
   /// Whether the matrices differ from F by a little: where rows depend on each other they have some compliance that F has not,
   /// and where supports are eliminated the rounding of other factors. The same on every rank.

@@ -42,8 +42,8 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Throws as qp::SparseNewton.
   /// Collective.
   Point solve() const;
-  /// The same for another linear term d and another e, that differ by little: from the last solution on, whose lambda is given.
-  /// Collective.
+  /// The same for another linear term d and another e, from the last solution on, whose lambda is given; nothing else is tried.
+  /// The first solution of all comes from anywhere. Collective.
   Point go_on(const Vector& linear, const Eigen::VectorXd& e, const Vector& near) const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }

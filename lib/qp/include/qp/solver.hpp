@@ -36,7 +36,7 @@ struct ExplicitProgramme {
     Vector x;
     Eigen::VectorXd nu;
     bool converged = false;  ///< exact to rounding; else the last guess
-    /// A x - b + G'nu by the matrix, zero where there is no constraint; there if go_on() is.
+    /// A x - b + G'nu by the matrix, zero where there is no constraint; there if go_on() can start from it.
     std::optional<Vector> reaction = {};
     bool settled = true;  ///< if it converged: no state of a constraint rests on rounding
     bool slides = false;  ///< if it did not converge: see Solution::slides
@@ -45,9 +45,10 @@ struct ExplicitProgramme {
   /// Solves with the linear term, right-hand side and set that the programme has by now; radii of discs with a coefficient follow
   /// their normal unknown. Collective.
   std::function<Point()> solve;
-  /// Where the matrix differs from A by a little: the same for another linear term and right-hand side that differ by little from
-  /// those of a solution `near`, from which it goes on. Else empty. Collective.
+  /// The same for any linear term and right-hand side, from the states of constraints at `near`, the solution of a problem
+  /// before; nothing else is tried. Empty if it cannot. Collective.
   std::function<Point(const Vector& b, const Eigen::VectorXd& e, const Point& near)> go_on = {};
+  bool differs = false;  ///< whether the matrix differs from A by a little, so that go_on() has to correct solutions
   /// Other matrices, for where a solution with these does not converge or settle. Else empty. Collective.
   std::function<ExplicitProgramme()> instead = {};
 };

@@ -30,7 +30,7 @@ class SparseNewton {
 
   /// Point::nu is u, Point::reaction s, of all rows. `set` over the rows of B; rows that are in none of its factors are equations.
   /// Throws Error(interrupted) if the process is told to end, and Error(machine) if memory runs out.
-  /// `near`: a solution for others that differ by little, from whose states guesses go on; nothing else is tried then.
+  /// `near`: the solution of a problem before, with its reaction, from whose states guesses go on; nothing else is tried then.
   CondensedNewton::Point solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const FeasibleSet& set,
                                const CondensedNewton::Point* near = nullptr) const;
 
