@@ -145,23 +145,23 @@ class Builder {
   bool own(std::size_t place) const { return share_.own[static_cast<std::size_t>(surface_node(place).node)] != 0; }
   bool at_nearest_place(std::size_t p) const { return !nearest_.empty() && !faces_.is_corner(p) && nearest_[p].found; }
   bool bonded() const { return options_.law == Law::bonded; }
+  bool ends_together() const { return options_.preload || options_.cyclic || options_.obstacle; }
 
   std::optional<BondedNodes> bonded_nodes()
   {
     if (!bonded()) return {};
     BondedNodes known;
-    const bool end_together = options_.preload || options_.cyclic || options_.obstacle;
     const auto unbonded = [&](Local node) {
       return std::binary_search(unbonded_nodes_.begin(), unbonded_nodes_.end(),
                                 UnbondedNode{secondary_.node_id[static_cast<std::size_t>(node)]},
                                 [](const UnbondedNode& a, const UnbondedNode& b) { return a.node < b.node; });
     };
     for (std::size_t p = 0; p < nodes_.all.size(); ++p) {
-      const bool met = end_together || rays_.meets(p);
-      if (!end_together) known.met.push_back(met);
+      const bool met = ends_together() || rays_.meets(p);
+      if (!ends_together()) known.met.push_back(met);
       known.seam_ends.push_back(met && discretization_->seams_end_at_contacts() && unbonded(nodes_.all[p].node));
     }
-    known.primary_held = end_together ? std::vector<char>(nodes_.all.size(), 1) : held_.hold_along_normals(faces_);
+    known.primary_held = ends_together() ? std::vector<char>(nodes_.all.size(), 1) : held_.hold_along_normals(faces_);
     return known;
   }
 
@@ -199,8 +199,9 @@ class Builder {
     constraint::ContactNode point{
         index_, secondary_.node_id[static_cast<std::size_t>(node_here.node)], d, normal, {}, contacts.rows.size()};
     if (bonded() && !options_.preload) conflicts_.note_tear(terms_, d, normal);
-    const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
-    Few<Point, 2> held;                                         // tangents along which supports hold both
+    const bool fixed = !writer_.moves(terms_, d, normal);  // on both sides
+    const bool prescribed = fixed || (!bonded() && !ends_together() && held_on_both_sides(p, at, normal));
+    Few<Point, 2> held;  // tangents along which supports hold both
     if (!prescribed && options_.law != Law::frictionless) {
       for (const auto& tangent : tangents(p, normal))
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
@@ -228,7 +229,7 @@ class Builder {
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d * weight, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
-      conflicts_.note_crossing(terms_, d, normal, point.gap, chosen_.directions[p], prescribed && chosen_.stranded[p]);
+      conflicts_.note_crossing(terms_, d, normal, point.gap, chosen_.directions[p], fixed && chosen_.stranded[p]);
     if (prescribed) return;
     if (axisymmetric_) {  // rings do not turn
       writer_.add(terms_, d, normal, point.gap, contacts);
@@ -246,6 +247,18 @@ class Builder {
     between_->note(point, points_.means_field(p), terms_, d, secondary_, primary_);
     contacts.nodes.push_back(std::move(point));
     contacts.bonded.push_back(bonded());
+  }
+
+  // Whether supports hold both sides along the normal at a place, as at the edge of a plane in which both end. Functions see a
+  // little of the nodes beside, which alone would have to make up for all that overlaps there.
+  bool held_on_both_sides(std::size_t p, const Point& at, const Point& normal) const
+  {
+    if (supports_.empty() || primary_supports_.empty()) return false;
+    constexpr double hardly = 0.1, half = 0.5;
+    if (writer_.freedom(terms_, false, normal) > half) return false;
+    const auto met = rays_.met_from(faces_.surface_node(p), at, normal);
+    return std::isfinite(met.gap) ? held_.freedom(met, normal) < hardly
+                                  : writer_.freedom(terms_, true, normal) < half;  // past the border by its functions
   }
 
   // The tangents of a row's direction: those that supports leave, and where the primary side moves past what they hold, these as

@@ -16,6 +16,18 @@ bool OppositeSupports::hold(const Opposite& opposite, const Point& direction) co
   return true;
 }
 
+double OppositeSupports::freedom(const Opposite& opposite, const Point& direction) const
+{
+  const auto nodes = primary_.facets[opposite.facet];
+  double free = 0, all = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
+    free += part * supports_.freedom(primary_.node_id[static_cast<std::size_t>(nodes[k])], direction, dimension_);
+    all += part;
+  }
+  return free / all;
+}
+
 std::vector<char> OppositeSupports::hold_along_normals(CutFaces& faces) const
 {
   std::vector<char> result;

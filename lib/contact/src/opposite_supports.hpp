@@ -20,6 +20,8 @@ class OppositeSupports {
 
   /// Whether supports hold what a line meets, along a direction; true where it meets nothing.
   bool hold(const Opposite& opposite, const Point& direction) const;
+  /// The length of what they leave free there of a unit vector.
+  double freedom(const Opposite& opposite, const Point& direction) const;
 
   /// Of each surface node whether they do along its normal where its multipliers stand: at the node, or, past the border of the
   /// primary side, at the points inside to which the functions of faces that it covers in part belong; of several points all.

@@ -25,9 +25,8 @@ const std::vector<RowWriter::Coefficient>& RowWriter::coefficients(std::span<con
 
 void merge_terms(std::vector<Term>& terms)
 {
-  std::stable_sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) {
-    return std::tie(a.on_primary, a.node) < std::tie(b.on_primary, b.node);
-  });
+  std::stable_sort(terms.begin(), terms.end(),
+                   [](const Term& a, const Term& b) { return std::tie(a.on_primary, a.node) < std::tie(b.on_primary, b.node); });
   std::size_t end = 0;
   for (const auto& term : terms) {
     if (end > 0 && terms[end - 1].on_primary == term.on_primary && terms[end - 1].node == term.node)
@@ -89,6 +88,18 @@ double RowWriter::part_that_moves(std::span<const Term> terms, double d, const P
   for (const auto& c : coefficients(terms, d, axis))
     if (!c.prescribed) free += c.value * c.value;
   return std::sqrt(free / all);
+}
+
+double RowWriter::freedom(std::span<const Term> terms, bool on_primary, const Point& axis) const
+{
+  double free = 0, all = 0;
+  for (const auto& term : terms) {
+    if (term.on_primary != on_primary) continue;
+    const auto& supports = on_primary ? primary_supports_ : supports_;
+    free += std::abs(term.value) * supports.freedom(node_of(term), axis_of(term, axis), dimension_);
+    all += std::abs(term.value);
+  }
+  return all > 0 ? free / all : 1;
 }
 
 Eigen::Matrix3d RowWriter::free_part(const Term& term) const

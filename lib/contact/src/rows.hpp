@@ -34,6 +34,9 @@ class RowWriter {
   bool moves(std::span<const Term> terms, double d, const Point& axis);
   /// What supports leave of the row, as part of it, in the norms of the coefficients.
   double part_that_moves(std::span<const Term> terms, double d, const Point& axis);
+  /// What they leave free of an axis, as part of it: the mean over the nodes of one side, weighted with what the row takes of
+  /// them.
+  double freedom(std::span<const Term> terms, bool on_primary, const Point& axis) const;
   /// Leaves those of the tangents of `normal` (or the one direction between two) along which more than `held_but_for` of the
   /// terms can move, what the row along the normal feels aside. A point near a plane of symmetry that both sides have has a row
   /// across it that is nearly a combination of its others: no friction acts there.

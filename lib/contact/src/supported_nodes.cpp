@@ -57,6 +57,15 @@ bool SupportedNodes::holds(Global node, const Point& direction, int dimension) c
   return std::any_of(skew.begin(), skew.end(), [&](const auto& i) { return std::abs(direction.dot(along(i))) > none; });
 }
 
+double SupportedNodes::freedom(Global node, const Point& direction, int dimension) const
+{
+  Point free = direction;
+  for (const auto& i : skew_supports(node)) free -= free.dot(along(i)) * along(i);
+  for (int c = 0; c < dimension; ++c)
+    if (find(node, c)) free[c] = 0;
+  return free.norm();
+}
+
 Point along(const constraint::SkewSupport& skew_supports)
 {
   return {skew_supports.direction[0], skew_supports.direction[1], skew_supports.direction[2]};

@@ -37,6 +37,8 @@ class SupportedNodes {
   std::span<const constraint::SkewSupport> skew_supports(Global node) const;
   /// Whether any of them has a part along a direction.
   bool holds(Global node, const Point& direction, int dimension) const;
+  /// The length of what they leave free of a unit vector there.
+  double freedom(Global node, const Point& direction, int dimension) const;
 
  private:
   std::vector<constraint::PrescribedDof> prescribed_;
