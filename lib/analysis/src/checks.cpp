@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "model/crossed_bodies.hpp"
+#include "model/doubled_nodes.hpp"
 #include "model/patterns.hpp"
 #include "post/deformation.hpp"
 #include "post/model_checks.hpp"
@@ -218,6 +219,28 @@ std::vector<Warning> coarser_than_asked(const model::Model& model, const Communi
   return {w};
 }
 
+// Faces of one body that lie on each other without a common node: a seam that was to be merged, or a crack.
+std::vector<Warning> open_seams(const model::Model& model, const Communicator& comm)
+{
+  const auto doubled = model::doubled_nodes(model, comm);
+  if (doubled.empty()) return {};
+  const auto& worst = doubled.front();
+  const auto& body = model.decomposition().catalogue.bodies[static_cast<std::size_t>(worst.body)].name;
+  const std::string others = doubled.size() > 2    ? fmt::format("; {} more bodies have some", doubled.size() - 1)
+                             : doubled.size() == 2 ? "; another body has some"
+                                                   : "";
+  Warning w{
+      "doubled_nodes",
+      fmt::format("body \"{}\" has {} nodes twice at the same place, as at ({:.5g}, {:.5g}, {:.5g}): its faces there are not "
+                  "connected{}",
+                  body, worst.nodes, worst.at[0], worst.at[1], worst.at[2], others),
+      "merge the nodes in the mesher, or bond the two faces; name them in a contact if they are to be a crack"};
+  w.at = worst.at;
+  w.body = body;
+  w.value = static_cast<double>(worst.nodes);
+  return {std::move(w)};
+}
+
 // Nodes that a file of temperatures does not reach have what is found nearest to it, or a straight line goes on to them.
 std::vector<Warning> uncovered_temperatures(const model::Model& model, const Communicator& comm)
 {
@@ -258,6 +281,7 @@ std::vector<Warning> check_model(const model::Model& model, const Rows& rows, co
   append(result, post::mixed_units(materials, applied_stresses(model, rows.acts, comm)));
   append(result, post::doubled_contacts(rows.pairs, comm));
   append(result, coarser_than_asked(model, comm));
+  append(result, open_seams(model, comm));
   append(result, uncovered_temperatures(model, comm));
   return result;
 }

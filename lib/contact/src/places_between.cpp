@@ -4,6 +4,7 @@
 #include <map>
 
 #include "by_node.hpp"
+#include "covered_basis.hpp"
 
 namespace mortise::contact {
 

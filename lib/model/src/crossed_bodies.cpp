@@ -3,11 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "contact/interpenetration.hpp"
-#include "model/patterns.hpp"
+#include "contact_sides.hpp"
 #include "partition/skin.hpp"
 
 namespace mortise::model {
@@ -39,54 +38,8 @@ double displace(mesh::Surface& skin, const partition::Decomposition& decompositi
   return longest;
 }
 
-// The faces on the two sides of each contact, and those round them: where the sides stand in each other by next to nothing, as
-// where bodies turn, the nearest face may be one across their edges. Collective.
-contact::ContactSides sides_of_contacts(const std::vector<contact::Options>& contacts, const mesh::Surface& skin,
-                                        const partition::Decomposition& decomposition, const Communicator& comm)
-{
-  const auto& catalogue = decomposition.catalogue;
-  std::map<int, std::vector<std::pair<std::string, int>>> sides;  // boundary: body's name, if any, and side
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (contacts[c].obstacle || contacts[c].cyclic) continue;
-    int side = 2 * static_cast<int>(c);
-    for (const auto& name : {contacts[c].secondary, contacts[c].primary}) {
-      const auto [boundary, body] = parse_boundary(name);
-      const auto found = std::find(catalogue.boundaries.begin(), catalogue.boundaries.end(), boundary);
-      sides[static_cast<int>(found - catalogue.boundaries.begin())].emplace_back(body, side++);
-    }
-  }
-  struct Of {
-    Global number;  // of a face or a node
-    int side, body;
-  };
-  std::vector<Of> mine, nodes;
-  for (const auto& subdomain : decomposition.subdomains) {
-    const auto& facets = subdomain.mesh.facets;
-    for (std::size_t f = 0; f < facets.boundary.size(); ++f)
-      if (const auto found = sides.find(facets.boundary[f]); found != sides.end())
-        for (const auto& [body, side] : found->second)
-          if (body.empty() || matches_name(catalogue.bodies[static_cast<std::size_t>(subdomain.body)], body)) {
-            mine.push_back({partition::face_number(subdomain.mesh, f), side, subdomain.body});
-            for (const Local n : facets.cells[f])
-              nodes.push_back({subdomain.mesh.node_id[static_cast<std::size_t>(n)], side, subdomain.body});
-          }
-  }
-  std::map<Global, std::set<std::pair<int, int>>> sides_at;  // of nodes: body and side
-  for (const auto& [node, side, body] : comm.all_gather(nodes)) sides_at[node].emplace(body, side);
-  for (std::size_t f = 0; f < skin.faces.size(); ++f)
-    for (const Local n : skin.faces[f])
-      if (const auto found = sides_at.find(skin.node_id[static_cast<std::size_t>(n)]); found != sides_at.end())
-        for (const auto& [body, side] : found->second)
-          if (body == skin.body[f]) mine.push_back({skin.face_id[f], side, body});
-  contact::ContactSides known;
-  for (const auto& [face, side, body] : comm.all_gather(mine)) {
-    auto& of_face = known.of_face[face];
-    if (std::find(of_face.begin(), of_face.end(), side) == of_face.end()) of_face.push_back(side);
-  }
-  return known;
-}
-
-// Of the places of one body in another, the same on every rank, the deepest: of those that are deep alike the one in their middle.
+// Of the places of one body in another, the same on every rank, the deepest: of those that are deep alike the one in their
+// middle.
 Point deepest_place(const std::vector<contact::Interpenetration>& places, double depth)
 {
   constexpr double alike = 0.99, nearer = 1e-6;
@@ -118,7 +71,7 @@ std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<
   const double longest = comm.max(displace(deformed, decomposition, displacement, fem::dimension(deck.kinematics)));
   // What moves by more than the model's size is told as such.
   if (!(longest > 0) || !(longest < comm.max(box.isEmpty() ? 0.0 : box.diagonal().norm()))) return {};
-  const auto sides = [&] { return sides_of_contacts(model.contacts().options, skin, decomposition, comm); };
+  const auto sides = [&] { return sides_of_contacts(model, &skin, comm); };
   // Two bodies come nearer by twice the longest displacement.
   std::map<contact::Bodies, std::vector<contact::Interpenetration>> of_bodies;
   for (const auto& place : contact::find_interpenetrations(skin, deformed, bodies, sides, {crossed * longest, 2 * longest},
