@@ -126,27 +126,43 @@ std::vector<Warning> short_searches(const Rows& rows, const post::Results& resul
   return result;
 }
 
+// Of one body with itself, or of two: the deepest one, and how many others there are.
+Warning crossing_of(const model::CrossedBodies& worst, std::size_t count, const std::vector<std::string>& names)
+{
+  const auto& name = names[static_cast<std::size_t>(worst.bodies.first)];
+  const std::string place = fmt::format("{:.3g} at ({:.5g}, {:.5g}, {:.5g}): no contact there was found or named", worst.depth,
+                                        worst.at[0], worst.at[1], worst.at[2]);
+  const auto others = [&](const char* one, const char* more) {
+    return count > 2 ? fmt::format("; {} more {} do", count - 1, more) : count == 2 ? fmt::format("; another {} does", one) : "";
+  };
+  Warning w;
+  if (worst.bodies.first == worst.bodies.second)
+    w = {"self_crossing",
+         fmt::format("faces of body \"{}\" pass through each other by {}{}", name, place, others("body", "bodies")),
+         "name the two faces that meet as the sides of a contact"};
+  else
+    w = {"crossed_bodies",
+         fmt::format("bodies \"{}\" and \"{}\" stand in each other by {}{}", name,
+                     names[static_cast<std::size_t>(worst.bodies.second)], place, others("pair", "pairs")),
+         "name the faces that meet in a contact, or give the entry `auto` a larger search_distance"};
+  w.at = worst.at;
+  w.body = name;
+  w.value = worst.depth;
+  return w;
+}
+
 // `contacts: auto` looks as far as it is told, and not at what moves farther; a named contact looks at its faces.
 std::vector<Warning> crossings(const model::Model& model, const std::vector<Eigen::VectorXd>& displacement,
                                const std::vector<std::string>& names, const Communicator& comm)
 {
-  const auto crossed = model::crossed_bodies(model, displacement, comm);
-  if (crossed.empty()) return {};
-  const auto& worst = crossed.front();
-  const auto& [a, b] = worst.bodies;
-  const std::string others = crossed.size() > 2    ? fmt::format("; {} more pairs do", crossed.size() - 1)
-                             : crossed.size() == 2 ? "; another pair does"
-                                                   : "";
-  Warning w{"crossed_bodies",
-            fmt::format("bodies \"{}\" and \"{}\" stand in each other by {:.3g} at ({:.5g}, {:.5g}, {:.5g}): no contact there "
-                        "was found or named{}",
-                        names[static_cast<std::size_t>(a)], names[static_cast<std::size_t>(b)], worst.depth, worst.at[0],
-                        worst.at[1], worst.at[2], others),
-            "name the faces that meet in a contact, or give the entry `auto` a larger search_distance"};
-  w.at = worst.at;
-  w.body = names[static_cast<std::size_t>(a)];
-  w.value = worst.depth;
-  return {std::move(w)};
+  auto crossed = model::crossed_bodies(model, displacement, comm);
+  const auto selves =
+      std::stable_partition(crossed.begin(), crossed.end(), [](const auto& c) { return c.bodies.first != c.bodies.second; });
+  std::vector<Warning> result;
+  if (selves != crossed.begin())
+    result.push_back(crossing_of(crossed.front(), static_cast<std::size_t>(selves - crossed.begin()), names));
+  if (selves != crossed.end()) result.push_back(crossing_of(*selves, static_cast<std::size_t>(crossed.end() - selves), names));
+  return result;
 }
 
 void append(std::vector<Warning>& all, std::vector<Warning> more)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/interpenetration.hpp"
+#include "contact/self_crossing.hpp"
 #include "contact_sides.hpp"
 #include "partition/skin.hpp"
 
@@ -63,7 +64,6 @@ std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<
   const auto& deck = model.deck();
   const auto& decomposition = model.decomposition();
   const auto bodies = static_cast<int>(decomposition.catalogue.bodies.size());
-  if (bodies < 2) return {};
   const auto skin = partition::outer_surface(decomposition, comm);
   Eigen::AlignedBox3d box;
   for (const auto& x : skin.points) box.extend(x);
@@ -74,11 +74,15 @@ std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<
   const auto sides = [&] { return sides_of_contacts(model, &skin, comm); };
   // Two bodies come nearer by twice the longest displacement.
   std::map<contact::Bodies, std::vector<contact::Interpenetration>> of_bodies;
-  for (const auto& place : contact::find_interpenetrations(skin, deformed, bodies, sides, {crossed * longest, 2 * longest},
-                                                           deck.kinematics, comm))
-    of_bodies[std::minmax(place.body, place.other)].push_back(place);
-  for (const auto& place : contact::find_enclosed_bodies(skin, deformed, bodies, sides, deck.kinematics, comm))
-    of_bodies.try_emplace(std::minmax(place.body, place.other), 1, place);
+  if (bodies > 1) {
+    for (const auto& place :
+         contact::find_interpenetrations(skin, deformed, bodies, sides, {crossed * longest, 2 * longest}, deck.kinematics, comm))
+      of_bodies[std::minmax(place.body, place.other)].push_back(place);
+    for (const auto& place : contact::find_enclosed_bodies(skin, deformed, bodies, sides, deck.kinematics, comm))
+      of_bodies.try_emplace(std::minmax(place.body, place.other), 1, place);
+  }
+  for (const auto& place : contact::find_self_crossings(skin, deformed, sides, crossed, deck.kinematics, comm))
+    of_bodies[{place.body, place.body}].push_back(place);
   std::vector<CrossedBodies> result;
   for (auto& [two, their] : of_bodies) {
     double depth = 0;
