@@ -42,7 +42,8 @@ constexpr int stuck_on_path = 12;                // the last of so many must hav
 constexpr double path_near = 1e-3;               // residual over x from which on guesses are tried from the path,
 constexpr double path_nearer = 0.1;              // and of what it was then, to try again
 constexpr Eigen::Index few_unknowns = 2000;      // up to which a factor of W takes a moment; beyond, as long as many guesses,
-constexpr int guesses_of_path = 100;             // and a path of them as long as so many; then all that is tried with small ones
+constexpr int guesses_of_path = 60;              // and a path of them as long as so many
+constexpr double soft_for_large_ones = 1e4;      // beyond, these take fewer steps along a path than strides to hardness
 constexpr double most_operations = 3e12;         // of factors that a last search may take
 constexpr Eigen::Index very_few_unknowns = 800;  // up to which steps of other lengths are tried: hundreds of guesses
 constexpr int patience_with_radii = 6;           // radii in a row without a residual that is so much,
@@ -86,10 +87,11 @@ bool StateSearch::from_anywhere()
   if (guess(look_back_at_first)) return true;
   if (programme_.unknowns() == 0 || slides()) return false;
   const bool small = programme_.unknowns() <= few_unknowns, very_small = programme_.unknowns() <= very_few_unknowns;
-  if (harden(small ? 0 : guesses_of_path)) return true;
+  const bool near_enough = small || softest_ <= soft_for_large_ones;
+  if (near_enough && harden(small ? INT_MAX : guesses_of_path, 1)) return true;
   if (point_.slides) return false;
   if (follow_path() || (small && repeat_paths()) || (very_small && change_steps())) return true;
-  return harden(small ? affordable_guesses() : guesses_of_path);
+  return harden(small ? affordable_guesses() : guesses_of_path, INT_MAX);
 }
 
 bool StateSearch::from(VectorXd x, VectorXd nu, const VectorXd& reaction)
@@ -216,9 +218,9 @@ bool StateSearch::slides()
   return point_.slides;
 }
 
-// Guesses from a soft contact on, which becomes harder as fast as they converge. Where they do not, it becomes harder slower, for
-// as many guesses as `patience` says; the next call goes on from there.
-bool StateSearch::harden(int patience)
+// Guesses from a soft contact on, which becomes harder as fast as they converge, and slower where they do not; until they are
+// `guesses`, or have not converged `failures` times. The next call goes on from there.
+bool StateSearch::harden(int guesses, int failures)
 {
   if (!soft_) {
     states_ = programme_.all_closed();
@@ -228,8 +230,7 @@ bool StateSearch::harden(int patience)
     soft_ = Soft{softest_, stride, states_, point_.nu};
   }
   auto& [softness, part, states, nu] = *soft_;
-  int left = INT_MAX;  // guesses
-  while (softness > 0 && left > 0) {
+  while (softness > 0 && guesses > 0 && failures > 0) {
     const double next = softness * part > hardest ? softness * part : 0;
     const int before = point_.steps;
     states_ = states;
@@ -242,8 +243,8 @@ bool StateSearch::harden(int patience)
       if (guess(to_the_end)) return true;
       if (slides()) return false;
     }
-    if (!converged) left = std::min(left, patience);
-    if (left < INT_MAX) left -= taken;
+    guesses -= taken;
+    failures -= !converged;
     if (!converged && slowest && next == 0) break;
     if (!converged && !slowest) {
       part = std::sqrt(part);

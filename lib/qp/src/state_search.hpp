@@ -37,7 +37,7 @@ class StateSearch {
   int affordable_guesses() const;
   bool runs_away(const Eigen::VectorXd& step, const Eigen::VectorXd& last_step) const;
   bool slides();
-  bool harden(int patience);
+  bool harden(int guesses, int failures);
   bool follow_path();
   bool repeat_paths();
   bool change_steps();
