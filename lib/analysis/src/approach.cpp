@@ -15,8 +15,9 @@ namespace mortise::analysis {
 namespace {
 
 constexpr int products_of_check = 600;      // that a direct solution is one, or a start that A^-1 leads on from
-constexpr int products_on_large_ones = 80;  // on subdomains that are so many times as large as usual
+constexpr int products_on_large_ones = 80;  // on subdomains that are so many times as large as usual,
 constexpr int large = 4;
+constexpr int products_on_smaller_ones = 60;  // and then on smaller ones, at least
 
 int usual_unknowns(const model::Deck& deck)
 {
@@ -71,9 +72,14 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
     approach.patience = products_of_check;
   else if (approach.algorithm == "auto") {
     approach.patience = patience_with_products(effort(), comm);
-    // All that comes before a direct solution together may cost as much as that.
-    if (approach.kind == Approach::Kind::smaller_subdomains && approach.patience)
-      approach.patience->products = std::max(approach.patience->products - approach.spent, products_on_large_ones);
+    // All that comes before a direct solution together may cost as much as that, and little more. How near the end is, is known
+    // where a residual tells.
+    if (approach.kind == Approach::Kind::smaller_subdomains && approach.patience) {
+      auto& [products, near] = *approach.patience;
+      products -= approach.spent;
+      if (products < products_on_smaller_ones && !assembly.deck().solver.programme.tolerance.value) near = 0;
+      products = std::max(products, products_on_smaller_ones);
+    }
     if (approach.kind == Approach::Kind::as_asked && approach.patience.value_or(INT_MAX).products > products_on_large_ones &&
         has_large_subdomains(assembly, comm)) {
       approach.patience = products_on_large_ones;
