@@ -196,11 +196,13 @@ std::vector<Warning> uneven_clearances(std::span<const contact::InitialGap> gaps
     if (!contacts[c].clearance || !(gap.area > 0) || !(spread > limit)) continue;
     Warning warning{
         "uneven_clearance",
-        fmt::format("contact {}: `clearance` makes a gap of {:.3g} of gaps of {:.3g} to {:.3g}, which is at ({:.5g}, {:.5g}, {:.5g}): "
-                    "that is more than the meshes can be wrong, and what lies there is pressed like the rest",
-                    contacts[c].name, *contacts[c].clearance, gap.mesh_smallest, gap.mesh_largest, gap.mesh_largest_at[0],
-                    gap.mesh_largest_at[1], gap.mesh_largest_at[2]),
-        "name the faces that fit alone, without chamfers and reliefs; or `adjust` in place of `clearance`, which leaves larger gaps"};
+        fmt::format(
+            "contact {}: `clearance` makes a gap of {:.3g} of gaps of {:.3g} to {:.3g}, which is at ({:.5g}, {:.5g}, {:.5g}): "
+            "that is more than the meshes can be wrong, and what lies there is pressed like the rest",
+            contacts[c].name, *contacts[c].clearance, gap.mesh_smallest, gap.mesh_largest, gap.mesh_largest_at[0],
+            gap.mesh_largest_at[1], gap.mesh_largest_at[2]),
+        "name the faces that fit alone, without chamfers and reliefs; or `adjust` in place of `clearance`, which leaves larger "
+        "gaps"};
     warning.at = Point(gap.mesh_largest_at.data());
     warning.contact = contacts[c].name;
     warning.value = spread;
@@ -215,19 +217,27 @@ std::vector<Warning> bonded_gaps(std::span<const contact::InitialGap> gaps, std:
   std::vector<Warning> result;
   for (std::size_t c = 0; c < gaps.size(); ++c) {
     const auto& gap = gaps[c];
-    const double limit = bonded_apart * gap.face;
     if (contacts[c].law != contact::Law::bonded || contacts[c].preload || contacts[c].cyclic || !(gap.area > 0)) continue;
-    if (!(gap.mesh_smallest > limit)) continue;
-    Warning warning{"bonded_gap",
-                    fmt::format("contact {} bonds sides that touch nowhere: they are {:.3g} to {:.3g} apart, which is at ({:.5g}, "
-                                "{:.5g}, {:.5g}), and move as if there were something between them",
-                                contacts[c].name, gap.mesh_smallest, gap.mesh_largest, gap.mesh_largest_at[0],
-                                gap.mesh_largest_at[1], gap.mesh_largest_at[2]),
-                    fmt::format("if they are to be apart: a `search_distance` below {:.3g}, or name the pairs that are bonded",
-                                gap.mesh_smallest)};
+    const bool nowhere = gap.mesh_smallest > bonded_apart * gap.face;  // they touch
+    const double apart = nowhere ? gap.mesh_smallest : gap.mesh_largest;
+    const double limit = (nowhere ? bonded_apart : part_of_longest_face) * gap.face;
+    if (!(apart > limit)) continue;
+    const auto where =
+        fmt::format("at ({:.5g}, {:.5g}, {:.5g})", gap.mesh_largest_at[0], gap.mesh_largest_at[1], gap.mesh_largest_at[2]);
+    Warning warning{
+        "bonded_gap",
+        nowhere
+            ? fmt::format("contact {} bonds sides that touch nowhere: they are {:.3g} to {:.3g} apart, which is {}, and move as "
+                          "if there were something between them",
+                          contacts[c].name, gap.mesh_smallest, gap.mesh_largest, where)
+            : fmt::format("contact {} bonds what touches, and what is up to {:.3g} apart besides, which is {}: that is more than "
+                          "the meshes can be wrong, and moves as if there were something between",
+                          contacts[c].name, gap.mesh_largest, where),
+        fmt::format("if {} to be apart: a `search_distance` below {:.3g}, or name the {} that are bonded",
+                    nowhere ? "they are" : "that is", apart, nowhere ? "pairs" : "faces")};
     warning.at = Point(gap.mesh_largest_at.data());
     warning.contact = contacts[c].name;
-    warning.value = gap.mesh_smallest;
+    warning.value = apart;
     warning.limit = limit;
     result.push_back(std::move(warning));
   }

@@ -188,7 +188,7 @@ TEST(ModelChecks, ClearancesThatCloseMoreThanErrorsOfMeshes)
   EXPECT_TRUE(uneven_clearances(std::vector{uneven}, std::vector{plain}).empty());
 }
 
-// A bond across a gap of a tenth of a face; where it touches somewhere the mesh may be to blame.
+// A bond across a gap of a tenth of a face; where it touches somewhere the mesh may be to blame, though not for half a face.
 TEST(ModelChecks, BondsBetweenSidesThatTouchNowhere)
 {
   contact::Options bond;
@@ -205,6 +205,12 @@ TEST(ModelChecks, BondsBetweenSidesThatTouchNowhere)
   EXPECT_EQ(found[0].value, 0.2);
   EXPECT_EQ(found[0].limit, 0.04);
   EXPECT_EQ(found[0].contact, "glue");
+  contact::note_gap(touching, 0, 1, false, 1, Point(7, 8, 9));
+  const auto beyond = bonded_gaps(std::vector{touching}, std::vector{bond});
+  ASSERT_EQ(beyond.size(), 1U);
+  EXPECT_EQ(beyond[0].value, 1);
+  EXPECT_EQ(beyond[0].limit, 0.5);
+  EXPECT_EQ(beyond[0].at, Point(7, 8, 9));
   auto bolt = bond;
   bolt.preload.emplace();
   auto open = bond;
