@@ -130,7 +130,8 @@ std::vector<double> sum_areas(CutFaces& faces, std::vector<double>& covered)
 }  // namespace
 
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
-                                  const SupportedNodes& supports, const std::optional<BondedNodes>& bond, int dimension)
+                                  const SupportedNodes& supports, const std::vector<char>& primary_held,
+                                  const std::optional<BondedNodes>& bond, int dimension)
 {
   const auto count = faces.places();
   ContactNodes nodes;
@@ -144,13 +145,13 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
                                          supports.find(node, 2) != nullptr};
     nodes.directions.push_back(directions(surface_node.normal, prescribed, supports.skew_supports(node), dimension));
   }
-  // Surface nodes prescribed along their normal keep their rows in a contact: the primary side alone feels them (rows that it
-  // does not feel either, as of an obstacle, are dropped). If their neighbours took over their share, these would see what moves
-  // along a curved surface there as an overlap. In a bond they would, where the primary side is held as well, hold the mean of
-  // what it meets once more, and leave their share to the others of the face, as those at a seam's end do; where a face has no
-  // others, as on a surface that a support moves as a whole, they stay.
-  // Past the primary side's border they stay only where the others do not hold what is covered: what they see is the primary side
-  // alone, which they would hold to what the few nodes that move leave of the face, as stiffly as that.
+  // Surface nodes prescribed along their normal keep their rows where the primary side can move: it alone feels them. Where it is
+  // held as well they leave their share to the others of the face, as those at a seam's end do: a function sees a little of the
+  // nodes beside the held ones, which alone would answer for all that it presses, and a bond would hold the mean of what it meets
+  // once more. Where a face has no others, as on a surface that a support moves as a whole, they stay; rows in which nothing
+  // moves, as those of an obstacle, are dropped.
+  // Past the primary side's border those of a bond stay only where the others do not hold what is covered: what they see is the
+  // primary side alone, which they would hold to what the few nodes that move leave of the face, as stiffly as that.
   std::vector<char> others_hold;
   if (bond && !bond->met.empty()) {
     std::vector<char> aside(surface_nodes.all.size(), 0);
@@ -163,19 +164,21 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   }
   const auto needed = [&](std::size_t place) {
     const auto p = faces.surface_node(place);
-    return !bond || (!bond->primary_held[p] && (others_hold.empty() || !others_hold[p]));
+    return !primary_held[p] && (others_hold.empty() || !others_hold[p]);
   };
   const auto left_out = [&](std::size_t p) {
-    return (!nodes.directions[p].free_normal && (!bond || !needed(p))) || (bond && bond->seam_ends[faces.surface_node(p)]);
+    return (!nodes.directions[p].free_normal && !needed(p)) || (bond && bond->seam_ends[faces.surface_node(p)]);
   };
-  nodes.stranded = at_all_nodes_of_a_face(faces, count, left_out);
+  nodes.stranded = at_all_nodes_of_a_face(
+      faces, count, [&](std::size_t p) { return left_out(p) || (!bond && !nodes.directions[p].free_normal); });
+  const auto without_others = at_all_nodes_of_a_face(faces, count, left_out);
   std::vector<char> allowed(count, 0);
   nodes.cover.assign(count, 0);
   nodes.kept.assign(count, 0);
   nodes.freed.assign(count, 0);
   for (std::size_t p = 0; p < count; ++p) {
-    nodes.freed[p] = (nodes.stranded[p] || needed(p)) && !nodes.directions[p].free_normal;
-    allowed[p] = !left_out(p) || nodes.stranded[p] || nodes.freed[p];
+    nodes.freed[p] = (without_others[p] || needed(p)) && !nodes.directions[p].free_normal;
+    allowed[p] = !left_out(p) || without_others[p] || nodes.freed[p];
     if (nodes.freed[p])  // what moves decides about the tangents
       nodes.directions[p] = directions(surface_nodes.all[faces.surface_node(p)].normal, {false, false, false}, {}, dimension);
     nodes.cover[p] = whole[p] > 0 ? std::min(nodes.covered[p] / whole[p], 1.0) : 0.0;

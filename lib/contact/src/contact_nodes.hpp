@@ -32,11 +32,12 @@ struct BondedNodes {
   /// the bond would hold whole faces, and be as wide as those. Unless what is left holds no whole face there, as on a strip with
   /// a single row of nodes. Empty where sides end together, as cuts of sectors do.
   std::vector<char> met;
-  std::vector<char> primary_held;  ///< supports hold the primary side along the normal where multipliers stand; all of cuts of sectors
 };
 
-/// `faces` in pieces, with their integrals. `bond`: none of a contact. `dimension`: 2 or 3.
+/// `faces` in pieces, with their integrals. `primary_held`: of each surface node whether supports hold the primary side along the
+/// normal where multipliers stand; all of cuts of sectors. `bond`: none of a contact. `dimension`: 2 or 3.
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
-                                  const SupportedNodes& supports, const std::optional<BondedNodes>& bond, int dimension);
+                                  const SupportedNodes& supports, const std::vector<char>& primary_held,
+                                  const std::optional<BondedNodes>& bond, int dimension);
 
 }  // namespace mortise::contact

@@ -119,11 +119,10 @@ class Builder {
     for (const std::size_t f : faces_.round()) discretization_->add_face(f, between.in_facets[f] != 0);
     between_.emplace(std::move(between.places), secondary_, share_.own, comm);
     faces_.number_corners();
-    chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, bonded_nodes(), dimension_);
-    if (bonded() && !options_.preload && !options_.obstacle)
+    chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, primary_held(), bonded_nodes(), dimension_);
+    if (!options_.preload && !options_.obstacle)
       for (std::size_t p = 0; p < nodes_.all.size(); ++p)
-        if (own(p) && !chosen_.kept[p] && chosen_.cover[p] > least_cover)
-          conflicts_.note_held_tear(nodes_.all[p].node, nodes_.all[p].normal, rays_.meet(p));
+        if (own(p) && !chosen_.kept[p] && chosen_.cover[p] > least_cover) note_conflict_where_held(p);
     discretization_->make_functions(chosen_.kept);
     faces_.sort_by_nodes();
     for (std::size_t p = 0; p < faces_.places(); ++p)
@@ -161,8 +160,23 @@ class Builder {
       if (!ends_together()) known.met.push_back(met);
       known.seam_ends.push_back(met && discretization_->seams_end_at_contacts() && unbonded(nodes_.all[p].node));
     }
-    known.primary_held = ends_together() ? std::vector<char>(nodes_.all.size(), 1) : held_.hold_along_normals(faces_);
     return known;
+  }
+
+  // Contact may push along a part of a normal that supports leave free. What ends together has nothing to ask for supports.
+  std::vector<char> primary_held()
+  {
+    if (ends_together()) return std::vector<char>(nodes_.all.size(), bonded() ? 1 : 0);
+    return held_.hold_along_normals(faces_, bonded() ? &OppositeSupports::hold : &OppositeSupports::hold_all);
+  }
+
+  void note_conflict_where_held(std::size_t p)
+  {
+    const auto& [node, normal, continued] = nodes_.all[p];
+    if (bonded())
+      conflicts_.note_held_tear(node, normal, rays_.meet(p));
+    else if (!chosen_.directions[p].free_normal)
+      conflicts_.note_held_crossing(node, normal, rays_.meet(p), chosen_.directions[p]);
   }
 
   void add_place(std::size_t p, constraint::Contacts& contacts)
@@ -199,9 +213,8 @@ class Builder {
     constraint::ContactNode point{
         index_, secondary_.node_id[static_cast<std::size_t>(node_here.node)], d, normal, {}, contacts.rows.size()};
     if (bonded() && !options_.preload) conflicts_.note_tear(terms_, d, normal);
-    const bool fixed = !writer_.moves(terms_, d, normal);  // on both sides
-    const bool prescribed = fixed || (!bonded() && !ends_together() && held_on_both_sides(p, at, normal));
-    Few<Point, 2> held;  // tangents along which supports hold both
+    const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
+    Few<Point, 2> held;                                         // tangents along which supports hold both
     if (!prescribed && options_.law != Law::frictionless) {
       for (const auto& tangent : tangents(p, normal))
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
@@ -227,9 +240,9 @@ class Builder {
                  mesh_gap = without_rounding(p, nearest, points_.gap(p, normal, mean), at, normal);
     const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, nearest, starting_gap_at(p, normal, mean), at, normal);
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d * weight, point.at);
-    point.gap = bonded() ? 0 : weight * (gap - options_.interference);
+    point.gap = bonded() ? 0 : weight * free_to_close(normal) * (gap - options_.interference);
     if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
-      conflicts_.note_crossing(terms_, d, normal, point.gap, chosen_.directions[p], fixed && chosen_.stranded[p]);
+      conflicts_.note_crossing(terms_, d, normal, point.gap, chosen_.directions[p], prescribed && chosen_.stranded[p]);
     if (prescribed) return;
     if (axisymmetric_) {  // rings do not turn
       writer_.add(terms_, d, normal, point.gap, contacts);
@@ -249,16 +262,12 @@ class Builder {
     contacts.bonded.push_back(bonded());
   }
 
-  // Whether supports hold both sides along the normal at a place, as at the edge of a plane in which both end. Functions see a
-  // little of the nodes beside, which alone would have to make up for all that overlaps there.
-  bool held_on_both_sides(std::size_t p, const Point& at, const Point& normal) const
+  // What can make up for a gap: of the side that supports leave more of. Held places keep theirs, and nothing else has to close
+  // it.
+  double free_to_close(const Point& normal) const
   {
-    if (supports_.empty() || primary_supports_.empty()) return false;
-    constexpr double hardly = 0.1, half = 0.5;
-    if (writer_.freedom(terms_, false, normal) > half) return false;
-    const auto met = rays_.met_from(faces_.surface_node(p), at, normal);
-    return std::isfinite(met.gap) ? held_.freedom(met, normal) < hardly
-                                  : writer_.freedom(terms_, true, normal) < half;  // past the border by its functions
+    if (ends_together() || supports_.empty() || primary_supports_.empty()) return 1;
+    return std::clamp(std::max(writer_.freedom(terms_, false, normal), writer_.freedom(terms_, true, normal)), 0.0, 1.0);
   }
 
   // The tangents of a row's direction: those that supports leave, and where the primary side moves past what they hold, these as

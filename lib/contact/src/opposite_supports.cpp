@@ -16,8 +16,10 @@ bool OppositeSupports::hold(const Opposite& opposite, const Point& direction) co
   return true;
 }
 
-double OppositeSupports::freedom(const Opposite& opposite, const Point& direction) const
+bool OppositeSupports::hold_all(const Opposite& opposite, const Point& direction) const
 {
+  constexpr double next_to_nothing = 0.1;
+  if (!std::isfinite(opposite.gap)) return true;
   const auto nodes = primary_.facets[opposite.facet];
   double free = 0, all = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -25,13 +27,14 @@ double OppositeSupports::freedom(const Opposite& opposite, const Point& directio
     free += part * supports_.freedom(primary_.node_id[static_cast<std::size_t>(nodes[k])], direction, dimension_);
     all += part;
   }
-  return free / all;
+  return free < next_to_nothing * all;
 }
 
-std::vector<char> OppositeSupports::hold_along_normals(CutFaces& faces) const
+std::vector<char> OppositeSupports::hold_along_normals(CutFaces& faces,
+                                                       bool (OppositeSupports::*hold)(const Opposite&, const Point&) const) const
 {
   std::vector<char> result;
-  for (std::size_t p = 0; p < nodes_.all.size(); ++p) result.push_back(hold(rays_.meet(p), nodes_.all[p].normal));
+  for (std::size_t p = 0; p < nodes_.all.size(); ++p) result.push_back((this->*hold)(rays_.meet(p), nodes_.all[p].normal));
   for (const std::size_t f : faces.round())
     for (const std::size_t i : faces.pieces(f)) {
       const auto piece = faces.piece(i);
@@ -44,7 +47,7 @@ std::vector<char> OppositeSupports::hold_along_normals(CutFaces& faces) const
         Point at = Point::Zero();
         for (std::size_t c = 0; c < corners.size(); ++c)
           at += piece.points(k, static_cast<Eigen::Index>(c)) * secondary_.points[static_cast<std::size_t>(corners[c])];
-        result[p] = hold(rays_.met_from(p, at, nodes_.all[p].normal), nodes_.all[p].normal);
+        result[p] = (this->*hold)(rays_.met_from(p, at, nodes_.all[p].normal), nodes_.all[p].normal);
       }
     }
   return result;

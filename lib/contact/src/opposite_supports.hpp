@@ -20,12 +20,14 @@ class OppositeSupports {
 
   /// Whether supports hold what a line meets, along a direction; true where it meets nothing.
   bool hold(const Opposite& opposite, const Point& direction) const;
-  /// The length of what they leave free there of a unit vector.
-  double freedom(const Opposite& opposite, const Point& direction) const;
+  /// Whether they leave next to nothing of the direction free.
+  bool hold_all(const Opposite& opposite, const Point& direction) const;
 
-  /// Of each surface node whether they do along its normal where its multipliers stand: at the node, or, past the border of the
-  /// primary side, at the points inside to which the functions of faces that it covers in part belong; of several points all.
-  std::vector<char> hold_along_normals(CutFaces& faces) const;
+  /// Of each surface node whether they do, by one of these, along its normal where its multipliers stand: at the node, or, past
+  /// the border of the primary side, at the points inside to which the functions of faces that it covers in part belong; of
+  /// several points all.
+  std::vector<char> hold_along_normals(CutFaces& faces,
+                                       bool (OppositeSupports::*hold)(const Opposite&, const Point&) const) const;
 
  private:
   const Side& secondary_;

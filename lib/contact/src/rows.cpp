@@ -96,10 +96,10 @@ double RowWriter::freedom(std::span<const Term> terms, bool on_primary, const Po
   for (const auto& term : terms) {
     if (term.on_primary != on_primary) continue;
     const auto& supports = on_primary ? primary_supports_ : supports_;
-    free += std::abs(term.value) * supports.freedom(node_of(term), axis_of(term, axis), dimension_);
-    all += std::abs(term.value);
+    free += term.value * supports.freedom(node_of(term), axis_of(term, axis), dimension_);
+    all += term.value;
   }
-  return all > 0 ? free / all : 1;
+  return all != 0 ? free / all : 1;
 }
 
 Eigen::Matrix3d RowWriter::free_part(const Term& term) const

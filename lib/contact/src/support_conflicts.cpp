@@ -60,16 +60,37 @@ void SupportConflicts::note_tear(std::span<const Term> terms, double d, const Po
   for (const auto& tangent : directions(normal, {false, false, false}, {}, dimension_).tangents) note(tangent);
 }
 
-// What supports say of normals of meshes may differ a little.
-void SupportConflicts::note_held_tear(Local node, const Point& normal, const Opposite& opposite)
+// A node of the secondary side, and what it meets.
+std::vector<Term> SupportConflicts::terms_of(Local node, const Opposite& opposite) const
 {
-  constexpr double of_normals = 1e-3;
-  if (!std::isfinite(opposite.gap)) return;
   const auto nodes = primary_.faces[static_cast<std::size_t>(primary_.face_of[opposite.facet])];
   const FaceShape shape = primary_.shape_in_face(opposite.facet, opposite.hit.shape, opposite.hit.frame, Plane::Zero());
   std::vector<Term> terms{{node, false, 1}};
   for (std::size_t j = 0; j < nodes.size(); ++j)
     if (const double part = shape[static_cast<Eigen::Index>(j)]; std::abs(part) > 1e-9) terms.push_back({nodes[j], true, -part});
+  return terms;
+}
+
+void SupportConflicts::note_held_crossing(Local node, const Point& normal, const Opposite& opposite, const Directions& directions)
+{
+  if (!std::isfinite(opposite.gap)) return;
+  auto terms = terms_of(node, opposite);  // and of the primary side only the nodes that are held, which move alike
+  std::erase_if(terms,
+                [&](const Term& term) { return term.on_primary && writer_.freedom(std::span(&term, 1), true, normal) > 0.5; });
+  double sum = 0;
+  for (const auto& term : terms) sum += term.on_primary ? term.value : 0;
+  if (sum == 0) return;
+  for (auto& term : terms)
+    if (term.on_primary) term.value /= -sum;
+  note_crossing(terms, 1, normal, opposite.gap, directions, false);
+}
+
+// What supports say of normals of meshes may differ a little.
+void SupportConflicts::note_held_tear(Local node, const Point& normal, const Opposite& opposite)
+{
+  constexpr double of_normals = 1e-3;
+  if (!std::isfinite(opposite.gap)) return;
+  const auto terms = terms_of(node, opposite);
   const auto note = [&](const Point& direction) {
     if (writer_.moves(terms, 1, direction)) return;
     const double own = writer_.prescribed_part(std::span(terms).first(1), 1, direction),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "contact/options.hpp"
 #include "opposite.hpp"
@@ -17,10 +18,13 @@ class SupportConflicts {
   {
   }
 
-  /// A surface node where supports prescribe both sides, all or nearly all of the row sum_k value_k / d u(node_k). `stranded`: its
-  /// faces have no surface node that supports leave free.
+  /// A surface node where supports prescribe both sides, all or nearly all of the row sum_k value_k / d u(node_k). `stranded`:
+  /// its faces have no surface node that supports leave free.
   void note_crossing(std::span<const Term> terms, double d, const Point& normal, double gap, const Directions& directions,
                      bool stranded);
+  /// A secondary node of a contact that has no multiplier since supports hold both sides along its normal; `directions`: what is
+  /// free there.
+  void note_held_crossing(Local node, const Point& normal, const Opposite& opposite, const Directions& directions);
   /// A place of a bond along directions in which supports prescribe both sides.
   void note_tear(std::span<const Term> terms, double d, const Point& normal);
   /// A place of a bond, a secondary node, that has no multiplier since supports hold it: all that they say there of both sides,
@@ -32,6 +36,8 @@ class SupportConflicts {
   void refuse(const Options& options, double reach, const Communicator& comm) const;
 
  private:
+  std::vector<Term> terms_of(Local node, const Opposite& opposite) const;
+
   const Side& primary_;
   RowWriter& writer_;
   int dimension_;
