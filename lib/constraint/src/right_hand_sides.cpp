@@ -28,8 +28,9 @@ void add_interference(Contacts& contacts, int contact, double overlap)
 {
   for (auto& point : contacts.nodes) {
     if (point.contact != contact) continue;
+    const double before = bound_of(point);
     point.gap -= point.weight * overlap;
-    contacts.rows.bound[point.row] -= point.weight * overlap;
+    contacts.rows.bound[point.row] += bound_of(point) - before;
   }
 }
 

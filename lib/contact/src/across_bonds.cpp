@@ -24,15 +24,15 @@ struct BondNode {
   int side;  // 1 the secondary one, 0 the primary one
 };
 
-// A contact node on a bond, on its way to all ranks. Its place and directions are those on the secondary side of the bond: of nodes
-// of the primary side they are rotated.
+// A contact node on a bond, on its way to all ranks. Its place and directions are those on the secondary side of the bond: of
+// nodes of the primary side they are rotated.
 struct Candidate {
   int contact, bond, side;
   int rank, index;  // of its rank's contact nodes
   Global node;
   enum class Kind : int { node, corner, between } kind;  // itself, a corner of the primary side beside it, a place between nodes
   int tangents;
-  double area, weight, gap;
+  double area, weight, gap, held;
   std::array<double, 3> at, normal;
   std::array<std::array<double, 3>, 2> tangent;
 };
@@ -99,8 +99,7 @@ class EdgeAtBond {
     const Point x = unpacked(from.at);
     std::vector<std::pair<double, const Candidate*>> near;
     for (const auto* to : to_)
-      if (to->kind == from.kind && same_law(from, *to) &&
-          unpacked(to->normal).dot(unpacked(from.normal)) > same_normal_at_bond)
+      if (to->kind == from.kind && same_law(from, *to) && unpacked(to->normal).dot(unpacked(from.normal)) > same_normal_at_bond)
         near.emplace_back((unpacked(to->at) - x).norm(), to);
     std::ranges::sort(near, {}, [&](const auto& n) {
       return std::tuple(n.first, n.second->contact != from.contact, n.second->contact, n.second->node);
@@ -198,7 +197,6 @@ class Joining {
     return result;
   }
 
-
   std::vector<Candidate> own_candidates() const
   {
     std::vector<Global> nodes;
@@ -226,8 +224,9 @@ class Joining {
     const auto motion = bond.side == 0 ? motion_of(bond.bond) : mesh::Motion();
     using Kind = Candidate::Kind;
     const Kind kind = !node.parts.empty() ? Kind::between : node.cover == 0 ? Kind::corner : Kind::node;
-    Candidate c{node.contact, bond.bond, bond.side, comm_.rank(), index, node.node, kind, static_cast<int>(node.tangents.size()),
-                node.area, node.weight, node.gap, {}, {}, {}};
+    Candidate c{
+        node.contact, bond.bond,   bond.side, comm_.rank(), index, node.node, kind, static_cast<int>(node.tangents.size()),
+        node.area,    node.weight, node.gap,  node.held,    {},    {},        {}};
     c.at = packed(motion(node.at));
     c.normal = packed(motion.rotation * node.normal);
     for (std::size_t t = 0; t < node.tangents.size(); ++t) c.tangent[t] = packed(motion.rotation * node.tangents[t]);
@@ -288,10 +287,10 @@ class Joining {
     for (const auto& s : shares) area += s.part * s.from->area;
     const double own = node.area / area;
     for (const auto& e : entries_of(index)) rows.add(e, static_cast<std::size_t>(e.row), own);
-    node.weight *= own, node.gap *= own;
+    node.weight *= own, node.gap *= own, node.held *= own;
     for (const auto& s : shares) {
       const double part = s.part * s.from->area / area;
-      node.weight += part * s.from->weight, node.gap += part * s.from->gap;
+      node.weight += part * s.from->weight, node.gap += part * s.from->gap, node.held += part * s.from->held;
       const bool between = s.from->kind == Candidate::Kind::between;
       const auto rotation = motion_of(s.from->bond).rotation;
       if (!between) node.images.push_back({s.from->contact, s.from->node, part, rotation});
@@ -299,7 +298,8 @@ class Joining {
         if (e.kind == SentEntry::Kind::part) node.images.push_back({s.from->contact, e.node, part * e.value, rotation});
         if (e.row == 0) rows.add(e, 0, part);
         for (std::size_t t = 0; t < node.tangents.size() && e.row > 0; ++t)
-          rows.add(e, t + 1, part * unpacked(s.to->tangent[t]).dot(unpacked(s.from->tangent[static_cast<std::size_t>(e.row - 1)])));
+          rows.add(e, t + 1,
+                   part * unpacked(s.to->tangent[t]).dot(unpacked(s.from->tangent[static_cast<std::size_t>(e.row - 1)])));
       }
     }
     node.area = area;

@@ -240,17 +240,18 @@ class Builder {
                  mesh_gap = without_rounding(p, nearest, points_.gap(p, normal, mean), at, normal);
     const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, nearest, starting_gap_at(p, normal, mean), at, normal);
     note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d * weight, point.at);
-    point.gap = bonded() ? 0 : weight * free_to_close(normal) * (gap - options_.interference);
+    point.gap = bonded() ? 0 : weight * (gap - options_.interference);
+    point.held = bonded() ? 0 : held_on_both_sides(normal);
     if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
       conflicts_.note_crossing(terms_, d, normal, point.gap, chosen_.directions[p], prescribed && chosen_.stranded[p]);
     if (prescribed) return;
     if (axisymmetric_) {  // rings do not turn
-      writer_.add(terms_, d, normal, point.gap, contacts);
+      writer_.add(terms_, d, normal, constraint::bound_of(point), contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
     } else {
       const Moments moments(terms_, d, normal, bonded() ? 0 : mesh_gap, points_.moved(p) ? &at : nullptr, secondary_, primary_,
                             dimension_);
-      writer_.add(terms_, d, normal, point.gap, contacts);
+      writer_.add(terms_, d, normal, constraint::bound_of(point), contacts);
       for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), normal);
     }
     for (const auto& tangent : held) {
@@ -262,12 +263,11 @@ class Builder {
     contacts.bonded.push_back(bonded());
   }
 
-  // What can make up for a gap: of the side that supports leave more of. Held places keep theirs, and nothing else has to close
-  // it.
-  double free_to_close(const Point& normal) const
+  // Part of the row: that of the side of which supports hold less.
+  double held_on_both_sides(const Point& normal) const
   {
-    if (ends_together() || supports_.empty() || primary_supports_.empty()) return 1;
-    return std::clamp(std::max(writer_.freedom(terms_, false, normal), writer_.freedom(terms_, true, normal)), 0.0, 1.0);
+    if (ends_together() || supports_.empty() || primary_supports_.empty()) return 0;
+    return std::clamp(1 - std::max(writer_.freedom(terms_, false, normal), writer_.freedom(terms_, true, normal)), 0.0, 1.0);
   }
 
   // The tangents of a row's direction: those that supports leave, and where the primary side moves past what they hold, these as

@@ -7,6 +7,7 @@
 // Each rank holds rows of its own; a row stands on exactly one rank and may speak of nodes that live on others.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -104,14 +105,21 @@ struct ContactNode {
   std::vector<Point> tangents;  ///< 0, 1 (2D, or one direction is prescribed) or 2 unit vectors, orthogonal to the normal
   std::size_t row;              ///< its normal row in Contacts::rows; its tangential rows follow, then the next node's normal row
   double weight = 1;  ///< sum of the row's coefficients on the secondary side, above 1 where it stands in for dropped nodes
-  double gap = 0;     ///< bound of the normal row, a length: interference deducted, before any support moves
+  double gap = 0;     ///< times `weight`, interference deducted, before any support moves
   Point at = Point::Zero();  ///< its place in the mesh: the node, or where the node was moved to at the primary side's border
   /// Part of its surroundings that lies opposite the primary side. Where the node was moved, at most half of the part that is
   /// left of the way to the next nodes: that of a surface which goes on beyond its border.
   double cover = 1;
-  std::vector<Part> parts = {};  ///< of a place between nodes, whose row is a combination of theirs: these, and what they bear
+  std::vector<Part> parts = {};    ///< of a place between nodes, whose row is a combination of theirs: these, and what they bear
   std::vector<Image> images = {};  ///< of a contact that goes on across a bond: the nodes whose rows this one is as well
+  double held = 0;  ///< part of the row at places that supports hold on both sides: what overlaps there nothing can close
 };
+
+/// Bound of its normal row before any support moves, a length: the gap, or what of an overlap can be closed.
+inline double bound_of(const ContactNode& node)
+{
+  return node.gap - node.held * std::min(node.gap, 0.0);
+}
 
 /// An entry of a contact row that a support holds: it stands in the row's bound instead, and what the row's multiplier pushes
 /// there goes straight into the support.
