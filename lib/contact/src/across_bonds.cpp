@@ -310,6 +310,7 @@ class Joining {
   {
     std::ranges::stable_sort(sent_, {}, sender);
     constraint::Contacts result;
+    result.without_rows = contacts_.without_rows;
     for (std::size_t i = 0; i < contacts_.nodes.size(); ++i) {
       const NodeOfRank key{comm_.rank(), static_cast<int>(i)};
       if (given_.contains(key)) continue;

@@ -175,6 +175,7 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   std::vector<char> allowed(count, 0);
   nodes.cover.assign(count, 0);
   nodes.kept.assign(count, 0);
+  nodes.shared.assign(count, 0);
   nodes.freed.assign(count, 0);
   for (std::size_t p = 0; p < count; ++p) {
     nodes.freed[p] = (without_others[p] || needed(p)) && !nodes.directions[p].free_normal;
@@ -183,6 +184,7 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
       nodes.directions[p] = directions(surface_nodes.all[faces.surface_node(p)].normal, {false, false, false}, {}, dimension);
     nodes.cover[p] = whole[p] > 0 ? std::min(nodes.covered[p] / whole[p], 1.0) : 0.0;
     nodes.kept[p] = allowed[p] && nodes.cover[p] > least_cover;
+    nodes.shared[p] = !allowed[p] && nodes.cover[p] > least_cover;
   }
   keep_small_pieces(secondary, faces, allowed, nodes.kept);
   keep_corners(faces, allowed, nodes.kept);

@@ -19,6 +19,7 @@ struct ContactNodes {
   std::vector<double> cover;    ///< its part of all
   std::vector<char> kept;       ///< carries a multiplier
   std::vector<char> stranded;   ///< its faces have no surface node that supports and seams leave free
+  std::vector<char> shared;     ///< is covered, but leaves its multiplier to the others of its faces
   std::vector<char> freed;      ///< its row keeps what supports hold of the secondary side
 };
 

@@ -51,6 +51,8 @@ class Discretization {
   virtual double rise(const CutFaces::Function& /*function*/) { return 0; }
   /// Whether a bonded seam leaves out the surface nodes where it ends at a contact.
   virtual bool seams_end_at_contacts() const { return true; }
+  /// Whether functions of others stand in for those of surface nodes that are not kept.
+  virtual bool others_take_over() const { return true; }
 
  protected:
   const TwoSides sides_;

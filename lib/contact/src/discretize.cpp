@@ -123,6 +123,11 @@ class Builder {
     if (!options_.preload && !options_.obstacle)
       for (std::size_t p = 0; p < nodes_.all.size(); ++p)
         if (own(p) && !chosen_.kept[p] && chosen_.cover[p] > least_cover) note_conflict_where_held(p);
+    if (discretization_->others_take_over())
+      for (std::size_t p = 0; p < nodes_.all.size(); ++p)
+        if (const auto& n = nodes_.all[p].normal; own(p) && chosen_.shared[p])
+          contacts.without_rows.push_back(
+              {index_, secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)], {n[0], n[1], n[2]}});
     discretization_->make_functions(chosen_.kept);
     faces_.sort_by_nodes();
     for (std::size_t p = 0; p < faces_.places(); ++p)

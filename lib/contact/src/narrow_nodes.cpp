@@ -51,7 +51,7 @@ std::vector<NarrowNodes::Given> NarrowNodes::neighbours(const std::vector<NodeSt
       for (const auto* from : here)
         for (const auto* to : here)
           if (from && to && band_of(from->cover) > band_of(to->cover))
-            found.push_back({from->node, from->contact, from->side, to->node, to->side, to->area, 0, 0, 0, {}});
+            found.push_back({from->node, from->contact, from->side, to->node, to->side, to->area, 0, 0, 0, {}, 0, 0});
     }
   }
   found = by_node<Given>(found, comm_);
@@ -134,6 +134,8 @@ void NarrowNodes::take_pressures(std::vector<NodeState>& nodes)
       [](Given& g, const NodeState& wide) {
         g.force = g.part * wide.force;
         for (std::size_t c = 0; c < 3; ++c) g.traction[c] = g.part * wide.traction[c];
+        g.gap = wide.gap;
+        g.status = wide.status;
       },
       [](NodeState& node) {
         node.force = 0;
@@ -142,6 +144,9 @@ void NarrowNodes::take_pressures(std::vector<NodeState>& nodes)
       [](const Given& g, NodeState& node) {
         node.force += g.force;
         for (std::size_t c = 0; c < 3; ++c) node.traction[c] += g.traction[c];
+        if (!node.bare) return;
+        node.gap += g.part * g.gap;
+        node.status = std::max(node.status, g.status);
       });
 }
 

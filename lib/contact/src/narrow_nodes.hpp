@@ -3,8 +3,9 @@
 // Such a node bears what presses on a strip much narrower than a face, where the points of two rows lie close together. Their
 // forces are right together; which of them bears more says nothing, and the force of one over the area of a sliver is no
 // pressure. So it gives force and area to its neighbours with more cover, by their areas, these to theirs, and so on; and it
-// takes the mean of what they have then [cells that are hardly cut are joined with their neighbours: Badia, Verdugo and Martin,
-// CMAME 336 (2018); rows stay apart here, since bodies stand on the points of the outermost].
+// takes the mean of what they have then, as nodes without rows do, for which their neighbours' rows stand in [cells that are
+// hardly cut are joined with their neighbours: Badia, Verdugo and Martin, CMAME 336 (2018); rows stay apart here, since bodies
+// stand on the points of the outermost].
 #pragma once
 
 #include <array>
@@ -40,6 +41,8 @@ class NarrowNodes {
     double part;         // of what the narrow one has
     double area, force, closed;  // that pass
     std::array<double, 3> traction;
+    double gap;  // of the wide one
+    int status;
   };
   static bool ascending(const Given& a, const Given& b);
   static NodeState& state_of(std::vector<NodeState>& nodes, const Given& given);

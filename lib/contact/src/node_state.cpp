@@ -22,6 +22,13 @@ auto key(const NodeState& state)
 
 void join(NodeState& to, const NodeState& other)
 {
+  if (other.bare) return;
+  if (to.bare) {
+    const auto normal = to.normal;
+    to = other;
+    to.normal = normal;
+    return;
+  }
   if (other.area == 0)
     to.closed = std::max(to.closed, other.closed);
   else
@@ -75,7 +82,8 @@ NodeState part_of(const NodeState& place, const constraint::Part& part)
 
 }  // namespace
 
-std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Communicator& comm)
+std::vector<NodeState> meet(std::span<const ContactNodeState> points, std::span<const constraint::NodeWithoutRows> without_rows,
+                            const Communicator& comm)
 {
   std::vector<NodeState> mine;
   for (const auto& p : points) {
@@ -95,6 +103,14 @@ std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Comm
                           p.status == Status::open ? 0.0 : 1.0};
     if (p.parts.empty()) mine.push_back(state);
     for (const auto& part : p.parts) mine.push_back(part_of(state, part));
+  }
+  for (const auto& p : without_rows) {
+    NodeState state{};
+    state.node = p.node;
+    state.contact = p.contact;
+    state.normal = p.normal;
+    state.bare = true;
+    mine.push_back(state);
   }
   auto nodes = by_node<NodeState>(mine, comm);
   std::stable_sort(nodes.begin(), nodes.end(), [](const NodeState& a, const NodeState& b) {

@@ -20,6 +20,7 @@ struct NodeState {
   std::array<double, 3> normal, traction, slip;  ///< traction is a force at first
   double recovered = 0;                          ///< pressure
   double closed = 0;                             ///< part of its area that counts as closed
+  bool bare = false;                             ///< has no rows: shows what its neighbours have
 };
 
 /// Less of what presses at a place between nodes does not close a node.
@@ -27,7 +28,8 @@ inline constexpr double bears = 0.1;
 
 /// Those of this rank's own nodes, ascending by node, contact and side. What presses on a corner of the primary side counts with
 /// the node beside it. Collective.
-std::vector<NodeState> meet(std::span<const ContactNodeState> points, const Communicator& comm);
+std::vector<NodeState> meet(std::span<const ContactNodeState> points, std::span<const constraint::NodeWithoutRows> without_rows,
+                            const Communicator& comm);
 /// What the nodes of this rank's secondary sides are, ascending. Collective.
 std::vector<NodeState> on_sides(const std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm);
 

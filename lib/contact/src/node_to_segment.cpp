@@ -53,6 +53,7 @@ class NodeToSegment : public Discretization {
   }
 
   bool seams_end_at_contacts() const override { return false; }
+  bool others_take_over() const override { return false; }
 
  private:
   // Calls see(node of the face, part) for the values that a function's row sees: of a facet's function the node's own, else those

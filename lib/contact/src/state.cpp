@@ -170,9 +170,9 @@ void average_over_faces(std::vector<NodeState>& own, std::span<const Pair> pairs
 }  // namespace
 
 std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,
-                                         const Communicator& comm)
+                                         const Communicator& comm, std::span<const constraint::NodeWithoutRows> without_rows)
 {
-  auto own = meet(points, comm);
+  auto own = meet(points, without_rows, comm);
   NarrowNodes narrow(own, pairs, comm);
   std::vector<double> own_area, area(pairs.size(), 0.0);
   for (const auto& node : own) own_area.push_back(node.area);
@@ -181,6 +181,7 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
   for (std::size_t i = 0; i < own.size(); ++i) area[static_cast<std::size_t>(own[i].contact)] += own[i].closed * own_area[i];
   comm.sum_in_place(area);
   for (auto& node : own) {
+    if (node.bare) continue;
     node.force /= node.area;
     for (double& traction : node.traction) traction /= node.area;
   }
@@ -198,6 +199,7 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
                        std::vector<Point>(nodes.size(), Point::Zero()),
                        std::vector<int>(nodes.size(), 0),
                        std::vector<char>(nodes.size(), 0),
+                       std::vector<char>(nodes.size(), 0),
                        area[c]};
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto here = points_at(all, static_cast<int>(c), nodes[i]);
@@ -206,6 +208,7 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
         return std::pair(a.force, -a.gap) < std::pair(b.force, -b.gap);
       });
       state.near[i] = 1;
+      state.without_rows[i] = node->bare;
       state.pressure[i] = node->force;
       state.traction[i] = Point(node->traction[0], node->traction[1], node->traction[2]);
       state.gap[i] = node->gap;

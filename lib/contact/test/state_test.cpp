@@ -136,6 +136,46 @@ TEST(State, SliversGiveOverOthersThatAreNarrow)
   }
 }
 
+// Two faces in a row; the middle nodes have no rows, the last press more than the first, one of these not at all.
+TEST(State, NodesWithoutRowsShowTheMeanOfTheirNeighbours)
+{
+  const Communicator comm;
+  const auto flat = [](double x, double y) { return Point(x, y, 0); };
+  const auto pair = make_pair(surface({2, 1, 0, 1, 0, 1, true}, flat, comm),
+                              surface({1, 1, 0, 1, 0, 1, false, false, primary_ids}, flat, comm), Law::frictionless);
+  std::vector<ContactNodeState> points;
+  std::vector<constraint::NodeWithoutRows> without_rows;
+  for (Global node = 0; node < 6; ++node) {
+    if (node % comm.size() != comm.rank()) continue;
+    if (node % 3 == 1) {
+      without_rows.push_back({0, node, {0, 0, 0}});
+      continue;
+    }
+    ContactNodeState point;
+    point.node = node;
+    point.area = 0.25;
+    point.force = node == 0 ? 0 : node % 3 == 0 ? 1 : 2;
+    point.gap = node == 0 ? 0.4 : 0;
+    point.force_on_secondary = Point(0, 0, -point.force);
+    point.slip = Point(3, 0, 0);
+    point.status = node == 0 ? Status::open : Status::stick;
+    points.push_back(point);
+  }
+  const auto state = surface_states(points, std::vector<Pair>{pair}, comm, without_rows).front();
+  EXPECT_NEAR(state.area, 0.75, 1e-15);
+  for (std::size_t n = 0; n < pair.secondary.node_id.size(); ++n) {
+    const bool bare = pair.secondary.node_id[n] % 3 == 1;
+    EXPECT_EQ(state.without_rows[n] != 0, bare);
+    if (!bare) continue;
+    EXPECT_NEAR(state.pressure[n], 5, 1e-12);
+    EXPECT_NEAR(state.recovered_pressure[n], 5, 1e-12);
+    EXPECT_NEAR(state.traction[n][2], -5, 1e-12);
+    EXPECT_NEAR(state.gap[n], 0.1, 1e-15);
+    EXPECT_EQ(state.slip[n].norm(), 0);
+    EXPECT_EQ(state.status[n], static_cast<int>(Status::stick));
+  }
+}
+
 // Scatter that alternates from node to node goes, a constant stays, and so does a slope inside.
 TEST(State, RecoveredPressureIsSmooth)
 {

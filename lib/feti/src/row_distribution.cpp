@@ -183,6 +183,7 @@ constraint::Contacts distribute_rows(const constraint::Contacts& contacts, const
   const auto entries_in = comm.exchange(entries);
   const auto prescribed_in = comm.exchange(prescribed);
   constraint::Contacts result;
+  result.without_rows = contacts.without_rows;
   for (std::size_t from = 0; from < size; ++from) {
     for (auto entry : prescribed_in[from]) {
       entry.row += result.rows.size();

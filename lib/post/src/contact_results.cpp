@@ -79,7 +79,7 @@ ContactResults contact_results(const feti::DualProblem& problem, const Vector& l
   results.work_of_gaps = comm.sum(results.work_of_gaps);
   results.shown = contact::with_images(results.points, contacts.nodes);
   results.resultants = contact::resultants(results.shown, pairs.size(), comm);
-  results.surfaces = contact::surface_states(results.shown, pairs, comm);
+  results.surfaces = contact::surface_states(results.shown, pairs, comm, contacts.without_rows);
   for (std::size_t c = 0; c < pairs.size(); ++c) results.resultants[c].area = results.surfaces[c].area;
   results.tensions = largest_tensions(results.points, pairs.size(), comm);
   return results;

@@ -131,6 +131,13 @@ struct PrescribedEntry {
   std::array<double, 3> at{};  ///< the node's place
 };
 
+/// A node of the secondary side, or one side of a kink there, that has no rows: those of its faces' other nodes stand in for it.
+struct NodeWithoutRows {
+  int contact;
+  Global node;
+  std::array<double, 3> normal;
+};
+
 /// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the node in length units, with the
 /// coefficient of the secondary node n (normal row) or t (tangential): (u_s - sum_j m_j u_j) . n <= gap. Its multiplier is a
 /// force. Rows have no entries at prescribed components, so they are independent of the supports. A tangential row along which
@@ -140,6 +147,7 @@ struct Contacts {
   std::vector<PrescribedEntry> prescribed;
   std::vector<ContactNode> nodes;
   std::vector<bool> bonded;  ///< for each node: all its rows are equalities
+  std::vector<NodeWithoutRows> without_rows = {};  ///< of this rank; each once over all ranks
   /// Of each row: the tangential jump at the end of the load step before, from which friction counts. Part of the row's bound.
   /// Empty before the first step ends.
   std::vector<double> slipped;

@@ -60,10 +60,13 @@ struct SurfaceState {
   std::vector<Point> traction, slip;
   std::vector<int> status;  ///< as Status
   std::vector<char> near;   ///< whether the node lies near enough to the other side to have a state; else the numbers are 0
+  std::vector<char> without_rows;  ///< the node shows what its neighbours have
   double area = 0;  ///< of the contact, over all ranks: of the nodes that show a pressure: those that are closed, and those that share it
 };
-/// One for each pair. Collective.
+/// One for each pair. Nodes without rows show the mean of their neighbours, whose rows stand in for them; but no slip.
+/// Collective.
 std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,
-                                         const Communicator& comm);
+                                         const Communicator& comm,
+                                         std::span<const constraint::NodeWithoutRows> without_rows = {});
 
 }  // namespace mortise::contact
