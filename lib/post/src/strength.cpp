@@ -15,6 +15,19 @@ constexpr double with_rounding = 1 + 1e-6;  // a pressure of just that is none t
 constexpr double large_error = 0.25;
 constexpr double large_push = 1e-3;
 
+// How many corners of a face are pressed, of how many. One without rows is if all of the face's nodes with rows are.
+std::pair<std::ptrdiff_t, std::ptrdiff_t> pressed_corners(const mesh::Surface& side, const contact::SurfaceState& state,
+                                                          std::size_t face)
+{
+  const auto nodes = side.faces[face];
+  const auto corners = nodes.first(static_cast<std::size_t>(mesh::corner_count(side.faces.type[face])));
+  const auto bare = [&](Local n) { return !state.without_rows.empty() && state.without_rows[static_cast<std::size_t>(n)]; };
+  const auto pressed = [&](Local n) { return state.status[static_cast<std::size_t>(n)] != 0; };
+  const bool all = std::all_of(nodes.begin(), nodes.end(), [&](Local n) { return bare(n) || pressed(n); });
+  const auto count = std::count_if(corners.begin(), corners.end(), [&](Local n) { return pressed(n) && (all || !bare(n)); });
+  return {count, static_cast<std::ptrdiff_t>(corners.size())};
+}
+
 }  // namespace
 
 std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
@@ -89,13 +102,10 @@ std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surf
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     if (pairs[c].options.law == contact::Law::bonded) continue;
     const auto& side = pairs[c].secondary;
-    const auto pressed = [&](Local n) { return surfaces[c].status[static_cast<std::size_t>(n)] != 0; };
     for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i)
       if (surfaces[c].status[i] != 0) peaks[c].take(surfaces[c].pressure[i], side.points[i]);
-    for (std::size_t f = 0; f < side.faces.size(); ++f) {
-      const auto corners = side.faces[f].first(static_cast<std::size_t>(mesh::corner_count(side.faces.type[f])));
-      if (std::all_of(corners.begin(), corners.end(), pressed)) ++faces[c];
-    }
+    for (std::size_t f = 0; f < side.faces.size(); ++f)
+      if (const auto [count, all] = pressed_corners(side, surfaces[c], f); count == all) ++faces[c];
   }
   peaks = largest_of_ranks(peaks, comm);
   comm.sum_in_place(faces);
@@ -165,12 +175,10 @@ std::vector<Warning> scattered_contacts(std::span<const contact::SurfaceState> s
     if (!pairs[c].primary || pairs[c].options.law == contact::Law::bonded) continue;
     mine[c].secondary.take(side, softest);
     mine[c].primary.take(*pairs[c].primary, softest);
-    const auto pressed = [&](Local n) { return surfaces[c].status[static_cast<std::size_t>(n)] != 0; };
     for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i) peaks[c].take(surfaces[c].pressure[i], side.points[i]);
     for (std::size_t f = 0; f < side.faces.size(); ++f) {
-      const auto corners = side.faces[f].first(static_cast<std::size_t>(mesh::corner_count(side.faces.type[f])));
-      const auto count = std::count_if(corners.begin(), corners.end(), pressed);
-      (count == static_cast<std::ptrdiff_t>(corners.size()) ? mine[c].whole : mine[c].partly) += count > 0;
+      const auto [count, corners] = pressed_corners(side, surfaces[c], f);
+      (count == corners ? mine[c].whole : mine[c].partly) += count > 0;
     }
   }
   peaks = largest_of_ranks(peaks, comm);
