@@ -225,7 +225,12 @@ class Builder {
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
       if (!bonded()) {
         writer_.leave_what_moves(terms_, d, normal, point.tangents);
-        for (const auto& tangent : other_tangents(normal, point.tangents, dimension_)) held.push_back(tangent);
+        for (const auto& tangent : other_tangents(normal, point.tangents, dimension_)) {
+          if (writer_.held_on_both_sides(terms_, tangent))
+            held.push_back(tangent);
+          else
+            point.tangents.push_back(tangent);
+        }
       }
     }
 

@@ -1,6 +1,7 @@
 #include "rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double negligible_coefficient = 1e-12;  // of a coefficient
 constexpr double held_but_for = 0.1;              // of what all terms together could move: that much is no slip
+constexpr double least_held = 0.5;                // of a side, to bear what rubs there
 
 }  // namespace
 
@@ -137,6 +139,24 @@ void RowWriter::leave_what_moves(std::span<const Term> terms, double d, const Po
   if (moves.values[1] >= least) tangents.emplace_back(plane * moves.vectors.col(1));
 }
 
+double RowWriter::part_at_holding(std::span<const Term> terms, bool on_primary, const Point& axis) const
+{
+  constexpr double nothing = 1e-6;
+  double holding = 0, all = 0;
+  for (const auto& term : terms) {
+    if (term.on_primary != on_primary) continue;
+    const auto& supports = on_primary ? primary_supports_ : supports_;
+    if (supports.freedom(node_of(term), axis_of(term, axis), dimension_) < 1 - nothing) holding += term.value;
+    all += term.value;
+  }
+  return all != 0 ? holding / all : 1;
+}
+
+bool RowWriter::held_on_both_sides(std::span<const Term> terms, const Point& axis) const
+{
+  return std::min(part_at_holding(terms, false, axis), part_at_holding(terms, true, axis)) > least_held;
+}
+
 double RowWriter::prescribed_part(std::span<const Term> terms, double d, const Point& axis)
 {
   double sum = 0;
@@ -188,8 +208,11 @@ void RowWriter::add_held(std::span<const Term> terms, double d, const Point& axi
 {
   const auto row = contacts.rows.size();
   double bound = 0;
-  take_skew_supports(terms, d, axis, bound, contacts);
-  for (const auto& c : coefficients(terms, d, axis)) {
+  const std::array<double, 2> part{part_at_holding(terms, false, axis), part_at_holding(terms, true, axis)};
+  std::vector<Term> all(terms.begin(), terms.end());
+  for (auto& term : all) term.value /= part[term.on_primary ? 1 : 0];
+  take_skew_supports(all, d, axis, bound, contacts);
+  for (const auto& c : coefficients(all, d, axis)) {
     if (!c.prescribed) continue;
     bound -= c.value * c.prescribed->value;
     contacts.prescribed.push_back({row, c.component, c.prescribed->support, c.value, c.prescribed->at});

@@ -46,7 +46,11 @@ class RowWriter {
   /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
   void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
            std::span<const Term> couple = {}, const Point& couple_axis = Point::Zero());
-  /// Appends a row along which nothing moves but supports: what they make of it stands in its bound.
+  /// Whether supports hold more than half of each side along an axis.
+  bool held_on_both_sides(std::span<const Term> terms, const Point& axis) const;
+  /// Appends a row along which nothing moves but supports, so that what they make of it stands in its bound, or hardly anything:
+  /// nodes that supports leave free leave their part to the others of their side, lest forces are lost. For those of
+  /// held_on_both_sides().
   void add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts);
 
  private:
@@ -74,6 +78,8 @@ class RowWriter {
   {
     return (term.on_primary ? primary_supports_ : supports_).skew_supports(node_of(term));
   }
+  // The part of one side at nodes that supports hold somewhat along an axis; 1 of nothing.
+  double part_at_holding(std::span<const Term> terms, bool on_primary, const Point& axis) const;
   void merge();
   // Of a term's node: the projector onto what supports leave free.
   Eigen::Matrix3d free_part(const Term& term) const;
