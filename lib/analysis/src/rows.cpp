@@ -50,10 +50,10 @@ std::vector<constraint::NodeDirection> held_directions(const model::Model& model
   return all;
 }
 
-// Rows of contacts keep their entries at nodes of couplings, which may move.
-std::vector<constraint::PrescribedDof> held_by_supports(std::vector<constraint::PrescribedDof> prescribed)
+// Rows of contacts keep their entries at nodes of couplings whose motion is unknown.
+std::vector<constraint::PrescribedDof> known_components(std::vector<constraint::PrescribedDof> prescribed)
 {
-  std::erase_if(prescribed, [](const constraint::PrescribedDof& h) { return h.coupling >= 0; });
+  std::erase_if(prescribed, [](const constraint::PrescribedDof& h) { return h.unknown; });
   return prescribed;
 }
 
@@ -76,7 +76,7 @@ Rows make_rows(const model::Model& model, const model::LoadState& acts, const st
   constraint::require_consistent(constraints.mean_motions, constraints.prescribed, constraints.couplings, comm);
   constraints.skew_supports = constraint::skew_support_rows(rows.supports, directions, constraints.prescribed, comm);
   constraints.contacts =
-      contact::discretize(rows.pairs, held_by_supports(constraints.prescribed), deck.kinematics, comm, constraints.skew_supports,
+      contact::discretize(rows.pairs, known_components(constraints.prescribed), deck.kinematics, comm, constraints.skew_supports,
                           model::curved_faces(deck, model.decomposition(), rows.pairs), &rows.initial_gaps);
   find_pretension_sections(model, shortenings, comm, rows);
   return rows;

@@ -62,6 +62,7 @@ std::vector<PrescribedDof> coupled_rows(std::span<const Coupling> couplings, std
       const Point arm = surfaces[i].points[n] - coupling.point;
       PrescribedDof row{surfaces[i].node_id[n], 0, 0, first_support + static_cast<int>(i)};
       row.coupling = static_cast<int>(i);
+      row.at = {surfaces[i].points[n][0], surfaces[i].points[n][1], surfaces[i].points[n][2]};
       row.arm = {arm[0], arm[1], arm[2]};
       for (row.component = 0; row.component < dimension; ++row.component) {
         row.value = 0;

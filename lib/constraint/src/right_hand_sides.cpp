@@ -15,9 +15,15 @@ bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed,
       std::equal(prescribed.begin(), prescribed.end(), constraints.prescribed.begin(), constraints.prescribed.end(),
                  [](const PrescribedDof& a, const PrescribedDof& b) { return a.node == b.node && a.component == b.component; });
   if (comm.min(static_cast<long long>(same)) == 0) return false;
-  constraints.prescribed = std::move(prescribed);
   auto& contacts = constraints.contacts;
+  const auto coupled = [](const PrescribedEntry& entry) { return entry.coupling >= 0; };
+  const bool moved = !std::equal(
+      prescribed.begin(), prescribed.end(), constraints.prescribed.begin(),
+      [](const PrescribedDof& a, const PrescribedDof& b) { return a.coupling < 0 || a.unknown || a.value == b.value; });
+  if (comm.any(moved) && comm.any(std::any_of(contacts.prescribed.begin(), contacts.prescribed.end(), coupled))) return false;
+  constraints.prescribed = std::move(prescribed);
   for (const auto& entry : contacts.prescribed) {
+    if (coupled(entry)) continue;
     const auto support = static_cast<std::size_t>(entry.support), c = static_cast<std::size_t>(entry.component);
     contacts.rows.bound[entry.row] -= entry.coefficient * (value(supports[support], c) - value(before[support], c));
   }

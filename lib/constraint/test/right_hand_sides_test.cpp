@@ -48,6 +48,22 @@ TEST(RightHandSides, OtherPrescribedComponentsAreOtherRows)
   EXPECT_EQ(comm.sum(static_cast<long long>(constraints.prescribed.size())), 4);
 }
 
+// Their motion differs from node to node.
+TEST(RightHandSides, CouplingsThatMoveWhatContactsMeetAskForOtherRows)
+{
+  const Communicator comm;
+  const auto nodes = anywhere({{0, 1, 2, 3}});
+  Constraints constraints{dirichlet_rows(support(0.1), nodes, 3, comm), one_point()};
+  constraints.contacts.prescribed[0].coupling = 0;
+  constraints.contacts.prescribed[0].support = 1;
+  for (auto& prescribed : constraints.prescribed) prescribed.coupling = 0;
+  auto same = constraints.prescribed, moved = same;
+  for (auto& prescribed : moved) prescribed.value = 0.3;
+  EXPECT_FALSE(update_rhs(constraints, std::move(moved), support(0.1), support(0.1), comm));
+  EXPECT_TRUE(update_rhs(constraints, std::move(same), support(0.1), support(0.1), comm));
+  EXPECT_NEAR(constraints.contacts.rows.bound[0], 0.25 + 0.5 * 0.1, 1e-15);
+}
+
 TEST(RightHandSides, InterferenceClosesGaps)
 {
   auto contacts = one_point();

@@ -45,6 +45,8 @@ struct SentEntry {
   int component, support;
   double value;
   std::array<double, 3> at;
+  int coupling = -1;
+  std::array<double, 3> arm{};
 };
 
 // What a node on the primary side of a bond takes over of one on the secondary side.
@@ -136,7 +138,8 @@ struct NodeRows {
     if (std::abs(factor) < nothing_of_row) return;
     if (e.kind == SentEntry::Kind::bound) bound[row] += factor * e.value;
     if (e.kind == SentEntry::Kind::entry) entries[row][{e.node, e.component}] += factor * e.value;
-    if (e.kind == SentEntry::Kind::prescribed) prescribed[row].push_back({0, e.component, e.support, factor * e.value, e.at});
+    if (e.kind == SentEntry::Kind::prescribed)
+      prescribed[row].push_back({0, e.component, e.support, factor * e.value, e.at, e.coupling, e.arm});
   }
 };
 
@@ -262,7 +265,7 @@ class Joining {
     }
     for (const auto& p : prescribed_of(node))
       result.push_back({comm_.rank(), index, static_cast<int>(p.row - node.row), SentEntry::Kind::prescribed, 0, p.component,
-                        p.support, p.coefficient, p.at});
+                        p.support, p.coefficient, p.at, p.coupling, p.arm});
     for (const auto& part : node.parts)
       result.push_back({comm_.rank(), index, 0, SentEntry::Kind::part, part.node, 0, 0, part.part, {}});
     return result;

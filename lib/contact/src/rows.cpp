@@ -182,6 +182,12 @@ void RowWriter::take_skew_supports(std::span<const Term> terms, double d, const 
     }
 }
 
+constraint::PrescribedEntry RowWriter::entry_of(std::size_t row, const Coefficient& c)
+{
+  const auto& held = *c.prescribed;
+  return {row, c.component, held.support, c.value, held.at, held.coupling, held.arm};
+}
+
 void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
                     std::span<const Term> couple, const Point& couple_axis)
 {
@@ -196,7 +202,7 @@ void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, do
   for (const auto& c : coefficients_) {
     if (c.prescribed) {
       bound -= c.value * c.prescribed->value;
-      contacts.prescribed.push_back({row, c.component, c.prescribed->support, c.value, c.prescribed->at});
+      contacts.prescribed.push_back(entry_of(row, c));
     } else {
       contacts.rows.entries.push_back({c.node, c.component, c.value});
     }
@@ -215,7 +221,7 @@ void RowWriter::add_held(std::span<const Term> terms, double d, const Point& axi
   for (const auto& c : coefficients(all, d, axis)) {
     if (!c.prescribed) continue;
     bound -= c.value * c.prescribed->value;
-    contacts.prescribed.push_back({row, c.component, c.prescribed->support, c.value, c.prescribed->at});
+    contacts.prescribed.push_back(entry_of(row, c));
   }
   contacts.rows.close(bound);
 }

@@ -60,6 +60,7 @@ class RowWriter {
     double value;
     const constraint::PrescribedDof* prescribed;
   };
+  static constraint::PrescribedEntry entry_of(std::size_t row, const Coefficient& c);
   // Of the row, but for what skew supports hold.
   const std::vector<Coefficient>& coefficients(std::span<const Term> terms, double d, const Point& axis);
   void append_coefficients(std::span<const Term> terms, double d, const Point& axis);

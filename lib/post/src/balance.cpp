@@ -55,8 +55,9 @@ std::vector<Reaction> reactions(const feti::DualProblem& problem, const Vector& 
     if (row.support >= 0) add(row.support, row.at, -force * Point(row.direction[0], row.direction[1], row.direction[2]));
   }
   for (const auto& entry : problem.constraints().contacts.prescribed)  // contact forces that go straight into supports
-    add(entry.support, entry.at,
-        entry.coefficient * forces[ranges.contacts + static_cast<Local>(entry.row)] * Point::Unit(entry.component));
+    if (entry.coupling < 0)
+      add(entry.support, entry.at,
+          entry.coefficient * forces[ranges.contacts + static_cast<Local>(entry.row)] * Point::Unit(entry.component));
   problem.communicator().sum_in_place(sums);
   std::vector<Reaction> result(supports);
   for (std::size_t s = 0; s < supports; ++s) {
@@ -72,14 +73,17 @@ std::vector<CouplingState> coupling_states(const feti::DualProblem& problem, con
   const Eigen::VectorXd forces = problem.forces(lambda);
   const auto first = problem.jump().ranges().dirichlet;
   std::vector<double> sums(6 * constraints.couplings.size(), 0.0);
-  for (std::size_t i = 0; i < constraints.prescribed.size(); ++i) {
-    const auto& row = constraints.prescribed[i];
-    if (row.coupling < 0) continue;
-    const Point force = -forces[first + static_cast<Local>(i)] * Point::Unit(row.component);
+  const auto add = [&](const auto& row, double size) {  // a row or an entry of one
+    if (row.coupling < 0) return;
+    const Point force = size * Point::Unit(row.component);
     const Point moment = Point(row.arm[0], row.arm[1], row.arm[2]).cross(force);
     double* const sum = &sums[6 * static_cast<std::size_t>(row.coupling)];
     for (int c = 0; c < 3; ++c) sum[c] += force[c], sum[3 + c] += moment[c];
-  }
+  };
+  for (std::size_t i = 0; i < constraints.prescribed.size(); ++i)
+    add(constraints.prescribed[i], -forces[first + static_cast<Local>(i)]);
+  for (const auto& entry : constraints.contacts.prescribed)
+    add(entry, entry.coefficient * forces[problem.jump().ranges().contacts + static_cast<Local>(entry.row)]);
   const auto means = first + static_cast<Local>(constraints.prescribed.size() + constraints.skew_supports.size());
   for (std::size_t i = 0; i < constraints.mean_motions.size(); ++i) {
     const auto& row = constraints.mean_motions[i];

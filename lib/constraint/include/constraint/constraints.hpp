@@ -128,7 +128,9 @@ struct PrescribedEntry {
   int component;
   int support;
   double coefficient;
-  std::array<double, 3> at{};  ///< the node's place
+  std::array<double, 3> at{};   ///< the node's place
+  int coupling = -1;            ///< the rigid coupling that holds it instead, whose motion is known there
+  std::array<double, 3> arm{};  ///< from the coupling's point to the node
 };
 
 /// A node of the secondary side, or one side of a kink there, that has no rows: those of its faces' other nodes stand in for it.
