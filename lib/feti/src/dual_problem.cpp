@@ -60,6 +60,7 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
 {
   make_rows(directory, interface, {});
   gauge_rigid_modes(directory, interface, sliding_surfaces, context);
+  groups_ = body_groups(decomposition, *jump_, constraints_.prescribed, comm_);
   if (!constraints_.springs.rows.empty()) springs_ = std::make_unique<ElasticRows>(constraints_.springs, *jump_, comm_);
   hessian_ = std::make_unique<DualOperator>(*jump_, system.clusters, context.timers, springs_.get());
   if (options.preconditioner != "none") {

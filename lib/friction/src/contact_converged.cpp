@@ -25,12 +25,12 @@ bool contact_converged(const feti::DualProblem& problem, const Vector& x, const 
   const auto& bonded = problem.constraints().contacts.bonded;
   const auto differs = view(change), firmly = view(argument);
   const Pressures pressures(problem, x);
-  const auto count = pressures.contacts();
+  const auto count = pressures.parts();
   std::vector<double> moved(count, 0.0), pressed(count, 0.0), undecided(count, 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (bonded[i]) continue;
     const auto& rows = problem.node_rows()[i];
-    const auto c = static_cast<std::size_t>(points[i].contact);
+    const auto c = pressures.part_of(i);
     const double off = differs[rows.normal];
     pressed[c] += view(x)[rows.normal] > 0;
     double square = off * off;

@@ -85,7 +85,7 @@ double Solver::change_of_bounds(const std::vector<double>& wanted, const std::ve
 {
   constexpr double rounding = 1e-10;
   const double least = at.hessian_norm > 0 ? rounding * programme_.linear.norm2() / at.hessian_norm : 0;
-  return relative_change(wanted, now, least, problem_.communicator());
+  return relative_change(problem_, wanted, now, least);
 }
 
 // Bounds and forces together, if the algorithm can. Where that does not converge, the fixed point goes on from there.
@@ -188,7 +188,8 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
          qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
-                        run.goal);
+                        run.goal) &&
+         (tolerance <= qp::tolerances::rounding || contacts_at_rest(run));
 }
 
 // Of the last step that changes the bounds by more than rounding. Collective.
@@ -254,8 +255,9 @@ void Solver::fixed_point(Run& run)
   constexpr int retreats = 4;  // in a row
   constexpr int most_failures = 15;
   constexpr int steps_of_fall = 2, most_falls = 2;
+  constexpr int idle_steps = 3;  // without a smaller change, which is then what solutions leave of the light groups of bodies
   Relaxation relaxation(problem_.communicator());
-  int infeasible = 0, failures = 0, falls = 0;
+  int infeasible = 0, failures = 0, falls = 0, idle = 0;
   double strictness = 1;
   if (!run.converged) budget_.change_algorithm();
   while (!run.converged) {
@@ -265,7 +267,7 @@ void Solver::fixed_point(Run& run)
         std::max(qp::tolerances::rounding, strictness * (run.goal.allowed_error ? 0.1 * options_.tolerance : run.goal.residual));
     const double tolerance = run.least_change <= options_.tolerance
                                  ? tightest
-                                 : std::max(tightest, std::min(qp::tolerances::loosest, 0.1 * run.least_change));
+                                 : std::max(tightest, std::min(qp::tolerances::loosest, 0.1 * strictness * run.least_change));
     const bool first = !run.solved;
     if (!solve_tresca({tolerance}, run)) {
       if (!run.solved) nothing_found(problem_, problem_.set().with_cones(), run.escape, run.proven);
@@ -289,8 +291,12 @@ void Solver::fixed_point(Run& run)
     run.change = first ? 1.0 : change_of_bounds(wanted, run.bounds, *run.solution);
     note_response(wanted, run);
     run.converged = !first && at_rest(wanted, tolerance, run);
+    idle = first || run.change < run.least_change ? 0 : idle + 1;
     // Bounds at rest beside an error that is too large.
-    if (!run.converged && run.change <= options_.tolerance && tolerance <= tightest) strictness *= 0.1;
+    if (!run.converged && ((run.change <= options_.tolerance && tolerance <= tightest) || idle >= idle_steps)) {
+      strictness *= 0.1;
+      idle = 0;
+    }
     if (run.converged || run.step >= options_.max_steps || hessian_.exhausted()) return;
     run.least_change = first ? 1.0 : std::min(run.least_change, run.change);
     const double part = relaxation(run.bounds, wanted);

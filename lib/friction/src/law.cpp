@@ -6,6 +6,12 @@
 
 namespace mortise::friction {
 
+namespace {
+
+constexpr double nothing_part = 1e-10;  // of the bounds of a group, over those of the largest, below which they are none
+
+}  // namespace
+
 std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda)
 {
   const auto& points = problem.constraints().contacts.nodes;
@@ -33,17 +39,27 @@ std::vector<double> coefficients(const feti::DualProblem& problem, const std::ve
   return result;
 }
 
-double relative_change(const std::vector<double>& next, const std::vector<double>& now, double least, const Communicator& comm)
+double relative_change(const feti::DualProblem& problem, const std::vector<double>& next, const std::vector<double>& now,
+                       double least)
 {
-  std::vector<double> squares(2, 0.0);  // of the difference, of the bounds
+  const auto& groups = problem.groups();
+  const auto discs = problem.set().discs();
+  std::vector<double> squares(2 * groups.of_body.size(), 0.0);  // of each group: of the difference, of the bounds
   for (std::size_t i = 0; i < next.size(); ++i) {
     if (std::isinf(next[i])) continue;
-    if (!std::isinf(now[i])) squares[0] += (next[i] - now[i]) * (next[i] - now[i]);
-    squares[1] += next[i] * next[i];
+    const auto group = 2 * static_cast<std::size_t>(std::max(groups.of_row[static_cast<std::size_t>(discs[i].index[0])], 0));
+    if (!std::isinf(now[i])) squares[group] += (next[i] - now[i]) * (next[i] - now[i]);
+    squares[group + 1] += next[i] * next[i];
   }
-  comm.sum_in_place(squares);
-  const double size = std::max(std::sqrt(squares[1]), least);
-  return size > 0 ? std::sqrt(squares[0]) / size : 0;
+  problem.communicator().sum_in_place(squares);
+  double largest = 0, change = 0;
+  for (std::size_t g = 1; g < squares.size(); g += 2) largest = std::max(largest, squares[g]);
+  least = std::max(least, nothing_part * std::sqrt(largest));
+  for (std::size_t g = 0; g < squares.size(); g += 2) {
+    const double size = std::max(std::sqrt(squares[g + 1]), least);
+    if (size > 0) change = std::max(change, std::sqrt(squares[g]) / size);
+  }
+  return change;
 }
 
 }  // namespace mortise::friction

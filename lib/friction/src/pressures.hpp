@@ -11,7 +11,8 @@ namespace mortise::friction {
 /// Cover of points below which they have a force but no pressure of their own.
 inline constexpr double narrow_cover = 0.35;
 
-/// What multipliers `x` press with: the largest pressure of each contact, the same on every rank.
+/// What multipliers `x` press with. Points are taken together by contact and by group of bodies (feti::BodyGroups): the parts of
+/// a contact, each with its largest pressure, the same on every rank.
 class Pressures {
  public:
   /// Collective. `problem` outlives it.
@@ -19,17 +20,23 @@ class Pressures {
 
   /// The pressure that a multiplier makes at a point of this rank; 0 where a point has none of its own or is bonded.
   double of(std::size_t point, double multiplier) const;
-  std::size_t contacts() const { return largest_.size(); }
-  double largest(std::size_t contact) const { return largest_[contact]; }
-  /// Whether a contact only touches: it presses with less than a thousandth of the largest pressure, and its force is less than a
-  /// thousandth of what acts on any body that is loaded. So a block's weight matters beside a press.
-  bool idle(std::size_t contact) const;
+  std::size_t parts() const { return group_.size(); }
+  /// Of a point of this rank.
+  std::size_t part_of(std::size_t point) const { return part_[point]; }
+  double largest(std::size_t part) const { return largest_[part]; }
+  /// Whether it only touches: it presses with less than a thousandth of the largest pressure in its group of bodies, and its
+  /// force is less than a thousandth of what acts on any body there that is loaded. So a block's weight matters beside a press.
+  bool idle(std::size_t part) const;
 
  private:
+  void find_parts();
+
   const feti::DualProblem& problem_;
-  std::vector<double> largest_, force_;  // of each contact: pressure, sum of normal forces
-  double all_ = 0;                       // the largest pressure
-  double least_load_ = 0;                // of the bodies that are loaded; infinite if there are none
+  std::vector<std::size_t> part_;        // of each point of this rank
+  std::vector<std::size_t> group_;       // of each part
+  std::vector<double> largest_, force_;  // of each part: pressure, sum of normal forces
+  std::vector<double> all_;              // of each group: the largest pressure,
+  std::vector<double> least_load_;       // and that of its bodies that are loaded; infinite if there are none
 };
 
 }  // namespace mortise::friction

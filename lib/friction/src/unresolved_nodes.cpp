@@ -153,9 +153,8 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector&
   std::vector<bool> rim(points.size(), false), edge_of_stick(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& rows = problem.node_rows()[i];
-    const auto contact = static_cast<std::size_t>(points[i].contact);
-    if (pressures.idle(contact)) continue;
-    const double largest = pressures.largest(contact);
+    if (pressures.idle(pressures.part_of(i))) continue;
+    const double largest = pressures.largest(pressures.part_of(i));
     const double off = std::abs(change[rows.normal]), at = argument[rows.normal];
     rim[i] = pressures.of(i, off) > negligible_change * largest && off >= std::abs(at);
     if (rows.disc < 0 || rim[i] || at <= 0) continue;
@@ -164,8 +163,8 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector&
     edge_of_stick[i] = pressures.of(i, moved) > negligible_change * largest &&
                        moved >= std::abs(qp::from_centre(disc, argument).norm() - disc.radius);
   }
-  const auto rims = bands(problem, pressures.contacts(), rim);
-  const auto edges = bands(problem, pressures.contacts(), edge_of_stick);
+  const auto rims = bands(problem, static_cast<std::size_t>(contact_count(problem)), rim);
+  const auto edges = bands(problem, rims.size(), edge_of_stick);
   std::vector<Undecided> result;
   for (std::size_t c = 0; c < rims.size(); ++c)
     if (rims[c].points + edges[c].points > 0) result.push_back({static_cast<int>(c), rims[c], edges[c]});
@@ -200,9 +199,8 @@ std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& re
   std::vector<double> parts(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& rows = problem.node_rows()[i];
-    const auto contact = static_cast<std::size_t>(problem.constraints().contacts.nodes[i].contact);
-    const double largest = pressures.largest(contact), moved = std::hypot(change[rows.normal], tangential(rows, change));
-    if (!pressures.idle(contact) && largest > 0) parts[i] = pressures.of(i, moved) / largest;
+    const double largest = pressures.largest(pressures.part_of(i)), moved = std::hypot(change[rows.normal], tangential(rows, change));
+    if (!pressures.idle(pressures.part_of(i)) && largest > 0) parts[i] = pressures.of(i, moved) / largest;
   }
   for (int c = 0; c < contacts; ++c)
     if (auto found = worst_points(problem, c, parts, at_rest)) {

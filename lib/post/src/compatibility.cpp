@@ -44,26 +44,30 @@ Tears tears(const partition::Decomposition& decomposition, const partition::Inte
   return {{largest.begin(), middle}, {middle, largest.end()}};
 }
 
-// At the contact nodes of this rank: the largest overlap, and the largest distance across what is bonded. Collective.
+// At the contact nodes of this rank, of each group of bodies, see feti::BodyGroups: the largest overlap, and the largest distance
+// across what is bonded. Collective.
 struct Openings {
-  double overlap = 0, bonded = 0;
+  std::vector<double> overlap, bonded;
 };
 Openings openings(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
 {
   const Eigen::VectorXd jumps = problem.jumps(u);
   const auto& contacts = problem.constraints().contacts;
+  const auto& groups = problem.groups();
   const auto bound = contact_bounds(problem, nu);
-  Openings largest;
+  const std::vector<double> none(groups.of_body.size(), 0.0);
+  Openings largest{none, none};
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     const auto& node = contacts.nodes[i];
     if (!node.parts.empty()) continue;  // these give way
     const auto& rows = problem.node_rows()[i];
     const double weight = std::max(node.weight, 1.0);
     const auto opening = [&](int k) { return (jumps[rows.normal + k] - bound[node.row + static_cast<std::size_t>(k)]) / weight; };
+    const auto group = static_cast<std::size_t>(std::max(groups.of_row[static_cast<std::size_t>(rows.normal)], 0));
     if (!contacts.bonded[i])
-      largest.overlap = std::max(largest.overlap, opening(0));
+      largest.overlap[group] = std::max(largest.overlap[group], opening(0));
     else
-      for (int k = 0; k <= rows.tangents; ++k) largest.bonded = std::max(largest.bonded, std::abs(opening(k)));
+      for (int k = 0; k <= rows.tangents; ++k) largest.bonded[group] = std::max(largest.bonded[group], std::abs(opening(k)));
   }
   return largest;
 }
@@ -83,17 +87,30 @@ std::vector<double> places_of_held_nodes(const feti::DualProblem& problem, const
   return places;
 }
 
+// Of each group of bodies the largest distance of what this rank's supports hold from where they hold it. Collective.
+std::vector<double> distances_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u,
+                                            const Eigen::VectorXd& nu)
+{
+  const Eigen::VectorXd jumps = problem.jumps(u);
+  const auto& constraints = problem.constraints();
+  const auto& groups = problem.groups();
+  std::vector<double> largest(groups.of_body.size(), 0.0);
+  auto row = problem.jump().ranges().dirichlet;
+  const auto note = [&](double place) {
+    auto& distance = largest[static_cast<std::size_t>(std::max(groups.of_row[static_cast<std::size_t>(row)], 0))];
+    distance = std::max(distance, std::abs(jumps[row++] - place));
+  };
+  for (const double place : places_of_held_nodes(problem, nu)) note(place);
+  for (const auto& held : constraints.skew_supports) note(held.value);
+  return largest;
+}
+
 }  // namespace
 
 double distance_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
 {
-  const Eigen::VectorXd jumps = problem.jumps(u);
-  const auto& constraints = problem.constraints();
-  auto row = problem.jump().ranges().dirichlet;
-  double largest = 0;
-  for (const double place : places_of_held_nodes(problem, nu)) largest = std::max(largest, std::abs(jumps[row++] - place));
-  for (const auto& held : constraints.skew_supports) largest = std::max(largest, std::abs(jumps[row++] - held.value));
-  return problem.communicator().max(largest);
+  const auto distances = distances_from_supports(problem, u, nu);
+  return problem.communicator().max(*std::max_element(distances.begin(), distances.end()));
 }
 
 double distance_between_parts(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
@@ -102,21 +119,32 @@ double distance_between_parts(const feti::DualProblem& problem, const partition:
 {
   const auto& comm = problem.communicator();
   const auto tear = tears(decomposition, interface, u, problem.dimension(), comm).tear;
-  return std::max(comm.max(openings(problem, u, nu).bonded), *std::max_element(tear.begin(), tear.end()));
+  const auto bonded = openings(problem, u, nu).bonded;
+  return std::max(comm.max(*std::max_element(bonded.begin(), bonded.end())), *std::max_element(tear.begin(), tear.end()));
 }
 
 double incompatibility(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                        const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
 {
   const auto& comm = problem.communicator();
+  const auto& groups = problem.groups().of_body;
   const auto [tear, size] = tears(decomposition, interface, u, problem.dimension(), comm);
   const auto loads = problem.loads_of_bodies();
-  const double largest = *std::max_element(size.begin(), size.end()), load = *std::max_element(loads.begin(), loads.end());
-  if (!(largest > 0)) return 0;
-  double worst = std::max(comm.max(openings(problem, u, nu).overlap), distance_from_supports(problem, u, nu)) / largest;
+  const double all = *std::max_element(size.begin(), size.end()), load = *std::max_element(loads.begin(), loads.end());
+  if (!(all > 0)) return 0;
+  std::vector<double> largest(groups.size(), moved_part * all);  // displacement in each group
+  for (std::size_t b = 0; b < groups.size(); ++b) {
+    auto& of_group = largest[static_cast<std::size_t>(groups[b])];
+    of_group = std::max(of_group, size[b]);
+  }
+  const auto overlap = openings(problem, u, nu).overlap, away = distances_from_supports(problem, u, nu);
+  double worst = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) worst = std::max(worst, std::max(overlap[g], away[g]) / largest[g]);
+  worst = comm.max(worst);
   for (std::size_t b = 0; b < tear.size(); ++b) {
     const bool loaded = loads[b] > loaded_part * load;
-    worst = std::max(worst, tear[b] / (loaded ? std::max(size[b], moved_part * largest) : largest));
+    worst =
+        std::max(worst, tear[b] / (loaded ? std::max(size[b], moved_part * all) : largest[static_cast<std::size_t>(groups[b])]));
   }
   return worst;
 }

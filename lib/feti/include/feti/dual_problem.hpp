@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/context.hpp"
+#include "feti/body_groups.hpp"
 #include "feti/dual_operator.hpp"
 #include "feti/free_motions.hpp"
 #include "feti/options.hpp"
@@ -74,6 +75,7 @@ class DualProblem {
   const std::vector<Eigen::VectorXd>& load() const { return load_; }
   /// Of each body the sum of |nodal force| over its nodes. Collective.
   std::vector<double> loads_of_bodies() const;
+  const BodyGroups& groups() const { return groups_; }
   int dimension() const { return decomposition_.catalogue.dimension; }
   const Clusters& clusters() const { return system_.clusters; }
   const Communicator& communicator() const { return comm_; }
@@ -136,6 +138,7 @@ class DualProblem {
   std::vector<Eigen::VectorXd> load_;
   const Communicator& comm_;
   std::unique_ptr<JumpOperator> jump_;
+  BodyGroups groups_;
   std::unique_ptr<ElasticRows> springs_;
   std::unique_ptr<DualOperator> hessian_;
   std::unique_ptr<Preconditioner> preconditioner_;

@@ -20,8 +20,9 @@ std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vec
 /// The coefficient of each disc of problem.set() under Coulomb's law, see qp::Disc; 0 under others.
 std::vector<double> coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws);
 
-/// ||next - now|| / ||next|| of slip bounds over all ranks, those that are infinite in either left out; `least` is the size below
-/// which bounds are rounding. Collective.
-double relative_change(const std::vector<double>& next, const std::vector<double>& now, double least, const Communicator& comm);
+/// ||next - now|| / ||next|| of slip bounds, the largest of any group of bodies (feti::BodyGroups), those that are infinite in
+/// either left out; `least` is the size below which bounds are rounding. Collective.
+double relative_change(const feti::DualProblem& problem, const std::vector<double>& next, const std::vector<double>& now,
+                       double least);
 
 }  // namespace mortise::friction
