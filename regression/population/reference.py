@@ -105,15 +105,19 @@ class Condensed:
         return self.all_forces(u)[0][:, 0]
 
     def unsolved(self, u):
-        """By how much the conditions of a solution are missed: lengths over the largest displacement, forces over the largest of a row."""
+        """By how much the conditions of a solution are missed: lengths over the largest displacement, forces over the largest of a row.
+        Forces on nodes are sums of much larger ones where a stiff body lies on soft ones; their rounding is left out."""
         forces, left = self.all_forces(u)
-        inner = (self.problem.stiffness @ u - self.problem.force)[self.i]
+        k = self.problem.stiffness
+        rounding = 16 * np.finfo(float).eps * (abs(k) @ abs(u))
+        over = lambda values, at: np.maximum(np.abs(values) - rounding[at], 0)
+        left, inner = over(left, self.c), over((k @ u - self.problem.force)[self.i], self.i)
         largest = max(np.abs(forces).max(), 1e-300)
         normal, across, gap = forces[:, 0], forces[:, 1:], self.normal @ u + self.gap
         slip = np.column_stack([t @ u for t in self.tangent])
         bound, size, speed = self.bounds(normal), np.linalg.norm(across, axis=1), np.linalg.norm(slip, axis=1)
         turned = np.sqrt(np.maximum(bound * speed + np.sum(across * slip, axis=1), 0) / (largest * self.size))  # friction opposes slip
-        return max(np.abs(np.concatenate([left, inner])).max() / largest, np.max(-gap) / self.size, np.max(-normal) / largest,
+        return max(np.concatenate([left, inner]).max() / largest, np.max(-gap) / self.size, np.max(-normal) / largest,
                    np.max(np.minimum(np.abs(gap) / self.size, np.abs(normal) / largest)), np.max(size - bound) / largest, np.max(turned) ** 2)
 
     def bounds(self, forces):
