@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pressed_faces.hpp"
 #include "wording.hpp"
 
 namespace mortise::post {
@@ -14,19 +15,6 @@ constexpr double strength = 0.01;           // of Young's modulus
 constexpr double with_rounding = 1 + 1e-6;  // a pressure of just that is none too large
 constexpr double large_error = 0.25;
 constexpr double large_push = 1e-3;
-
-// How many corners of a face are pressed, of how many. One without rows is if all of the face's nodes with rows are.
-std::pair<std::ptrdiff_t, std::ptrdiff_t> pressed_corners(const mesh::Surface& side, const contact::SurfaceState& state,
-                                                          std::size_t face)
-{
-  const auto nodes = side.faces[face];
-  const auto corners = nodes.first(static_cast<std::size_t>(mesh::corner_count(side.faces.type[face])));
-  const auto bare = [&](Local n) { return !state.without_rows.empty() && state.without_rows[static_cast<std::size_t>(n)]; };
-  const auto pressed = [&](Local n) { return state.status[static_cast<std::size_t>(n)] != 0; };
-  const bool all = std::all_of(nodes.begin(), nodes.end(), [&](Local n) { return bare(n) || pressed(n); });
-  const auto count = std::count_if(corners.begin(), corners.end(), [&](Local n) { return pressed(n) && (all || !bare(n)); });
-  return {count, static_cast<std::ptrdiff_t>(corners.size())};
-}
 
 }  // namespace
 
@@ -85,11 +73,36 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
   return worst(std::move(result), "contacts");
 }
 
+namespace {
+
+// What a contact presses with: the largest pressure of a node, and of the means over faces.
+struct Peaks {
+  std::vector<Found> node, recovered;
+};
+
+// Of each contact but bonded ones. Collective.
+Peaks peaks_of(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs, const Communicator& comm)
+{
+  Peaks peaks{std::vector<Found>(pairs.size()), std::vector<Found>(pairs.size())};
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (pairs[c].options.law == contact::Law::bonded) continue;
+    const auto& side = pairs[c].secondary;
+    for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i) {
+      if (surfaces[c].status[i] == 0) continue;
+      peaks.node[c].take(surfaces[c].pressure[i], side.points[i]);
+      peaks.recovered[c].take(surfaces[c].recovered_pressure[i], side.points[i]);
+    }
+  }
+  return {largest_of_ranks(peaks.node, comm), largest_of_ranks(peaks.recovered, comm)};
+}
+
+}  // namespace
+
 std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces,
                                      std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
                                      const Communicator& comm)
 {
-  constexpr double most = 0.5;
+  constexpr double most = 0.5, bent = 0.83;
   std::vector<double> forces(2 * pairs.size(), 0.0);  // that act between nodes, all
   for (const auto& p : points) {
     const auto c = 2 * static_cast<std::size_t>(p.contact);
@@ -97,38 +110,42 @@ std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surf
     if (!p.parts.empty()) forces[c] += std::abs(p.force);
   }
   comm.sum_in_place(forces);
-  std::vector<Found> peaks(pairs.size());
-  std::vector<double> faces(pairs.size(), 0.0);  // that are pressed at all corners
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    if (pairs[c].options.law == contact::Law::bonded) continue;
-    const auto& side = pairs[c].secondary;
-    for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i)
-      if (surfaces[c].status[i] != 0) peaks[c].take(surfaces[c].pressure[i], side.points[i]);
-    for (std::size_t f = 0; f < side.faces.size(); ++f)
-      if (const auto [count, all] = pressed_corners(side, surfaces[c], f); count == all) ++faces[c];
-  }
-  peaks = largest_of_ranks(peaks, comm);
-  comm.sum_in_place(faces);
+  const auto peaks = peaks_of(surfaces, pairs, comm);
+  const auto pressed = pressed_faces(surfaces, pairs, comm);
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const auto &peak = peaks.node[c], &recovered = peaks.recovered[c];
+    if (!(peak.value > 0)) continue;
     const bool between_nodes = forces[2 * c] > most * forces[2 * c + 1];
-    if (!(peaks[c].value > 0) || (faces[c] > 0 && !between_nodes)) continue;
+    const int wide = pressed[c].whole == 0 || between_nodes ? 0 : pressed[c].inside == 0 ? 1 : pressed[c].core == 0 ? 2 : 3;
+    // One face of first order has next to the same pressure at all its nodes, whatever is right.
+    const bool told_by_mean = wide == 2 || (wide == 1 && pressed[c].second_order > 0);
+    if (wide == 3 || (told_by_mean && recovered.value > bent * peak.value)) continue;
+    const auto& name = pairs[c].options.name;
     Warning w{
         "narrow_contact",
-        fmt::format(
-            "contact {} presses at {}, but on no whole face of its secondary side: it is narrower than a face, and its "
-            "area, its pressure and how far the bodies approach are those of the mesh; the error that is given for the mesh "
-            "leaves this out and may be far too small",
-            pairs[c].options.name, spell(peaks[c].at)),
-        "make the faces there smaller, those of the other side as well; or let the side with the smaller faces be secondary"};
-    w.at = peaks[c].at;
+        wide == 0
+            ? fmt::format(
+                  "contact {} presses at {}, but on no whole face of its secondary side: it is narrower than a face, and its "
+                  "area, its pressure and how far the bodies approach are those of the mesh; the error that is given for the "
+                  "mesh leaves this out and may be far too small",
+                  name, spell(peak.at))
+            : fmt::format(
+                  "contact {} presses at {} on about {} of its secondary side across: that is too narrow for its pressure, "
+                  "{:.4g} as a mean over faces and {:.4g} at one node; this, its area and how far the bodies approach are "
+                  "those of the mesh, and the error that is given for the mesh leaves it out",
+                  name, spell(peak.at), wide == 1 ? "one face" : "two faces", recovered.value, peak.value),
+        wide == 0
+            ? "make the faces there smaller, those of the other side as well; or let the side with the smaller faces be secondary"
+            : "make the faces there smaller, on both sides, until four and more press across"};
+    w.at = peak.at;
     w.boundary = pairs[c].options.secondary;
-    w.contact = pairs[c].options.name;
-    w.value = 0;
-    w.limit = 1;
+    w.contact = name;
+    w.value = wide;
+    w.limit = wide + 1;
     result.push_back(std::move(w));
   }
-  return worst(std::move(result), "contacts");
+  return worst(std::move(result), "contacts", [](const Warning& w) { return -w.value; });
 }
 
 namespace {

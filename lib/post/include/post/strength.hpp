@@ -20,7 +20,8 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
                                      const Communicator& comm);
 
 /// "narrow_contact": a contact presses, but on no face of its secondary side at all corners, so that it is narrower than these
-/// faces: its area, its pressures and how far bodies approach are those of the mesh. Collective.
+/// faces: its area, its pressures and how far bodies approach are those of the mesh. Or on one or two faces across, on which a
+/// pressure that is not even loses more than a sixth in the mean over faces. Collective.
 std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces,
                                      std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
                                      const Communicator& comm);
