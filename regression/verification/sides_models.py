@@ -44,7 +44,7 @@ class Model:
     force_tolerance: float = 1e-6
     quick: tuple = ()  # (cell, law) of the quick selection
     suite: tuple = ()  # of what the suite runs; the quick selection if nothing else is said
-    coarse: Callable = lambda cell: 0  # number of sizes on which a cell has too few faces in the contact for stresses: forces alone are judged
+    coarse: Callable = lambda cell: 0  # number of sizes with too few faces in the contact for stresses: forces are judged, and that the run warns
 
     def __post_init__(self):
         self.suite = self.suite or self.quick
