@@ -24,8 +24,18 @@ std::vector<std::string> body_names(const mesh::Catalogue& catalogue)
   return names;
 }
 
-std::vector<post::BodyMaterial> body_materials(const model::Model& model, const std::vector<double>& sizes,
-                                               const Communicator& comm)
+// Whether some load uses the density of a body.
+bool weighs(const model::Deck& deck, const model::LoadState& state, const mesh::Body& body)
+{
+  for (std::size_t i = 0; i < deck.loads.size(); ++i) {
+    const auto& load = deck.loads[i];
+    if ((load.acceleration || load.centrifugal) && state.load[i] != 0 && model::matches_name(body, load.body)) return true;
+  }
+  return false;
+}
+
+std::vector<post::BodyMaterial> body_materials(const model::Model& model, const model::LoadState& state,
+                                               const std::vector<double>& sizes, const Communicator& comm)
 {
   const auto& deck = model.deck();
   const auto& decomposition = model.decomposition();
@@ -39,7 +49,8 @@ std::vector<post::BodyMaterial> body_materials(const model::Model& model, const 
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto& options = model::body_entry(deck, bodies[b].group)->second;
     for (const auto& name : model::material_names(options))
-      result.push_back({bodies[b].name, sizes[b], deck.materials.at(name), options.formulation, straight[b] > 0});
+      result.push_back({bodies[b].name, sizes[b], deck.materials.at(name), options.formulation, straight[b] > 0,
+                        weighs(deck, state, bodies[b])});
   }
   return result;
 }
@@ -291,7 +302,7 @@ std::vector<Warning> uncovered_temperatures(const model::Model& model, const Com
 std::vector<Warning> check_model(const model::Model& model, const Rows& rows, const Communicator& comm)
 {
   const auto kinematics = model.deck().kinematics;
-  const auto materials = body_materials(model, post::body_sizes(model.decomposition(), kinematics, comm), comm);
+  const auto materials = body_materials(model, rows.acts, post::body_sizes(model.decomposition(), kinematics, comm), comm);
   auto result = idle_contacts(rows, comm);
   append(result, post::locking(materials, kinematics));
   append(result, post::mixed_units(materials, applied_stresses(model, rows.acts, comm)));

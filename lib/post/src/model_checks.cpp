@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "densities.hpp"
 #include "wording.hpp"
 
 namespace mortise::post {
@@ -32,6 +33,21 @@ Warning stress_in_other_units(const AppliedStress& load)
   w.boundary = load.boundary;
   w.value = part;
   w.limit = part > most_stress ? most_stress : least_stress;
+  return w;
+}
+
+Warning density_in_other_units(const BodyMaterial& b, const OtherDensity& other)
+{
+  const double factor = b.material.density / other.density;
+  Warning w{
+      "mixed_units",
+      fmt::format("density {:.4g} of body \"{}\" is in {} beside Young's modulus {:.4g} in {}, as far as numbers tell: units "
+                  "look mixed, and what it weighs is {:.4g} times what it should be",
+                  b.material.density, b.body, other.given, b.material.modulus(), other.stress, factor),
+      fmt::format("density: {:.4g}, {}", other.density, other.wanted)};
+  w.body = b.body;
+  w.value = factor;
+  w.limit = 1;
   return w;
 }
 
@@ -86,7 +102,7 @@ std::vector<Warning> locking(const std::vector<BodyMaterial>& bodies, fem::Kinem
 
 std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const std::vector<AppliedStress>& loads)
 {
-  std::vector<Warning> too_large, too_small, waves;
+  std::vector<Warning> too_large, too_small, waves, densities;
   for (const auto& load : loads) {
     if (!(load.stress > 0) || !(load.young_modulus > 0)) continue;
     const double part = load.stress / load.young_modulus;
@@ -95,6 +111,10 @@ std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const 
   }
   for (const auto& b : bodies) {
     if (!(b.material.density > 0)) continue;
+    if (const auto other = other_density(b.material.modulus(), b.material.density); b.weighs && other) {
+      densities.push_back(density_in_other_units(b, *other));
+      continue;
+    }
     const double time = b.size / std::sqrt(b.material.modulus() / b.material.density);
     if (time <= longest && time >= shortest) continue;
     Warning w{"mixed_units",
@@ -109,8 +129,8 @@ std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const 
     waves.push_back(std::move(w));
   }
   std::vector<Warning> result;
-  for (auto& group :
-       {worst(std::move(too_large), "loads"), worst(std::move(too_small), "loads"), worst(std::move(waves), "bodies")})
+  for (auto& group : {worst(std::move(too_large), "loads"), worst(std::move(too_small), "loads"),
+                      worst(std::move(waves), "bodies"), worst(std::move(densities), "bodies")})
     result.insert(result.end(), group.begin(), group.end());
   return result;
 }

@@ -50,6 +50,41 @@ TEST(MixedUnits, densities_that_go_with_other_lengths)
   EXPECT_EQ(mixed_units({mixed}, {}).size(), 1U);
 }
 
+TEST(MixedUnits, densities_in_other_units_beside_the_modulus)
+{
+  const auto found = [](double young_modulus, double density, bool weighs = true) {
+    BodyMaterial body{"plate", 2, {young_modulus, 0.3, density, 0}, fem::Formulation::standard, true, weighs};
+    return mixed_units({body}, {});
+  };
+  const auto told = found(2.1e5, 7.85e-6);  // kg/mm3 beside MPa
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NEAR(told[0].value, 1000, 1e-9);
+  EXPECT_EQ(told[0].cure, "density: 7.85e-09, t/mm3 goes with MPa and mm");
+  EXPECT_TRUE(found(2.1e5, 7.85e-6, false).empty());
+  EXPECT_EQ(found(2.1e5, 7850).size(), 1U);
+  EXPECT_EQ(found(7e4, 2700).size(), 1U);
+  EXPECT_EQ(found(7e4, 2.7e-6).size(), 1U);
+  EXPECT_EQ(found(2.1e11, 7.85e-6).size(), 1U);
+  EXPECT_EQ(found(3e7, 0.283).size(), 1U);
+  for (const auto& [e, density] : {std::pair(2.1e5, 7.85e-9),
+                                   {7e4, 2.7e-9},
+                                   {2.1e11, 7850.0},
+                                   {3e10, 2400.0},
+                                   {2.1e8, 7.85},
+                                   {2.1e8, 7.85e-6},
+                                   {2.1e12, 7.85},
+                                   {3e7, 7.3e-4},
+                                   {1e4, 1000.0},
+                                   {5e6, 1100.0},
+                                   {1e7, 60.0},
+                                   {1.65e5, 2.33e-15},
+                                   {3000.0, 1.4e-9},
+                                   {2.1e5, 7.85e-3},
+                                   {2000.0, 1.0},
+                                   {2.1e5, 1.0}})
+    EXPECT_TRUE(found(e, density).empty()) << e << " " << density;
+}
+
 TEST(MixedUnits, loads_that_go_with_other_moduli)
 {
   EXPECT_TRUE(mixed_units({}, {{"top", 250, 2.1e5}, {"top", 0, 2.1e5}, {"top", 1e4, 2.1e11}}).empty());

@@ -18,6 +18,7 @@ struct BodyMaterial {
   fem::Material material;
   fem::Formulation formulation = fem::Formulation::standard;
   bool first_order = true;  ///< some cell of it has straight edges
+  bool weighs = false;      ///< a load on it uses the density
 };
 
 /// "locking": Poisson's ratio above 0.45 with standard cells of first order, which are then far too stiff; plane stress is
@@ -32,7 +33,9 @@ struct AppliedStress {
 };
 
 /// "mixed_units": a load above a tenth of Young's modulus, or below its 1e-9th part; a wave that takes longer than a second to
-/// cross a body, or less than 1e-10 s, by its size over sqrt(E / density) (7850 kg/m3 with MPa and mm: 20 s for 100 mm).
+/// cross a body, or less than 1e-10 s, by its size over sqrt(E / density) (7850 kg/m3 with MPa and mm: 20 s for 100 mm); a
+/// density that loads use and that is no real material's beside Young's modulus in any consistent set of units, but is one's in
+/// kg/mm3 beside MPa, or by another such mistake.
 std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const std::vector<AppliedStress>& loads);
 
 /// "doubled_contact": two contacts have faces in common on both of their sides, so that each presses as if the other were not
