@@ -15,7 +15,7 @@ constexpr std::size_t most_lines = 40;
 // 0 for what rounding leaves of it.
 double plain(double gap, double touching)
 {
-  return std::abs(gap) < 1e-6 * touching ? 0 : gap;
+  return std::abs(gap) <= contact::gap_rounding * touching ? 0 : gap;
 }
 
 // Where another gap was taken than that of the meshes.
@@ -31,6 +31,13 @@ std::string instead(const contact::InitialGap& gap, const contact::Options& cont
   return "";
 }
 
+// What is no farther than surfaces that touch but for their meshes or their fit; "" if all of it touches.
+std::string near(const contact::InitialGap& gap)
+{
+  if (!(gap.near_area > (1 + 1e-6) * gap.touching_area)) return "";
+  return fmt::format(", {:.4g} within {:.2g}", gap.near_area, gap.touching);
+}
+
 }  // namespace
 
 void print_initial_gaps(const std::vector<contact::InitialGap>& gaps, const model::Contacts& contacts, bool all, Log& log)
@@ -40,9 +47,9 @@ void print_initial_gaps(const std::vector<contact::InitialGap>& gaps, const mode
     if (gaps[c].area > 0) met.push_back(c);
   const std::size_t count = all ? met.size() : std::min(most_lines, met.size());
   for (const std::size_t c : std::span(met).first(count))
-    log.line("  contact {}: initial gap {:.3g} to {:.3g}, {:.4g} of {:.4g} touches{}", contacts[c].name,
+    log.line("  contact {}: initial gap {:.3g} to {:.3g}, {:.4g} of {:.4g} touches{}{}", contacts[c].name,
              plain(gaps[c].smallest, gaps[c].touching), plain(gaps[c].largest, gaps[c].touching), gaps[c].touching_area,
-             gaps[c].area, instead(gaps[c], contacts[c]));
+             gaps[c].area, near(gaps[c]), instead(gaps[c], contacts[c]));
   if (count < met.size()) log.line("  and {} more contacts, which --check lists", met.size() - count);
 }
 

@@ -47,7 +47,8 @@ void note_gap(InitialGap& all, double gap, double mesh_gap, bool one_surface, do
   take_smallest(all, gap, {at[0], at[1], at[2]});
   all.largest = std::max(all.largest, gap);
   all.area += area;
-  if (gap <= all.touching) all.touching_area += area;
+  if (gap <= gap_rounding * all.touching) all.touching_area += area;
+  if (gap <= all.touching) all.near_area += area;
   if (one_surface) all.on_one_surface += area;
   all.mesh_smallest = std::min(all.mesh_smallest, mesh_gap);
   take_largest_of_meshes(all, mesh_gap, {at[0], at[1], at[2]});
@@ -66,6 +67,7 @@ InitialGap over_ranks(InitialGap mine, const Communicator& comm)
     result.largest = std::max(result.largest, part.largest);
     result.area += part.area;
     result.touching_area += part.touching_area;
+    result.near_area += part.near_area;
     result.on_one_surface += part.on_one_surface;
     result.mesh_smallest = std::min(result.mesh_smallest, part.mesh_smallest);
     take_largest_of_meshes(result, part.mesh_largest, part.mesh_largest_at);

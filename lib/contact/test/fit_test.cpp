@@ -71,6 +71,17 @@ TEST(Fit, DeckGoesBeforeGeometryBeforeMesh)
   EXPECT_FALSE(asks_geometry(options));
 }
 
+// A gap that is small for the size of the sides is a gap all the same.
+TEST(Fit, WhatIsNearDoesNotTouch)
+{
+  const Communicator comm;
+  const auto near = find(pin_in_hole(10, 10.0005, comm), {}, comm).initial;
+  EXPECT_GT(near.smallest, 0);
+  EXPECT_LT(near.largest, near.touching);
+  EXPECT_EQ(near.touching_area, 0);
+  EXPECT_NEAR(near.near_area, near.area, 1e-9 * near.area);
+}
+
 // By both discretizations, also at points that look past the border of the primary side.
 TEST(Fit, ClearanceIsTheGapOfEveryPoint)
 {
@@ -82,6 +93,7 @@ TEST(Fit, ClearanceIsTheGapOfEveryPoint)
     for (const double gap : raw.gaps) EXPECT_NEAR(gap, 0.02, 1e-4);
     EXPECT_EQ(raw.initial.smallest, raw.gaps.front());
     EXPECT_EQ(raw.initial.largest, raw.gaps.back());
+    EXPECT_EQ(raw.initial.touching_area, 0);
     for (const double clearance : {0.0, 0.05}) {
       pair.options.clearance = clearance;
       const auto found = find(pair, {}, comm);

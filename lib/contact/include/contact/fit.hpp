@@ -30,11 +30,13 @@ struct CurvedFace {
   double radius = 0, slope = 0;
 };
 
-/// Up to this gap surfaces count as touching: the smaller of 1e-4 of the `extent` of the smaller side and 1e-3 of the largest
-/// secondary `face`.
+/// Up to this gap surfaces are near each other for their size: the smaller of 1e-4 of the `extent` of the smaller side and 1e-3
+/// of the largest secondary `face`.
 double touching_gap(double extent, double face);
 /// Part of touching_gap() above which an overlap is no rounding.
 inline constexpr double overlapping = 0.01;
+/// Part of touching_gap() that coordinates leave of a gap 0.
+inline constexpr double gap_rounding = 1e-6;
 
 /// What a contact starts with at its contact nodes, before any interference and before anything moves. Of bonded ones what the
 /// meshes leave between the two sides.
@@ -43,7 +45,8 @@ struct InitialGap {
   std::array<double, 3> at{0, 0, 0};                          ///< where that is
   double largest = -std::numeric_limits<double>::infinity();
   double touching = 0;        ///< see touching_gap()
-  double touching_area = 0;   ///< of the nodes that touch or overlap
+  double touching_area = 0;   ///< of the nodes that touch or overlap, gap 0 but for rounding
+  double near_area = 0;       ///< of those up to `touching`
   double area = 0;            ///< of all nodes
   double on_one_surface = 0;  ///< area where the geometry says that both faces are one surface
   /// The smallest and the largest gap of the meshes where another one is taken.
