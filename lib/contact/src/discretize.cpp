@@ -80,7 +80,7 @@ class Builder {
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
         points_(secondary_, nodes_, faces_, rays_, nearest_),
-        held_(secondary_, nodes_, primary_, primary_supports_, rays_, dimension_),
+        held_(secondary_, nodes_, primary_, primary_supports_, rays_, dimension_, rotation_of(options)),
         writer_(secondary_, primary_, supports_, primary_supports_, dimension_, rotation_of(options)),
         conflicts_(primary_, writer_, dimension_)
   {
@@ -171,7 +171,8 @@ class Builder {
   // Contact may push along a part of a normal that supports leave free. What ends together has nothing to ask for supports.
   std::vector<char> primary_held()
   {
-    if (ends_together()) return std::vector<char>(nodes_.all.size(), bonded() ? 1 : 0);
+    if (bonded() && ends_together()) return std::vector<char>(nodes_.all.size(), 1);
+    if (options_.obstacle) return std::vector<char>(nodes_.all.size(), 0);
     return held_.hold_along_normals(faces_, bonded() ? &OppositeSupports::hold : &OppositeSupports::hold_all);
   }
 
@@ -276,7 +277,7 @@ class Builder {
   // Part of the row: that of the side of which supports hold less.
   double held_on_both_sides(const Point& normal) const
   {
-    if (ends_together() || supports_.empty() || primary_supports_.empty()) return 0;
+    if (options_.obstacle || supports_.empty() || primary_supports_.empty()) return 0;
     return std::clamp(1 - std::max(writer_.freedom(terms_, false, normal), writer_.freedom(terms_, true, normal)), 0.0, 1.0);
   }
 
@@ -285,7 +286,7 @@ class Builder {
   Few<Point, 2> tangents(std::size_t p, const Point& normal)
   {
     Few<Point, 2> result = free_tangents(p, normal);
-    if (options_.cyclic || options_.obstacle) return result;
+    if ((bonded() && options_.cyclic) || options_.obstacle) return result;
     const auto others = other_tangents(normal, result, dimension_);
     if (others.empty()) return result;
     const Opposite opposite = opposite_of(p);

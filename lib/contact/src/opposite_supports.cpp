@@ -9,9 +9,10 @@ bool OppositeSupports::hold(const Opposite& opposite, const Point& direction) co
   constexpr double none = 1e-6;  // of shape functions
   if (!std::isfinite(opposite.gap)) return true;
   const auto nodes = primary_.facets[opposite.facet];
+  const Point there = turned_back(direction);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]) > none &&
-        !supports_.holds(primary_.node_id[static_cast<std::size_t>(nodes[k])], direction, dimension_))
+        !supports_.holds(primary_.node_id[static_cast<std::size_t>(nodes[k])], there, dimension_))
       return false;
   return true;
 }
@@ -21,10 +22,11 @@ bool OppositeSupports::hold_all(const Opposite& opposite, const Point& direction
   constexpr double next_to_nothing = 0.1;
   if (!std::isfinite(opposite.gap)) return true;
   const auto nodes = primary_.facets[opposite.facet];
+  const Point there = turned_back(direction);
   double free = 0, all = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
-    free += part * supports_.freedom(primary_.node_id[static_cast<std::size_t>(nodes[k])], direction, dimension_);
+    free += part * supports_.freedom(primary_.node_id[static_cast<std::size_t>(nodes[k])], there, dimension_);
     all += part;
   }
   return free < next_to_nothing * all;

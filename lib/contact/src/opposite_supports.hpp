@@ -1,9 +1,11 @@
 // What supports hold of the primary side, opposite the secondary one.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cut_faces.hpp"
+#include "mesh/instances.hpp"
 #include "opposite.hpp"
 #include "supported_nodes.hpp"
 
@@ -11,10 +13,17 @@ namespace mortise::contact {
 
 class OppositeSupports {
  public:
-  /// All of which must outlive it. `supports` at the nodes of the primary side. `dimension`: 2 or 3.
+  /// All of which must outlive it. `supports` at the nodes of the primary side. `dimension`: 2 or 3. `rotation`: the primary side
+  /// is turned before it meets the secondary one, and so is what supports hold of it.
   OppositeSupports(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary, const SupportedNodes& supports,
-                   Rays& rays, int dimension)
-      : secondary_(secondary), nodes_(surface_nodes), primary_(primary), supports_(supports), rays_(rays), dimension_(dimension)
+                   Rays& rays, int dimension, const std::optional<mesh::Motion>& rotation)
+      : secondary_(secondary),
+        nodes_(surface_nodes),
+        primary_(primary),
+        supports_(supports),
+        rays_(rays),
+        dimension_(dimension),
+        rotation_(rotation)
   {
   }
 
@@ -30,12 +39,18 @@ class OppositeSupports {
                                        bool (OppositeSupports::*hold)(const Opposite&, const Point&) const) const;
 
  private:
+  Point turned_back(const Point& direction) const
+  {
+    return rotation_ ? Point(rotation_->rotation.transpose() * direction) : direction;
+  }
+
   const Side& secondary_;
   const SurfaceNodes& nodes_;
   const Side& primary_;
   const SupportedNodes& supports_;
   Rays& rays_;
   int dimension_;
+  std::optional<mesh::Motion> rotation_;
 };
 
 }  // namespace mortise::contact

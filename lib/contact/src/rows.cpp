@@ -111,12 +111,13 @@ Eigen::Matrix3d RowWriter::free_part(const Term& term) const
   const auto& supports = term.on_primary ? primary_supports_ : supports_;
   for (int c = 0; c < 3; ++c)
     if (c >= dimension_ || supports.find(node_of(term), c)) result.row(c).setZero(), result.col(c).setZero();
+  if (rotation_ && term.on_primary) result = (rotation_->rotation * result * rotation_->rotation.transpose()).eval();
   return result;
 }
 
 void RowWriter::leave_what_moves(std::span<const Term> terms, double d, const Point& normal, std::vector<Point>& tangents)
 {
-  if (tangents.empty() || rotation_) return;
+  if (tangents.empty()) return;
   Eigen::Matrix3d mobility = Eigen::Matrix3d::Zero();  // the scalar product of the rows along two directions
   double all = 0;
   for (const auto& term : terms) {

@@ -82,7 +82,7 @@ class RowWriter {
   // The part of one side at nodes that supports hold somewhat along an axis; 1 of nothing.
   double part_at_holding(std::span<const Term> terms, bool on_primary, const Point& axis) const;
   void merge();
-  // Of a term's node: the projector onto what supports leave free.
+  // Of a term's node: the projector onto what supports leave free, turned as the node is.
   Eigen::Matrix3d free_part(const Term& term) const;
 
   const Side &secondary_, &primary_;
