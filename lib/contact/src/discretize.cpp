@@ -222,11 +222,12 @@ class Builder {
     const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
     Few<Point, 2> held;                                         // tangents along which supports hold both
     if (!prescribed && options_.law != Law::frictionless) {
-      for (const auto& tangent : tangents(p, normal))
+      for (const auto& tangent : writer_.across_axis(node_here.node, normal, tangents(p, normal)))
         if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
       if (!bonded()) {
         writer_.leave_what_moves(terms_, d, normal, point.tangents);
-        for (const auto& tangent : other_tangents(normal, point.tangents, dimension_)) {
+        const auto others = other_tangents(normal, point.tangents, dimension_);
+        for (const auto& tangent : writer_.across_axis(node_here.node, normal, others)) {
           if (writer_.held_on_both_sides(terms_, tangent))
             held.push_back(tangent);
           else

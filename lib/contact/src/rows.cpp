@@ -1,5 +1,6 @@
 #include "rows.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -112,6 +113,19 @@ Eigen::Matrix3d RowWriter::free_part(const Term& term) const
   for (int c = 0; c < 3; ++c)
     if (c >= dimension_ || supports.find(node_of(term), c)) result.row(c).setZero(), result.col(c).setZero();
   if (rotation_ && term.on_primary) result = (rotation_->rotation * result * rotation_->rotation.transpose()).eval();
+  return result;
+}
+
+Few<Point, 2> RowWriter::across_axis(Local node, const Point& normal, std::span<const Point> tangents) const
+{
+  constexpr double along_it = 1 - 1e-6;  // cosine
+  Few<Point, 2> result;
+  const bool on_axis = rotation_ && dimension_ == 3 &&
+                       std::ranges::binary_search(primary_.node_id, secondary_.node_id[static_cast<std::size_t>(node)]);
+  const Point axis = on_axis ? Point(Eigen::AngleAxisd(rotation_->rotation).axis()) : Point::Zero();
+  if (on_axis && tangents.size() == 2) return {normal.cross(axis).normalized()};
+  for (const auto& tangent : tangents)
+    if (std::abs(tangent.dot(axis)) < along_it) result.push_back(tangent);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "face_integrals.hpp"
 #include "mesh/instances.hpp"
+#include "small.hpp"
 #include "supported_nodes.hpp"
 
 namespace mortise::contact {
@@ -37,6 +38,10 @@ class RowWriter {
   /// What they leave free of an axis, as part of it: the mean over the nodes of one side, weighted with what the row takes of
   /// them.
   double freedom(std::span<const Term> terms, bool on_primary, const Point& axis) const;
+  /// Of the tangents of `normal` at a secondary node those along which it has a row. A node on the axis of a sector, on both of
+  /// its cuts, is its own image: along the axis it goes with itself, and stresses that are alike in all sectors pass nothing on
+  /// there; a row along it would feel what the meshes of the cuts differ by alone.
+  Few<Point, 2> across_axis(Local node, const Point& normal, std::span<const Point> tangents) const;
   /// Leaves those of the tangents of `normal` (or the one direction between two) along which more than `held_but_for` of the
   /// terms can move, what the row along the normal feels aside. A point near a plane of symmetry that both sides have has a row
   /// across it that is nearly a combination of its others: no friction acts there.
