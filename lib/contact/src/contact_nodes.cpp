@@ -130,8 +130,8 @@ std::vector<double> sum_areas(CutFaces& faces, std::vector<double>& covered)
 }  // namespace
 
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
-                                  const SupportedNodes& supports, const std::vector<char>& primary_held,
-                                  const std::optional<BondedNodes>& bond, int dimension)
+                                  const SupportedNodes& supports, const std::vector<char>& one_node,
+                                  const std::vector<char>& primary_held, const std::optional<BondedNodes>& bond, int dimension)
 {
   const auto count = faces.places();
   ContactNodes nodes;
@@ -167,7 +167,8 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
     return !primary_held[p] && (others_hold.empty() || !others_hold[p]);
   };
   const auto left_out = [&](std::size_t p) {
-    return (!nodes.directions[p].free_normal && !needed(p)) || (bond && bond->seam_ends[faces.surface_node(p)]);
+    return one_node[faces.surface_node(p)] || (!nodes.directions[p].free_normal && !needed(p)) ||
+           (bond && bond->seam_ends[faces.surface_node(p)]);
   };
   nodes.stranded = at_all_nodes_of_a_face(
       faces, count, [&](std::size_t p) { return left_out(p) || (!bond && !nodes.directions[p].free_normal); });
@@ -179,7 +180,7 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   nodes.freed.assign(count, 0);
   for (std::size_t p = 0; p < count; ++p) {
     nodes.freed[p] = (without_others[p] || needed(p)) && !nodes.directions[p].free_normal;
-    allowed[p] = !left_out(p) || without_others[p] || nodes.freed[p];
+    allowed[p] = !one_node[faces.surface_node(p)] && (!left_out(p) || without_others[p] || nodes.freed[p]);
     if (nodes.freed[p])  // what moves decides about the tangents
       nodes.directions[p] = directions(surface_nodes.all[faces.surface_node(p)].normal, {false, false, false}, {}, dimension);
     nodes.cover[p] = whole[p] > 0 ? std::min(nodes.covered[p] / whole[p], 1.0) : 0.0;

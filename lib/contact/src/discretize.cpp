@@ -119,7 +119,9 @@ class Builder {
     for (const std::size_t f : faces_.round()) discretization_->add_face(f, between.in_facets[f] != 0);
     between_.emplace(std::move(between.places), secondary_, share_.own, comm);
     faces_.number_corners();
-    chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, primary_held(), bonded_nodes(), dimension_);
+    const auto one_node = nodes_of_both_sides();
+    ends_meet_ = std::ranges::find(one_node, 1) != one_node.end();
+    chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, one_node, primary_held(), bonded_nodes(), dimension_);
     if (!options_.preload && !options_.obstacle)
       for (std::size_t p = 0; p < nodes_.all.size(); ++p)
         if (own(p) && !chosen_.kept[p] && chosen_.cover[p] > least_cover) note_conflict_where_held(p);
@@ -166,6 +168,15 @@ class Builder {
       known.seam_ends.push_back(met && discretization_->seams_end_at_contacts() && unbonded(nodes_.all[p].node));
     }
     return known;
+  }
+
+  // Of each surface node whether it is a node of the primary side as well, as at the tip of a slit.
+  std::vector<char> nodes_of_both_sides() const
+  {
+    std::vector<char> result(nodes_.all.size(), 0);
+    if (options_.cyclic || options_.obstacle) return result;
+    for (std::size_t p = 0; p < result.size(); ++p) result[p] = writer_.on_both_sides(nodes_.all[p].node);
+    return result;
   }
 
   // Contact may push along a part of a normal that supports leave free. What ends together has nothing to ask for supports.
@@ -278,7 +289,7 @@ class Builder {
   // Part of the row: that of the side of which supports hold less.
   double held_on_both_sides(const Point& normal) const
   {
-    if (options_.obstacle || supports_.empty() || primary_supports_.empty()) return 0;
+    if (options_.obstacle || (!ends_meet_ && (supports_.empty() || primary_supports_.empty()))) return 0;
     return std::clamp(1 - std::max(writer_.freedom(terms_, false, normal), writer_.freedom(terms_, true, normal)), 0.0, 1.0);
   }
 
@@ -394,6 +405,7 @@ class Builder {
   RowWriter writer_;
   SupportConflicts conflicts_;
   ContactNodes chosen_;
+  bool ends_meet_ = false;   // some nodes are on both sides
   std::vector<Term> terms_;  // of the surface node at work
 };
 

@@ -99,7 +99,7 @@ double RowWriter::freedom(std::span<const Term> terms, bool on_primary, const Po
   for (const auto& term : terms) {
     if (term.on_primary != on_primary) continue;
     const auto& supports = on_primary ? primary_supports_ : supports_;
-    free += term.value * supports.freedom(node_of(term), axis_of(term, axis), dimension_);
+    if (!one_node(term)) free += term.value * supports.freedom(node_of(term), axis_of(term, axis), dimension_);
     all += term.value;
   }
   return all != 0 ? free / all : 1;
@@ -120,8 +120,7 @@ Few<Point, 2> RowWriter::across_axis(Local node, const Point& normal, std::span<
 {
   constexpr double along_it = 1 - 1e-6;  // cosine
   Few<Point, 2> result;
-  const bool on_axis = rotation_ && dimension_ == 3 &&
-                       std::ranges::binary_search(primary_.node_id, secondary_.node_id[static_cast<std::size_t>(node)]);
+  const bool on_axis = rotation_ && dimension_ == 3 && on_both_sides(node);
   const Point axis = on_axis ? Point(Eigen::AngleAxisd(rotation_->rotation).axis()) : Point::Zero();
   if (on_axis && tangents.size() == 2) return {normal.cross(axis).normalized()};
   for (const auto& tangent : tangents)

@@ -1,6 +1,7 @@
 // From the terms of a surface node to rows in mesh numbering: components that supports hold stand in the bounds.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -35,8 +36,14 @@ class RowWriter {
   bool moves(std::span<const Term> terms, double d, const Point& axis);
   /// What supports leave of the row, as part of it, in the norms of the coefficients.
   double part_that_moves(std::span<const Term> terms, double d, const Point& axis);
+  /// Whether a secondary node is a node of the primary side as well: on the axis of a sector its own image, else, as at the tip
+  /// of a slit, a place that nothing opens or closes.
+  bool on_both_sides(Local node) const
+  {
+    return std::ranges::binary_search(primary_.node_id, secondary_.node_id[static_cast<std::size_t>(node)]);
+  }
   /// What they leave free of an axis, as part of it: the mean over the nodes of one side, weighted with what the row takes of
-  /// them.
+  /// them. Nothing at places that nothing opens or closes.
   double freedom(std::span<const Term> terms, bool on_primary, const Point& axis) const;
   /// Of the tangents of `normal` at a secondary node those along which it has a row. A node on the axis of a sector, on both of
   /// its cuts, is its own image: along the axis it goes with itself, and stresses that are alike in all sectors pass nothing on
@@ -59,6 +66,11 @@ class RowWriter {
   void add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts);
 
  private:
+  // Whether the other side has the node as well, and nothing turns it.
+  bool one_node(const Term& term) const
+  {
+    return !rotation_ && std::ranges::binary_search((term.on_primary ? secondary_ : primary_).node_id, node_of(term));
+  }
   struct Coefficient {
     Global node;
     int component;
