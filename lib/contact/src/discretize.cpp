@@ -82,7 +82,7 @@ class Builder {
         points_(secondary_, nodes_, faces_, rays_, nearest_),
         held_(secondary_, nodes_, primary_, primary_supports_, rays_, dimension_, rotation_of(options)),
         writer_(secondary_, primary_, supports_, primary_supports_, dimension_, rotation_of(options)),
-        conflicts_(primary_, writer_, dimension_)
+        conflicts_(secondary_, primary_, writer_, dimension_)
   {
   }
 

@@ -1,6 +1,9 @@
 // What supports that hold both sides of a contact push into each other, or tear out of a bond.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -13,8 +16,8 @@ namespace mortise::contact {
 class SupportConflicts {
  public:
   /// All of which must outlive it. `dimension`: 2 or 3.
-  SupportConflicts(const Side& primary, RowWriter& writer, int dimension)
-      : primary_(primary), writer_(writer), dimension_(dimension)
+  SupportConflicts(const Side& secondary, const Side& primary, RowWriter& writer, int dimension)
+      : secondary_(secondary), primary_(primary), writer_(writer), dimension_(dimension)
   {
   }
 
@@ -37,10 +40,17 @@ class SupportConflicts {
 
  private:
   std::vector<Term> terms_of(Local node, const Opposite& opposite) const;
+  // What the same smooth motion of both sides may differ by there, since each mesh interpolates it between its own nodes.
+  double of_interpolation(std::span<const Term> terms, double d, const Point& direction);
+  // The second derivative of what supports prescribe round some nodes of one side; none if too few are held to tell.
+  std::optional<double> bend(const std::set<Local>& nodes, bool on_primary, const Point& direction);
 
-  const Side& primary_;
+  std::set<Local> nodes_round(Local node, bool on_primary);  // of the faces that have it
+
+  const Side &secondary_, &primary_;
   RowWriter& writer_;
   int dimension_;
+  std::array<std::vector<std::vector<Local>>, 2> faces_round_;  // of each node of a side, once one is asked
   double crossing_ = 0, tear_ = 0;
 };
 
