@@ -10,7 +10,7 @@ namespace mortise::contact {
 namespace {
 
 // Curvature below this part of 1 / size of a facet is rounding.
-constexpr double least_curvature = 1e-8;
+constexpr double rounding_of_curvature = 1e-8;
 // How far a line may pass the border of a face that it meets continued, in shape functions.
 constexpr double beyond_border = 1;
 
@@ -208,10 +208,13 @@ Point Rays::direction(std::size_t p, const Point& at, const Point& normal) const
   const Point other = primary_normal(opposite);
   const double length = primary_.geometry(opposite.facet).size();
   const bool on_edge = edges_.is_edge(p, normal, other, parallel_over(curvature_[p] * length));
-  const double own = curvature_[p] + (least_curvature + (on_edge ? curvature_of_edge : 0)) / length;
-  const double others = curvature_of(primary_, primary_nodes_, opposite.facet) +
-                        (least_curvature + curvature_of_edge * part_on_edges(opposite, normal)) / length;
-  return (others * normal - own * other).normalized();
+  const double own = curvature_[p] * length + (on_edge ? curvature_of_edge : 0);
+  const double others =
+      curvature_of(primary_, primary_nodes_, opposite.facet) * length + curvature_of_edge * part_on_edges(opposite, normal);
+  // Both as flat as each other where rounding tells their curvature, but nothing that tilts the normal of a plane beside what is
+  // curved: bodies between parallel planes that are free along them would be driven.
+  const double alike = rounding_of_curvature * std::exp(-std::max(own, others) / rounding_of_curvature);
+  return ((others + alike) * normal - (own + alike) * other).normalized();
 }
 
 // What the shape functions of corners on convex edges make up at the place that is met.
@@ -233,7 +236,7 @@ Point Rays::direction_to_obstacle(std::size_t p, const ClosestPoint& closest, co
   if (obstacle_->shape == Obstacle::Shape::plane) return -closest.normal;
   const double parallel = parallel_over(curvature_[p] * past_[p] / part_past);
   const double edge = edges_.is_edge(p, normal, closest.normal, parallel) ? curvature_of_edge : 0;
-  const double own = curvature_[p] + (least_curvature + edge) / obstacle_->radius;
+  const double own = curvature_[p] + edge / obstacle_->radius;
   return (curvature_of(*obstacle_) * normal - own * closest.normal).normalized();
 }
 

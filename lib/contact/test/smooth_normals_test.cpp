@@ -54,6 +54,23 @@ TEST(SmoothNormals, AreExactOnCylindersAndSpheresWhateverTheFaces)
   }
 }
 
+// A plane tells the direction of what is curved, with nothing of the curved side's own normal: bodies between parallel planes
+// that are free along them would be driven by it.
+TEST(SmoothNormals, OfACurvedSideOnAPlaneAreThePlanes)
+{
+  const Communicator comm;
+  auto pair = make_pair(surface(
+                            {6, 6, -0.7, 0.7, -0.7, 0.7, true, false, 0, 0.25},
+                            [](double x, double y) { return Point(x, y, -0.1 * (x * x + y * y)); }, comm),
+                        surface(
+                            {4, 5, -0.9, 0.9, -0.9, 0.9, false, false, primary_ids, 0.25},
+                            [](double x, double y) { return Point(x, y, 0.01); }, comm),
+                        Law::frictionless);
+  const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+  EXPECT_GE(rows.rows.size(), 20u);
+  for (const auto& row : rows.rows) EXPECT_LT((row.normal - Point(0, 0, 1)).norm(), 1e-15);
+}
+
 // A side one cell long, as of a slice: nothing says how it curves along its axis, so it does not.
 TEST(SmoothNormals, OfASideOneCellLongDoNotTiltAlongIt)
 {
