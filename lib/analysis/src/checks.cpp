@@ -246,26 +246,49 @@ std::vector<Warning> coarser_than_asked(const model::Model& model, const Communi
   return {w};
 }
 
-// Faces of one body that lie on each other without a common node: a seam that was to be merged, or a crack.
-std::vector<Warning> open_seams(const model::Model& model, const Communicator& comm)
+std::string others_have_some(std::size_t bodies)
 {
-  const auto doubled = model::doubled_nodes(model, comm);
-  if (doubled.empty()) return {};
-  const auto& worst = doubled.front();
-  const auto& body = model.decomposition().catalogue.bodies[static_cast<std::size_t>(worst.body)].name;
-  const std::string others = doubled.size() > 2    ? fmt::format("; {} more bodies have some", doubled.size() - 1)
-                             : doubled.size() == 2 ? "; another body has some"
-                                                   : "";
-  Warning w{
-      "doubled_nodes",
-      fmt::format("body \"{}\" has {} nodes twice at the same place, as at ({:.5g}, {:.5g}, {:.5g}): its faces there are not "
-                  "connected{}",
-                  body, worst.nodes, worst.at[0], worst.at[1], worst.at[2], others),
-      "merge the nodes in the mesher, or bond the two faces; name them in a contact if they are to be a crack"};
-  w.at = worst.at;
-  w.body = body;
-  w.value = static_cast<double>(worst.nodes);
-  return {std::move(w)};
+  return bodies > 2 ? fmt::format("; {} more bodies have some", bodies - 1) : bodies == 2 ? "; another body has some" : "";
+}
+
+// Faces of one body that lie on each other without common nodes: a seam that was to be merged, cells that were to fit, or a
+// crack.
+std::vector<Warning> unconnected_faces(const model::Model& model, const Communicator& comm)
+{
+  const auto& bodies = model.decomposition().catalogue.bodies;
+  const auto [doubled, hanging] = model::open_seams(model, comm);
+  std::vector<Warning> result;
+  if (!doubled.empty()) {
+    const auto& worst = doubled.front();
+    const auto& body = bodies[static_cast<std::size_t>(worst.body)].name;
+    Warning w{
+        "doubled_nodes",
+        fmt::format("body \"{}\" has {} nodes twice at the same place, as at ({:.5g}, {:.5g}, {:.5g}): its faces there are not "
+                    "connected{}",
+                    body, worst.nodes, worst.at[0], worst.at[1], worst.at[2], others_have_some(doubled.size())),
+        "merge the nodes in the mesher, or bond the two faces; name them in a contact if they are to be a crack"};
+    w.at = worst.at;
+    w.body = body;
+    w.value = static_cast<double>(worst.nodes);
+    result.push_back(std::move(w));
+  }
+  if (!hanging.empty()) {
+    const auto& worst = hanging.front();
+    const auto& body = bodies[static_cast<std::size_t>(worst.body)].name;
+    Warning w{
+        "hanging_nodes",
+        fmt::format("body \"{}\" has {} faces inside that lie on others with other corners, as at ({:.5g}, {:.5g}, {:.5g}): the "
+                    "cells on either side are not connected there, or by some of their nodes alone{}",
+                    body, worst.faces, worst.at[0], worst.at[1], worst.at[2], others_have_some(hanging.size())),
+        "mesh its parts together (BooleanFragments in gmsh) and with cells that fit, or make them two bodies and bond these; "
+        "name "
+        "the faces in a contact if they are to be a crack"};
+    w.at = worst.at;
+    w.body = body;
+    w.value = static_cast<double>(worst.faces);
+    result.push_back(std::move(w));
+  }
+  return result;
 }
 
 // Nodes that a file of temperatures does not reach have what is found nearest to it, or a straight line goes on to them.
@@ -308,7 +331,7 @@ std::vector<Warning> check_model(const model::Model& model, const Rows& rows, co
   append(result, post::mixed_units(materials, applied_stresses(model, rows.acts, comm)));
   append(result, post::doubled_contacts(rows.pairs, comm));
   append(result, coarser_than_asked(model, comm));
-  append(result, open_seams(model, comm));
+  append(result, unconnected_faces(model, comm));
   append(result, uncovered_temperatures(model, comm));
   return result;
 }

@@ -163,6 +163,13 @@ std::vector<std::size_t> near_other_ranks(const MovedFaces& faces, const Communi
 
 }  // namespace
 
+std::vector<std::size_t> near_other_ranks(const mesh::Surface& skin, double margin, const Communicator& comm)
+{
+  MovedFaces faces(skin.points, skin.points, skin.faces, skin.body);
+  for (auto& motion : faces.motion) motion.now = motion.before = grown(motion.now, margin * motion.now.diagonal().norm());
+  return near_other_ranks(faces, comm);
+}
+
 std::vector<std::size_t> near_itself(const mesh::Surface& before, const mesh::Surface& now, fem::Kinematics kinematics,
                                      const Communicator& comm)
 {

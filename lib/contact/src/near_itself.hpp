@@ -13,4 +13,7 @@ namespace mortise::contact {
 std::vector<std::size_t> near_itself(const mesh::Surface& before, const mesh::Surface& now, fem::Kinematics kinematics,
                                      const Communicator& comm);
 
+/// This rank's faces that may meet faces of their body on other ranks, all grown by `margin` of their size. Collective.
+std::vector<std::size_t> near_other_ranks(const mesh::Surface& skin, double margin, const Communicator& comm);
+
 }  // namespace mortise::contact

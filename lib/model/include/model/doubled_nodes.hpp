@@ -16,8 +16,21 @@ struct DoubledNodes {
   Point at;         ///< that one of them that is nearest to their middle
 };
 
+/// A body with faces that lie on others with other corners.
+struct HangingNodes {
+  int body;
+  long long faces;  ///< that lie on others
+  Point at;         ///< the middle of one of them, that is nearest to the middle of all
+};
+
+struct OpenSeams {
+  std::vector<DoubledNodes> doubled;
+  std::vector<HangingNodes> hanging;
+};
+
 /// All bodies whose outer faces come twice at one place (contact::find_doubled_faces()), but for those that are the two sides of
-/// a contact or bond; most nodes first. Collective.
-std::vector<DoubledNodes> doubled_nodes(const Model& model, const Communicator& comm);
+/// a contact or bond, or lie on others (contact::find_hanging_faces()), but for those that a contact has, or supports hold on
+/// both sides; most nodes or faces first. Collective.
+OpenSeams open_seams(const Model& model, const Communicator& comm);
 
 }  // namespace mortise::model
