@@ -259,6 +259,8 @@ void Solver::fixed_point(Run& run)
   Relaxation relaxation(problem_.communicator());
   int infeasible = 0, failures = 0, falls = 0, idle = 0;
   double strictness = 1;
+  const auto& groups = problem_.groups().of_body;
+  const bool apart = std::any_of(groups.begin(), groups.end(), [&](int g) { return g != groups.front(); });
   if (!run.converged) budget_.change_algorithm();
   while (!run.converged) {
     ++run.step;
@@ -291,7 +293,7 @@ void Solver::fixed_point(Run& run)
     run.change = first ? 1.0 : change_of_bounds(wanted, run.bounds, *run.solution);
     note_response(wanted, run);
     run.converged = !first && at_rest(wanted, tolerance, run);
-    idle = first || run.change < run.least_change ? 0 : idle + 1;
+    idle = first || !apart || run.change < run.least_change ? 0 : idle + 1;
     // Bounds at rest beside an error that is too large.
     if (!run.converged && ((run.change <= options_.tolerance && tolerance <= tightest) || idle >= idle_steps)) {
       strictness *= 0.1;
