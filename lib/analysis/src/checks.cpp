@@ -280,8 +280,7 @@ std::vector<Warning> unconnected_faces(const model::Model& model, const Communic
         fmt::format("body \"{}\" has {} faces inside that lie on others with other corners, as at ({:.5g}, {:.5g}, {:.5g}): the "
                     "cells on either side are not connected there, or by some of their nodes alone{}",
                     body, worst.faces, worst.at[0], worst.at[1], worst.at[2], others_have_some(hanging.size())),
-        "mesh its parts together (BooleanFragments in gmsh) and with cells that fit, or make them two bodies and bond these; "
-        "name "
+        "mesh its parts together (BooleanFragments in gmsh) and with cells that fit, or make them two bodies and bond these; name "
         "the faces in a contact if they are to be a crack"};
     w.at = worst.at;
     w.body = body;

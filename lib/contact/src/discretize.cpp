@@ -170,12 +170,20 @@ class Builder {
     return known;
   }
 
-  // Of each surface node whether it is a node of the primary side as well, as at the tip of a slit.
+  // Of each surface node whether it is a node of the primary side as well, as at the tip of a slit; but none of a face that has no
+  // other nodes, for nobody is there to take over.
   std::vector<char> nodes_of_both_sides() const
   {
     std::vector<char> result(nodes_.all.size(), 0);
     if (options_.cyclic || options_.obstacle) return result;
     for (std::size_t p = 0; p < result.size(); ++p) result[p] = writer_.on_both_sides(nodes_.all[p].node);
+    if (std::ranges::find(result, 1) == result.end()) return result;
+    for (std::size_t f = 0; f < secondary_.faces.size(); ++f) {
+      const auto face = secondary_.faces[f];
+      if (!std::ranges::all_of(face, [&](Local n) { return writer_.on_both_sides(n); })) continue;
+      for (std::size_t p = 0; p < result.size(); ++p)
+        if (std::ranges::find(face, nodes_.all[p].node) != face.end()) result[p] = 0;
+    }
     return result;
   }
 
@@ -238,12 +246,8 @@ class Builder {
       if (!bonded()) {
         writer_.leave_what_moves(terms_, d, normal, point.tangents);
         const auto others = other_tangents(normal, point.tangents, dimension_);
-        for (const auto& tangent : writer_.across_axis(node_here.node, normal, others)) {
-          if (writer_.held_on_both_sides(terms_, tangent))
-            held.push_back(tangent);
-          else
-            point.tangents.push_back(tangent);
-        }
+        for (const auto& tangent : writer_.across_axis(node_here.node, normal, others))
+          if (writer_.held_on_both_sides(terms_, tangent)) held.push_back(tangent);
       }
     }
 

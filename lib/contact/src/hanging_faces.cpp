@@ -43,8 +43,7 @@ Box box_round(const Point& x, double reach)
   return {x - Point::Constant(reach), x + Point::Constant(reach)};
 }
 
-// Appends both numbers where the middle of one face is near another one of its body that looks back. Of `first`, `first` +
-// `step`,
+// Appends both numbers where the middle of one face is near another one of its body that looks back. Of `first`, `first` + `step`,
 // ... each with all.
 void add_near(const FlatFaces& flat, const std::vector<Global>& number, const std::vector<int>& body, std::size_t first,
               std::size_t step, std::vector<Global>& found)

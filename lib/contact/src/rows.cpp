@@ -14,7 +14,7 @@ namespace {
 
 constexpr double negligible_coefficient = 1e-12;  // of a coefficient
 constexpr double held_but_for = 0.1;              // of what all terms together could move: that much is no slip
-constexpr double least_held = 0.5;                // of a side, to bear what rubs there
+constexpr double least_held = 0.1;                // of a side, to bear what rubs there
 
 }  // namespace
 

@@ -58,7 +58,7 @@ class RowWriter {
   /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
   void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
            std::span<const Term> couple = {}, const Point& couple_axis = Point::Zero());
-  /// Whether supports hold more than half of each side along an axis.
+  /// Whether supports hold more than a tenth of each side along an axis: enough to bear what rubs there.
   bool held_on_both_sides(std::span<const Term> terms, const Point& axis) const;
   /// Appends a row along which nothing moves but supports, so that what they make of it stands in its bound, or hardly anything:
   /// nodes that supports leave free leave their part to the others of their side, lest forces are lost. For those of

@@ -244,7 +244,7 @@ void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory&
       std::erase_if(node.tangents, [&](const Point& tangent) { return !writer.moves(terms, 1, tangent); });
       writer.leave_what_moves(terms, 1, node.normal, node.tangents);
       for (const auto& tangent : other_tangents(node.normal, node.tangents, dimension))
-        (writer.held_on_both_sides(terms, tangent) ? fixed : node.tangents).push_back(tangent);
+        if (writer.held_on_both_sides(terms, tangent)) fixed.push_back(tangent);
     }
     const bool rings = setting.kinematics == fem::Kinematics::axisymmetric;  // these do not turn
     const Moments moments = rings ? Moments() : Moments(terms, 1, node.normal, gap.mesh, &place.at, secondary, primary, dimension);

@@ -188,8 +188,7 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
          qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
-                        run.goal) &&
-         (tolerance <= qp::tolerances::rounding || contacts_at_rest(run));
+                        run.goal);
 }
 
 // Of the last step that changes the bounds by more than rounding. Collective.

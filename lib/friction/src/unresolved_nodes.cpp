@@ -199,7 +199,8 @@ std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& re
   std::vector<double> parts(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& rows = problem.node_rows()[i];
-    const double largest = pressures.largest(pressures.part_of(i)), moved = std::hypot(change[rows.normal], tangential(rows, change));
+    const double largest = pressures.largest(pressures.part_of(i));
+    const double moved = std::hypot(change[rows.normal], tangential(rows, change));
     if (!pressures.idle(pressures.part_of(i)) && largest > 0) parts[i] = pressures.of(i, moved) / largest;
   }
   for (int c = 0; c < contacts; ++c)

@@ -61,7 +61,7 @@ struct SurfaceState {
   std::vector<int> status;  ///< as Status
   std::vector<char> near;   ///< whether the node lies near enough to the other side to have a state; else the numbers are 0
   std::vector<char> without_rows;  ///< the node shows what its neighbours have
-  double area = 0;  ///< of the contact, over all ranks: of the nodes that show a pressure: those that are closed, and those that share it
+  double area = 0;  ///< of the contact, over all ranks: of the nodes that show a pressure, closed ones and those that share it
 };
 /// One for each pair. Nodes without rows show the mean of their neighbours, whose rows stand in for them; but no slip.
 /// Collective.
