@@ -258,34 +258,31 @@ std::vector<Warning> unconnected_faces(const model::Model& model, const Communic
   const auto& bodies = model.decomposition().catalogue.bodies;
   const auto [doubled, hanging] = model::open_seams(model, comm);
   std::vector<Warning> result;
-  if (!doubled.empty()) {
-    const auto& worst = doubled.front();
+  const auto tell = [&](const char* kind, const auto& worst, long long count, const std::string& what, const char* cure) {
     const auto& body = bodies[static_cast<std::size_t>(worst.body)].name;
-    Warning w{
-        "doubled_nodes",
-        fmt::format("body \"{}\" has {} nodes twice at the same place, as at ({:.5g}, {:.5g}, {:.5g}): its faces there are not "
-                    "connected{}",
-                    body, worst.nodes, worst.at[0], worst.at[1], worst.at[2], others_have_some(doubled.size())),
-        "merge the nodes in the mesher, or bond the two faces; name them in a contact if they are to be a crack"};
+    Warning w{kind, fmt::format("body \"{}\" has {} {}", body, count, what), cure};
     w.at = worst.at;
     w.body = body;
-    w.value = static_cast<double>(worst.nodes);
+    w.value = static_cast<double>(count);
     result.push_back(std::move(w));
+  };
+  const auto as_at = [](const Point& x) { return fmt::format("as at ({:.5g}, {:.5g}, {:.5g})", x[0], x[1], x[2]); };
+  if (!doubled.empty()) {
+    const auto& worst = doubled.front();
+    tell("doubled_nodes", worst, worst.nodes,
+         "nodes twice at the same place, " + as_at(worst.at) + ": its faces there are not connected" +
+             others_have_some(doubled.size()),
+         "merge the nodes in the mesher, or bond the two faces; name them in a contact if they are to be a crack");
   }
   if (!hanging.empty()) {
     const auto& worst = hanging.front();
-    const auto& body = bodies[static_cast<std::size_t>(worst.body)].name;
-    Warning w{
-        "hanging_nodes",
-        fmt::format("body \"{}\" has {} faces inside that lie on others with other corners, as at ({:.5g}, {:.5g}, {:.5g}): the "
-                    "cells on either side are not connected there, or by some of their nodes alone{}",
-                    body, worst.faces, worst.at[0], worst.at[1], worst.at[2], others_have_some(hanging.size())),
-        "mesh its parts together (BooleanFragments in gmsh) and with cells that fit, or make them two bodies and bond these; name "
-        "the faces in a contact if they are to be a crack"};
-    w.at = worst.at;
-    w.body = body;
-    w.value = static_cast<double>(worst.faces);
-    result.push_back(std::move(w));
+    tell("hanging_nodes", worst, worst.faces,
+         "faces inside that lie on others with other corners, " + as_at(worst.at) +
+             ": the cells on either side are not connected there, or by some of their nodes alone" +
+             others_have_some(hanging.size()),
+         "mesh its parts together (BooleanFragments in gmsh) and with cells that fit, or make them two bodies and bond these; "
+         "name "
+         "the faces in a contact if they are to be a crack");
   }
   return result;
 }

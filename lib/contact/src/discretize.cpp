@@ -27,15 +27,13 @@
 #include "rows_between.hpp"
 #include "sector_cuts.hpp"
 #include "share.hpp"
+#include "starting_gaps.hpp"
 #include "support_conflicts.hpp"
 #include "supported_nodes.hpp"
 
 namespace mortise::contact {
 
 namespace {
-
-// Of the distance that the search goes, and of a place's distance from the origin.
-constexpr double rounding_of_gap = 1e-12, rounding_of_coordinates = 1e-15;
 
 // Of a row: where supports leave no more, what they push into each other is not for the rest to make good.
 constexpr double hardly_moves = 0.05;
@@ -80,6 +78,7 @@ class Builder {
         one_surface_(asks_geometry(options) ? OneSurface(secondary_, nodes_, primary_, curved, rotation_of(options), comm)
                                             : OneSurface()),
         points_(secondary_, nodes_, faces_, rays_, nearest_),
+        gaps_(options, reach, primary_, faces_, rays_, points_, one_surface_),
         held_(secondary_, nodes_, primary_, primary_supports_, rays_, dimension_, rotation_of(options)),
         writer_(secondary_, primary_, supports_, primary_supports_, dimension_, rotation_of(options)),
         conflicts_(secondary_, primary_, writer_, dimension_)
@@ -262,11 +261,9 @@ class Builder {
     point.at = at;
     const double room = points_.room(p);
     point.cover = room < 1 ? std::min(chosen_.cover[p], 0.5 * room) : chosen_.cover[p];
-    const bool nearest = at_nearest_place(p);
-    const double mean = (normal.dot(separation) - rise / d) / weight,
-                 mesh_gap = without_rounding(p, nearest, points_.gap(p, normal, mean), at, normal);
-    const double gap = starts_in_mesh() ? mesh_gap : without_rounding(p, nearest, starting_gap_at(p, normal, mean), at, normal);
-    note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, d * weight, point.at);
+    const double mean = (normal.dot(separation) - rise / d) / weight;
+    const auto [mesh_gap, gap] = gaps_.at_node(p, at_nearest_place(p), at, normal, mean, terms_);
+    note_gap(initial_gap_, gap, mesh_gap, gaps_.by_geometry(gap), d * weight, point.at);
     point.gap = bonded() ? 0 : weight * (gap - options_.interference);
     point.held = bonded() ? 0 : held_on_both_sides(normal);
     if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
@@ -337,48 +334,12 @@ class Builder {
     return result;
   }
 
-  // Of places that coordinates say are the same the gap is 0: bodies that touch without a load press with nothing then. Nor is an
-  // overlap where a side comes nearest that is next to nothing of what the sides come nearer there, or of what stands out of a
-  // facet: surfaces are known no better.
-  double without_rounding(std::size_t p, bool nearest, double gap, const Point& at, const Point& direction)
-  {
-    constexpr double of_surfaces = 0.02;
-    if (gap < 0 && nearest) {
-      if (const double at_node = rays_.meet(p).gap; std::isfinite(at_node) && -gap < of_surfaces * (at_node - gap)) return 0;
-      if (!options_.obstacle && -gap < of_surfaces * rays_.rise_of(rays_.met_from(p, at, direction))) return 0;
-    }
-    return std::abs(gap) < rounding_of_gap * reach_ + rounding_of_coordinates * at.norm() ? 0 : gap;
-  }
-
-  bool starts_in_mesh() const { return !options_.clearance && !options_.adjust && !one_surface_.anywhere(); }
-
-  std::size_t face_of(std::size_t facet) const { return static_cast<std::size_t>(primary_.face_of[facet]); }
-
-  // That which the contact starts with; the terms are those of the surface node.
-  double starting_gap_at(std::size_t p, const Point& direction, double mean)
-  {
-    return points_.gap(p, direction, starting_gap(options_, mean, one_surface_.holds(faces_.surface_node(p), terms_)), start());
-  }
-
-  // The same where a line from a surface node meets something.
-  Rays::GapOf start() const
-  {
-    return [this](std::size_t surface_node, const Opposite& opposite) {
-      return starting_gap(options_, opposite.gap,
-                          one_surface_.anywhere() && one_surface_.holds(surface_node, face_of(opposite.facet)));
-    };
-  }
-
   RowsBetween::Gap gap_between(const PlaceBetween& place)
   {
-    const auto p = place.surface_node;
-    const Point direction = rays_.direction(p, place.at, rays_.own_normal(place.where));
-    const auto gap_of = [&](const Rays::GapOf& start) {
-      return without_rounding(p, true, rays_.gap(p, place.where, direction, start), place.at, direction);
-    };
-    const double mesh_gap = gap_of({}), gap = starts_in_mesh() ? mesh_gap : gap_of(start());
-    if (std::isfinite(gap)) note_gap(initial_gap_, gap, mesh_gap, one_surface_.anywhere() && gap == 0, 0, place.at);
-    return {direction, mesh_gap, gap - options_.interference};
+    const Point direction = rays_.direction(place.surface_node, place.at, rays_.own_normal(place.where));
+    const auto [mesh, gap] = gaps_.between_nodes(place, direction);
+    if (std::isfinite(gap)) note_gap(initial_gap_, gap, mesh, gaps_.by_geometry(gap), 0, place.at);
+    return {direction, mesh, gap - options_.interference};
   }
 
   const Options& options_;
@@ -405,6 +366,7 @@ class Builder {
   OneSurface one_surface_;
   InitialGap initial_gap_;
   ContactPoints points_;
+  StartingGaps gaps_;
   OppositeSupports held_;
   RowWriter writer_;
   SupportConflicts conflicts_;
