@@ -2,12 +2,13 @@
 """Solves a population of random decks, or the decks of the table, and tabulates what they took.
 
     population.py MORTISE [--seed N ... --count M [--first K] [--small] | --table] [--tolerance 1e-6] [--jobs J] [--limit SECONDS] [--processor SECONDS]
-                  [--reference] [--only PATTERN ...] [--set key=value ...] [--directory D] [--json FILE] [--markdown FILE]
+                  [--reference] [--only PATTERN ...] [--set key=value ...] [--directory D] [--json FILE] [--markdown FILE] [--write NAME]
 
 Several seeds take turns, deck by deck, so that a run that is stopped has seen all of them; what is done stands in the JSON file every ten decks.
 
 A line a deck: exit status, products, seconds, residuals, warnings. Then percentiles of the products, the worst ten decks and how to run them again.
 Decks stay in --directory, each with its results in `out`. --reference also solves the decks that have an independent reference, see reference.py.
+--write puts the percentiles into the table "measured" of README.md, into the row of that name.
 Exit status 1 if a deck that has an equilibrium ended other than with 0, one without it other than with 3, or if a reference differs.
 """
 import argparse
@@ -26,8 +27,11 @@ import time
 import numpy as np
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+sys.path[:0] = [str(HERE), str(HERE.parent)]
 import generate  # noqa: E402
+import page_tables  # noqa: E402
+
+HEAD = ["decks", "solved", "products: median", "95 %", "worst", "no equilibrium", "held against the reference", "failed"]
 
 ENVIRONMENT = dict(os.environ, OMP_NUM_THREADS="1", OMP_THREAD_LIMIT="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", MORTISE_RANKS="1")
 # What a row takes from summary.json.
@@ -133,6 +137,10 @@ def report(arguments, rows):
           f"{sum('displacement' in row.get('differences', {}) for row in rows)} held against a reference; {len(failed)} failed")
     for row in failed:
         print(f"{row['name']}: {'; '.join(row['complaints'])}\n    {shlex.join(command(arguments, arguments.directory / row['name']))}")
+    if arguments.write:
+        count, *products = table["all"]
+        lost, held = (sum(row["exit_status"] == 3 for row in rows), sum("displacement" in row.get("differences", {}) for row in rows))
+        page_tables.write(HERE / "README.md", "measured", HEAD, [[arguments.write, count, *(f"{p:.0f}" for p in products), lost, held, len(failed)]])
     if arguments.json:
         arguments.json.write_text(json.dumps({"rows": rows, "percentiles": table}, indent=1) + "\n")
     if arguments.markdown:
@@ -188,6 +196,7 @@ def main():
     parser.add_argument("--directory", type=lambda p: pathlib.Path(p).resolve(), default=pathlib.Path("population").resolve())
     parser.add_argument("--json", type=pathlib.Path, help="all rows; default: rows.json in the directory")
     parser.add_argument("--markdown", type=pathlib.Path, help="default: rows.md in the directory")
+    parser.add_argument("--write", metavar="NAME", help="a row of the table in README.md")
     arguments = parser.parse_args()
     if arguments.reference:
         wants_reference()
