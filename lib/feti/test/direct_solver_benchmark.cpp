@@ -4,14 +4,13 @@
 //
 //     direct_solver_benchmark N COLUMNS SOLUTIONS [cholmod|cholmod_plain]
 //
-// Of a whole run the interface is the difference between what stands below feti::apply_inverse and below SupernodalFactor::solve
-// in
+// Of a whole run the interface is the difference between what stands below Amesos2::SolverCore::solve and below
+// SupernodalFactor::solve in
 //
 //     perf record --call-graph dwarf,16384 -e cpu-clock -F 400 build/release/app/mortise inputs/cantilever_3d/cantilever_3d.yaml
 //     perf report --stdio --no-inline --children -g none
 //
-// in per cent of FaceNewton::solve: less than 0.1 for cantilever_3d (the first row of regression/tables, n = 3), 0.3 for
-// roller_bearing.
+// in per cent of FaceNewton::solve. Figures: docs/design/amesos2.md.
 //
 //     direct_solver_benchmark dense NODES COLUMNS SOLUTIONS
 //

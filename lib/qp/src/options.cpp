@@ -19,8 +19,7 @@ void describe(deck::Description<Options>& d)
   d.key("algorithm", &Options::algorithm, help).one_of(names);
   d.key("tolerance", &Options::tolerance,
         "Relative: the reduced projected gradient and the equality residual over ||P d||. auto: stop when the algebraic error is "
-        "a "
-        "tenth of the estimated discretization error, both in the energy norm.")
+        "a tenth of the estimated discretization error, both in the energy norm.")
       .positive()
       .below(1);
   d.key("max_multiplications", &Options::max_multiplications,

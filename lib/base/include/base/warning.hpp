@@ -9,7 +9,7 @@
 
 namespace mortise {
 
-/// Texts are for an engineer; kinds are for programs and a promise: see lib/post/README.md.
+/// Texts are for an engineer; kinds are for programs and a promise: see docs/design/warnings.md.
 struct Warning {
   std::string kind;  ///< "large_displacement"
   std::string text;  ///< what is the matter, with numbers and the place

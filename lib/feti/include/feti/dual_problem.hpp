@@ -115,10 +115,9 @@ class DualProblem {
   std::string unbounded_rigid_mode(const Eigen::VectorXd& nu) const;
   /// The sum of the forces of gauges on the bodies, where a gauge holds a free motion against the push of facets. Collective.
   Point gauge_force(const Vector& lambda) const;
-  /// ||K u + B'lambda + B0'mu - f|| over all subdomains, B0'mu the forces inside clusters, relative to (||f||^2 + ||B'lambda||^2
-  /// +
-  /// ||1e-6 D u||^2)^1/2, D the nodal stiffness (what rounding makes of a rigid motion is no force), or to `negligible_force` if
-  /// that is larger. Collective.
+  /// ||K u + B'lambda + B0'mu - f|| over all subdomains, B0'mu the forces inside clusters, relative to
+  /// (||f||^2 + ||B'lambda||^2 + ||1e-6 D u||^2)^1/2, D the nodal stiffness (what rounding makes of a rigid motion is no force),
+  /// or to `negligible_force` if that is larger. Collective.
   double imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double negligible_force = 0) const;
 
  private:

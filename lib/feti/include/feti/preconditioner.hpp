@@ -2,12 +2,14 @@
 //
 //     M = C (B D^-1 S D^-1 B' + E) C,   C = (B D^-1 B' + E)^-1,
 //
-// where E is what rows give way by (JumpOperator::compliance()), D is the stiffness of the nodes, so that M F is near the identity (B is orthonormal in D^-1, and C the identity, but for
-// contact rows that share nodes; of these only those that are free on the active set at hand count) [Klawonn and Widlund, Comm.
-// Pure Appl. Math. 54 (2001)], and S acts on the nodes of each subdomain that rows of B touch: their block K_bb of the stiffness
-// matrix (lumped) or the Schur complement K_bb - K_bi K_ii^-1 K_ib (Dirichlet; free surfaces move like the inside, or thin parts
-// would seem as stiff as with K_bb) [Farhat and Roux, Int. J. Numer. Methods Eng. 32 (1991); Farhat, Mandel and Roux, Comput.
-// Methods Appl. Mech. Eng. 115 (1994)].
+// - E: what rows give way by (JumpOperator::compliance()).
+// - D: the stiffness of the nodes, so that M F is near the identity [Klawonn and Widlund, Comm. Pure Appl. Math. 54 (2001)].
+// - C: the identity but for contact rows that share nodes, since B is orthonormal in D^-1 elsewhere; of these rows only those
+//   count that are free on the active set at hand.
+// - S acts on the nodes of each subdomain that rows of B touch: their block K_bb of the stiffness matrix (lumped) [Farhat and
+//   Roux, Int. J. Numer. Methods Eng. 32 (1991)], or the Schur complement K_bb - K_bi K_ii^-1 K_ib (Dirichlet) [Farhat, Mandel
+//   and Roux, Comput. Methods Appl. Mech. Eng. 115 (1994)]. There free surfaces move like the inside: with K_bb thin parts would
+//   seem too stiff.
 #pragma once
 
 #include <memory>
