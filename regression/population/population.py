@@ -137,7 +137,7 @@ def report(arguments, rows):
           f"{sum('displacement' in row.get('differences', {}) for row in rows)} held against a reference; {len(failed)} failed")
     for row in failed:
         print(f"{row['name']}: {'; '.join(row['complaints'])}\n    {shlex.join(command(arguments, arguments.directory / row['name']))}")
-    if arguments.write:
+    if arguments.write and "all" in table:
         count, *products = table["all"]
         lost, held = (sum(row["exit_status"] == 3 for row in rows), sum("displacement" in row.get("differences", {}) for row in rows))
         page_tables.write(HERE / "README.md", "measured", HEAD, [[arguments.write, count, *(f"{p:.0f}" for p in products), lost, held, len(failed)]])
