@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "model/resolution.hpp"
 #include "partition/decompose.hpp"
+#include "testing/quiet.hpp"
 
 namespace mortise::analysis {
 namespace {
@@ -35,17 +36,20 @@ supports:
 
 // A deck on its way to its load steps.
 class Analysis {
+  Quiet quiet_;
+
  public:
   explicit Analysis(const std::string& text) : document_(text, "deck.yaml", {}), deck_(model::read_deck(document_, ""))
   {
     document_.check();
-    resolved_ = model::resolve(deck_, document_, partition::decompose(deck_.mesh, deck_.decomposition, 3, context_), context_);
+    resolved_ = model::resolve(deck_, document_, partition::decompose(deck_.mesh, deck_.decomposition, 3, quiet_.context),
+                               quiet_.context);
     model_.emplace(deck_, resolved_.contacts, resolved_.decomposition, resolved_.temperatures);
     states_ = model::load_states(deck_, resolved_.contacts);
     const auto copies = model_->congruent();
-    assembly_.emplace(*model_, copies, context_);
+    assembly_.emplace(*model_, copies, quiet_.context);
     approach_.algorithm = deck_.solver.programme.algorithm;
-    solver_.emplace(*assembly_, make_rows(*model_, states_.front(), {}, context_), approach_, context_);
+    solver_.emplace(*assembly_, make_rows(*model_, states_.front(), {}, quiet_.context), approach_, quiet_.context);
   }
 
   // The states of all steps and what they come to.
@@ -54,21 +58,18 @@ class Analysis {
     std::optional<StepState> state;
     for (const auto& acts : states_) {
       state = solver_->solve(acts, std::move(state), [](int, double, const qp::Progress&) {});
-      results.push_back(evaluate(*assembly_, *solver_, *state, {}, context_));
-      again.push_back(evaluate(*assembly_, *solver_, *state, {}, context_));
+      results.push_back(evaluate(*assembly_, *solver_, *state, {}, quiet_.context));
+      again.push_back(evaluate(*assembly_, *solver_, *state, {}, quiet_.context));
       states.push_back(*state);
     }
   }
   const model::Deck& deck() const { return deck_; }
 
-  Communicator comm;
+  const Communicator& comm = quiet_.comm;
   std::vector<StepState> states;
   std::vector<post::Results> results, again;
 
  private:
-  Timers timers_;
-  Log log_{comm, nullptr};
-  Context context_{comm, log_, timers_};
   deck::Document document_;
   model::Deck deck_;
   model::Resolution resolved_;
@@ -153,10 +154,8 @@ TEST(LoadSteps, NoEquilibriumBeyondFriction)
 
 TEST(Checks, ABodyThatNothingTouchesIsNamed)
 {
-  const Communicator comm;
-  Timers timers;
-  Log log(comm, nullptr);
-  const Context context{comm, log, timers};
+  const Quiet quiet;
+  const auto& [comm, timers, log, context] = quiet;
   deck::Document document(blocks + supports, "deck.yaml", {});
   const auto deck = model::read_deck(document, "");
   const auto resolved = model::resolve(deck, document, partition::decompose(deck.mesh, deck.decomposition, 3, context), context);

@@ -6,8 +6,8 @@
 #include "base/error.hpp"
 #include "mesh/shape_functions.hpp"
 #include "model/resolution.hpp"
-#include "partition/decompose.hpp"
 #include "partition/skins.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::analysis {
 namespace {
@@ -23,6 +23,8 @@ decomposition: {method: grid, counts: {lower: [2, 1, 1], upper: [1, 2, 1]}}
 )";
 
 class Asked {
+  Quiet quiet_;
+
  public:
   explicit Asked(const std::string& interior)
       : document_(two_methods + "output: {" + (interior.starts_with("probes") ? "" : "interior: ") + interior + "}\n",
@@ -30,10 +32,10 @@ class Asked {
         deck_(model::read_deck(document_, ""))
   {
     document_.check();
-    auto decomposition = partition::decompose(deck_.mesh, deck_.decomposition, 3, context_);
+    auto decomposition = partition::cut_of(deck_.mesh, deck_.decomposition, comm);
     const auto on_surface = model::bodies_of_boundary_elements(deck_, decomposition.catalogue);
     decomposition = partition::skins(std::move(decomposition), on_surface, true, comm);
-    resolved_ = model::resolve(deck_, document_, std::move(decomposition), context_);
+    resolved_ = model::resolve(deck_, document_, std::move(decomposition), quiet_.context);
     model_.emplace(deck_, resolved_.contacts, resolved_.decomposition, resolved_.temperatures);
   }
   post::Probes find() { return find_probes(*model_, document_, comm); }
@@ -44,12 +46,9 @@ class Asked {
     return resolved_.decomposition.subdomains[place.subdomain];
   }
 
-  Communicator comm;
+  const Communicator& comm = quiet_.comm;
 
  private:
-  Timers timers_;
-  Log log_{comm, nullptr};
-  Context context_{comm, log_, timers_};
   deck::Document document_;
   model::Deck deck_;
   model::Resolution resolved_;

@@ -7,6 +7,7 @@
 
 #include "model/resolution.hpp"
 #include "partition/decompose.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::analysis {
 namespace {
@@ -37,18 +38,15 @@ class Found {
  public:
   explicit Found(const std::string& text, int dimension = 3, std::size_t steps = 1)
   {
-    Timers timers;
-    Log log(comm_, nullptr);
-    const Context context{comm_, log, timers};
+    const Quiet quiet;
+    const auto& context = quiet.context;
     deck::Document document(text, "deck.yaml", {});
     const auto deck = model::read_deck(document, "");
     document.check();
     const auto resolved =
         model::resolve(deck, document, partition::decompose(deck.mesh, deck.decomposition, dimension, context), context);
     const model::Model model(deck, resolved.contacts, resolved.decomposition, resolved.temperatures);
-    std::vector<std::vector<double>> weights;
-    for (const auto& s : resolved.decomposition.subdomains) weights.emplace_back(s.mesh.node_count(), 1.0);
-    const partition::NodeDirectory directory(resolved.decomposition, weights, comm_);
+    const auto directory = partition::even_directory(resolved.decomposition, comm_);
     const auto interface = partition::find_interface(resolved.decomposition, directory, comm_);
     const auto state = model::load_states(deck, resolved.contacts).at(steps - 1);
     const auto rows = place(make_rows(model, state, {}, context), model, directory, {}, comm_);

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "partition/decompose.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::feti {
 namespace {
@@ -40,9 +40,7 @@ struct Block {
     options.method = "grid";
     options.counts["block"] = setting.counts;
     options.subdomains_per_cluster = setting.size;
-    Timers timers;
-    Log log(comm, nullptr);
-    decomposition = partition::decompose(mesh, options, dimension, {comm, log, timers});
+    decomposition = partition::cut_of(mesh, options, comm, dimension);
     std::vector<std::vector<double>> weight;
     Subdomains subdomains;
     for (const auto& s : decomposition.subdomains) {
@@ -153,9 +151,7 @@ TEST(Clusters, OfCopiesAnswerAlike)
   options.method = "grid";
   options.counts["block"] = {12, 6, 6};
   options.subdomains_per_cluster = 8;
-  Timers timers;
-  Log log(alone, nullptr);
-  const auto d = partition::decompose(mesh, options, 3, {alone, log, timers});
+  const auto d = partition::cut_of(mesh, options, alone);
   ASSERT_EQ(d.cluster_count(), 54);
   const auto& cells = d.subdomains.front().mesh;
   const auto k = fem::stiffness(cells, fem::Material{1, 0.3, 0, 0}, fem::Kinematics::solid);

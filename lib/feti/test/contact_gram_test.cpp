@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 
 #include "base/dense.hpp"
-#include "blocks.hpp"
+#include "testing/blocks.hpp"
 
 namespace mortise::feti {
 namespace {

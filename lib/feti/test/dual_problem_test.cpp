@@ -8,9 +8,9 @@
 
 #include "base/dense.hpp"
 #include "base/error.hpp"
-#include "blocks.hpp"
 #include "qp/face_newton.hpp"
 #include "qp/smalse.hpp"
+#include "testing/blocks.hpp"
 
 namespace mortise::feti {
 namespace {
@@ -24,7 +24,7 @@ struct Cube : Blocks {
             {{"cube", {{0, 0, 0}, {1, 1, 1}, {cells, cells, cells}, "hex8"}}}, {{"cube", {2, 2, 2}}},
             [jump](int id) { return (id + id / 2 + id / 4) % 2 == 0 ? 1.0 : jump; }, mpi, subdomains_per_cluster)
   {
-    pretension_multipliers("cube.zmax", Point(0.1, 0, 1));
+    add_traction("cube.zmax", Point(0.1, 0, 1));
     if (prescribed) dirichlet_rows({{"cube.zmin", {0, 0, 0.25}}});
   }
 

@@ -9,7 +9,6 @@
 #include <limits>
 #include <optional>
 
-#include "blocks.hpp"
 #include "constraint/pretension.hpp"
 #include "constraint/supports.hpp"
 #include "fem/loads.hpp"
@@ -17,6 +16,7 @@
 #include "feti/row_distribution.hpp"
 #include "feti/sparse_problem.hpp"
 #include "qp/face_newton.hpp"
+#include "testing/blocks.hpp"
 
 namespace mortise::feti {
 namespace {
@@ -45,7 +45,7 @@ struct Stack : Blocks {
               return variant.rotated && s.body == 1 ? std::optional(rotate()) : std::nullopt;
             })
   {
-    pretension_multipliers("upper.zmax", traction);
+    add_traction("upper.zmax", traction);
     std::vector<constraint::Support> supports{{"lower.zmin", {variant.moved, 0, 0}}};
     if (variant.upper_held) {
       const std::optional<double> others = variant.preloaded() ? std::optional(0.0) : std::nullopt;

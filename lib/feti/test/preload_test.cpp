@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "blocks.hpp"
 #include "constraint/pretension.hpp"
 #include "qp/face_newton.hpp"
 #include "qp/smalse.hpp"
+#include "testing/blocks.hpp"
 
 namespace mortise::feti {
 namespace {

@@ -7,16 +7,13 @@
 #include <tuple>
 
 #include "feti/jump_operator.hpp"
-#include "partition/decompose.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::feti {
 namespace {
 
 struct CutBlocks {
   Communicator comm;
-  Timers timers;
-  Log log{comm, nullptr};
-  Context context{comm, log, timers};
   partition::Decomposition decomposition;
   std::unique_ptr<partition::NodeDirectory> directory;
   partition::Interface interface;
@@ -29,19 +26,15 @@ struct CutBlocks {
     partition::Options options;
     options.method = "grid";
     options.counts["lower"] = options.counts["upper"] = {2, 2, 2};
-    decomposition = partition::decompose(mesh, options, 3, context);
-    std::vector<std::vector<double>> weight;
-    for (const auto& s : decomposition.subdomains) weight.emplace_back(s.mesh.node_count(), 1.0);
-    directory = std::make_unique<partition::NodeDirectory>(decomposition, weight, comm);
+    decomposition = partition::cut_of(mesh, options, comm);
+    directory = std::make_unique<partition::NodeDirectory>(partition::even_directory(decomposition, comm));
     interface = partition::find_interface(decomposition, *directory, comm);
   }
 
   // The nodes of a boundary in the order of their places, the same on every rank.
   std::vector<Global> nodes_of(const std::string& name) const
   {
-    const auto& names = decomposition.catalogue.boundaries;
-    const auto index = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-    const auto surface = partition::boundary_surface(decomposition, index, {true, true});
+    const auto surface = partition::side_of(decomposition, name);
     struct Node {
       double x, y, z;
       Global id;
@@ -99,7 +92,7 @@ struct CutBlocks {
                                 2 + number,
                                 3 + number,
                                 Point(number, 0, 1)});
-        contacts.nodes.back().held = 4 + number;
+      contacts.nodes.back().held = 4 + number;
       contacts.bonded.push_back(i % 2 == 1);
       for (std::size_t r = 0; r <= i % 3; ++r) {
         contacts.prescribed.push_back({contacts.rows.size(), static_cast<int>(r), static_cast<int>(above[i]), number});

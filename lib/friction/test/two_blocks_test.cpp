@@ -6,10 +6,10 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "../../feti/test/blocks.hpp"
 #include "base/error.hpp"
 #include "friction/friction.hpp"
 #include "qp/error_estimate.hpp"
+#include "testing/blocks.hpp"
 
 namespace mortise::friction {
 namespace {

@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "model/deck.hpp"
 #include "model/patterns.hpp"
-#include "partition/decompose.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::model {
 namespace {
@@ -59,11 +59,9 @@ Resolved resolve()
 {
   Resolved r;
   const Communicator comm;
-  Timers timers;
-  Log log(comm, nullptr);
   r.deck = read_deck(r.document, "");
   r.document.check();
-  r.decomposition = partition::decompose(r.deck.mesh, r.deck.decomposition, 3, {comm, log, timers});
+  r.decomposition = partition::cut_of(r.deck.mesh, r.deck.decomposition, comm);
   r.contacts = resolve_patterns(r.deck, r.document, r.decomposition, comm);
   return r;
 }
@@ -100,12 +98,8 @@ TEST(Patterns, TheDeckThatIsWrittenReadsBack)
 TEST(Patterns, ABoundaryHoldsEveryFaceOnce)
 {
   const auto r = resolve();
-  const auto& names = r.decomposition.catalogue.boundaries;
-  const auto at = std::find(names.begin(), names.end(), "*.zmax") - names.begin();
-  ASSERT_LT(at, static_cast<std::ptrdiff_t>(names.size()));
   // It matches pad.zmax and pad.1.zmax alike, which are the same faces.
-  const std::vector<bool> everywhere(r.decomposition.catalogue.bodies.size(), true);
-  EXPECT_EQ(partition::boundary_surface(r.decomposition, static_cast<int>(at), everywhere).faces.size(), 4U * (4 + 9));
+  EXPECT_EQ(partition::side_of(r.decomposition, "*.zmax").faces.size(), 4U * (4 + 9));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // contact.pvd as a piece, and pressures on both sides of a contact.
 #include <gtest/gtest.h>
 
+#include "deck_of_blocks.hpp"
 #include "output/contact_pressure.hpp"
 #include "output/contact_sides.hpp"
-#include "two_blocks.hpp"
 
 namespace mortise::output {
 namespace {
@@ -11,10 +11,10 @@ namespace {
 // Nodes up to x = 1 are near: of three columns of faces two are shown, and the far nodes of these have the gap of the others.
 TEST(ContactSides, ShowFacesThatAreNear)
 {
-  const TwoBlocks blocks("");
+  const DeckOfBlocks blocks("");
   const auto pair = blocks.joint();
   const auto& side = pair.secondary;
-  auto state = TwoBlocks::no_state(side);
+  auto state = DeckOfBlocks::no_state(side);
   for (std::size_t n = 0; n < side.points.size(); ++n) {
     const double x = side.points[n][0];
     state.near[n] = x < 1;
@@ -37,9 +37,9 @@ TEST(ContactSides, ShowFacesThatAreNear)
 
 TEST(ContactSides, OfSeveralContactsCarryTheirNumbers)
 {
-  const TwoBlocks blocks("");
+  const DeckOfBlocks blocks("");
   const std::vector pairs{blocks.joint(), blocks.joint()};
-  auto first = TwoBlocks::no_state(pairs[0].secondary), second = first;
+  auto first = DeckOfBlocks::no_state(pairs[0].secondary), second = first;
   std::fill(second.pressure.begin(), second.pressure.end(), 3.0);
   const auto piece = contact_sides(pairs, std::vector{first, second});
   for (std::size_t c = 0; c < piece.cells.size(); ++c)
@@ -52,9 +52,9 @@ TEST(ContactSides, OfSeveralContactsCarryTheirNumbers)
 // 1 + x on the upper block's face; its cells do not match those below, which reach out on both sides.
 TEST(ContactPressure, StandsOnBothSides)
 {
-  const TwoBlocks blocks("");
+  const DeckOfBlocks blocks("");
   const auto pair = blocks.joint();
-  auto state = TwoBlocks::no_state(pair.secondary);
+  auto state = DeckOfBlocks::no_state(pair.secondary);
   for (std::size_t n = 0; n < pair.secondary.points.size(); ++n) state.recovered_pressure[n] = 1 + pair.secondary.points[n][0];
   const auto pressure =
       contact_pressure(blocks.decomposition, blocks.interface, std::vector{pair}, std::vector{state}, blocks.comm);
@@ -71,9 +71,9 @@ TEST(ContactPressure, StandsOnBothSides)
 // A node of two secondary sides has the larger pressure; what does not press leaves the other side at zero.
 TEST(ContactPressure, IsTheLargestOfSeveralContacts)
 {
-  const TwoBlocks blocks("");
+  const DeckOfBlocks blocks("");
   const std::vector pairs{blocks.joint(), blocks.joint()};
-  auto small = TwoBlocks::no_state(pairs[0].secondary), large = small;
+  auto small = DeckOfBlocks::no_state(pairs[0].secondary), large = small;
   std::fill(small.recovered_pressure.begin(), small.recovered_pressure.end(), 2.0);
   std::fill(large.recovered_pressure.begin(), large.recovered_pressure.end(), 5.0);
   const auto largest = [&](const std::vector<contact::SurfaceState>& states) {
@@ -84,7 +84,7 @@ TEST(ContactPressure, IsTheLargestOfSeveralContacts)
   };
   EXPECT_NEAR(largest({large, small}), 5, 1e-12);
   EXPECT_NEAR(largest({small, large}), 5, 1e-12);
-  const auto none = TwoBlocks::no_state(pairs[0].secondary);
+  const auto none = DeckOfBlocks::no_state(pairs[0].secondary);
   EXPECT_EQ(largest({none, none}), 0);
 }
 

@@ -3,10 +3,11 @@
 
 #include "../../io/test/scratch.hpp"
 #include "analysis/probes.hpp"
+#include "deck_of_blocks.hpp"
 #include "model/resolution.hpp"
 #include "output/field_files.hpp"
 #include "output/summary.hpp"
-#include "two_blocks.hpp"
+#include "testing/quiet.hpp"
 
 namespace mortise::output {
 namespace {
@@ -27,12 +28,10 @@ output:
 
 TEST(Runs, LeaveFilesAndASummary)
 {
-  const Communicator comm;
+  Quiet quiet;
+  const auto& [comm, timers, log, context] = quiet;
   const io::test::Scratch folder(comm);
-  Timers timers;
-  Log log(comm, nullptr);
-  const Context context{comm, log, timers};
-  deck::Document document(two_blocks + pressed, "deck.yaml", {});
+  deck::Document document(deck_of_blocks + pressed, "deck.yaml", {});
   const auto deck = model::read_deck(document, folder.path());
   document.check();
   const auto resolved = model::resolve(deck, document, partition::decompose(deck.mesh, deck.decomposition, 3, context), context);

@@ -5,9 +5,9 @@
 
 #include "../../io/test/scratch.hpp"
 #include "../src/csv.hpp"
+#include "deck_of_blocks.hpp"
 #include "output/probe_files.hpp"
 #include "output/sections.hpp"
-#include "two_blocks.hpp"
 
 namespace mortise::output {
 namespace {
@@ -29,7 +29,7 @@ std::vector<Eigen::VectorXd> whole(const io::Table& table, const Communicator& c
 
 TEST(Tables, HaveEachNodeAndCellOnce)
 {
-  const TwoBlocks blocks("");
+  const DeckOfBlocks blocks("");
   const auto nodes = node_tables(blocks.decomposition, blocks.interface, blocks.displacement, blocks.results);
   ASSERT_EQ(nodes.size(), 4U);
   const auto points = whole(nodes[0], blocks.comm), moved = whole(nodes[1], blocks.comm),
@@ -37,9 +37,9 @@ TEST(Tables, HaveEachNodeAndCellOnce)
   ASSERT_EQ(points.size(), 45U + 36U);
   for (std::size_t n = 0; n < points.size(); ++n) {
     const Point x = points[n];
-    EXPECT_EQ(moved[n], Eigen::VectorXd(TwoBlocks::moved(x)));
-    EXPECT_EQ(stress[n], Eigen::VectorXd(TwoBlocks::stress(x)));
-    EXPECT_EQ(von_mises[n][0], fem::von_mises(TwoBlocks::stress(x)));
+    EXPECT_EQ(moved[n], Eigen::VectorXd(DeckOfBlocks::moved(x)));
+    EXPECT_EQ(stress[n], Eigen::VectorXd(DeckOfBlocks::stress(x)));
+    EXPECT_EQ(von_mises[n][0], fem::von_mises(DeckOfBlocks::stress(x)));
   }
   for (const auto& table : cell_tables(blocks.decomposition, blocks.results, blocks.comm)) {
     const auto rows = whole(table, blocks.comm);
@@ -92,8 +92,8 @@ post::Values values_at(const std::vector<post::PointInBody>& points)
   const auto n = static_cast<Eigen::Index>(points.size());
   post::Values values{Eigen::MatrixXd(n, 3), Eigen::MatrixXd(n, 6)};
   for (Eigen::Index i = 0; i < n; ++i) {
-    values.displacement.row(i) = TwoBlocks::moved(points[static_cast<std::size_t>(i)].place.at).transpose();
-    values.stress.row(i) = TwoBlocks::stress(points[static_cast<std::size_t>(i)].place.at).transpose();
+    values.displacement.row(i) = DeckOfBlocks::moved(points[static_cast<std::size_t>(i)].place.at).transpose();
+    values.stress.row(i) = DeckOfBlocks::stress(points[static_cast<std::size_t>(i)].place.at).transpose();
   }
   return values;
 }
@@ -139,7 +139,7 @@ TEST(ProbeFiles, TellExtremesPointsAndPaths)
 {
   const Communicator comm;
   const io::test::Scratch folder(comm);
-  deck::Document document(two_blocks +
+  deck::Document document(deck_of_blocks +
                               "output:\n  probes:\n    down: {from: [1, 0, 4], to: [1, 0, 0], count: 5}\n"
                               "    joint: {point: [1, 0, 1]}\n    top: {largest: uz}\n",
                           "deck.yaml", {});

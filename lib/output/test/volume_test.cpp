@@ -6,9 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <set>
 
+#include "deck_of_blocks.hpp"
 #include "output/blocks.hpp"
 #include "output/contact_sides.hpp"
-#include "two_blocks.hpp"
 
 namespace mortise::output {
 namespace {
@@ -31,7 +31,7 @@ Point mean_of_cell(const io::Piece& piece, std::size_t cell)
 // The fields of the deck and no others; copies of a node are one point, and two bodies share none.
 TEST(Volume, HasEachNodeOnceWithTheFieldsThatAreAskedFor)
 {
-  const TwoBlocks blocks(
+  const DeckOfBlocks blocks(
       "axes: {column: {axis: [0, 0, 1], point: [1, 0.5, 0]}}\n"
       "output: {fields: [principal_stress, displacement], axes: column}\n");
   NodeValues heights{"height", 1, {}};
@@ -49,9 +49,9 @@ TEST(Volume, HasEachNodeOnceWithTheFieldsThatAreAskedFor)
   EXPECT_EQ(names_of(piece.cell_fields), (Names{"body", "subdomain"}));
   for (std::size_t p = 0; p < piece.points.size(); ++p) {
     const Point& x = piece.points[p];
-    const Point u = TwoBlocks::moved(x);
+    const Point u = DeckOfBlocks::moved(x);
     EXPECT_EQ(at(piece.point_fields, "displacement", p), Eigen::VectorXd(u));
-    EXPECT_LT((at(piece.point_fields, "principal_stress", p) - eigenvalues(TwoBlocks::stress(x))).norm(), 1e-12);
+    EXPECT_LT((at(piece.point_fields, "principal_stress", p) - eigenvalues(DeckOfBlocks::stress(x))).norm(), 1e-12);
     EXPECT_EQ(at(piece.point_fields, "height", p)[0], x[2]);
     Point radial(x[0] - 1, x[1] - 0.5, 0);
     if (radial.norm() == 0) continue;
@@ -67,7 +67,7 @@ TEST(Volume, HasEachNodeOnceWithTheFieldsThatAreAskedFor)
 // Stresses jump at x = 1, where the material of the lower block changes.
 TEST(Volume, HasAPointForEachMaterialThatMeetsAtANode)
 {
-  TwoBlocks blocks("output: {fields: [stress]}\n");
+  DeckOfBlocks blocks("output: {fields: [stress]}\n");
   constexpr double jump = 100;
   auto& stress = blocks.results.stress;
   const auto material = [](const Point& x) { return x[2] < 1 && x[0] > 1 ? 1 : 0; };
@@ -88,7 +88,7 @@ TEST(Volume, HasAPointForEachMaterialThatMeetsAtANode)
     const double raised = jump * material(mean_of_cell(piece, c));
     for (const Local p : piece.cells[c]) {
       const auto i = static_cast<std::size_t>(p);
-      const Eigen::VectorXd expected = (TwoBlocks::stress(piece.points[i]).array() + raised).matrix();
+      const Eigen::VectorXd expected = (DeckOfBlocks::stress(piece.points[i]).array() + raised).matrix();
       EXPECT_LT((at(piece.point_fields, "stress", i) - expected).norm(), 1e-12);
     }
   }
@@ -113,13 +113,13 @@ double area_of(const io::Piece& piece, const Communicator& comm)
 // Boundaries that supports and loads name stand once, though they are named twice, and have the fields of the volume.
 TEST(Blocks, AreBodiesContactsAndBoundaries)
 {
-  const TwoBlocks blocks(
+  const DeckOfBlocks blocks(
       "output: {fields: [displacement]}\n"
       "supports: [{boundary: lower.zmin, displacement: {z: 0}}, {boundary: lower.zmin, displacement: {x: 0, y: 0}}]\n"
       "loads: [{boundary: upper.zmax, pressure: 1}]\n");
   const auto volume = make_volume(blocks.deck, blocks.decomposition, blocks.displacement, blocks.results, {});
   const std::vector pairs{blocks.joint()};
-  const std::vector states{TwoBlocks::no_state(pairs[0].secondary)};
+  const std::vector states{DeckOfBlocks::no_state(pairs[0].secondary)};
   const auto found = named_blocks(blocks.deck, blocks.decomposition, pairs, blocks.results, volume, contact_sides(pairs, states));
   Names names;
   for (const auto& block : found) names.push_back(block.group + "/" + block.name);
@@ -131,13 +131,14 @@ TEST(Blocks, AreBodiesContactsAndBoundaries)
   EXPECT_NEAR(area_of(found[4].piece, blocks.comm), 1, 1e-12);
   for (const std::size_t b : {1, 4})
     for (std::size_t p = 0; p < found[b].piece.points.size(); ++p)
-      EXPECT_EQ(at(found[b].piece.point_fields, "displacement", p), Eigen::VectorXd(TwoBlocks::moved(found[b].piece.points[p])));
+      EXPECT_EQ(at(found[b].piece.point_fields, "displacement", p),
+                Eigen::VectorXd(DeckOfBlocks::moved(found[b].piece.points[p])));
 }
 
 TEST(Blocks, AreWrittenWhereTheyAreFewUnlessTheDeckSaysSo)
 {
   const auto wants = [](const std::string& output, std::size_t contacts) {
-    const TwoBlocks blocks(output);
+    const DeckOfBlocks blocks(output);
     return wants_blocks(blocks.deck, blocks.decomposition.catalogue, contacts);
   };
   EXPECT_TRUE(wants("", 38));  // beside two bodies

@@ -10,7 +10,7 @@
 #include "mesh/topology.hpp"
 #include "partition/congruence.hpp"
 #include "partition/node_directory.hpp"
-#include "two_blocks.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::partition {
 namespace {

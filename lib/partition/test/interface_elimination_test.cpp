@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "partition/decompose.hpp"
-#include "two_blocks.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::partition {
 namespace {

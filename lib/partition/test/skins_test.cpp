@@ -14,7 +14,7 @@
 #include "partition/node_directory.hpp"
 #include "partition/skin.hpp"
 #include "partition/whole_bodies.hpp"
-#include "two_blocks.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::partition {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "two_blocks.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::partition {
 namespace {

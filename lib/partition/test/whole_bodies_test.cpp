@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "two_blocks.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::partition {
 namespace {
@@ -84,16 +84,13 @@ struct Content {
 TEST(WholeBodies, AreWhatWasCut)
 {
   const Communicator comm;
-  Timers timers;
-  Log log(comm, nullptr);
   for (const char* element : {"hex8", "tet4", "prism6", "hex27"})
     for (const bool instances : {false, true})
       for (const int per_cluster : {1, 3}) {
         Options options;
         options.unknowns_per_subdomain = 60;
         options.subdomains_per_cluster = per_cluster;
-        const auto cut = decompose(instances ? with_instances(element) : two_blocks(element, {6, 3, 4}, {4, 2, 3}), options, 3,
-                                   {comm, log, timers});
+        const auto cut = cut_of(instances ? with_instances(element) : two_blocks(element, {6, 3, 4}, {4, 2, 3}), options, comm);
         const auto whole = whole_bodies(cut, comm);
         const auto bodies = static_cast<Global>(cut.catalogue.bodies.size());
         ASSERT_GT(cut.subdomain_count(), 2 * bodies);
@@ -123,13 +120,11 @@ TEST(WholeBodies, AreWhatWasCut)
 TEST(WholeBodies, OfOneBodyThatIsWholeNothingChanges)
 {
   const Communicator comm;
-  Timers timers;
-  Log log(comm, nullptr);
   auto blocks = two_blocks("hex8", {6, 3, 4}, {4, 2, 3});
   blocks.blocks.erase("upper");
   Options options;
   options.subdomains = 1;
-  const auto cut = decompose(blocks, options, 3, {comm, log, timers}), whole = whole_bodies(cut, comm);
+  const auto cut = cut_of(blocks, options, comm), whole = whole_bodies(cut, comm);
   EXPECT_EQ(comm.sum(static_cast<long long>(whole.subdomains.size())), 1);
   const Content before(cut, comm), after(whole, comm);
   EXPECT_EQ(after.nodes, before.nodes);

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "partition/decompose.hpp"
 #include "partition/skins.hpp"
 #include "post/drift.hpp"
 #include "post/model_checks.hpp"
 #include "post/strength.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::post {
 namespace {
@@ -28,9 +28,7 @@ struct Blocks {
     partition::Options options;
     options.method = "grid";
     options.counts = {{"lower", {2, 2, 1}}, {"upper", {1, 2, 1}}};
-    Timers timers;
-    Log log(comm, nullptr);
-    decomposition = partition::decompose(mesh, options, 3, {comm, log, timers});
+    decomposition = partition::cut_of(mesh, options, comm);
   }
 
   // u(x) of one body; the others stay.
@@ -47,21 +45,14 @@ struct Blocks {
     return result;
   }
 
-  mesh::Surface surface(const std::string& name) const
-  {
-    const auto& names = decomposition.catalogue.boundaries;
-    return partition::boundary_surface(
-        decomposition, static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin()), {true, true});
-  }
-
   contact::Pair pair(const std::string& secondary, const std::string& primary) const
   {
     contact::Pair result;
     result.options.name = secondary + "/" + primary;
     result.options.secondary = secondary;
     result.options.primary = primary;
-    result.secondary = surface(secondary);
-    result.primary = std::make_shared<const mesh::Surface>(surface(primary));
+    result.secondary = partition::side_of(decomposition, secondary);
+    result.primary = std::make_shared<const mesh::Surface>(partition::side_of(decomposition, primary));
     return result;
   }
 };

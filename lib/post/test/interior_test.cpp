@@ -11,8 +11,8 @@
 #include "bem/surface_stress.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/dense_subdomain.hpp"
-#include "partition/decompose.hpp"
 #include "partition/skins.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::post {
 namespace {
@@ -47,14 +47,10 @@ struct TwoMethods {
     partition::Options options;
     options.method = "grid";
     options.counts["fe"] = options.counts["be"] = {parts, 1, 1};
-    Timers timers;
-    Log log(comm, nullptr);
-    decomposition = partition::decompose(mesh, options, d, {comm, log, timers});
+    decomposition = partition::cut_of(mesh, options, comm, d);
     decomposition = partition::skins(std::move(decomposition), {true, false}, true, comm);
-    std::vector<std::vector<double>> weights;
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
       const auto& subdomain = decomposition.subdomains[s];
-      weights.emplace_back(subdomain.mesh.node_count(), 1.0);
       constitution.push_back(of(subdomain.skin));
       copies.push_back({s, {}});
       operators.emplace_back();
@@ -67,7 +63,7 @@ struct TwoMethods {
       for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
         u.segment(d * static_cast<Eigen::Index>(n), d) = moved(subdomain.mesh.points[n], subdomain.skin).head(d);
     }
-    directory = std::make_unique<partition::NodeDirectory>(decomposition, weights, comm);
+    directory = std::make_unique<partition::NodeDirectory>(partition::even_directory(decomposition, comm));
     interface = partition::find_interface(decomposition, *directory, comm);
   }
 

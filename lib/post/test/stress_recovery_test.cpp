@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "partition/decompose.hpp"
 #include "post/interior.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::post {
 namespace {
@@ -28,15 +28,10 @@ struct Bar {
     partition::Options options;
     options.method = "grid";
     options.counts["bar"] = {4, 1, 1};
-    Timers timers;
-    Log log(comm, nullptr);
-    decomposition = partition::decompose(mesh, options, 3, {comm, log, timers});
-    std::vector<std::vector<double>> weights;
-    for (const auto& s : decomposition.subdomains) {
-      weights.emplace_back(s.mesh.node_count(), 1.0);
+    decomposition = partition::cut_of(mesh, options, comm);
+    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
       constitution.push_back({fem::Material{young, poisson, 0, 1e-3}, fem::Formulation::standard, warmer});
-    }
-    directory = std::make_unique<partition::NodeDirectory>(decomposition, weights, comm);
+    directory = std::make_unique<partition::NodeDirectory>(partition::even_directory(decomposition, comm));
     interface = partition::find_interface(decomposition, *directory, comm);
   }
 

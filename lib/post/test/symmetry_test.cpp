@@ -5,8 +5,8 @@
 #include <map>
 #include <memory>
 
-#include "partition/decompose.hpp"
 #include "post/stress_recovery.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::post {
 namespace {
@@ -37,13 +37,9 @@ class Body {
     options.method = "grid";
     options.counts["box"] = setting.quarter ? std::array<int, 3>{1, 3, 2} : std::array<int, 3>{4, 1, 2};
     if (!solid) box.cells[2] = options.counts["box"][2] = 1;
-    Timers timers;
-    Log log(comm, nullptr);
-    decomposition_ = partition::decompose(mesh, options, setting.dimension, {comm, log, timers});
+    decomposition_ = partition::cut_of(mesh, options, comm, setting.dimension);
     kinematics_ = solid ? fem::Kinematics::solid : fem::Kinematics::plane_strain;
-    std::vector<std::vector<double>> weights;
     for (auto& s : decomposition_.subdomains) {
-      weights.emplace_back(s.mesh.node_count(), 1.0);
       std::vector<int> of_cell;
       for (std::size_t c = 0; c < s.mesh.cells.size(); ++c) {
         double sum = 0;
@@ -75,7 +71,7 @@ class Body {
         if (!at.normals.empty()) symmetric.push_back(at);
       }
     }
-    directory_ = std::make_unique<partition::NodeDirectory>(decomposition_, weights, comm);
+    directory_ = std::make_unique<partition::NodeDirectory>(partition::even_directory(decomposition_, comm));
     interface_ = partition::find_interface(decomposition_, *directory_, comm);
   }
 

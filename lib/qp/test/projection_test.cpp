@@ -3,15 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "dense_operator.hpp"
+#include "testing/quiet.hpp"
 
 namespace mortise::qp {
 namespace {
-
-const Communicator& world()
-{
-  static const Communicator comm;
-  return comm;
-}
 
 // sum x = total over n unknowns, x >= 0: the projection is max(y - nu, 0) with one nu that fits.
 TEST(Projection, SimplexHasItsKnownForm)

@@ -6,14 +6,9 @@
 #include "dense_operator.hpp"
 #include "qp/problem.hpp"
 #include "qp/solution.hpp"
+#include "testing/quiet.hpp"
 
 namespace mortise::qp {
-
-inline const Communicator& world()
-{
-  static const Communicator comm;
-  return comm;
-}
 
 // ||x - P_Omega(x - (g + G'nu))||, zero exactly at a solution, with g = A x - b computed anew. One product.
 inline double kkt(const Solution& solution, const Problem& problem)

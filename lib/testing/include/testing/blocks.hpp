@@ -13,15 +13,11 @@
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/dual_problem.hpp"
-#include "partition/decompose.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::feti {
 
-struct Blocks {
-  Communicator comm;
-  Timers timers;
-  Log log{comm, nullptr};
-  Context context{comm, log, timers};
+struct Blocks : Quiet {
   partition::Decomposition decomposition;
   std::unique_ptr<partition::NodeDirectory> directory;
   partition::Interface interface;
@@ -38,7 +34,7 @@ struct Blocks {
   Blocks(const std::map<std::string, mesh::BlockOptions>& blocks, const std::vector<Counts>& counts,
          const std::function<double(int)>& young, MPI_Comm mpi = MPI_COMM_WORLD, int subdomains_per_cluster = 1,
          const Rotation& rotation = {})
-      : comm(mpi)
+      : Quiet(mpi)
   {
     mesh::Options mesh;
     for (const auto& [name, block] : blocks) mesh.blocks[name] = block;
@@ -65,18 +61,10 @@ struct Blocks {
     system.clusters = Clusters(decomposition, interface, subdomains, system.nodal_stiffness, fem::Kinematics::solid);
   }
 
-  int boundary(const std::string& name) const
-  {
-    const auto& names = decomposition.catalogue.boundaries;
-    return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-  }
-  mesh::Surface side(const std::string& name) const
-  {
-    return partition::boundary_surface(decomposition, boundary(name),
-                                       std::vector<bool>(decomposition.catalogue.bodies.size(), true));
-  }
+  int boundary(const std::string& name) const { return partition::boundary_index(decomposition, name); }
+  mesh::Surface side(const std::string& name) const { return partition::side_of(decomposition, name); }
 
-  void pretension_multipliers(const std::string& name, const Point& traction)
+  void add_traction(const std::string& name, const Point& traction)
   {
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
       fem::add_traction(decomposition.subdomains[s].mesh, boundary(name), fem::Kinematics::solid, traction, load[s]);

@@ -4,13 +4,14 @@
 #include <optional>
 
 #include "contact/state.hpp"
+#include "io/vtk.hpp"
 #include "model/deck.hpp"
-#include "partition/decompose.hpp"
 #include "post/results.hpp"
+#include "testing/cut.hpp"
 
 namespace mortise::output {
 
-const std::string two_blocks = R"(
+const std::string deck_of_blocks = R"(
 mesh:
   blocks:
     lower: {size: [2, 1, 1], cells: [4, 2, 2]}
@@ -20,7 +21,7 @@ bodies: {"*": {material: steel}}
 decomposition: {method: grid, counts: {lower: [2, 1, 1], upper: [1, 1, 2]}}
 )";
 
-struct TwoBlocks {
+struct DeckOfBlocks {
   Communicator comm;
   deck::Document document;
   model::Deck deck;
@@ -31,19 +32,13 @@ struct TwoBlocks {
   post::Results results;
 
   // With these further sections.
-  explicit TwoBlocks(const std::string& sections)
-      : document(two_blocks + sections, "deck.yaml", {}), deck(model::read_deck(document, ""))
+  explicit DeckOfBlocks(const std::string& sections)
+      : document(deck_of_blocks + sections, "deck.yaml", {}), deck(model::read_deck(document, ""))
   {
     document.check();
-    Timers timers;
-    Log log(comm, nullptr);
-    decomposition = partition::decompose(deck.mesh, deck.decomposition, 3, {comm, log, timers});
-    std::vector<std::vector<double>> weights;
-    for (const auto& subdomain : decomposition.subdomains) {
-      weights.emplace_back(subdomain.mesh.node_count(), 1.0);
-      add_fields(subdomain.mesh);
-    }
-    directory.emplace(decomposition, weights, comm);
+    decomposition = partition::cut_of(deck.mesh, deck.decomposition, comm);
+    for (const auto& subdomain : decomposition.subdomains) add_fields(subdomain.mesh);
+    directory.emplace(partition::even_directory(decomposition, comm));
     interface = partition::find_interface(decomposition, *directory, comm);
   }
 
@@ -53,12 +48,7 @@ struct TwoBlocks {
     return (fem::Stress() << 10 + x[0], -20 + 2 * x[1], 5 * x[2], 3, x[0] + x[1], -7).finished();
   }
 
-  mesh::Surface side(const std::string& name) const
-  {
-    const auto& names = decomposition.catalogue.boundaries;
-    const auto index = std::find(names.begin(), names.end(), name) - names.begin();
-    return partition::boundary_surface(decomposition, static_cast<int>(index), {true, true});
-  }
+  mesh::Surface side(const std::string& name) const { return partition::side_of(decomposition, name); }
   contact::Pair joint() const
   {
     contact::Options options;
