@@ -9,7 +9,7 @@
 namespace mortise::friction {
 namespace {
 
-// The fixed point of next = slope * now + shift, from 0: how many steps until it is known to 1e-10; 0 if never.
+// The fixed point of next = slope * now + shift, from 0: how many steps until it is known to 1e-10; 100 if never.
 int steps_to_rest(double slope, double shift)
 {
   const Communicator comm(MPI_COMM_SELF);
@@ -21,16 +21,13 @@ int steps_to_rest(double slope, double shift)
     now[0] += relaxation(now, next) * (next[0] - now[0]);
     if (std::abs(now[0] - goal) < 1e-10) return step;
   }
-  return 0;
+  return 100;
 }
 
 TEST(Relaxation, SettlesSwingsThatWouldGrow)
 {
-  for (const double slope : {-0.5, -1.0, -3.0}) {  // plain steps: converges, takes turns, runs away
-    const int steps = steps_to_rest(slope, 1);
-    EXPECT_GE(steps, 2) << slope;
-    EXPECT_LE(steps, 3) << slope;  // of one unknown the second step is exact
-  }
+  for (const double slope : {-0.5, -1.0, -3.0})      // plain steps: converges, takes turns, runs away
+    EXPECT_LE(steps_to_rest(slope, 1), 3) << slope;  // of one unknown the second step is exact
 }
 
 TEST(Relaxation, GoesAllTheWayAtFirstAndNeverBeyond)

@@ -1,6 +1,9 @@
 // A random quadratic programme with contact nodes, and what tells whether it is solved.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
 #include <random>
 
 #include "dense_operator.hpp"
@@ -27,6 +30,7 @@ inline double kkt(const Solution& solution, const Problem& problem)
 // A random programme with five equalities, bounds and discs; a point inside makes it feasible.
 struct RandomProgramme {
   static constexpr int n = 48;
+  static constexpr double radius = 0.6;  // of discs
   std::mt19937 generator{7};
   std::normal_distribution<double> normal;
 
@@ -50,7 +54,7 @@ struct RandomProgramme {
     std::vector<Disc> discs;
     for (Local i = 0; i < size; i += 3) {
       bounds.push_back({i, 0});
-      discs.push_back({{i + 1, i + 2}, 0.6, {0, 0}});
+      discs.push_back({{i + 1, i + 2}, radius, {0, 0}});
       discs.back().normal = i;
     }
     return {bounds, discs};
@@ -66,6 +70,42 @@ struct RandomProgramme {
   Hessian hessian{a, 20000};
   Vector b = local_part(random(n, 1), map);
   Problem problem{hessian, b, equality, set};
+
+  // The solution with radii as they are given above, of whole matrices, by alternating directions [Boyd et al., Found. Trends
+  // Mach. Learn. 3 (2011)]: x solves the equations, z lies in Omega. Nothing of it comes from the code under test. Collective.
+  Eigen::VectorXd reference() const
+  {
+    constexpr double r = 0.5;
+    const Eigen::Index m = g.rows();
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n + m, n + m);
+    k.topLeftCorner(n, n) = dense + r * Eigen::MatrixXd::Identity(n, n);
+    k.topRightCorner(n, m) = g.transpose();
+    k.bottomLeftCorner(m, n) = g;
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factor(k);
+    const Eigen::VectorXd linear = gathered(b, world());
+    Eigen::VectorXd right(n + m), z = Eigen::VectorXd::Zero(n), y = z;
+    right.tail(m) = g * inside;
+    double off = 1;
+    for (int i = 0; i < 100000 && off > 1e-14; ++i) {
+      right.head(n) = linear + r * (z - y);
+      const Eigen::VectorXd x = factor.solve(right).head(n), before = z;
+      z = x + y;
+      for (Eigen::Index p = 0; p < n; p += 3) {
+        z[p] = std::max(z[p], 0.0);
+        z.segment(p + 1, 2) /= std::max(1.0, z.segment(p + 1, 2).norm() / radius);
+      }
+      y += x - z;
+      off = (x - z).norm() + (z - before).norm();
+    }
+    EXPECT_LE(off, 1e-14);
+    return z;
+  }
+  // ||x - other||_A
+  double distance(const Vector& x, const Eigen::VectorXd& other) const
+  {
+    const Eigen::VectorXd e = gathered(x, world()) - other;
+    return std::sqrt(e.dot(dense * e));
+  }
 };
 
 }  // namespace mortise::qp

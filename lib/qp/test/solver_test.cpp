@@ -73,7 +73,14 @@ TEST(Solvers, NamesAreThoseOfTheDeckAndAutoBeginsWithTheFirst)
 
 TEST(Solvers, EachSolvesWithGivenRadii)
 {
-  Eigen::VectorXd first;
+  const Eigen::VectorXd exact = RandomProgramme().reference();
+  int open = 0, slips = 0;  // the programme is worth solving
+  for (Eigen::Index p = 0; p < exact.size(); p += 3) {
+    open += exact[p] == 0;
+    slips += exact.segment(p + 1, 2).norm() > (1 - 1e-12) * RandomProgramme::radius;
+  }
+  ASSERT_GE(open, 3);
+  ASSERT_GE(slips, 3);
   for (const auto& kind : solvers()) {
     Setting setting;
     auto& [programme, budget, means] = setting;
@@ -88,13 +95,7 @@ TEST(Solvers, EachSolvesWithGivenRadii)
         << kind.name;
     EXPECT_LT(kkt(solution, programme.problem), 1e-7) << kind.name;
     const Eigen::VectorXd x = gathered(solution.x, world());
-    if (first.size() == 0) {
-      first = x;
-      const auto active = programme.set.active(view(solution.x));  // the programme is worth solving
-      EXPECT_GE(world().sum(active.bounds), 3) << kind.name;
-      EXPECT_GE(world().sum(active.discs), 3) << kind.name;
-    }
-    EXPECT_LT((x - first).norm(), 1e-7 * first.norm()) << kind.name;
+    EXPECT_LT((x - exact).norm(), 1e-7 * exact.norm()) << kind.name;
   }
 }
 
@@ -137,7 +138,6 @@ TEST(Solvers, ANearbyMatrixIsCorrectedByAFewProducts)
   };
   const Eigen::VectorXd expected = solve(exact), x = solve(nearby);
   EXPECT_EQ(exact.programme.hessian.count(), 0);
-  EXPECT_GE(nearby.programme.hessian.count(), 2);
   EXPECT_LE(nearby.programme.hessian.count(), 5);
   EXPECT_LT((x - expected).norm(), 1e-10 * expected.norm());
 }
@@ -279,11 +279,14 @@ TEST(Solvers, SmalseTakesOverWhereFaceNewtonCrawls)
     });
     ASSERT_TRUE(solution.feasible);
     EXPECT_FALSE(solution.converged);
-    EXPECT_GE(of_faces, 5);
-    if (waiting)  // for the solve to give up
+    EXPECT_GE(of_faces, 1);
+    EXPECT_LE(of_faces, 60);
+    if (waiting) {  // for the solve to give up, long before its products are spent
       EXPECT_EQ(of_smalse, 0);
-    else
+      EXPECT_LE(programme.hessian.count(), 130);
+    } else {
       EXPECT_GE(of_smalse, 1);
+    }
     EXPECT_EQ(solution.outer_iterations, of_faces + of_smalse);
     EXPECT_LT(kkt(solution, programme.problem), 1e-8);  // what was reached stays
   }
