@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "friction/friction.hpp"
+#include "proximal_gradient.hpp"
 #include "qp/error_estimate.hpp"
 #include "testing/blocks.hpp"
 
@@ -15,6 +16,8 @@ namespace mortise::friction {
 namespace {
 
 using Kind = Law::Kind;
+
+constexpr std::size_t contact_points = 16;  // of Stack
 
 // Nodal force at a point on top: pressed harder towards x = 1, and pushed along x.
 Point force_at(const Point& at, double push)
@@ -36,11 +39,6 @@ struct Stack : feti::Blocks {
     dirichlet_rows({{"lower.zmin", {0, 0, 0}}});
     join("upper.zmin", "lower.zmax", false, tangents);
   }
-};
-
-// Contact forces at the points of Stack, three a point: along the normal out of the upper block, and along the tangents.
-struct Reference {
-  Eigen::VectorXd forces, bounds;
 };
 
 class Displacements {
@@ -96,40 +94,7 @@ class Displacements {
     }
   }
 
-  // min 1/2 w'S w - c'w + sum_p bound_p |w_t| over w_n <= 0, from `w`; Coulomb's bounds follow the forces.
-  Reference solve(Law law)
-  {
-    const double step = 1 / s_.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
-    Eigen::VectorXd w = Eigen::VectorXd::Zero(c_.size()), y = w, before = w;
-    Reference result{Eigen::VectorXd::Zero(c_.size()),
-                     Eigen::VectorXd::Constant(points_, law.kind == Kind::tresca ? law.value : 0)};
-    for (int round = 0; round < (law.kind == Kind::coulomb ? 200 : 1); ++round) {
-      double t = 1, moved = 1;
-      y = before = w;
-      for (int i = 0; i < 200000 && moved > 1e-15; ++i) {  // Nesterov's, begun anew where it turns back
-        w = y + step * (c_ - s_ * y);
-        for (Eigen::Index p = 0; p < points_; ++p) {
-          w[3 * p] = std::min(w[3 * p], 0.0);
-          auto slip = w.segment(3 * p + 1, 2);
-          const double length = slip.norm();
-          slip *= length > step * result.bounds[p] ? 1 - step * result.bounds[p] / length : 0.0;
-        }
-        const double next = (y - w).dot(w - before) > 0 ? 1 : 0.5 * (1 + std::sqrt(1 + 4 * t * t));
-        moved = (w - before).norm();
-        y = w + (next == 1 ? 0 : (t - 1) / next) * (w - before);
-        before = w;
-        t = next;
-      }
-      result.forces = c_ - s_ * w;
-      if (law.kind != Kind::coulomb) break;
-      Eigen::VectorXd bounds = result.bounds;
-      for (Eigen::Index p = 0; p < points_; ++p) bounds[p] = law.value * std::max(result.forces[3 * p], 0.0);
-      const bool rests = (bounds - result.bounds).norm() <= 1e-12 * bounds.norm();
-      result.bounds = bounds;
-      if (rests) break;
-    }
-    return result;
-  }
+  Reference solve(Law law) const { return by_proximal_gradient(s_, c_, law, Eigen::VectorXd::Zero(points_)); }
 
  private:
   Eigen::Index points_ = 0;
@@ -157,24 +122,11 @@ const Reference& reference(const Law& law, double push)
   return known.emplace(law.kind, Reference{vector(forces), vector(bounds)}).first->second;
 }
 
-// Forces of all points, in the order of Stack, on every rank.
-Eigen::VectorXd forces_of(const Stack& stack, const feti::DualProblem& problem, const Vector& multipliers)
-{
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(stack.nodes_of("upper.zmin").size()));
-  const auto x = view(multipliers);
-  for (std::size_t i = 0; i < problem.node_rows().size(); ++i) {
-    const auto& rows = problem.node_rows()[i];
-    const auto at = 3 * (static_cast<Eigen::Index>(i) * stack.comm.size() + stack.comm.rank());
-    for (int k = 0; k <= rows.tangents; ++k) forces[at + k] = problem.jump().force(rows.normal + k, x[rows.normal + k]);
-  }
-  stack.comm.sum_in_place({forces.data(), static_cast<std::size_t>(forces.size())});
-  return forces;
-}
-
 struct Case {
   const char* algorithm;
   Law law;
   double push;
+  int most;  // products
 };
 std::ostream& operator<<(std::ostream& out, const Case& c)
 {
@@ -184,10 +136,10 @@ std::ostream& operator<<(std::ostream& out, const Case& c)
 std::vector<Case> cases()
 {
   std::vector<Case> all;
-  for (const char* algorithm : {"face_newton", "smalse", "direct"}) {
-    all.push_back({algorithm, {Kind::frictionless, 0}, 0});
-    all.push_back({algorithm, {Kind::tresca, 0.12}, 0.1});
-    all.push_back({algorithm, {Kind::coulomb, 0.4}, 0.15});
+  for (const auto& [algorithm, most] : {std::pair("face_newton", 60), std::pair("smalse", 250), std::pair("direct", 10)}) {
+    all.push_back({algorithm, {Kind::frictionless, 0}, 0, most});
+    all.push_back({algorithm, {Kind::tresca, 0.12}, 0.1, most});
+    all.push_back({algorithm, {Kind::coulomb, 0.4}, 0.15, most});
   }
   return all;
 }
@@ -197,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(SolversAndLaws, TwoBlocks, testing::ValuesIn(cases()));
 
 TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
 {
-  const auto [algorithm, law, push] = GetParam();
+  const auto [algorithm, law, push, most] = GetParam();
   const Reference& expected = reference(law, push);
   const double size = expected.forces.norm();
   ASSERT_GT(size, 1);
@@ -221,7 +173,6 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
   const bool slow = algorithm == std::string("smalse");
   const double tolerance = slow ? 1e-7 : 1e-9;
   for (const int pieces : {1, 3}) {
-    if (slow && (pieces > 1 || (law.kind == Kind::coulomb && Communicator().size() > 1))) continue;
     Stack stack(push, law.kind != Kind::frictionless, pieces);
     feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
                               {}, stack.context);
@@ -231,8 +182,8 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
     Solver solver(problem, {law}, {tolerance, 200}, options);
     const Result result = solver.solve(nullptr, {}, {});
     EXPECT_TRUE(result.converged) << pieces;
-    EXPECT_EQ(result.applications, solver.applications());
-    const Eigen::VectorXd forces = forces_of(stack, problem, result.solution.x);
+    EXPECT_LE(result.applications, most) << pieces;
+    const Eigen::VectorXd forces = forces_of(problem, result.solution.x, contact_points);
     EXPECT_LT((forces - expected.forces).norm(), (slow ? 1e-4 : 1e-6) * size) << pieces;
     // The radii of the laws, at the solution.
     const auto bounds = slip_bounds(problem, {law}, &result.solution.x);
@@ -327,7 +278,8 @@ TEST(TwoBlocksAgain, StartFromWhatIsKnown)
   const Result second = solver.solve(&first.solution, {}, {});
   EXPECT_TRUE(second.converged);
   EXPECT_LE(second.applications, std::min(first.applications / 2, 8));
-  const Eigen::VectorXd a = forces_of(stack, problem, first.solution.x), b = forces_of(stack, problem, second.solution.x);
+  const Eigen::VectorXd a = forces_of(problem, first.solution.x, contact_points),
+                        b = forces_of(problem, second.solution.x, contact_points);
   EXPECT_GT(a.norm(), 1);
   EXPECT_LT((a - b).norm(), 1e-6 * a.norm());
 }

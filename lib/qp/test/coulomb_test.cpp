@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "qp/face_newton.hpp"
+#include "qp/solver.hpp"
 #include "random_programme.hpp"
 
 namespace mortise::qp {
@@ -62,6 +63,49 @@ TEST(Coulomb, RadiiBelongToTheSolution)
   EXPECT_LT(kkt(solution, problem), 1e-6);
   const auto active = set.active(view(solution.x));
   EXPECT_GE(world().sum(active.discs), 3);  // else nothing slips, and this tells nothing
+}
+
+// So many equations that radii of the first normal unknowns leave no feasible point: half the way back to infinite ones, twice
+// the radii, as often as it takes. The solution is one of the law.
+TEST(Coulomb, RadiiThatLeaveNothingGoBack)
+{
+  constexpr double coefficient = 0.3;
+  RandomProgramme programme(30);
+  auto& set = programme.set;
+  Eigen::VectorXd within = Eigen::VectorXd::Zero(RandomProgramme::n);
+  for (Eigen::Index i = 0; i < within.size(); i += 3) within.segment(i, 3) << 1, 0.12, -0.16;  // 0.2 of 0.3
+  programme.equality.set_right_side(programme.g * within);
+  set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
+  auto now = std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()), before = now;
+  set.set_radii(now);
+  int retreats = 0;
+  const SlipBoundUpdate law{[&](const Vector& x, bool apply) {
+                              const auto wanted = radii(set, x);
+                              double square = 0;
+                              for (std::size_t i = 0; i < wanted.size(); ++i)
+                                square += std::pow(std::isinf(now[i]) ? 1.0 : wanted[i] - now[i], 2);
+                              if (apply) {
+                                before = std::exchange(now, wanted);
+                                set.set_radii(now);
+                              }
+                              return std::sqrt(world().sum(square));
+                            },
+                            [&] {
+                              ++retreats;
+                              now = half_way_back(now, before);
+                              set.set_radii(now);
+                            }};
+  const Eigen::MatrixXd dense = programme.dense + 4 * Eigen::MatrixXd::Identity(RandomProgramme::n, RandomProgramme::n);
+  const DenseOperator a(dense, programme.map, world());
+  Hessian hessian(a, 20000);
+  const Problem problem{hessian, programme.b, programme.equality, set};
+  const Solution solution = FaceNewton(problem, nullptr).solve({}, {1e-9, {}}, &law, {});
+  EXPECT_GE(retreats, 1);
+  ASSERT_TRUE(solution.feasible);
+  EXPECT_TRUE(solution.converged);
+  EXPECT_LT((programme.g * gathered(solution.x, world()) - programme.equality.right_side()).norm(), 1e-8);
+  set.set_radii(radii(set, solution.x));
+  EXPECT_LT(kkt(solution, problem), 1e-6);
 }
 
 // Where a disc slips whose radius follows x[normal], what moves goes along with it: x_t . n = coefficient x[normal].

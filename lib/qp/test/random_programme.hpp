@@ -29,6 +29,8 @@ inline double kkt(const Solution& solution, const Problem& problem)
 
 // A random programme with five equalities, bounds and discs; a point inside makes it feasible.
 struct RandomProgramme {
+  explicit RandomProgramme(Eigen::Index equalities = 5) : count(equalities) {}
+
   static constexpr int n = 48;
   static constexpr double radius = 0.6;  // of discs
   std::mt19937 generator{7};
@@ -60,8 +62,9 @@ struct RandomProgramme {
     return {bounds, discs};
   }
 
+  Eigen::Index count;
   Eigen::MatrixXd dense = definite(random(n, n));
-  Eigen::MatrixXd g = random(5, n);
+  Eigen::MatrixXd g = random(count, n);
   Eigen::VectorXd inside = 0.1 * random(n, 1).cwiseAbs();
   Teuchos::RCP<const Map> map = blocks_of_three();
   FeasibleSet set = bounds_and_discs(static_cast<Local>(map->getNodeNumElements()));
