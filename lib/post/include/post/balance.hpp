@@ -24,7 +24,8 @@ struct Reaction {
 std::vector<Reaction> reactions(const feti::DualProblem& problem, const Vector& lambda, std::size_t supports);
 
 /// Of each subdomain, nodes x 3: the forces that hold the nodes of supports, along the components that these hold; the same at
-/// all copies of a node. Where a contact pushes such a node, it is the force of support and contact together. Collective.
+/// all copies of a node. Where a contact pushes such a node, it is the force of support and contact together. Rows of supports
+/// stand on ranks that have their nodes, see feti::distribute_rows(). Collective.
 std::vector<Eigen::MatrixXd> holding_forces(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                                             const partition::Interface& interface, const Vector& lambda);
 
