@@ -1,0 +1,28 @@
+// Half a roller between a base and a lid, cut at its plane of symmetry x = 0. N: cells along a quarter of its rim.
+DefineConstant[ N = 4 ];
+Point(1) = {0, 0, 0}; Point(2) = {1, 1, 0}; Point(3) = {0, 2, 0}; Point(4) = {0, 1, 0};
+Circle(1) = {1, 4, 2}; Circle(2) = {2, 4, 3};
+Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve {1 : 4} = N + 1;
+Point(11) = {0, -1, 0}; Point(12) = {1, -1, 0}; Point(13) = {1, 0, 0}; Point(14) = {0, 0, 0};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 11};
+Curve Loop(11) = {11, 12, 13, 14};
+Plane Surface(11) = {11};
+Point(21) = {0, 2, 0}; Point(22) = {1, 2, 0}; Point(23) = {1, 3, 0}; Point(24) = {0, 3, 0};
+Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 21};
+Curve Loop(21) = {21, 22, 23, 24};
+Plane Surface(21) = {21};
+Transfinite Curve {11 : 14, 21 : 24} = 10;
+Transfinite Surface {11, 21};
+Recombine Surface {1, 11, 21};
+Physical Surface("roller") = {1};
+Physical Surface("base") = {11};
+Physical Surface("lid") = {21};
+Physical Curve("rim") = {1, 2};
+Physical Curve("cuts") = {3, 4, 14, 24};
+Physical Curve("foot") = {11};
+Physical Curve("floor") = {13};
+Physical Curve("ceiling") = {21};
+Physical Curve("top") = {23};
