@@ -195,7 +195,9 @@ std::vector<Warning> idle_contacts(const Rows& rows, const Communicator& comm)
         fmt::format("contact {} has no point: its surfaces do not face each other within the search distance, or share less than "
                     "a hundredth of a cell, and nothing keeps them apart",
                     rows.pairs[c].options.name),
-        "look at the names, set a larger search_distance, or refine the secondary side"};
+        rows.pairs[c].options.cyclic
+            ? "look at angle, axis and center of the sector and at the names, or set a larger search_distance"
+            : "look at the names, set a larger search_distance, or refine the secondary side"};
     w.contact = rows.pairs[c].options.name;
     w.boundary = rows.pairs[c].options.secondary;
     w.limit = 1;

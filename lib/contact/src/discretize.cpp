@@ -85,13 +85,15 @@ class Builder {
   {
   }
 
-  // Of this rank's surface nodes.
-  double covered_area() const
+  // How the two sides lie on each other, at this rank's surface nodes.
+  CutFit fit() const
   {
-    double sum = 0;
+    CutFit result;
     for (std::size_t p = 0; p < faces_.places(); ++p)
-      if (own(p)) sum += chosen_.covered[p];
-    return sum;
+      if (own(p)) result.covered += chosen_.covered[p];
+    for (std::size_t p = 0; p < nodes_.all.size(); ++p)
+      if (own(p) && chosen_.kept[p]) result.note(std::abs(rays_.gap(p, nodes_.all[p].normal)));
+    return result;
   }
 
   const SupportConflicts& conflicts() const { return conflicts_; }
@@ -99,16 +101,6 @@ class Builder {
   // Of this rank's points; `touching`, `face`: see InitialGap.
   const InitialGap& initial_gap() const { return initial_gap_; }
   void set_lengths(double touching, double face) { initial_gap_.touching = touching, initial_gap_.face = face; }
-
-  // How far the two sides are apart, at this rank's surface nodes that carry a multiplier.
-  double widest_gap() const
-  {
-    double widest = 0;
-    for (std::size_t p = 0; p < nodes_.all.size(); ++p)
-      if (const double gap = own(p) && chosen_.kept[p] ? std::abs(rays_.gap(p, nodes_.all[p].normal)) : 0; std::isfinite(gap))
-        widest = std::max(widest, gap);
-    return widest;
-  }
 
   // All of its work: afterwards the others tell what it found.
   void add_rows(constraint::Contacts& contacts, const SupportDirectory& supports, const Communicator& comm)
@@ -389,6 +381,19 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
   const CurvedFaces curved(curved_faces, comm);
   const FacesAtBonds at_bonds(pairs, kinematics, comm);
   if (initial_gaps) initial_gaps->assign(pairs.size(), {});
+  // What touches nothing, or lies far from what it should, once more with its primary side turned the other way.
+  const auto check_cuts = [&](std::size_t c, const CutFit& fit) {
+    if (pairs[c].options.law == Law::bonded) return require_one_surface(pairs[c], sizes[c], fit, comm);
+    if (!may_be_turned_wrongly(pairs[c], sizes[c], fit)) return;
+    const Pair other = turned_back(pairs[c]);
+    const Share share = share_out(other, sizes[c], kinematics, comm);
+    const std::vector<UnbondedNode> none;
+    Builder builder(other.options, share, sizes[c].reach, static_cast<int>(c), directory, at_bonds, none, curved, kinematics,
+                    comm);
+    constraint::Contacts tried;
+    builder.add_rows(tried, directory, comm);
+    require_this_way(pairs[c], sizes[c], fit, over_ranks(builder.fit(), comm));
+  };
   const auto add = [&](std::size_t c) {
     const auto& options = pairs[c].options;
     const Share share = share_out(pairs[c], sizes[c], kinematics, comm);
@@ -399,8 +404,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
     builder.set_lengths(touching_gap(sizes[c].extent, sizes[c].secondary_face), sizes[c].secondary_face);
     builder.add_rows(contacts, directory, comm);
     if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
-    if (options.cyclic && options.law == Law::bonded)
-      require_one_surface(pairs[c], sizes[c], builder.widest_gap(), builder.covered_area(), comm);
+    if (options.cyclic) check_cuts(c, over_ranks(builder.fit(), comm));
     builder.conflicts().refuse(options, sizes[c].reach, comm);
   };
   const auto is_bonded = [](const Pair& pair) { return pair.options.law == Law::bonded; };
