@@ -360,6 +360,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   append(result, post::point_forces(point_forces(model, state.rows->acts, results), results.balance.acting));
   append(result, post::coarse_mesh(results.mesh_error, names));
   append(result, post::facet_push(results.balance.push_of_facets, results.balance.gauges));
+  append(result, post::unresisted_loads(results.unresisted, names));
   append(result, short_searches(*state.rows, results, comm));
   append(result, crossings(model, state.displacement, names, comm));
   for (auto& warning : result) warning.step = state.rows->acts.step;

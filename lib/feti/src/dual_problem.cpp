@@ -13,18 +13,23 @@ namespace mortise::feti {
 
 namespace {
 
-// A load that works less than this on a free motion, relative to the forces on the body, counts as rounding.
-constexpr double no_work = 1e-6;
 // What rows feel of a motion that is free up to rounding.
 constexpr double exactly_free = 1e-6;
 
-std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bodies, const std::vector<BodyFrame>& frames)
+std::string describe(const FreeMotion& motion, const std::vector<mesh::Body>& bodies, const std::vector<double>& sizes)
 {
   const auto& first = motion.motions.front();
   std::string text = fmt::format("body \"{}\" {}", bodies[static_cast<std::size_t>(first.body)].name,
-                                 describe(first, frames[static_cast<std::size_t>(first.body)].radius));
+                                 describe(first, sizes[static_cast<std::size_t>(first.body)]));
   if (motion.motions.size() > 1) text += fmt::format(", and {} other bodies with it", motion.motions.size() - 1);
   return text;
+}
+
+std::string driven_by_loads(const FreeMotion& motion, const std::vector<mesh::Body>& bodies, const std::vector<double>& sizes)
+{
+  constexpr double small = 1e-2;
+  return fmt::format("\n  {}, driven by its loads{}", describe(motion, bodies, sizes),
+                     motion.work < small ? fmt::format(" with {:.2g} % of them", 100 * motion.work) : "");
 }
 
 // Whether no other motion moves its bodies.
@@ -51,12 +56,14 @@ bool moves_alone(const FreeMotion& motion, const std::vector<FreeMotion>& all)
 DualProblem::DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                          const partition::Interface& interface, constraint::Constraints constraints,
                          const SubdomainSystem& system, std::vector<Eigen::VectorXd> load, const Options& options,
-                         const Context& context, std::span<const constraint::SlidingSurface> sliding_surfaces)
+                         const Context& context, std::span<const constraint::SlidingSurface> sliding_surfaces,
+                         std::vector<double> pressed_round)
     : decomposition_(decomposition),
       constraints_(std::move(constraints)),
       system_(system),
       load_(std::move(load)),
-      comm_(context.comm)
+      comm_(context.comm),
+      pressed_round_(std::move(pressed_round))
 {
   make_rows(directory, interface, {});
   gauge_rigid_modes(directory, interface, sliding_surfaces, context);
@@ -133,27 +140,42 @@ void DualProblem::make_rhs()
   equality_->set_right_side(std::move(e));
 }
 
-bool DualProblem::driven(const FreeMotion& motion, double work)
+DriveLimits DualProblem::limits(const FreeMotion& motion, const std::vector<double>& pressed_round)
 {
-  // What facets make of a body works on its motions, too: its centre of mass lies beside its axis by a part of their arcs'
-  // height.
-  constexpr double work_of_facets = 1e-3, part_of_sagitta = 0.5;
-  const double facets = std::max(motion.sliding ? work_of_facets : 0.0, part_of_sagitta * motion.sagitta);
-  return work > std::max({no_work, facets, 3 * motion.resistance});
+  double round = 0;
+  for (const auto& part : motion.motions)
+    if (!pressed_round.empty()) round += pressed_round[static_cast<std::size_t>(part.body)];
+  return drive_limits(motion, motion.force > 0 ? round / motion.force : 0);
 }
 
-bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load)
+std::vector<UnresistedLoad> DualProblem::unresisted_loads() const
+{
+  std::vector<UnresistedLoad> result;
+  for (const auto& motion : gauged_) {
+    if (!motion.sliding && motion.resistance >= exactly_free) continue;
+    const double limit = limits(motion, pressed_round_).told;
+    const auto body = static_cast<std::size_t>(motion.motions.front().body);
+    if (motion.work > limit) result.push_back(unresisted_load(motion, limit, sizes_[body]));
+  }
+  return result;
+}
+
+bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load,
+                             std::vector<double> pressed_round)
 {
   // What loads at the points of couplings work on a motion is not among the loads of the subdomains.
   if (!gauged_.empty() && !constraints.couplings.empty()) return false;
-  const auto frames = body_frames(decomposition_, comm_);
   std::string loaded;
+  std::vector<FreeMotion> now;
   for (const auto& motion : gauged_) {
-    if (!driven(motion, work(motion, decomposition_, load, comm_))) continue;
+    now.push_back(loaded_by(motion, decomposition_, load, comm_));
+    if (now.back().work <= limits(now.back(), pressed_round).refused) continue;
     if (!motion.sliding && motion.resistance >= exactly_free) return false;
-    loaded += fmt::format("\n  {}, driven by its loads", describe(motion, decomposition_.catalogue.bodies, frames));
+    loaded += driven_by_loads(now.back(), decomposition_.catalogue.bodies, sizes_);
   }
   if (!loaded.empty()) throw_driven(loaded);
+  gauged_ = std::move(now);
+  pressed_round_ = std::move(pressed_round);
   constraints_ = std::move(constraints);
   load_ = std::move(load);
   last_.reset();
@@ -168,22 +190,22 @@ void DualProblem::gauge_rigid_modes(const partition::NodeDirectory& directory, c
   SparseMatrix g = coarse_rows(*jump_, system_.clusters, comm_);
   const auto motions = find_free_motions(decomposition_, *jump_, system_.clusters, system_.kinematics, g, constraints_,
                                          unknowns(constraints_, *jump_, dimension()), sliding_surfaces, load_, comm_);
-  const auto frames = body_frames(decomposition_, comm_);
+  for (const auto& frame : body_frames(decomposition_, comm_)) sizes_.push_back(frame.radius);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;
   std::string loaded;
   int silent = 0;
   for (const auto& motion : motions) {
     const bool free = motion.sliding || motion.resistance < exactly_free;
-    if (driven(motion, motion.work)) {
+    if (motion.work > limits(motion, pressed_round_).refused) {
       // What is hardly resisted is left to the solver; what nothing but facets resists has no equilibrium.
-      if (free) loaded += fmt::format("\n  {}, driven by its loads", describe(motion, bodies, frames));
+      if (free) loaded += driven_by_loads(motion, bodies, sizes_);
       continue;
     }
     gauges.push_back(gauge(motion, moves_alone(motion, motions), decomposition_, system_.nodal_stiffness, comm_));
     gauged_.push_back(motion);
     if (gauges.size() <= 10)
-      context.log.line("  free rigid motion, set to zero: {}{}", describe(motion, bodies, frames),
+      context.log.line("  free rigid motion, set to zero: {}{}", describe(motion, bodies, sizes_),
                        motion.resistance < exactly_free ? ""
                        : motion.sliding                 ? " (facets aside)"
                                         : fmt::format(" (but for facets, which feel {:.1e} of it)", motion.resistance));

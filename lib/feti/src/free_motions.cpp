@@ -162,6 +162,7 @@ class FreeMotionSearch {
     return combine(unit.front(), bodies_.frames[static_cast<std::size_t>(unit.front())], v, bodies_.kinematics);
   }
   Eigen::MatrixXd spread(const std::vector<int>& unit) const;
+  double turning(const FreeMotion& motion) const;
   bool along_surfaces(const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) const;
 
   const Bodies& bodies_;
@@ -182,6 +183,16 @@ Eigen::MatrixXd FreeMotionSearch::spread(const std::vector<int>& unit) const
     for (int k = 0; k < modes; ++k)
       result.block(b * modes, k, modes, 1) = amplitudes_of(unit_motion(unit.front(), frame, k, bodies_.kinematics),
                                                            bodies_.frames[static_cast<std::size_t>(b)], bodies_.kinematics);
+  return result;
+}
+
+double FreeMotionSearch::turning(const FreeMotion& motion) const
+{
+  double result = 0;
+  for (const auto& part : motion.motions) {
+    const auto& frame = bodies_.frames[static_cast<std::size_t>(part.body)];
+    result = std::max(result, part.rotation.norm() * frame.radius / std::max(part.at(frame.centre).norm(), 1e-300));
+  }
   return result;
 }
 
@@ -220,7 +231,9 @@ void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constr
       motion.motions.push_back(motion_of(unit, v));
       motion.motions.back().body = b;
     }
+    motion.force = force;
     motion.work = force > 0 ? std::abs(drives.dot(v)) / force : 0;
+    motion.turning = turning(motion);
     amplitudes_.emplace_back(spread_unit * v);
     found.push_back(std::move(motion));
   };
@@ -274,7 +287,9 @@ void FreeMotionSearch::find_joint()
       motion.motions.push_back(combine(b, bodies_.frames[b], v.segment(b * modes, modes), bodies_.kinematics));
       force += bodies_.force[b];
     }
+    motion.force = force;
     motion.work = force > 0 ? std::abs(bodies_.generalised.dot(v)) / force : 0;
+    motion.turning = turning(motion);
     found.push_back(std::move(motion));
   }
 }
@@ -305,8 +320,8 @@ std::vector<FreeMotion> motions_of_unit(const Bodies& bodies, const BodyRows& ro
   return std::move(search.found);
 }
 
-double work(const FreeMotion& motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,
-            const Communicator& comm)
+FreeMotion loaded_by(FreeMotion motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,
+                     const Communicator& comm)
 {
   const int dimension = decomposition.catalogue.dimension;
   std::array<double, 2> sums{0, 0};  // work, sum of |nodal forces|
@@ -319,7 +334,9 @@ double work(const FreeMotion& motion, const partition::Decomposition& decomposit
     }
   }
   comm.sum_in_place(sums);
-  return sums[1] > 0 ? std::abs(sums[0]) / sums[1] : 0;
+  motion.force = sums[1];
+  motion.work = sums[1] > 0 ? std::abs(sums[0]) / sums[1] : 0;
+  return motion;
 }
 
 namespace {

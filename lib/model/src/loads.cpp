@@ -53,6 +53,38 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
   return f;
 }
 
+std::vector<double> Model::pressed_round(const LoadState& state, const Communicator& comm) const
+{
+  constexpr double rounding = 1e-9;
+  std::vector<double> result(decomposition_.catalogue.bodies.size(), 0.0);
+  for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
+    const auto& load = deck_.loads[i];
+    if (state.load[i] == 0 || !load.pressure) continue;
+    const auto [boundary, on_body] = select(load.boundary);
+    std::vector<double> sums(4 * result.size(), 0.0);  // of each body the resultant and the sum of sizes
+    for (const auto& subdomain : decomposition_.subdomains) {
+      if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+      double* const sum = &sums[4 * static_cast<std::size_t>(subdomain.body)];
+      const auto visit = [&](std::span<const Local> nodes, const Eigen::VectorXd& shape, const Point& area) {
+        Point x = Point::Zero();
+        for (std::size_t n = 0; n < nodes.size(); ++n)
+          x += shape[static_cast<Eigen::Index>(n)] * subdomain.mesh.points[static_cast<std::size_t>(nodes[n])];
+        const Point force = state.load[i] * (*load.pressure)(x, state.time) * area;
+        for (int c = 0; c < 3; ++c) sum[c] += force[c];
+        sum[3] += force.norm();
+      };
+      fem::for_each_point_of_boundary(subdomain.mesh, boundary, deck_.kinematics, visit);
+    }
+    comm.sum_in_place(sums);
+    for (std::size_t b = 0; b < result.size(); ++b) {
+      const double* const sum = &sums[4 * b];
+      const double cancels = sum[3] - std::hypot(sum[0], sum[1], sum[2]);
+      if (cancels > rounding * sum[3]) result[b] += cancels;
+    }
+  }
+  return result;
+}
+
 void Model::add_point_forces(const LoadState& state, std::vector<Eigen::VectorXd>& f, const Communicator& comm) const
 {
   const auto places = nodes_at_points(comm);

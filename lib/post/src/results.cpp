@@ -110,6 +110,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   results.springs = spring_states(problem, lambda);
   results.balance = balance(problem, lambda, results.reactions, results.contact.resultants, pairs,
                             bodies.kinematics == fem::Kinematics::axisymmetric, results.couplings, rounding);
+  results.unresisted = problem.unresisted_loads();
   results.shortenings = problem.shortenings(nu);
 
   auto& residuals = results.residuals;

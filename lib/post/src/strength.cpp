@@ -314,4 +314,26 @@ std::vector<Warning> facet_push(double part, const Point& force)
   return {w};
 }
 
+std::vector<Warning> unresisted_loads(std::span<const feti::UnresistedLoad> found, const std::vector<std::string>& bodies)
+{
+  std::vector<Warning> result;
+  for (const auto& load : found) {
+    const auto& body = bodies[static_cast<std::size_t>(load.body)];
+    Warning w{
+        "unresisted_load",
+        fmt::format("body \"{}\" {}, driven by {} of {:.3g}, {:.2g} % of what its loads come to, and {}: the solution leaves "
+                    "this motion out",
+                    body, load.motion, load.turns ? "a moment" : "a force", load.force, 100 * load.part,
+                    load.of_facets ? "facets of the mesh are no support against it" : "nothing resists it"),
+        load.turns ? "hold the body against it by a support or friction; a load that should pass through the axis of a "
+                     "coarsely meshed surface does so on a finer mesh"
+                   : "hold the body against it by a support or friction, or take this part out of the loads"};
+    w.body = body;
+    w.value = load.part;
+    w.limit = load.limit;
+    result.push_back(std::move(w));
+  }
+  return worst(std::move(result), "motions", [](const Warning& w) { return w.value; });
+}
+
 }  // namespace mortise::post

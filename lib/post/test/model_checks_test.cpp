@@ -145,6 +145,19 @@ TEST(FacetPush, from_a_thousandth_of_the_largest_force)
   EXPECT_EQ(found[0].value, 1e-2);
 }
 
+TEST(UnresistedLoads, are_told_with_body_and_motion)
+{
+  EXPECT_TRUE(unresisted_loads({}, {"pin", "plate"}).empty());
+  std::vector<feti::UnresistedLoad> loads(2);
+  loads[0] = {1, "moves along (0, 0, 1)", false, 0.05, 5e-5, 1e-9, true};
+  loads[1] = {0, "rotates about the axis", true, 2, 8e-3, 6e-3, true};
+  const auto found = unresisted_loads(loads, {"pin", "plate"});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].body, "pin");
+  EXPECT_NE(found[0].text.find("body \"pin\" rotates about the axis, driven by a moment of 2"), std::string::npos);
+  EXPECT_NE(found[0].text.find("1 other motions"), std::string::npos);
+}
+
 TEST(Tensions, are_of_what_pulls)
 {
   contact::ContactNodeState pulls, presses, open;

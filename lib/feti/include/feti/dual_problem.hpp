@@ -16,6 +16,7 @@
 
 #include "base/context.hpp"
 #include "feti/body_groups.hpp"
+#include "feti/drives.hpp"
 #include "feti/dual_operator.hpp"
 #include "feti/free_motions.hpp"
 #include "feti/options.hpp"
@@ -42,18 +43,19 @@ struct NodeRows {
 class DualProblem {
  public:
   /// `load`: f of each subdomain. Looks for free rigid motions and gauges those that nothing loads. `sliding_surfaces`: what
-  /// surfaces in contact feel, apart from facets. Throws Error(no_equilibrium), naming the body and its motion, if a load works
-  /// on a motion that nothing resists. `decomposition` and `system` outlive it. Collective.
+  /// surfaces in contact feel, apart from facets. `pressed_round`: of each body, see drive_limits(), forces; or none. Throws
+  /// Error(no_equilibrium), naming the body and its motion, if a load works on a motion that nothing resists. `decomposition` and
+  /// `system` outlive it. Collective.
   DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
               const partition::Interface& interface, constraint::Constraints constraints, const SubdomainSystem& system,
               std::vector<Eigen::VectorXd> load, const Options& options, const Context& context,
-              std::span<const constraint::SlidingSurface> sliding_surfaces = {});
+              std::span<const constraint::SlidingSurface> sliding_surfaces = {}, std::vector<double> pressed_round = {});
   DualProblem(const DualProblem&) = delete;
   DualProblem& operator=(const DualProblem&) = delete;
   /// New d, e and c: the same rows with other bounds, and other loads; everything else stays. Returns false, and changes nothing,
   /// if the new loads drive a gauged motion that facets resist: then a new problem has to be built.
   /// Throws Error(no_equilibrium) as the constructor does. Collective.
-  bool update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load);
+  bool update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load, std::vector<double> pressed_round = {});
 
   // The quadratic programme; vectors and operators are distributed as jump().rows().
   const JumpOperator& jump() const { return *jump_; }                    ///< B
@@ -115,6 +117,8 @@ class DualProblem {
   std::string unbounded_rigid_mode(const Eigen::VectorXd& nu) const;
   /// The sum of the forces of gauges on the bodies, where a gauge holds a free motion against the push of facets. Collective.
   Point gauge_force(const Vector& lambda) const;
+  /// The loads on motions that gauges hold, where they are more than rounding and facets make of others.
+  std::vector<UnresistedLoad> unresisted_loads() const;
   /// ||K u + B'lambda + B0'mu - f|| over all subdomains, B0'mu the forces inside clusters, relative to
   /// (||f||^2 + ||B'lambda||^2 + ||1e-6 D u||^2)^1/2, D the nodal stiffness (what rounding makes of a rigid motion is no force),
   /// or to `negligible_force` if that is larger. Collective.
@@ -129,7 +133,7 @@ class DualProblem {
   void make_set();
   void make_rhs();
   std::vector<Eigen::VectorXd> less_motion(std::vector<Eigen::VectorXd> u, const Eigen::VectorXd& nu) const;
-  static bool driven(const FreeMotion& motion, double work);
+  static DriveLimits limits(const FreeMotion& motion, const std::vector<double>& pressed_round);
 
   const partition::Decomposition& decomposition_;
   constraint::Constraints constraints_;
@@ -146,6 +150,8 @@ class DualProblem {
   qp::FeasibleSet set_;
   std::vector<NodeRows> node_rows_;
   std::vector<FreeMotion> gauged_;
+  std::vector<double> pressed_round_;
+  std::vector<double> sizes_;  // of the bodies
   // K^+ (f - B'lambda) of the last lambda that was asked for: an error, a norm and how far displacements fit ask in turn.
   struct Elastic {
     Eigen::VectorXd lambda;

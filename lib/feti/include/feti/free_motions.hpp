@@ -47,7 +47,9 @@ struct FreeMotion {
   /// If surfaces slide along themselves, whether rows feel facets or not: the height of a facet's arc over its radius, root mean
   /// square.
   double sagitta = 0;
-  double work = 0;  ///< of loads and preloads on it, over the sum of |nodal forces| and preloads on its bodies
+  double turning = 0;  ///< rotation times the body's size over the velocity of its centre; of several bodies the largest
+  double work = 0;     ///< of loads and preloads on it, over `force`
+  double force = 0;    ///< sum of |nodal forces| and preloads on its bodies
 };
 
 /// Finds them from the support and contact rows of `jump` (G of coarse_rows): body by body, with all other bodies at rest, where
@@ -60,9 +62,9 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
                                           std::span<const constraint::SlidingSurface> sliding_surfaces,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
 
-/// FreeMotion::work of other loads, without preloads. Collective.
-double work(const FreeMotion& motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,
-            const Communicator& comm);
+/// The motion with FreeMotion::work and force of other loads, without preloads. Collective.
+FreeMotion loaded_by(FreeMotion motion, const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& load,
+                     const Communicator& comm);
 
 /// The equality row that says that the mean of the motion, weighted with the stiffness of the nodes, is zero: D v / ||v||_D,
 /// v the motion at all unknowns, a unit vector in D^-1; over ||v||_D it is the amplitude of v. `alone`: no other free motion

@@ -58,6 +58,8 @@ class Model {
   /// The consistent nodal loads of every subdomain; of boundary elements those on the surface alone. Throws Error(bad_input) if a
   /// formula is no number somewhere, or a loaded boundary has no area. Collective.
   std::vector<Eigen::VectorXd> loads(const LoadState& state, const Communicator& comm) const;
+  /// Of each body, of what pressures on its boundaries add up to, what cancels since these are curved: 0 on planes. Collective.
+  std::vector<double> pressed_round(const LoadState& state, const Communicator& comm) const;
   /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways. Those that do not act hold nothing.
   /// Each coupling stands for one more, of its name, without displacements.
   std::vector<constraint::Support> supports(const LoadState& state) const;

@@ -24,6 +24,7 @@ struct Results {
   std::vector<CouplingState> couplings;  ///< of each coupling, by name
   std::vector<SpringState> springs;      ///< of each spring between points, by name
   Balance balance;
+  std::vector<feti::UnresistedLoad> unresisted;  ///< see DualProblem::unresisted_loads()
   std::vector<double> shortenings;  ///< of each pretension section, given or found
   Residuals residuals;
   double algebraic_error = 0;  ///< of the solver, relative, in the energy norm; NaN: not estimated

@@ -74,4 +74,7 @@ std::vector<Warning> coarse_mesh(const MeshError& error, const std::vector<std::
 /// of the gauges that hold against it; `part`: Balance::push_of_facets.
 std::vector<Warning> facet_push(double part, const Point& force);
 
+/// "unresisted_load": loads work on motions that nothing resists, or facets alone, by too little to be refused.
+std::vector<Warning> unresisted_loads(std::span<const feti::UnresistedLoad> found, const std::vector<std::string>& bodies);
+
 }  // namespace mortise::post
