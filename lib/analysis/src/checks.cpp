@@ -75,6 +75,17 @@ std::vector<post::AppliedStress> applied_stresses(const model::Model& model, con
   return result;
 }
 
+// Each load at its largest.
+model::LoadState at_most(const model::Model& model)
+{
+  auto states = model::load_states(model.deck(), model.contacts());
+  model::LoadState result = states.front();
+  for (const auto& state : states)
+    for (std::size_t i = 0; i < state.load.size(); ++i)
+      result.load[i] = std::max(std::abs(result.load[i]), std::abs(state.load[i]));
+  return result;
+}
+
 std::vector<post::SupportLoad> support_loads(const model::Model& model, const post::Results& results, const Communicator& comm)
 {
   const auto& deck = model.deck();
@@ -361,6 +372,8 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   append(result, post::coarse_mesh(results.mesh_error, names));
   append(result, post::facet_push(results.balance.push_of_facets, results.balance.gauges));
   append(result, post::unresisted_loads(results.unresisted, names));
+  append(result, post::weak_stresses(applied_stresses(model, at_most(model), comm), results.stress.largest_von_mises,
+                                     *std::ranges::min_element(softest), names));
   append(result, short_searches(*state.rows, results, comm));
   append(result, crossings(model, state.displacement, names, comm));
   for (auto& warning : result) warning.step = state.rows->acts.step;

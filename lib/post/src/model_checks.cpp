@@ -15,6 +15,7 @@ namespace {
 
 constexpr double nearly_incompressible = 0.45;
 constexpr double most_stress = 0.1, least_stress = 1e-9;  // over Young's modulus
+constexpr double weak_stress = 1e-8;                      // the same, where no stress of the solution is larger either
 // Of an interference: an overlap of the meshes below this part of it is their error.
 constexpr double part_of_interference = 0.1;
 // Of a face: no mesh is wrong by more. A polygon of eight faces a turn lies a tenth of one beside its circle.
@@ -133,6 +134,32 @@ std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const 
                       worst(std::move(waves), "bodies"), worst(std::move(densities), "bodies")})
     result.insert(result.end(), group.begin(), group.end());
   return result;
+}
+
+std::vector<Warning> weak_stresses(const std::vector<AppliedStress>& loads, const Found& von_mises, double modulus,
+                                   const std::vector<std::string>& bodies)
+{
+  const double limit = weak_stress * modulus;
+  const auto known = [&](const AppliedStress& load) {  // and not told by mixed_units() already
+    return load.stress >= least_stress * load.young_modulus && load.stress < weak_stress * load.young_modulus;
+  };
+  if (loads.empty() || !std::ranges::all_of(loads, known) || von_mises.body < 0 || !(von_mises.value > 0) ||
+      !(von_mises.value < limit))
+    return {};
+  const auto& most = *std::ranges::max_element(loads, {}, &AppliedStress::stress);
+  Warning w{
+      "mixed_units",
+      fmt::format("the largest stress is {:.3g} (von Mises, in body \"{}\" at {}), the largest load {:.3g} on the average, on "
+                  "\"{}\": {:.2g} of Young's modulus {:.4g}, hardly a strain at all: units look mixed",
+                  von_mises.value, bodies[static_cast<std::size_t>(von_mises.body)], spell(von_mises.at), most.stress,
+                  most.boundary, von_mises.value / modulus, modulus),
+      "take one set: N, mm, MPa, or N, m, Pa; a load of 250 MPa beside a modulus in Pa is 250e6"};
+  w.at = von_mises.at;
+  w.body = bodies[static_cast<std::size_t>(von_mises.body)];
+  w.boundary = most.boundary;
+  w.value = von_mises.value / modulus;
+  w.limit = weak_stress;
+  return {w};
 }
 
 std::vector<Warning> doubled_contacts(std::span<const contact::Pair> pairs, const Communicator& comm)

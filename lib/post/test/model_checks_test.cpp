@@ -96,6 +96,23 @@ TEST(MixedUnits, loads_that_go_with_other_moduli)
   EXPECT_NE(found[0].text.find("1 other loads"), std::string::npos);
 }
 
+TEST(MixedUnits, stresses_that_hardly_strain)
+{
+  const std::vector<std::string> bodies{"lower", "upper"};
+  const Found stress{400, Point(1, 2, 3), 1};  // of 250 MPa beside 2.1e11 Pa
+  const auto found = weak_stresses({{"top", 250, 2.1e11}}, stress, 2.1e11, bodies);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, "mixed_units");
+  EXPECT_EQ(found[0].body, "upper");
+  EXPECT_EQ(found[0].boundary, "top");
+  EXPECT_TRUE(weak_stresses({{"top", 250, 2.1e11}}, {4e4, Point::Zero(), 1}, 2.1e11, bodies).empty());  // wind that bends a plate
+  EXPECT_TRUE(weak_stresses({{"top", 250, 2.1e11}, {"side", 0, 2.1e11}}, stress, 2.1e11, bodies).empty());  // a formula
+  EXPECT_TRUE(weak_stresses({{"top", 250, 2.1e11}, {"side", 1e6, 2.1e11}}, stress, 2.1e11, bodies).empty());
+  EXPECT_TRUE(weak_stresses({{"top", 100, 2.1e11}}, stress, 2.1e11, bodies).empty());  // told before the solution
+  EXPECT_TRUE(weak_stresses({}, stress, 2.1e11, bodies).empty());                      // a weight, warmth, a fit
+  EXPECT_TRUE(weak_stresses({{"top", 250, 2.1e11}}, {0, Point::Zero(), 1}, 2.1e11, bodies).empty());
+}
+
 TEST(StrainedSupports, force_over_area)
 {
   const SupportLoad seat{"seat", {0, 0, 1e5}, 100, Point(1, 2, 3), 2.1e5};

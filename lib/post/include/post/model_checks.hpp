@@ -8,6 +8,7 @@
 #include "base/warning.hpp"
 #include "contact/mortar.hpp"
 #include "fem/options.hpp"
+#include "post/bodies.hpp"
 
 namespace mortise::post {
 
@@ -37,6 +38,12 @@ struct AppliedStress {
 /// density that loads use and that is no real material's beside Young's modulus in any consistent set of units, but is one's in
 /// kg/mm3 beside MPa, or by another such mistake.
 std::vector<Warning> mixed_units(const std::vector<BodyMaterial>& bodies, const std::vector<AppliedStress>& loads);
+
+/// "mixed_units" of a solution: neither loads on boundaries nor the largest von Mises stress reach 1e-8 of Young's modulus, as
+/// with pressures in MPa beside a modulus in Pa. `loads`: the largest of all states; none if one of them is not known. `modulus`:
+/// the smallest of all bodies, `bodies`: their names.
+std::vector<Warning> weak_stresses(const std::vector<AppliedStress>& loads, const Found& von_mises, double modulus,
+                                   const std::vector<std::string>& bodies);
 
 /// "doubled_contact": two contacts have faces in common on both of their sides, so that each presses as if the other were not
 /// there. Collective.
