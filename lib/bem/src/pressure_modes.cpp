@@ -53,7 +53,9 @@ Eigen::VectorXd hypersingular(const Panels& panels, double mu, const Eigen::Matr
   }
   const Eigen::MatrixXd image = single * curl;
   Eigen::VectorXd moved = -4 * mu * mu * (v * tangential);
-  moved += 2 * mu * (tangential.reshaped(3, m) * single).reshaped();  // V_L is symmetric
+  const Eigen::MatrixXd of_panels = tangential.reshaped(3, m);
+  const Eigen::MatrixXd smoothed = of_panels * single;  // V_L is symmetric
+  moved += 2 * mu * smoothed.reshaped();
   Eigen::VectorXd result = Eigen::VectorXd::Zero(u.size());
   for (Eigen::Index p = 0; p < m; ++p) {
     const auto panel = static_cast<std::size_t>(p);
@@ -113,7 +115,8 @@ void make_exact_for_pressure(const Panels& panels, const fem::Material& material
     }
     forces.col(s) -= of_dilation;
   }
-  k.noalias() += normals * inverse.asDiagonal() * (forces - found).transpose();
+  const Eigen::MatrixXd weighted = normals * inverse.asDiagonal(), short_of = (forces - found).transpose();
+  k.noalias() += weighted * short_of;
 
   Eigen::MatrixXd wanted = k * dilations;  // p V n
   const Eigen::MatrixXd of_shifts = k * shifts;
@@ -123,9 +126,10 @@ void make_exact_for_pressure(const Panels& panels, const fem::Material& material
     for (int s = 0; s < count; ++s)
       wanted.col(s).segment<3>(3 * p) -= std::round(of_shifts(3 * p, s) / panels.area[panel]) * panels.area[panel] * middle;
   }
-  const Eigen::MatrixXd lacking = (wanted / pressure - v * normals) * inverse.asDiagonal();
-  const Eigen::MatrixXd both = inverse.asDiagonal() * normals.transpose() * lacking;
-  const Eigen::MatrixXd left = lacking - normals * ((both + both.transpose()) / 4);
+  Eigen::MatrixXd left = (wanted / pressure - v * normals) * inverse.asDiagonal();
+  const Eigen::MatrixXd both = weighted.transpose() * left;
+  const Eigen::MatrixXd shared = (both + both.transpose()) / 4;
+  left -= normals * shared;
   v.noalias() += left * normals.transpose();
   v.noalias() += normals * left.transpose();
 }

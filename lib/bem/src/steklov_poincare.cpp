@@ -58,7 +58,10 @@ BoundaryOperators operators(const PlanePanels& panels, const fem::Material& mate
 // V and K, with which linear fields are exact.
 void correct(const LinearFields& fields, const Eigen::MatrixXd& v, Eigen::MatrixXd& k)
 {
-  k.noalias() += (v * fields.t - k * fields.u) * dense::solve_symmetric(fields.u.transpose() * fields.u, fields.u.transpose());
+  Eigen::MatrixXd lacking = v * fields.t;
+  lacking -= k * fields.u;
+  const Eigen::MatrixXd dual = dense::solve_symmetric(fields.u.transpose() * fields.u, fields.u.transpose());
+  k.noalias() += lacking * dual;
 }
 
 // D likewise, after K: D U = M'T - K'T.
@@ -66,12 +69,14 @@ template <int D>
 void correct(const LinearFields& fields, const PanelsIn<D>& panels, const Eigen::MatrixXd& k, Eigen::MatrixXd& d)
 {
   const Eigen::MatrixXd dual = dense::solve_symmetric(fields.u.transpose() * fields.u, fields.u.transpose());
-  Eigen::MatrixXd lacking = -k.transpose() * fields.t - d * fields.u;
-  for (Eigen::Index c = 0; c < lacking.cols(); ++c) lacking.col(c) += nodal_forces(panels, fields.t.col(c));
+  Eigen::MatrixXd lacking(fields.u.rows(), fields.u.cols());
+  for (Eigen::Index c = 0; c < lacking.cols(); ++c) lacking.col(c) = nodal_forces(panels, fields.t.col(c));
+  lacking -= k.transpose() * fields.t;
+  lacking -= d * fields.u;
   const Eigen::MatrixXd both = fields.u.transpose() * lacking;
-  const Eigen::MatrixXd half = lacking * dual;
+  const Eigen::MatrixXd half = lacking * dual, mean = (both + both.transpose()) / 2;
   d += half + half.transpose();
-  d.noalias() -= dual.transpose() * ((both + both.transpose()) / 2) * dual;
+  d.noalias() -= dual.transpose() * Eigen::MatrixXd(mean * dual);
 }
 
 // V = L L', in the lower triangle.
