@@ -79,8 +79,13 @@ std::vector<std::vector<PieceOfPart>> cut_parts(const mesh::Mesh& parts, const m
   }
   const auto counts = subdomain_counts(nodes, copies, dimension, options);
   std::vector<std::vector<PieceOfPart>> result(copies.size());
+  mesh::Cells before;  // of the part before this one: rollers in a row have one mesh, and are cut alike
+  std::vector<int> label;
   for (std::size_t p = 0; p < copies.size(); ++p) {
-    const auto label = nodes[p] > 0 ? cut(pieces[p].cells, counts[p]) : std::vector<int>(of_part[p].size(), 0);
+    if (nodes[p] == 0)
+      label.assign(of_part[p].size(), 0);
+    else if (p == 0 || nodes[p - 1] == 0 || counts[p] != counts[p - 1] || pieces[p].cells != before)
+      label = cut(pieces[p].cells, counts[p]);
     auto& list = result[p];
     list.resize(static_cast<std::size_t>(label.empty() ? 0 : 1 + *std::max_element(label.begin(), label.end())));
     for (std::size_t c = 0; c < label.size(); ++c) list[static_cast<std::size_t>(label[c])].cells.push_back(of_part[p][c]);
@@ -91,6 +96,7 @@ std::vector<std::vector<PieceOfPart>> cut_parts(const mesh::Mesh& parts, const m
       std::stable_sort(list.begin(), list.end(),
                        [](const PieceOfPart& a, const PieceOfPart& b) { return a.cluster < b.cluster; });
     }
+    before = std::move(pieces[p].cells);
     pieces[p] = {};
   }
   return result;

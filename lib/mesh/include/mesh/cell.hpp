@@ -73,6 +73,7 @@ struct Cells {
     nodes.insert(nodes.end(), cell_nodes.begin(), cell_nodes.end());
     offset.push_back(static_cast<Local>(nodes.size()));
   }
+  bool operator==(const Cells&) const = default;
 };
 
 }  // namespace mortise::mesh
