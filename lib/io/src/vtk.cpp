@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <type_traits>
 
 #include "base/error.hpp"
 #include "io/files.hpp"
@@ -34,6 +35,11 @@ void add_array(const Field& field, vtkDataSetAttributes* data)
   vtkNew<Array> array;
   array->SetName(field.name.c_str());
   array->SetNumberOfComponents(field.components);
+  if constexpr (std::is_same_v<typename Array::ValueType, double>) {  // read where they are; VTK does not change them
+    array->SetArray(const_cast<double*>(field.values.data()), static_cast<vtkIdType>(field.values.size()), 1);
+    data->AddArray(array);
+    return;
+  }
   array->SetNumberOfTuples(static_cast<vtkIdType>(field.values.size()) / field.components);
   for (std::size_t i = 0; i < field.values.size(); ++i)
     array->SetValue(static_cast<vtkIdType>(i), static_cast<typename Array::ValueType>(field.values[i]));
@@ -52,9 +58,13 @@ void add_fields(const std::vector<Field>& fields, vtkDataSetAttributes* data)
 
 void write_piece(const std::string& path, const Piece& piece)
 {
+  static_assert(sizeof(Point) == 3 * sizeof(double));
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  if (!piece.points.empty())
+    coordinates->SetArray(const_cast<double*>(piece.points.front().data()), 3 * static_cast<vtkIdType>(piece.points.size()), 1);
   vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (const auto& p : piece.points) points->InsertNextPoint(p.data());
+  points->SetData(coordinates);
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(points);
   grid->Allocate(static_cast<vtkIdType>(piece.cells.size()));

@@ -127,28 +127,39 @@ void sum_rows(const Decomposition& decomposition, const Interface& interface, st
 {
   if (comm.max(static_cast<long long>(values.size())) == 0) return;
   const auto width = static_cast<Eigen::Index>(comm.max(static_cast<long long>(values.empty() ? 0 : values[0].cols())));
-  // Each copy sends its row to all other copies; what arrives is sorted by node and by subdomain of origin before it is added.
+  // Each copy sends its row to all other copies; what arrives is sorted by node and by subdomain of origin before it is added. On
+  // this rank rows are read where one copy of them stands.
   struct Head {
     Global to, from;
     Local node;
   };
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  std::vector<std::vector<Head>> heads(ranks);
-  std::vector<std::vector<double>> rows(ranks);
-  for (std::size_t s = 0; s < interface.nodes.size(); ++s)
-    for (std::size_t i = 0; i < interface.nodes[s].size(); ++i)
-      for (const auto& copy : interface.copies[s][i]) {
-        const auto rank = static_cast<std::size_t>(decomposition.rank_of(copy.subdomain));
-        heads[rank].push_back({copy.subdomain, decomposition.subdomains[s].id, copy.node});
-        for (Eigen::Index c = 0; c < width; ++c) rows[rank].push_back(values[s](row_of(s, interface.nodes[s][i]), c));
-      }
-  const auto head_in = comm.exchange(heads);
-  const auto row_in = comm.exchange(rows);
   struct Term {
     Head head;
     const double* row;
   };
+  const auto ranks = static_cast<std::size_t>(comm.size()), here = static_cast<std::size_t>(comm.rank());
+  std::vector<std::vector<Head>> heads(ranks);
+  std::vector<std::vector<double>> rows(ranks), before;
   std::vector<Term> terms;
+  for (std::size_t s = 0; s < interface.nodes.size(); ++s) {
+    auto& own = before.emplace_back(static_cast<std::size_t>(width) * interface.nodes[s].size());
+    for (std::size_t i = 0; i < interface.nodes[s].size(); ++i) {
+      double* const row = own.data() + static_cast<std::size_t>(width) * i;
+      Eigen::Map<Eigen::RowVectorXd>(row, width) = values[s].row(row_of(s, interface.nodes[s][i]));
+      for (const auto& copy : interface.copies[s][i]) {
+        const auto rank = static_cast<std::size_t>(decomposition.rank_of(copy.subdomain));
+        const Head head{copy.subdomain, decomposition.subdomains[s].id, copy.node};
+        if (rank == here) {
+          terms.push_back({head, row});
+          continue;
+        }
+        heads[rank].push_back(head);
+        rows[rank].insert(rows[rank].end(), row, row + width);
+      }
+    }
+  }
+  const auto head_in = comm.exchange(heads);
+  const auto row_in = comm.exchange(rows);
   for (std::size_t r = 0; r < ranks; ++r)
     for (std::size_t i = 0; i < head_in[r].size(); ++i)
       terms.push_back({head_in[r][i], row_in[r].data() + static_cast<std::size_t>(width) * i});
