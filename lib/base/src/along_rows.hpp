@@ -20,7 +20,8 @@ struct RowsOfTile {
 #pragma GCC unroll 2
     for (int p = 0; p < parts; ++p) part[p] = Lane{};
   }
-  [[gnu::always_inline]] void load(const double* from)
+  template <class Stored>
+  [[gnu::always_inline]] void load(const Stored* from)
   {
 #pragma GCC unroll 2
     for (int p = 0; p < parts; ++p) Memory::load(part[p], from + p * Lanes);
@@ -154,7 +155,8 @@ struct AlongRows {
   }
 
   // sum = sum_j values[j] x[j]; several sums in turn, for one waits for its last addition.
-  [[gnu::always_inline]] static void multiply(const double* values, int columns, const double* x, Rows (&sum)[Count])
+  template <class Stored>
+  [[gnu::always_inline]] static void multiply(const Stored* values, int columns, const double* x, Rows (&sum)[Count])
   {
     constexpr int turns = 4 / Count;
     Rows part[turns][Count], value;
@@ -167,6 +169,7 @@ struct AlongRows {
 #pragma GCC unroll 4
       for (int k = 0; k < turns; ++k) {
         value.load(values + (j + k) * tile);
+        prefetch(values + (j + k) * tile, bytes_ahead);
 #pragma GCC unroll 2
         for (int n = 0; n < Count; ++n) part[k][n].add_product(value, x[(j + k) * Count + n]);
       }
@@ -181,11 +184,12 @@ struct AlongRows {
     }
   }
 
-  [[gnu::always_inline]] static void forwards(const SupernodalFactor& factor, double* y)
+  template <class Stored>
+  [[gnu::always_inline]] static void forwards(const SupernodalFactor<Stored>& factor, double* y)
   {
     Rows sum[Count];
     for (const auto& piece : factor.pieces()) {
-      const double* values = factor.values() + piece.value;
+      const Stored* values = factor.values() + piece.value;
       double* x = y + static_cast<std::ptrdiff_t>(piece.first) * Count;
       for (int b = 0; b < piece.width; b += tile) {
         if (b > 0) {
@@ -206,8 +210,8 @@ struct AlongRows {
   }
 
   // sum[j] += values[j] z for `Several` tiles, each `stride` numbers from the next.
-  template <int Several>
-  [[gnu::always_inline]] static void add_products(const double* values, int columns, std::ptrdiff_t stride,
+  template <int Several, class Stored>
+  [[gnu::always_inline]] static void add_products(const Stored* values, int columns, std::ptrdiff_t stride,
                                                   const Rows (&z)[Several][Count], Rows (*sum)[Count])
   {
     for (int j = 0; j < columns; ++j) {
@@ -217,6 +221,7 @@ struct AlongRows {
 #pragma GCC unroll 4
       for (int t = 0; t < Several; ++t) {
         value.load(values + t * stride + j * tile);
+        prefetch(values + t * stride + j * tile, -bytes_ahead);
 #pragma GCC unroll 2
         for (int n = 0; n < Count; ++n) part[n].add_product(value, z[t][n]);
       }
@@ -225,8 +230,8 @@ struct AlongRows {
     }
   }
 
-  template <int Several>
-  [[gnu::always_inline]] static void add_tiles(const double*& values, const int*& below, int columns, const double* y,
+  template <int Several, class Stored>
+  [[gnu::always_inline]] static void add_tiles(const Stored*& values, const int*& below, int columns, const double* y,
                                                Rows (*sum)[Count])
   {
     values -= Several * columns * tile;
@@ -252,12 +257,13 @@ struct AlongRows {
     }
   }
 
-  [[gnu::always_inline]] static void backwards(const SupernodalFactor& factor, double* y)
+  template <class Stored>
+  [[gnu::always_inline]] static void backwards(const SupernodalFactor<Stored>& factor, double* y)
   {
     for (auto p = factor.pieces().rbegin(); p != factor.pieces().rend(); ++p) {
       const Piece& piece = *p;
       double* x = y + static_cast<std::ptrdiff_t>(piece.first) * Count;
-      const double* values = factor.values() + piece.value + triangle_values(piece.width) + panel_values(piece);
+      const Stored* values = factor.values() + piece.value + triangle_values(piece.width) + panel_values(piece);
       const int* below = factor.rows() + piece.row + static_cast<std::ptrdiff_t>(piece.tiles) * tile;
       Rows sum[widest + tile][Count];
       for (int j = 0; j < blocks(piece.width) * tile; ++j)
@@ -280,6 +286,13 @@ struct AlongRows {
         subtract_totals(sum, b, x);
       }
     }
+  }
+
+  template <class Stored>
+  [[gnu::always_inline]] static void solve(const SupernodalFactor<Stored>& factor, double* y)
+  {
+    forwards(factor, y);
+    backwards(factor, y);
   }
 };
 

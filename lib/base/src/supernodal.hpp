@@ -16,8 +16,8 @@
 
 namespace mortise {
 
-class SupernodalFactor {
- public:
+/// How a factor is cut.
+struct TilesOfFactor {
   static constexpr int tile = 8;
 
   /// Columns first .. first+width-1, and `tiles` tiles of rows below them.
@@ -26,23 +26,28 @@ class SupernodalFactor {
     std::size_t row,  ///< of rows(): the rows below, `tile` of them to a tile; filled up with the row size()
         value;        ///< of values(): blocks of 8 rows of the triangle, then the tiles of the panel
   };
+};
 
+/// Stored: double, or float: the factor is rounded to it, and arithmetic is that of doubles. So L~ L~' is exactly symmetric.
+template <class Stored>
+class SupernodalFactor : public TilesOfFactor {
+ public:
   /// Copies a supernodal LL' factor.
   explicit SupernodalFactor(const cholmod_factor& factor);
 
   /// columns[c] <- A^-1 columns[c]. Not for two threads at once.
   void solve(std::span<double* const> columns) const;
-  std::size_t bytes() const { return size_ * sizeof(double) + rows_.size() * sizeof(int); }
+  std::size_t bytes_in_double() const { return size_ * sizeof(double) + rows_.size() * sizeof(int); }
 
   std::span<const Piece> pieces() const { return pieces_; }
   const int* rows() const { return rows_.data(); }
-  const double* values() const { return values_.get(); }
+  const Stored* values() const { return values_.get(); }
 
  private:
   std::vector<Piece> pieces_;
   std::vector<int> rows_;
   std::size_t size_ = 0;              // of values_
-  std::unique_ptr<double[]> values_;  // filled once: to set it to zero before would cost half as much again
+  std::unique_ptr<Stored[]> values_;  // filled once: to set it to zero before would cost half as much again
   std::vector<int> permutation_;      // row k of the factor is row permutation_[k] of the matrix
   mutable std::vector<double> work_;
 };

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <cmath>
+
 #include "base/submatrix.hpp"
 
 namespace mortise {
@@ -57,6 +60,56 @@ TEST(Cholesky, PreparedFactorSolvesTheSame)
         EXPECT_EQ(x(n, count - 1), 7);
       }
     }
+  }
+}
+
+// Rounded to single precision, against the dense solution: near it, the same for every number of right-hand sides, and symmetric,
+// x'A~^-1 y = y'A~^-1 x, as far as double precision goes.
+TEST(Cholesky, FactorInSinglePrecisionIsSymmetric)
+{
+  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(70, 70);
+  const SparseMatrix dense = Eigen::MatrixXd(root * root.transpose() + 10 * Eigen::MatrixXd::Identity(70, 70)).sparseView();
+  for (const auto& a : {laplacian(20, 0), laplacian(9, 0.1), SparseMatrix(dense.triangularView<Eigen::Lower>())}) {
+    const auto n = static_cast<int>(a.rows());
+    const Eigen::MatrixXd whole = Eigen::MatrixXd(a).selfadjointView<Eigen::Lower>();
+    Cholesky factor(a, n % 2 == 0 ? 2 : 1);
+    ASSERT_TRUE(factor.factorize(a));
+    const double rounding = factor.prepare_in_single_precision(a, n % 2 == 0 ? 2 : 1, 1e-5);
+    ASSERT_TRUE(factor.in_single_precision());
+    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
+    for (int c = 0; c < n; ++c) factor.solve(inverse.col(c).data(), inverse.col(c).data(), 1, n);
+    EXPECT_LT((inverse - inverse.transpose()).norm(), 1e-13 * inverse.norm());
+    const Eigen::MatrixXd half = whole.llt().matrixL();
+    const Eigen::MatrixXd change = half.transpose() * inverse * half - Eigen::MatrixXd::Identity(n, n);
+    const double radius = change.selfadjointView<Eigen::Lower>().eigenvalues().cwiseAbs().maxCoeff();
+    EXPECT_GT(radius, 1e-9);
+    EXPECT_LT(rounding, 1.01 * radius);
+    EXPECT_GT(rounding, 0.4 * radius);
+    for (int count = 1; count < 20; ++count) {
+      const Eigen::MatrixXd b = Eigen::MatrixXd::Random(n, count);
+      Eigen::MatrixXd x(n, count);
+      factor.solve(b.data(), x.data(), count, n);
+      EXPECT_LT((x - inverse * b).norm(), 1e-12 * x.norm()) << count << " right-hand sides";
+      EXPECT_LT((x - whole.llt().solve(b)).norm(), 1e-4 * x.norm()) << count << " right-hand sides";
+    }
+  }
+}
+
+// A spectrum over 7 decades, and numbers that single precision does not know.
+TEST(Cholesky, FactorThatRoundingWouldSpoilStaysInDoublePrecision)
+{
+  const auto a = laplacian(20, 0);
+  const double least = 8 * std::pow(std::sin(std::acos(-1.0) / 42), 2);  // eigenvalue
+  const auto soft = laplacian(20, -(1 - 1e-5) * least);
+  for (const auto& matrix : {soft, SparseMatrix(1e90 * a), SparseMatrix(1e-90 * a)}) {
+    Cholesky factor(matrix);
+    ASSERT_TRUE(factor.factorize(matrix));
+    const double rounding = factor.prepare_in_single_precision(matrix, 1, 1e-6);
+    EXPECT_FALSE(rounding <= 1e-6);
+    EXPECT_FALSE(factor.in_single_precision());
+    const Eigen::VectorXd expected = Eigen::VectorXd::Random(400);
+    const Eigen::VectorXd b = matrix.selfadjointView<Eigen::Lower>() * expected;
+    EXPECT_LT((factor.solve(b) - expected).norm(), 1e-7 * expected.norm());
   }
 }
 
