@@ -146,6 +146,22 @@ void print_copies(const std::vector<partition::CopyOf>& copies, const partition:
                      decomposition.subdomain_count() - originals, originals);
 }
 
+void print_precision(const std::vector<partition::CopyOf>& copies, const feti::Subdomains& subdomains, const Context& context)
+{
+  long long originals = 0, rounded = 0;
+  double rounding = 0;
+  for (std::size_t s = 0; s < copies.size(); ++s) {
+    if (copies[s].original != s) continue;
+    originals += 1;
+    rounded += subdomains[s]->rounding() > 0 ? 1 : 0;
+    rounding = std::max(rounding, subdomains[s]->rounding());
+  }
+  originals = context.comm.sum(originals);
+  rounded = context.comm.sum(rounded);
+  rounding = context.comm.max(rounding);
+  if (rounded > 0) context.log.line("  factors in single precision: {} of {}, exact to {:.0e}", rounded, originals, rounding);
+}
+
 void print_state(const model::LoadState& state, std::size_t index, std::size_t count, double seconds_left, Log& log)
 {
   constexpr double soon = 10;  // seconds that are not worth a word

@@ -4,6 +4,7 @@
 #include "analysis/memory.hpp"
 #include "analysis/rows.hpp"
 #include "analysis/warnings.hpp"
+#include "feti/subdomain_operator.hpp"
 #include "io/summary.hpp"
 #include "post/results.hpp"
 
@@ -18,6 +19,8 @@ void print_check(const model::Model& model, const constraint::Constraints& const
 /// How many subdomains share factors. Collective.
 void print_copies(const std::vector<partition::CopyOf>& copies, const partition::Decomposition& decomposition,
                   const Context& context);
+/// How many factors are in single precision, if any are. Collective.
+void print_precision(const std::vector<partition::CopyOf>& copies, const feti::Subdomains& subdomains, const Context& context);
 /// Which state is being solved, where there are several. `seconds_left`: for this one and those after it; 0: not known.
 void print_state(const model::LoadState& state, std::size_t index, std::size_t count, double seconds_left, Log& log);
 /// After a load step that is not the last.

@@ -94,6 +94,7 @@ void Report::assembly(const analysis::Assembly& assembly, const std::vector<part
   end_stage("assembly", "assembly");
   end_stage("factorization", "factorization");
   print_copies(copies, assembly.decomposition(), context_);
+  print_precision(copies, assembly.system().clusters.subdomains(), context_);
 }
 
 void Report::tell_interrupted(const Error& error)

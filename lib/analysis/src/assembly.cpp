@@ -1,5 +1,8 @@
 #include "analysis/assembly.hpp"
 
+#include <algorithm>
+
+#include "analysis/memory.hpp"
 #include "base/error.hpp"
 #include "base/interruption.hpp"
 #include "bem/particular_solution.hpp"
@@ -20,10 +23,36 @@ Eigen::VectorXd forces_of_inside(const mesh::Mesh& skin, const bem::ParticularSo
   return s.apply(particular.displacement(panels)) - particular.nodal_forces(panels);
 }
 
+// How much factors may change by being rounded to single precision, if they may be.
+std::optional<double> most_rounded(const model::Model& model, const std::vector<partition::CopyOf>& copies,
+                                   const Communicator& comm)
+{
+  constexpr double most = 1e-5;    // in the energy norm: the solver's error is hardly ever asked to be less than 1e-4
+  constexpr double caches = 64e6;  // bytes in double precision, from which on factors come from memory
+  constexpr double entries_in_plane = 6, entries_in_space = 16;  // of a factor, over what of_nested_dissection() says
+  const auto& deck = model.deck();
+  const auto& [programme, options] = deck.solver;
+  const auto& decomposition = model.decomposition();
+  if (options.factor_precision == "double" || options.factorization != "cholmod" || decomposition.clustered()) return {};
+  // What is free to expand has no stress, and displacements as large as any: rounding is a part of these.
+  if (std::ranges::any_of(deck.loads, [](const auto& load) { return load.temperature_change.has_value(); })) return {};
+  if (options.factor_precision == "single") return most;
+  if (programme.tolerance.value || programme.algorithm == "direct") return {};
+  double sum = 0;
+  for (std::size_t s = 0; s < copies.size(); ++s)
+    if (copies[s].original == s && !decomposition.subdomains[s].skin)
+      sum += of_nested_dissection(static_cast<double>(decomposition.subdomains[s].mesh.node_count()) * deck.dimension(),
+                                  deck.dimension());
+  const double entries = (deck.dimension() == 3 ? entries_in_space : entries_in_plane) * comm.sum(sum);
+  if (sizeof(double) * entries < caches) return {};
+  return most;
+}
+
 // Factorizes every subdomain that is not a copy of an earlier one; takes their stiffness.
 feti::Subdomains factorize(const model::Model& model, const std::vector<partition::CopyOf>& copies,
                            std::vector<SparseMatrix>& stiffness,
-                           const std::vector<std::shared_ptr<const feti::SubdomainOperator>>& dense)
+                           const std::vector<std::shared_ptr<const feti::SubdomainOperator>>& dense,
+                           std::optional<double> most_rounded)
 {
   const auto& deck = model.deck();
   const auto& decomposition = model.decomposition();
@@ -46,7 +75,7 @@ feti::Subdomains factorize(const model::Model& model, const std::vector<partitio
       own.swap(stiffness[s]);
       subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(std::move(own), fem::rigid_motions(points, deck.kinematics),
                                                                     points, deck.dimension(),
-                                                                    deck.solver.subdomains.factorization));
+                                                                    deck.solver.subdomains.factorization, most_rounded));
     } catch (const Error& error) {
       if (error.status() != ExitStatus::bad_input) throw;
       const auto& body = decomposition.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];
@@ -104,9 +133,10 @@ Assembly::Assembly(const model::Model& model, const std::vector<partition::CopyO
 {
   const auto kinematics = model.deck().kinematics;
   const auto scope = context.timers.scope("factorization");
+  const auto most = most_rounded(model, copies, context.comm);
   collectively(context.comm, [&] {
     system_.clusters =
-        feti::Clusters(model.decomposition(), interface_, factorize(model, copies, stiffness.matrices, stiffness.dense),
+        feti::Clusters(model.decomposition(), interface_, factorize(model, copies, stiffness.matrices, stiffness.dense, most),
                        stiffness.of_nodes, kinematics);
   });
   system_.nodal_stiffness = std::move(stiffness.of_nodes);

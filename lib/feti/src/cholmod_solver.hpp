@@ -6,6 +6,7 @@
 
 #include <Amesos2_SolverCore_decl.hpp>
 #include <memory>
+#include <optional>
 
 #include "base/cholesky.hpp"
 
@@ -19,11 +20,15 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
   static const char* name;
 
   /// `block`: unknowns a node, see Cholesky. `tiled`: solutions by the sweep of Cholesky::prepare_for_many_solves(), else by
-  /// CHOLMOD's own.
-  CholmodSolver(Teuchos::RCP<const Matrix> a, int block, bool tiled)
-      : Amesos2::SolverCore<CholmodSolver, Matrix, Vector>(a, Teuchos::null, Teuchos::null), block_(block), tiled_(tiled)
+  /// CHOLMOD's own. `most_rounded`: see DirectSolver.
+  CholmodSolver(Teuchos::RCP<const Matrix> a, int block, bool tiled, std::optional<double> most_rounded)
+      : Amesos2::SolverCore<CholmodSolver, Matrix, Vector>(a, Teuchos::null, Teuchos::null),
+        block_(block),
+        tiled_(tiled),
+        most_rounded_(most_rounded)
   {
   }
+  double rounding() const { return rounding_; }
 
  private:
   int preOrdering_impl() { return 0; }
@@ -48,6 +53,8 @@ class CholmodSolver : public Amesos2::SolverCore<CholmodSolver, Matrix, Vector> 
   SparseMatrix lower_;  // from the symbolic to the numeric factorization
   int block_;
   bool tiled_;
+  std::optional<double> most_rounded_;
+  double rounding_ = 0;
   std::unique_ptr<Cholesky> factor_;
 };
 

@@ -239,14 +239,14 @@ void Clusters::balance(const std::vector<Eigen::VectorXd>& f, const Take& take) 
     }
 }
 
-void Clusters::apply_inverse(std::vector<Eigen::VectorXd>& v) const
+void Clusters::apply_inverse(std::vector<Eigen::VectorXd>& v, bool rounded) const
 {
   std::vector<Eigen::VectorXd> alpha(groups_.empty() ? 0 : v.size());
   balance(v, [&](std::size_t s, const auto& force, const auto& amplitudes) {
     v[s] -= force;
     alpha[s] = amplitudes;
   });
-  feti::apply_inverse(subdomains_, v);
+  feti::apply_inverse(subdomains_, v, rounded);
   for (std::size_t s = 0; s < alpha.size(); ++s)
     if (alpha[s].size() > 0) v[s] += subdomains_[s]->kernel() * alpha[s];
 }

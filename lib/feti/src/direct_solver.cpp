@@ -50,10 +50,15 @@ int CholmodSolver<Matrix, Vector>::symbolicFactorization_impl()
 template <class Matrix, class Vector>
 int CholmodSolver<Matrix, Vector>::numericFactorization_impl()
 {
-  const bool positive = factor_->factorize(lower_);
-  lower_ = {};
-  if (!positive) throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain is not positive definite");
-  if (tiled_) factor_->prepare_for_many_solves();
+  if (!factor_->factorize(lower_))
+    throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain is not positive definite");
+  if (tiled_ && most_rounded_) {
+    const double rounding = factor_->prepare_in_single_precision(lower_, block_, *most_rounded_);
+    if (factor_->in_single_precision()) rounding_ = rounding;
+  } else if (tiled_) {
+    factor_->prepare_for_many_solves();
+  }
+  SparseMatrix().swap(lower_);  // an assignment would keep its memory
   this->setNnzLU(factor_->factor_bytes() / sizeof(double));
   this->matrixA_ = Teuchos::null;
   return 0;
@@ -76,6 +81,7 @@ class Amesos2Factor {
   virtual void factorize() = 0;
   virtual void solve(std::span<double* const> columns) = 0;
   virtual std::size_t bytes() const = 0;
+  virtual double rounding() const { return 0; }
 };
 
 namespace {
@@ -136,21 +142,33 @@ void Factor<MultiVector>::solve(std::span<double* const> columns)
   for (std::size_t c = 0; c < columns.size(); ++c) std::copy_n(x.getData(c).begin(), size_, columns[c]);
 }
 
+class CholmodFactor : public Factor<Columns> {
+ public:
+  CholmodFactor(Teuchos::RCP<CholmodSolver<CrsMatrix, Columns>> solver, std::size_t size)
+      : Factor<Columns>(solver, size), cholmod_(std::move(solver))
+  {
+  }
+  double rounding() const override { return cholmod_->rounding(); }
+
+ private:
+  Teuchos::RCP<CholmodSolver<CrsMatrix, Columns>> cholmod_;
+};
+
 template <bool Tiled>
-std::unique_ptr<Amesos2Factor> cholmod(const SparseMatrix& lower, int block)
+std::unique_ptr<Amesos2Factor> cholmod(const SparseMatrix& lower, int block, std::optional<double> most_rounded)
 {
-  const auto solver = Teuchos::rcp(new CholmodSolver<CrsMatrix, Columns>(crs(lower), block, Tiled));
-  return std::make_unique<Factor<Columns>>(solver, static_cast<std::size_t>(lower.cols()));
+  const auto solver = Teuchos::rcp(new CholmodSolver<CrsMatrix, Columns>(crs(lower), block, Tiled, most_rounded));
+  return std::make_unique<CholmodFactor>(solver, static_cast<std::size_t>(lower.cols()));
 }
 
-std::unique_ptr<Amesos2Factor> klu2(const SparseMatrix& lower, int)
+std::unique_ptr<Amesos2Factor> klu2(const SparseMatrix& lower, int, std::optional<double>)
 {
   const auto solver = Amesos2::create<CrsMatrix, MultiVector>("KLU2", crs(lower.selfadjointView<Eigen::Lower>()));
   return std::make_unique<Factor<MultiVector>>(solver, static_cast<std::size_t>(lower.cols()));
 }
 
 // To add a factorization: a function here that makes an Amesos2 solver of a lower triangle, and its name in feti::Options.
-using Maker = std::unique_ptr<Amesos2Factor> (*)(const SparseMatrix& lower, int block);
+using Maker = std::unique_ptr<Amesos2Factor> (*)(const SparseMatrix& lower, int block, std::optional<double> most_rounded);
 const std::map<std::string, Maker>& makers()
 {
   static const std::map<std::string, Maker> table{{"cholmod", cholmod<true>}, {"cholmod_plain", cholmod<false>}, {"klu2", klu2}};
@@ -163,12 +181,13 @@ struct DirectSolver::Data {
   std::unique_ptr<Amesos2Factor> factor;
 };
 
-DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower, int block) : data_(std::make_unique<Data>())
+DirectSolver::DirectSolver(const std::string& name, const SparseMatrix& lower, int block, std::optional<double> most_rounded)
+    : data_(std::make_unique<Data>())
 {
   const auto maker = makers().find(name);
   if (maker == makers().end()) throw Error(ExitStatus::bad_input, "there is no factorization called \"" + name + "\"");
   try {
-    data_->factor = maker->second(lower, block);
+    data_->factor = maker->second(lower, block, most_rounded);
     data_->factor->factorize();
   } catch (const Error&) {
     throw;
@@ -189,6 +208,11 @@ DirectSolver::~DirectSolver() = default;
 void DirectSolver::solve(std::span<double* const> columns) const
 {
   if (!columns.empty()) data_->factor->solve(columns);
+}
+
+double DirectSolver::rounding() const
+{
+  return data_->factor->rounding();
 }
 
 std::size_t DirectSolver::factor_bytes() const

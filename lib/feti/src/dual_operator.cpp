@@ -9,7 +9,7 @@ void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp,
   const auto scope = timers_.scope("multiplication");
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     auto forces = jump_.apply_transpose(*x.getVector(column));
-    clusters_.apply_inverse(forces);
+    clusters_.apply_inverse(forces, rounded_);
     Vector jumps = jump_.apply(forces);
     view(jumps) += jump_.compliance().cwiseProduct(view(*x.getVector(column)));
     if (springs_) springs_->add_compliance(1, *x.getVector(column), jumps);

@@ -65,6 +65,8 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
       comm_(context.comm),
       pressed_round_(std::move(pressed_round))
 {
+  for (const auto& subdomain : system.clusters.subdomains()) rounding_ = std::max(rounding_, subdomain->rounding());
+  rounding_ = comm_.max(rounding_);
   make_rows(directory, interface, {});
   gauge_rigid_modes(directory, interface, sliding_surfaces, context);
   groups_ = body_groups(decomposition, *jump_, constraints_.prescribed, comm_);
@@ -113,10 +115,17 @@ Eigen::VectorXd DualProblem::bound() const
   return c;
 }
 
+void DualProblem::be_exact()
+{
+  if (rounding() == 0) return;
+  hessian_->be_exact();
+  make_rhs();
+}
+
 void DualProblem::make_rhs()
 {
   loaded_ = load_;
-  system_.clusters.apply_inverse(loaded_);
+  system_.clusters.apply_inverse(loaded_, hessian_->rounded());
   Vector d = jump_->apply(loaded_);
   view(d) -= bound();
   if (linear_)

@@ -22,9 +22,10 @@ qp::ExplicitProgramme sparse_programme(const DualProblem& problem)
 
 }  // namespace
 
-qp::Means means_of(const DualProblem& problem, qp::Budget& budget)
+qp::Means means_of(DualProblem& problem, qp::Budget& budget)
 {
   const auto make_explicit = [&problem] {
+    problem.be_exact();
     const auto turn = SparseProblem::turn(problem);
     if (turn == SparseProblem::Turn::first) return sparse_programme(problem);
     const auto matrices = std::make_shared<ExplicitProblem>(problem);

@@ -63,7 +63,7 @@ std::map<const SubdomainOperator*, std::vector<std::size_t>> by_original(const S
   return members;
 }
 
-void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v)
+void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v, bool rounded)
 {
   std::vector<double*> columns;
   for (const auto& [original, list] : by_original(subdomains)) {
@@ -72,7 +72,10 @@ void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v
       subdomains[s]->rotate_back(v[s]);
       columns.push_back(v[s].data());
     }
-    original->apply_inverse(columns);
+    if (rounded)
+      original->apply_rounded_inverse(columns);
+    else
+      original->apply_inverse(columns);
     for (const auto s : list) subdomains[s]->rotate(v[s]);
   }
 }
@@ -172,13 +175,44 @@ class SparseInterface : public InterfaceStiffness {
 
 // `lower` is taken by a swap: Eigen 3.4 has no move of sparse matrices.
 ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
-                                   const std::string& factorization)
+                                   const std::string& factorization, std::optional<double> most_rounded)
     : kernel_(std::move(kernel)), dimension_(dimension)
 {
   stiffness_.swap(lower);
   column_block_ = has_column_blocks(stiffness_, dimension) ? dimension : 1;
   fixing_ = fixing_term(diagonal(), kernel_, points, dimension);
-  solver_ = std::make_unique<DirectSolver>(factorization, stiffness_ + fixing_, dimension);
+  solver_ = std::make_unique<DirectSolver>(factorization, stiffness_ + fixing_, dimension, most_rounded);
+}
+
+// x += K~^+ (b - (K + r N) x) [Wilkinson, Rounding Errors in Algebraic Processes (1963)]: each step takes the error times
+// rounding().
+void ElasticSubdomain::apply_inverse(std::span<double* const> columns) const
+{
+  constexpr int steps = 2;
+  constexpr std::size_t at_once = 16;
+  if (rounding() == 0) return solver_->solve(columns);
+  for (; !columns.empty(); columns = columns.subspan(std::min(at_once, columns.size()))) {
+    const auto own = columns.first(std::min(at_once, columns.size()));
+    Eigen::MatrixXd right(size(), static_cast<Eigen::Index>(own.size())), left(right.rows(), right.cols());
+    std::vector<double*> corrections;
+    for (std::size_t c = 0; c < own.size(); ++c) {
+      const auto column = static_cast<Eigen::Index>(c);
+      right.col(column) = Eigen::Map<const Eigen::VectorXd>(own[c], size());
+      corrections.push_back(left.col(column).data());
+    }
+    solver_->solve(own);
+    for (int step = 0; step < steps; ++step) {
+      for (std::size_t c = 0; c < own.size(); ++c) {
+        const Eigen::Map<const Eigen::VectorXd> x(own[c], size());
+        const auto column = static_cast<Eigen::Index>(c);
+        left.col(column) = right.col(column) - apply(x);
+        left.col(column) -= fixing_.selfadjointView<Eigen::Lower>() * x;
+      }
+      solver_->solve(corrections);
+      for (std::size_t c = 0; c < own.size(); ++c)
+        Eigen::Map<Eigen::VectorXd>(own[c], size()) += left.col(static_cast<Eigen::Index>(c));
+    }
+  }
 }
 
 Eigen::VectorXd ElasticSubdomain::apply(const Eigen::VectorXd& u) const

@@ -114,6 +114,58 @@ TEST(DualProblem, LoadsThatDriveAFreeMotionLaterAreNoEquilibrium)
   }
 }
 
+// Factors rounded to single precision: the solution is as near as they are, though loads alone do far more than those that
+// balance; displacements balance exactly; and matrices see the exact problem.
+TEST(DualProblem, RoundedFactorsChangeTheSolutionByAsMuch)
+{
+  const Cube exact(10, true);
+  Cube cube(10, true);
+  Subdomains rounded;
+  for (std::size_t s = 0; s < cube.decomposition.subdomains.size(); ++s) {
+    const auto& own = *cube.system.clusters.subdomains()[s];
+    rounded.push_back(std::make_shared<ElasticSubdomain>(own.lower(), own.kernel(), cube.decomposition.subdomains[s].mesh.points,
+                                                         3, "cholmod", 1e-5));
+  }
+  cube.system.clusters =
+      Clusters(cube.decomposition, cube.interface, rounded, cube.system.nodal_stiffness, fem::Kinematics::solid);
+  auto problem = cube.problem();
+  const auto reference = exact.problem();
+  EXPECT_EQ(reference.rounding(), 0);
+  ASSERT_GT(problem.rounding(), 1e-9);
+  ASSERT_LT(problem.rounding(), 1e-5);
+  const auto solve = [](const DualProblem& p) {
+    qp::Hessian hessian(p.hessian(), 1000);
+    const qp::Problem programme{hessian, p.linear(), p.equality(), p.set()};
+    const auto found = qp::FaceNewton(programme, p.preconditioner()).solve({}, {1e-11, {}}, nullptr, {});
+    EXPECT_TRUE(found.converged);
+    return found;
+  };
+  const auto energy = [&](const DualProblem& p, const std::vector<Eigen::VectorXd>& u) {
+    double sum = 0;
+    for (std::size_t s = 0; s < u.size(); ++s) sum += u[s].dot(p.clusters().subdomains()[s]->apply(u[s]));
+    return cube.comm.sum(sum);
+  };
+  const auto found = solve(problem), expected = solve(reference);
+  const auto u = problem.displacement(found.x, found.nu), v = reference.displacement(expected.x, expected.nu);
+  auto difference = u;
+  for (std::size_t s = 0; s < u.size(); ++s) difference[s] -= v[s];
+  EXPECT_LT(std::sqrt(energy(reference, difference) / energy(reference, v)), 2 * problem.rounding());
+  EXPECT_LT(problem.imbalance(u, found.x), 1e-12);
+
+  const auto apart = [](const Vector& a, const Vector& b) { return (view(a) - view(b)).norm() / view(b).norm(); };
+  Vector x(problem.linear().getMap()), fx(x.getMap()), expected_fx(x.getMap());
+  for (Local i = 0; i < static_cast<Local>(x.getLocalLength()); ++i)
+    view(x)[i] = std::sin(static_cast<double>(x.getMap()->getGlobalElement(i)));
+  reference.hessian().apply(x, expected_fx);
+  problem.hessian().apply(x, fx);
+  EXPECT_GT(cube.comm.max(apart(fx, expected_fx)), 1e-10);
+  problem.be_exact();
+  EXPECT_EQ(problem.rounding(), 0);
+  problem.hessian().apply(x, fx);
+  EXPECT_LT(cube.comm.max(apart(fx, expected_fx)), 1e-11);
+  EXPECT_LT(cube.comm.max(apart(problem.linear(), reference.linear())), 1e-11);
+}
+
 // Every preconditioner is symmetric and positive, and saves products.
 TEST(DualProblem, PreconditionersAreSymmetricAndApproximateTheInverse)
 {

@@ -65,6 +65,47 @@ TEST(Inverse, GoesThroughSharedFactorsInBlocks)
   for (std::size_t s = 0; s < v.size(); ++s) EXPECT_LT((v[s] - expected[s]).norm(), 1e-12 * expected[s].norm()) << s;
 }
 
+// By a rounded factor: near K^+ as it says, symmetric to rounding, and refined as if it were not rounded; a turned copy, too.
+TEST(Inverse, IsRefinedWhereItsFactorIsRounded)
+{
+  const auto mesh = block({5, 4, 3}, {1, 1, 1});
+  const auto make = [&](std::optional<double> most_rounded) {
+    return std::make_shared<const ElasticSubdomain>(fem::stiffness(mesh, fem::Material{2e5, 0.3, 0, 0}, fem::Kinematics::solid),
+                                                    fem::rigid_motions(mesh.points, fem::Kinematics::solid), mesh.points, 3,
+                                                    "cholmod", most_rounded);
+  };
+  const auto exact = make({}), rounded = make(1e-5), refused = make(1e-12);
+  EXPECT_EQ(exact->rounding(), 0);
+  EXPECT_EQ(refused->rounding(), 0);
+  EXPECT_GT(rounded->rounding(), 1e-9);
+  EXPECT_LT(rounded->rounding(), 1e-5);
+  EXPECT_EQ(rounded->factor_bytes(), exact->factor_bytes());
+  const auto solve = [](const SubdomainOperator& s, Eigen::MatrixXd x, bool quickly) {
+    std::vector<double*> columns;
+    for (auto column : x.colwise()) columns.push_back(column.data());
+    if (quickly)
+      s.apply_rounded_inverse(columns);
+    else
+      s.apply_inverse(columns);
+    return x;
+  };
+  for (const int count : {1, 2, 16, 19}) {
+    const Eigen::MatrixXd f = Eigen::MatrixXd::Random(exact->size(), count);
+    const Eigen::MatrixXd x = solve(*exact, f, false), quick = solve(*rounded, f, true);
+    EXPECT_LT((solve(*rounded, f, false) - x).norm(), 1e-12 * x.norm());
+    EXPECT_EQ(solve(*refused, f, true), x);
+    EXPECT_GT((quick - x).norm(), 1e-9 * x.norm());
+    EXPECT_LT((quick - x).norm(), 1e-4 * x.norm());
+    const Eigen::MatrixXd product = f.transpose() * quick;
+    EXPECT_LT((product - product.transpose()).norm(), 1e-13 * product.norm());
+  }
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(2.1, Point(1, -2, 0.5).normalized()).matrix();
+  const RotatedSubdomain turned(rounded, rotation, 3), turned_exactly(exact, rotation, 3);
+  EXPECT_EQ(turned.rounding(), rounded->rounding());
+  const Eigen::MatrixXd f = Eigen::MatrixXd::Random(exact->size(), 1), x = solve(turned_exactly, f, false);
+  EXPECT_LT((solve(turned, f, false) - x).norm(), 1e-12 * x.norm());
+}
+
 // A rotated copy behaves as what its own mesh gives.
 TEST(Inverse, OfATurnedCopyIsItsOwn)
 {

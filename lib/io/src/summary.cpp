@@ -194,6 +194,7 @@ std::string to_json(const Summary& s)
             {"subdomains", s.subdomains},
             {"clusters", s.clusters},
             {"kernel_dimension", s.kernel_dimension},
+            {"single_precision", s.single_precision},
             {"bodies", s.bodies},
             {"body_names", s.body_names},
             {"algorithm", s.algorithm}};

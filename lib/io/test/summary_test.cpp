@@ -47,6 +47,7 @@ TEST(Summary, FieldsAreThePromisedOnesInTheirOrder)
                                "subdomains",
                                "clusters",
                                "kernel_dimension",
+                               "single_precision",
                                "bodies",
                                "body_names",
                                "algorithm",

@@ -144,6 +144,7 @@ Deck read_deck(deck::Document& document, const std::string& output)
   check_bodies(deck, document);
   describe_assembly(deck, document);
   check_decomposition(deck, document);
+  check_solver(deck, document);
   check_vectors(deck, document);
   check_couplings(deck, document);
   check_axes(deck, document);

@@ -292,6 +292,16 @@ void check_decomposition(const Deck& deck, deck::Document& document)
                      "there is no such block" + deck::suggestion(name, keys_of(deck.mesh.blocks)));
 }
 
+void check_solver(const Deck& deck, deck::Document& document)
+{
+  constexpr double least = 1e-4;
+  const auto& [programme, subdomains] = deck.solver;
+  if (subdomains.factor_precision == "single" && programme.tolerance.value && *programme.tolerance.value < least)
+    document.error(
+        "solver.factor_precision",
+        "single precision is not exact enough for this tolerance; expected auto or at least 1e-4 for it, or double here");
+}
+
 void check_vectors(const Deck& deck, deck::Document& document)
 {
   if (deck.dimension() == 3) {

@@ -9,6 +9,8 @@ namespace mortise::model {
 void check_bodies(const Deck& deck, deck::Document& document);
 /// `method: grid` beside blocks, clusters beside boundary elements.
 void check_decomposition(const Deck& deck, deck::Document& document);
+/// Rounded factors beside the tolerance.
+void check_solver(const Deck& deck, deck::Document& document);
 /// In a plane model nothing has a z component, in one of dimension 3 no vector has two entries.
 void check_vectors(const Deck& deck, deck::Document& document);
 /// Couplings by their names, and what prescribes or touches them.

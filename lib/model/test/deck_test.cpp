@@ -220,6 +220,15 @@ TEST(Decks, NamesAreCheckedAgainstTheMesh)
   }
 }
 
+TEST(Decks, RoundedFactorsAreNotForATightTolerance)
+{
+  expect_complaint("solver: {tolerance: 1e-8, factor_precision: single}\n",
+                   "single precision is not exact enough for this tolerance");
+  expect_complaint("solver: {factor_precision: half}\n", "factor_precision");
+  for (const auto* solver : {"{tolerance: 1e-3, factor_precision: single}", "{factor_precision: single}", "{tolerance: 1e-8}"})
+    EXPECT_EQ(complaints(std::string(blocks) + "solver: " + solver + "\n"), "") << solver;
+}
+
 TEST(Decks, SchemaIsJsonWithEverySection)
 {
   const auto schema = nlohmann::json::parse(deck_schema());

@@ -144,6 +144,8 @@ io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::
   result.subdomains = decomposition.subdomain_count();
   result.clusters = decomposition.clustered() ? decomposition.cluster_count() : 0;
   result.kernel_dimension = problem.kernel_dimension();
+  for (const auto& subdomain : problem.clusters().subdomains()) result.single_precision += subdomain->rounding() > 0 ? 1 : 0;
+  result.single_precision = comm.sum(result.single_precision);
   return result;
 }
 
@@ -160,6 +162,7 @@ io::Summary sizes_told(const std::string& json)
   take("subdomains", result.subdomains);
   take("clusters", result.clusters);
   take("kernel_dimension", result.kernel_dimension);
+  take("single_precision", result.single_precision);
   return result;
 }
 
@@ -170,6 +173,7 @@ void copy_sizes(const io::Summary& from, io::Summary& to)
   to.subdomains = from.subdomains;
   to.clusters = from.clusters;
   to.kernel_dimension = from.kernel_dimension;
+  to.single_precision = from.single_precision;
 }
 
 io::Summary summarise(const model::Model& model, const EvaluatedState& found, const Communicator& comm)

@@ -137,6 +137,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   evidence.drift =
       drift(bodies.decomposition, bodies.kinematics, sizes, displacement, prescribed(problem.constraints(), comm), comm);
   results.verdict = verdict(evidence);
+  results.algebraic_error += problem.rounding();  // what the solver does not know
   return results;
 }
 

@@ -55,7 +55,8 @@ class Clusters {
   std::size_t kinds() const { return groups_.size(); }
 
   /// v[s] of each subdomain becomes K_c^+ v, K_c^+ symmetric, with K_c K_c^+ f = f for forces f that do not move a cluster.
-  void apply_inverse(std::vector<Eigen::VectorXd>& v) const;
+  /// `rounded`: by the factors as they are rounded, which those of clusters of several subdomains must not be.
+  void apply_inverse(std::vector<Eigen::VectorXd>& v, bool rounded = false) const;
   /// B0' mu of each subdomain: the forces inside the clusters under the forces f.
   std::vector<Eigen::VectorXd> inner_forces(const std::vector<Eigen::VectorXd>& f) const;
 

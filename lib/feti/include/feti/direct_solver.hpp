@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -14,15 +15,18 @@ class DirectSolver {
  public:
   /// Factorizes the matrix with lower triangle `lower`, of nodes with `block` components each, by the solver called `name`:
   /// cholmod, cholmod_plain or klu2. Throws Error(bad_input) for another name, also if the matrix is not positive definite, and
-  /// Error(machine) if memory runs out.
-  DirectSolver(const std::string& name, const SparseMatrix& lower, int block = 1);
+  /// Error(machine) if memory runs out. `most_rounded`: cholmod may round the factor to single precision, if that changes what it
+  /// solves by no more than this (Cholesky::prepare_in_single_precision).
+  DirectSolver(const std::string& name, const SparseMatrix& lower, int block = 1, std::optional<double> most_rounded = {});
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
   ~DirectSolver();
 
   /// columns[c] <- A^-1 columns[c], each of the size of the matrix, by Amesos2::Solver::solve().
   void solve(std::span<double* const> columns) const;
-  /// Bytes of the factor; 0 if the solver does not tell.
+  /// What rounding the factor has changed of its solutions, in the energy norm; 0 in double precision.
+  double rounding() const;
+  /// Bytes of the factor in double precision; 0 if the solver does not tell.
   std::size_t factor_bytes() const;
 
  private:

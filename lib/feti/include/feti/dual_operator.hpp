@@ -1,4 +1,5 @@
-// The dual operator F = B K^+ B', plus C = A^-1 on the rows of springs: one product solves once on every cluster.
+// The dual operator F = B K^+ B', plus C = A^-1 on the rows of springs: one product solves once on every cluster, by factors as
+// they are rounded, unless that is not enough.
 #pragma once
 
 #include <memory>
@@ -25,6 +26,13 @@ class DualOperator : public Operator {
   Teuchos::RCP<const Map> getRangeMap() const override { return jump_.rows(); }
   /// y = alpha F x + beta y, column by column. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
+  /// From now on with factors in double precision, or as if they were.
+  void be_exact()
+  {
+    rounded_ = false;
+    last_.reset();
+  }
+  bool rounded() const { return rounded_; }
   /// K^+ B'x of each subdomain of this rank if the last product was that with x, else null.
   const std::vector<Eigen::VectorXd>* response(const Vector& x) const
   {
@@ -40,6 +48,7 @@ class DualOperator : public Operator {
   const Clusters& clusters_;
   Timers& timers_;
   const ElasticRows* springs_;
+  bool rounded_ = true;
   mutable std::optional<Product> last_;
 };
 

@@ -68,6 +68,14 @@ class DualProblem {
   const ElasticRows* springs() const { return springs_.get(); }                          ///< null if there are none
   const std::vector<NodeRows>& node_rows() const { return node_rows_; }  ///< one for each contact node of this rank
 
+  /// Where factors are rounded to single precision (SubdomainOperator::rounding), F and d are those of K~^+, both: of forces f -
+  /// B'lambda that balance, the energy and so the solution change by no more than rounding(), whatever f does alone.
+  /// displacement() is K^+ all the same. From be_exact() on F and d are those of K^+, too, at three times the price of a product:
+  /// for what compares them with matrices.
+  void be_exact();
+  /// The largest of all subdomains of all ranks; 0 if F is exact.
+  double rounding() const { return hessian_->rounded() ? rounding_ : 0; }
+
   /// c of B u = c: the bounds of the jumps, and the shortenings that are given.
   Eigen::VectorXd bound() const;
 
@@ -158,7 +166,8 @@ class DualProblem {
     std::vector<Eigen::VectorXd> displacement;
   };
   mutable std::optional<Elastic> last_;
-  std::vector<Eigen::VectorXd> loaded_;  // K^+ f
+  std::vector<Eigen::VectorXd> loaded_;  // K^+ f, as F has K^+
+  double rounding_ = 0;
 };
 
 }  // namespace mortise::feti

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,10 @@ class SubdomainOperator {
   virtual const Eigen::MatrixXd& kernel() const = 0;
   /// columns[c], of size(), becomes K^+ columns[c] with a generalised inverse: K K^+ b = b for every b in Im K.
   virtual void apply_inverse(std::span<double* const> columns) const = 0;
+  /// The same by what the factor has been rounded to, if it has: K~^+, symmetric to rounding, with an error in the energy norm of
+  /// rounding().
+  virtual void apply_rounded_inverse(std::span<double* const> columns) const { apply_inverse(columns); }
+  virtual double rounding() const { return 0; }
   /// K u.
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
   /// The lower triangle of K, and that of a positive definite matrix whose inverse K^+ is.
@@ -44,7 +49,7 @@ class SubdomainOperator {
   /// DirectSolver.
   virtual std::unique_ptr<const InterfaceStiffness> interface_stiffness(const std::vector<int>& unknowns, bool condensed,
                                                                         const std::string& factorization) const = 0;
-  /// Bytes of its own factor; 0 for a rotated copy, which uses that of its original.
+  /// Bytes of its own factor in double precision; 0 for a rotated copy, which uses that of its original.
   virtual std::size_t factor_bytes() const = 0;
 
   /// What a rotated copy is a copy of: K = T K_original T', T a rotation of every node. Itself for others.
@@ -60,24 +65,29 @@ using Subdomains = std::vector<std::shared_ptr<const SubdomainOperator>>;
 /// The places of this rank's subdomains, by what they are copies of.
 std::map<const SubdomainOperator*, std::vector<std::size_t>> by_original(const Subdomains& subdomains);
 
-/// v_s = K_s^+ v_s for every subdomain. Vectors of the same original go through its factor together.
-void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v);
+/// v_s = K_s^+ v_s for every subdomain, or K~_s^+ if that is `rounded`. Vectors of the same original go through its factor
+/// together.
+void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v, bool rounded = false);
 
 /// Finite elements. K^+ = (K + r N)^-1 with N = E R_I (R_I'R_I)^-1 R_I'E', where R_I is the kernel at a few fixing nodes and r
 /// the mean of diag K: multiplied by R' it shows that R_I'u_I = 0 when f is in Im K, so that K u = f exactly for every r > 0.
+///
+/// Where the factor is rounded to single precision, apply_inverse() refines its solutions with K + r N, in double precision.
 class ElasticSubdomain : public SubdomainOperator {
  public:
   /// `lower`: lower triangle of K, unknown dimension * node + component. `kernel`: orthonormal rigid motions. Throws as
-  /// DirectSolver.
+  /// DirectSolver, which says what `most_rounded` is.
   ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
-                   const std::string& factorization);
+                   const std::string& factorization, std::optional<double> most_rounded = {});
   /// Bytes that the factor of such a subdomain will take, from the analysis of its pattern alone.
   static std::size_t foreseen_factor_bytes(const SparseMatrix& lower, const Eigen::MatrixXd& kernel,
                                            std::span<const Point> points, int dimension);
 
   int size() const override { return static_cast<int>(stiffness_.cols()); }
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
-  void apply_inverse(std::span<double* const> columns) const override { solver_->solve(columns); }
+  void apply_inverse(std::span<double* const> columns) const override;
+  void apply_rounded_inverse(std::span<double* const> columns) const override { solver_->solve(columns); }
+  double rounding() const override { return solver_->rounding(); }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
   SparseMatrix lower() const override { return stiffness_; }
   SparseMatrix regularised() const override { return stiffness_ + fixing_; }
@@ -107,6 +117,7 @@ class RotatedSubdomain : public SubdomainOperator {
   int size() const override { return original_->size(); }
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
   void apply_inverse(std::span<double* const> columns) const override;
+  double rounding() const override { return original_->rounding(); }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
   SparseMatrix lower() const override { return rotated(original_->lower()); }
   SparseMatrix regularised() const override { return rotated(original_->regularised()); }

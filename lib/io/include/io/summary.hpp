@@ -119,6 +119,7 @@ struct Summary : StateSummary {
   std::string algorithm;  ///< that solved the last state
   int exit_status = 0, ranks = 1;
   Global primal_unknowns = 0, dual_unknowns = 0, subdomains = 0, kernel_dimension = 0, bodies = 0;
+  Global single_precision = 0;               ///< of subdomains, whose factors are
   Global clusters = 0;                       ///< of subdomains; 0 without
   std::vector<std::string> body_names = {};  ///< by the index that fields have
   struct Step : StateSummary {
