@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/warning.hpp"
 #include "contact/state.hpp"
+#include "feti/drives.hpp"
 #include "post/bodies.hpp"
 
 namespace mortise::post {
