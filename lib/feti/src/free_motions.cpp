@@ -50,18 +50,6 @@ Eigen::MatrixXd unfelt_by(const Eigen::VectorXd& counts, const Eigen::MatrixXd& 
   return result;
 }
 
-// Turns an orthonormal basis so that the loads drive its first vector alone, and in its own sense: of many motions together, that
-// is the one to tell.
-void align_with_loads(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised)
-{
-  if (basis.cols() == 0) return;
-  const Eigen::VectorXd work = basis.transpose() * generalised;
-  if (!(work.norm() > 0)) return;
-  Eigen::MatrixXd q = dense::orthogonal_factor(work);
-  if (q.col(0).dot(work) < 0) q.col(0) *= -1;
-  basis *= q;
-}
-
 double largest(const Eigen::VectorXd& values, const Communicator& comm)
 {
   return comm.max(values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0);
@@ -245,11 +233,12 @@ void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constr
     taken.conservativeResize(Eigen::NoChange, taken.cols() + 1);
     taken.rightCols(1) = v;
   }
-  align_with_loads(taken, drives);
+  const auto rotations = static_cast<Eigen::Index>(bodies_.modes - (bodies_.modes > 1 ? fem::dimension(bodies_.kinematics) : 1));
+  align_apart(taken, drives, rotations, force);
   for (const auto& v : taken.colwise()) add(v, largest(rows * v, comm_), false);
 
   Eigen::MatrixXd sliding = sliding_modes.free(unfelt_by(rows_.fixed, rows, complement(taken), exactly * support_weight, comm_));
-  align_with_loads(sliding, drives);
+  align_apart(sliding, drives, rotations, force);
   for (const auto& v : sliding.colwise()) add(v, sliding_modes.resistance(v), true);
 
   Eigen::MatrixXd all(bodies_.modes, taken.cols() + sliding.cols());

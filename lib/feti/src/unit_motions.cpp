@@ -53,4 +53,31 @@ Eigen::MatrixXd complement(const Eigen::MatrixXd& given)
   return q.rightCols(modes - given.cols());
 }
 
+void align_with_loads(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised)
+{
+  if (basis.cols() == 0) return;
+  const Eigen::VectorXd work = basis.transpose() * generalised;
+  if (!(work.norm() > 0)) return;
+  Eigen::MatrixXd q = dense::orthogonal_factor(work);
+  if (q.col(0).dot(work) < 0) q.col(0) *= -1;
+  basis *= q;
+}
+
+void align_apart(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised, Eigen::Index rotations, double force)
+{
+  constexpr double turns = 1e-2, hardly = 1e-2;
+  align_with_loads(basis, generalised);
+  if (basis.cols() < 2 || std::abs(basis.col(0).dot(generalised)) > hardly * force) return;
+  const Eigen::MatrixXd turning = basis.bottomRows(rotations);
+  const auto eigen = dense::symmetric_eigenpairs(Eigen::MatrixXd(turning.transpose() * turning));
+  Eigen::Index straight = 0;
+  while (straight < basis.cols() && eigen.values[straight] < turns * turns) ++straight;
+  if (straight == 0 || straight == basis.cols()) return;
+  const Eigen::MatrixXd apart = basis * eigen.vectors;
+  Eigen::MatrixXd translations = apart.leftCols(straight), rest = apart.rightCols(basis.cols() - straight);
+  align_with_loads(translations, generalised);
+  align_with_loads(rest, generalised);
+  basis << translations, rest;
+}
+
 }  // namespace mortise::feti

@@ -20,4 +20,12 @@ Eigen::VectorXd amplitudes_of(const RigidMotion& motion, const BodyFrame& frame,
 /// An orthonormal basis of what is orthogonal to the orthonormal columns of `given`.
 Eigen::MatrixXd complement(const Eigen::MatrixXd& given);
 
+/// Turns an orthonormal basis so that the loads drive its first vector alone, and in its own sense: of many motions together,
+/// that is the one to tell.
+void align_with_loads(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised);
+
+/// The same of motions that loads hardly drive, which a later state may: translations, whose loads are known exactly, apart from
+/// what turns. `rotations`: how many of the amplitudes are those of rotations, the last ones; `force`: sum of sizes of the loads.
+void align_apart(Eigen::MatrixXd& basis, const Eigen::VectorXd& generalised, Eigen::Index rotations, double force);
+
 }  // namespace mortise::feti
