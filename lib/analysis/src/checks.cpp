@@ -367,6 +367,9 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   append(result, post::scattered_contacts(contact.surfaces, pairs, softest, comm));
   append(result, post::lost_moments(results.moments, pairs, results.balance.acting));
   append(result, post::frictions_across_gaps(contact.points, pairs, results.balance.acting, comm));
+  append(result, post::pressing_overlaps(
+                     {state.rows->constraints.contacts.nodes, contact.points, state.rows->initial_gaps, pairs, contact.surfaces},
+                     2 * results.stress.strain_energy, *std::ranges::min_element(softest), comm));
   append(result, post::strained_supports(support_loads(model, results, comm), results.balance.acting));
   append(result, post::point_forces(point_forces(model, state.rows->acts, results), results.balance.acting));
   append(result, post::coarse_mesh(results.mesh_error, names));

@@ -10,6 +10,7 @@
 
 #include "contact/cyclic.hpp"
 #include "post/bodies.hpp"
+#include "post/model_checks.hpp"
 #include "wording.hpp"
 
 namespace mortise::post {
@@ -78,9 +79,9 @@ std::pair<double, double> turning(std::span<const constraint::ContactNode> nodes
   return {sums[0], std::max(std::sqrt(sums[0] * comm.sum(second)), sums[0] * std::sqrt(comm.max(largest)))};
 }
 
-Warning about(const contact::Pair& pair, const char* kind, std::string text, const char* cure, double value, double limit)
+Warning about(const contact::Pair& pair, const char* kind, std::string text, std::string cure, double value, double limit)
 {
-  Warning w{kind, std::move(text), cure};
+  Warning w{kind, std::move(text), std::move(cure)};
   w.boundary = pair.options.secondary;
   w.contact = pair.options.name;
   w.value = value;
@@ -156,6 +157,47 @@ std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeS
               "take Coulomb's law, or a boundary that stays closed", across, part_of_forces * all));
   }
   return worst(std::move(result), "contacts");
+}
+
+std::vector<Warning> pressing_overlaps(const StartedContacts& all, double work, double modulus, const Communicator& comm)
+{
+  constexpr double most_of_work = 0.5, least_pressure = 1e-6;
+  const auto count = all.pairs.size();
+  std::vector<double> works(count, 0.0);
+  std::vector<Found> overlaps(count), pressures(count);
+  for (std::size_t i = 0; i < std::min(all.nodes.size(), all.points.size()); ++i) {
+    const auto& node = all.nodes[i];
+    const auto c = static_cast<std::size_t>(node.contact);
+    const double asked = all.pairs[c].options.interference;
+    const double overlap = -(node.gap / node.weight + std::max(asked, 0.0));
+    if (!(overlap > 0) || !(all.points[i].force > 0)) continue;
+    works[c] += overlap * all.points[i].force;
+    overlaps[c].take(overlap, node.at);
+  }
+  for (std::size_t c = 0; c < count; ++c)
+    for (std::size_t i = 0; i < all.surfaces[c].recovered_pressure.size(); ++i)
+      pressures[c].take(all.surfaces[c].recovered_pressure[i], all.pairs[c].secondary.points[i]);
+  comm.sum_in_place(works);
+  overlaps = largest_of_ranks(overlaps, comm);
+  pressures = largest_of_ranks(pressures, comm);
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < count; ++c) {
+    const auto& options = all.pairs[c].options;
+    if (options.law == contact::Law::bonded || !(works[c] > most_of_work * work)) continue;
+    if (!(pressures[c].value > least_pressure * modulus)) continue;
+    if (!unasked_overlaps({&all.gaps[c], 1}, {&options, 1}).empty()) continue;
+    auto warning = about(
+        all.pairs[c], "overlap",
+        fmt::format(
+            "contact {}: the two sides overlap by {:.3g} at {} before any load, which `interference` does not ask for and "
+            "which does {:.3g} % of all work: it presses with up to {:.3g}, more than the loads do",
+            options.name, overlaps[c].value, spell(overlaps[c].at), 100 * works[c] / work, pressures[c].value),
+        fmt::format("if it is the meshes' error: `adjust: {:.2g}`, or `clearance: 0` where the two fit", 1.1 * overlaps[c].value),
+        overlaps[c].value, 0);
+    warning.at = overlaps[c].at;
+    result.push_back(std::move(warning));
+  }
+  return result;
 }
 
 }  // namespace mortise::post

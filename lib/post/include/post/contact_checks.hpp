@@ -1,4 +1,5 @@
-// Contact forces that do what a user may not expect: moments that are lost between two sides, friction across gaps.
+// Contact forces that do what a user may not expect: moments that are lost between two sides, friction across gaps, overlaps that
+// press.
 #pragma once
 
 #include <span>
@@ -33,5 +34,19 @@ std::vector<Warning> lost_moments(std::span<const ContactMoment> moments, std::s
 /// more than a hundredth of its forces. `forces` as in lost_moments(). Collective.
 std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> points,
                                            std::span<const contact::Pair> pairs, double forces, const Communicator& comm);
+
+/// A contact as it started, and what it presses with.
+struct StartedContacts {
+  std::span<const constraint::ContactNode> nodes;     ///< of this rank
+  std::span<const contact::ContactNodeState> points;  ///< their states, in the same order
+  std::span<const contact::InitialGap> gaps;          ///< of each contact
+  std::span<const contact::Pair> pairs;               ///< of each contact
+  std::span<const contact::SurfaceState> surfaces;    ///< of each contact
+};
+
+/// "overlap" of a solution, where unasked_overlaps() has not told it: an overlap of the sides that no `interference` asks for
+/// does more than half of all work, `work` (force times overlap; without loads it is all of it), and the contact presses with
+/// more than 1e-6 of `modulus`, the smallest Young's modulus. Collective.
+std::vector<Warning> pressing_overlaps(const StartedContacts& all, double work, double modulus, const Communicator& comm);
 
 }  // namespace mortise::post
