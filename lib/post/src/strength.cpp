@@ -75,25 +75,36 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
 
 namespace {
 
-// What a contact presses with: the largest pressure of a node, and of the means over faces.
-struct Peaks {
-  std::vector<Found> node, recovered;
-};
+constexpr double bent = 0.83;  // of the largest pressure: what a mean over faces may lose
 
-// Of each contact but bonded ones. Collective.
-Peaks peaks_of(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs, const Communicator& comm)
+// How many faces a patch is wide, 0 for less than one; 3 where that is enough, or does not matter.
+int narrow_width(const PressedPatch& p)
 {
-  Peaks peaks{std::vector<Found>(pairs.size()), std::vector<Found>(pairs.size())};
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    if (pairs[c].options.law == contact::Law::bonded) continue;
-    const auto& side = pairs[c].secondary;
-    for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i) {
-      if (surfaces[c].status[i] == 0) continue;
-      peaks.node[c].take(surfaces[c].pressure[i], side.points[i]);
-      peaks.recovered[c].take(surfaces[c].recovered_pressure[i], side.points[i]);
-    }
+  constexpr double most = 0.5;
+  const int wide = p.whole == 0 || p.between > most * p.force ? 0 : p.inside == 0 ? 1 : p.core == 0 ? 2 : 3;
+  // One face of first order has next to the same pressure at all its nodes, whatever is right.
+  const bool told_by_mean = wide == 2 || (wide == 1 && p.second_order > 0);
+  return told_by_mean && p.recovered.value > bent * p.node.value ? 3 : wide;
+}
+
+// Of each contact the patch that is too narrow by most, of those that matter beside its others; null where none is.
+std::vector<const PressedPatch*> narrowest(const std::vector<PressedPatch>& patches, std::size_t contacts)
+{
+  constexpr double of_force = 0.2, of_pressure = 0.3;
+  std::vector<const PressedPatch*> result(contacts, nullptr);
+  std::vector<double> forces(contacts, 0.0), pressures(contacts, 0.0);
+  for (const auto& p : patches) {
+    const auto c = static_cast<std::size_t>(p.contact);
+    forces[c] = std::max(forces[c], p.force);
+    pressures[c] = std::max(pressures[c], p.node.value);
   }
-  return {largest_of_ranks(peaks.node, comm), largest_of_ranks(peaks.recovered, comm)};
+  for (const auto& p : patches) {
+    const auto c = static_cast<std::size_t>(p.contact);
+    if (!(p.node.value > 0) || p.force < of_force * forces[c] || p.node.value < of_pressure * pressures[c]) continue;
+    const int wide = narrow_width(p), before = result[c] ? narrow_width(*result[c]) : 3;
+    if (wide < before || (wide < 3 && wide == before && p.node.value > result[c]->node.value)) result[c] = &p;
+  }
+  return result;
 }
 
 }  // namespace
@@ -102,25 +113,13 @@ std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surf
                                      std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
                                      const Communicator& comm)
 {
-  constexpr double most = 0.5, bent = 0.83;
-  std::vector<double> forces(2 * pairs.size(), 0.0);  // that act between nodes, all
-  for (const auto& p : points) {
-    const auto c = 2 * static_cast<std::size_t>(p.contact);
-    forces[c + 1] += std::abs(p.force);
-    if (!p.parts.empty()) forces[c] += std::abs(p.force);
-  }
-  comm.sum_in_place(forces);
-  const auto peaks = peaks_of(surfaces, pairs, comm);
-  const auto pressed = pressed_faces(surfaces, pairs, comm);
+  const auto patches = pressed_patches(surfaces, points, pairs, comm);
+  const auto found = narrowest(patches, pairs.size());
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const auto &peak = peaks.node[c], &recovered = peaks.recovered[c];
-    if (!(peak.value > 0)) continue;
-    const bool between_nodes = forces[2 * c] > most * forces[2 * c + 1];
-    const int wide = pressed[c].whole == 0 || between_nodes ? 0 : pressed[c].inside == 0 ? 1 : pressed[c].core == 0 ? 2 : 3;
-    // One face of first order has next to the same pressure at all its nodes, whatever is right.
-    const bool told_by_mean = wide == 2 || (wide == 1 && pressed[c].second_order > 0);
-    if (wide == 3 || (told_by_mean && recovered.value > bent * peak.value)) continue;
+    if (!found[c]) continue;
+    const auto &peak = found[c]->node, &recovered = found[c]->recovered;
+    const int wide = narrow_width(*found[c]);
     const auto& name = pairs[c].options.name;
     Warning w{
         "narrow_contact",

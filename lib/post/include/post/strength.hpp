@@ -23,7 +23,8 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
 
 /// "narrow_contact": a contact presses, but on no face of its secondary side at all corners, so that it is narrower than these
 /// faces: its area, its pressures and how far bodies approach are those of the mesh. Or on one or two faces across, on which a
-/// pressure that is not even loses more than a sixth in the mean over faces. Collective.
+/// pressure that is not even loses more than a sixth in the mean over faces. Patches of faces that hang together are judged each
+/// for itself, where they matter beside the others of their contact. Collective.
 std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces,
                                      std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
                                      const Communicator& comm);
