@@ -134,7 +134,7 @@ std::unique_ptr<feti::DualProblem> LoadStepSolver::make_problem(std::vector<Eige
   auto problem = std::make_unique<feti::DualProblem>(
       assembly_.decomposition(), assembly_.directory(), assembly_.interface(), rows_->constraints, assembly_.system(),
       std::move(load), deck.solver.subdomains, context_, sliding_surfaces_of(*rows_, assembly_.model(), context_.comm),
-      assembly_.model().pressed_round(rows_->acts, context_.comm));
+      assembly_.model().opposed_loads(rows_->acts, context_.comm));
   context_.log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(),
                     problem->kernel_dimension());
   return problem;
@@ -186,7 +186,7 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
 
   auto same = with_new_bounds(rows, model, assembly_.directory(), acts, from.shortenings, comm);
   const bool same_sections = rows.constraints.pretension_sections.empty() || acts.locked == rows.acts.locked;
-  if (same && same_sections && problem_->update_rhs(same->constraints, load, model.pressed_round(acts, comm))) {
+  if (same && same_sections && problem_->update_rhs(same->constraints, load, model.opposed_loads(acts, comm))) {
     take_rows(std::move(*same));
     return;
   }

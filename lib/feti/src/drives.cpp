@@ -15,23 +15,23 @@ constexpr double hardly_turns = 2e-2;
 constexpr double no_component = 1e-4;
 // The axis of a motion that lets facets slide along themselves, and the centre of mass beside it.
 constexpr double work_of_facets = 1e-3, part_of_sagitta = 0.5, told_part_of_sagitta = 0.3;
-// Of pressures on curved faces: what the areas of two rims of a bore differ by, over its skin.
-constexpr double part_of_round = 1e-2;
+// Of pressures that cancel: what the areas of two sides differ by, whose rims are polygons of their own.
+constexpr double part_of_opposed = 1e-2;
 // How well the direction of a motion is known that rows feel something of.
 constexpr double of_resistance = 3, told_of_resistance = 10;
 
 }  // namespace
 
-DriveLimits drive_limits(const FreeMotion& motion, double pressed_round)
+DriveLimits drive_limits(const FreeMotion& motion, double opposed_loads)
 {
   const double facets = std::max(motion.sliding ? work_of_facets : 0.0, part_of_sagitta * motion.sagitta);
   const double felt = motion.resistance;
   if (motion.turning > hardly_turns)
     return {std::max({no_work, told_part_of_sagitta * motion.sagitta, told_of_resistance * felt}),
             std::max({no_work, facets, of_resistance * felt})};
-  const double round = std::max(motion.turning, part_of_round * pressed_round);
-  return {std::max({no_work_of_sums, round, told_of_resistance * felt}),
-          std::max({no_work, std::min(facets, std::max(no_component, round)), of_resistance * felt})};
+  const double unsure = std::max(motion.turning, part_of_opposed * opposed_loads);
+  return {std::max({no_work_of_sums, unsure, told_of_resistance * felt}),
+          std::max({no_work, std::min(facets, std::max(no_component, unsure)), of_resistance * felt})};
 }
 
 UnresistedLoad unresisted_load(const FreeMotion& motion, double limit, double size)

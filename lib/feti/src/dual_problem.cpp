@@ -57,13 +57,13 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
                          const partition::Interface& interface, constraint::Constraints constraints,
                          const SubdomainSystem& system, std::vector<Eigen::VectorXd> load, const Options& options,
                          const Context& context, std::span<const constraint::SlidingSurface> sliding_surfaces,
-                         std::vector<double> pressed_round)
+                         std::vector<double> opposed_loads)
     : decomposition_(decomposition),
       constraints_(std::move(constraints)),
       system_(system),
       load_(std::move(load)),
       comm_(context.comm),
-      pressed_round_(std::move(pressed_round))
+      opposed_loads_(std::move(opposed_loads))
 {
   for (const auto& subdomain : system.clusters.subdomains()) rounding_ = std::max(rounding_, subdomain->rounding());
   rounding_ = comm_.max(rounding_);
@@ -149,11 +149,11 @@ void DualProblem::make_rhs()
   equality_->set_right_side(std::move(e));
 }
 
-DriveLimits DualProblem::limits(const FreeMotion& motion, const std::vector<double>& pressed_round)
+DriveLimits DualProblem::limits(const FreeMotion& motion, const std::vector<double>& opposed_loads)
 {
   double round = 0;
   for (const auto& part : motion.motions)
-    if (!pressed_round.empty()) round += pressed_round[static_cast<std::size_t>(part.body)];
+    if (!opposed_loads.empty()) round += opposed_loads[static_cast<std::size_t>(part.body)];
   return drive_limits(motion, motion.force > 0 ? round / motion.force : 0);
 }
 
@@ -162,7 +162,7 @@ std::vector<UnresistedLoad> DualProblem::unresisted_loads() const
   std::vector<UnresistedLoad> result;
   for (const auto& motion : gauged_) {
     if (!motion.sliding && motion.resistance >= exactly_free) continue;
-    const double limit = limits(motion, pressed_round_).told;
+    const double limit = limits(motion, opposed_loads_).told;
     const auto body = static_cast<std::size_t>(motion.motions.front().body);
     if (motion.work > limit) result.push_back(unresisted_load(motion, limit, sizes_[body]));
   }
@@ -170,7 +170,7 @@ std::vector<UnresistedLoad> DualProblem::unresisted_loads() const
 }
 
 bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load,
-                             std::vector<double> pressed_round)
+                             std::vector<double> opposed_loads)
 {
   // What loads at the points of couplings work on a motion is not among the loads of the subdomains.
   if (!gauged_.empty() && !constraints.couplings.empty()) return false;
@@ -178,13 +178,13 @@ bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Ei
   std::vector<FreeMotion> now;
   for (const auto& motion : gauged_) {
     now.push_back(loaded_by(motion, decomposition_, load, comm_));
-    if (now.back().work <= limits(now.back(), pressed_round).refused) continue;
+    if (now.back().work <= limits(now.back(), opposed_loads).refused) continue;
     if (!motion.sliding && motion.resistance >= exactly_free) return false;
     loaded += driven_by_loads(now.back(), decomposition_.catalogue.bodies, sizes_);
   }
   if (!loaded.empty()) throw_driven(loaded);
   gauged_ = std::move(now);
-  pressed_round_ = std::move(pressed_round);
+  opposed_loads_ = std::move(opposed_loads);
   constraints_ = std::move(constraints);
   load_ = std::move(load);
   last_.reset();
@@ -206,7 +206,7 @@ void DualProblem::gauge_rigid_modes(const partition::NodeDirectory& directory, c
   int silent = 0;
   for (const auto& motion : motions) {
     const bool free = motion.sliding || motion.resistance < exactly_free;
-    if (motion.work > limits(motion, pressed_round_).refused) {
+    if (motion.work > limits(motion, opposed_loads_).refused) {
       // What is hardly resisted is left to the solver; what nothing but facets resists has no equilibrium.
       if (free) loaded += driven_by_loads(motion, bodies, sizes_);
       continue;

@@ -53,15 +53,15 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
   return f;
 }
 
-std::vector<double> Model::pressed_round(const LoadState& state, const Communicator& comm) const
+std::vector<double> Model::opposed_loads(const LoadState& state, const Communicator& comm) const
 {
   constexpr double rounding = 1e-9;
-  std::vector<double> result(decomposition_.catalogue.bodies.size(), 0.0);
+  std::vector<double> sums(4 * decomposition_.catalogue.bodies.size(), 0.0);  // of each body the resultant and the sum of sizes
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
     const auto& load = deck_.loads[i];
-    if (state.load[i] == 0 || !load.pressure) continue;
+    if (state.load[i] == 0 || (!load.pressure && !load.traction)) continue;
     const auto [boundary, on_body] = select(load.boundary);
-    std::vector<double> sums(4 * result.size(), 0.0);  // of each body the resultant and the sum of sizes
+    const auto traction = traction_of(i, state);
     for (const auto& subdomain : decomposition_.subdomains) {
       if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
       double* const sum = &sums[4 * static_cast<std::size_t>(subdomain.body)];
@@ -69,18 +69,21 @@ std::vector<double> Model::pressed_round(const LoadState& state, const Communica
         Point x = Point::Zero();
         for (std::size_t n = 0; n < nodes.size(); ++n)
           x += shape[static_cast<Eigen::Index>(n)] * subdomain.mesh.points[static_cast<std::size_t>(nodes[n])];
-        const Point force = state.load[i] * (*load.pressure)(x, state.time) * area;
+        Point force = Point::Zero();
+        if (load.pressure) force += pressure_at(i, state, x) * area;
+        if (load.traction) force += traction(x) * area.norm();
         for (int c = 0; c < 3; ++c) sum[c] += force[c];
         sum[3] += force.norm();
       };
       fem::for_each_point_of_boundary(subdomain.mesh, boundary, deck_.kinematics, visit);
     }
-    comm.sum_in_place(sums);
-    for (std::size_t b = 0; b < result.size(); ++b) {
-      const double* const sum = &sums[4 * b];
-      const double cancels = sum[3] - std::hypot(sum[0], sum[1], sum[2]);
-      if (cancels > rounding * sum[3]) result[b] += cancels;
-    }
+  }
+  comm.sum_in_place(sums);
+  std::vector<double> result(sums.size() / 4, 0.0);
+  for (std::size_t b = 0; b < result.size(); ++b) {
+    const double* const sum = &sums[4 * b];
+    const double cancels = sum[3] - std::hypot(sum[0], sum[1], sum[2]);
+    if (cancels > rounding * sum[3]) result[b] = cancels;
   }
   return result;
 }
@@ -105,6 +108,38 @@ Point Model::along_model(const fem::LoadOptions& load, const std::optional<std::
   return local_axes(deck_, load.axes).at(Point::Zero())->transpose() * place(*value);
 }
 
+double Model::load_at(std::size_t index, const deck::Formula& formula, const LoadState& state, const Point& x) const
+{
+  const double found = formula(x, state.time);
+  if (!std::isfinite(found))
+    throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: \"{}\" is no number at ({:.6g}, {:.6g}, {:.6g}), t = {:.6g}",
+                                                   index, formula.text(), x[0], x[1], x[2], state.time));
+  return state.load[index] * found;
+}
+
+double Model::pressure_at(std::size_t index, const LoadState& state, const Point& x) const
+{
+  return load_at(index, *deck_.loads[index].pressure, state, x);
+}
+
+std::function<Point(const Point&)> Model::traction_of(std::size_t index, const LoadState& state) const
+{
+  const auto& load = deck_.loads[index];
+  if (!load.traction) return {};
+  std::optional<deck::LocalAxes> axes;
+  if (!load.axes.empty()) axes = local_axes(deck_, load.axes);
+  return [this, index, &load, &state, axes, t = *load.traction](const Point& x) {
+    const Point along(load_at(index, t[0], state, x), load_at(index, t[1], state, x), load_at(index, t[2], state, x));
+    if (!axes) return along;
+    const auto rows = axes->at(x);
+    if (!rows)
+      throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: ({:.6g}, {:.6g}, {:.6g}) lies on the axis of \"{}\", where "
+                                                     "nothing is radial or tangential",
+                                                     index, x[0], x[1], x[2], load.axes));
+    return Point(rows->transpose() * along);
+  };
+}
+
 // Pressure, traction or force of loads[index].
 void Model::add_boundary_load(std::size_t index, const LoadState& state, std::vector<Eigen::VectorXd>& f,
                               const Communicator& comm) const
@@ -117,36 +152,15 @@ void Model::add_boundary_load(std::size_t index, const LoadState& state, std::ve
     if (on_body[static_cast<std::size_t>(subdomain.body)]) area += fem::area(subdomain.mesh, boundary, deck_.kinematics);
   area = comm.sum(area);
   if (area == 0) throw Error(ExitStatus::bad_input, "the loaded boundary \"" + load.boundary + "\" has no area");
-  const auto value = [&](const deck::Formula& formula, const Point& x) {
-    const double found = formula(x, state.time);
-    if (!std::isfinite(found))
-      throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: \"{}\" is no number at ({:.6g}, {:.6g}, {:.6g}), t = {:.6g}",
-                                                     index, formula.text(), x[0], x[1], x[2], state.time));
-    return factor * found;
-  };
-  std::optional<deck::LocalAxes> axes;
-  if (!load.axes.empty()) axes = local_axes(deck_, load.axes);
-  const auto turned = [&](const Point& along, const Point& x) {
-    if (!axes) return along;
-    const auto rows = axes->at(x);
-    if (!rows)
-      throw Error(ExitStatus::bad_input, fmt::format("loads[{}]: ({:.6g}, {:.6g}, {:.6g}) lies on the axis of \"{}\", where "
-                                                     "nothing is radial or tangential",
-                                                     index, x[0], x[1], x[2], load.axes));
-    return Point(rows->transpose() * along);
-  };
+  const auto traction = traction_of(index, state);
   collectively(comm, [&] {
     for (std::size_t s = 0; s < f.size(); ++s) {
       const auto& subdomain = decomposition_.subdomains[s];
       if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
       if (load.pressure)
         fem::add_pressure(
-            subdomain.mesh, boundary, deck_.kinematics, [&](const Point& x) { return value(*load.pressure, x); }, f[s]);
-      if (load.traction)
-        fem::add_traction(
-            subdomain.mesh, boundary, deck_.kinematics,
-            [&, t = *load.traction](const Point& x) { return turned(Point(value(t[0], x), value(t[1], x), value(t[2], x)), x); },
-            f[s]);
+            subdomain.mesh, boundary, deck_.kinematics, [&](const Point& x) { return pressure_at(index, state, x); }, f[s]);
+      if (load.traction) fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, traction, f[s]);
       if (load.force)
         fem::add_traction(subdomain.mesh, boundary, deck_.kinematics, Point(factor * along_model(load, load.force) / area), f[s]);
     }

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include "testing/cut.hpp"
 
@@ -117,13 +119,19 @@ TEST(NarrowContacts, MayActBetweenNodes)
 {
   const Sides sides;
   const auto wide = sides.state([](const Point& x) { return in_square(x, 4); });
-  std::vector<contact::ContactNodeState> points(2);
-  points[0].parts.push_back({0, 1, Point(0, 0, 1)});
-  points[1].force = 1;
-  points[0].force = 0.9;
-  EXPECT_TRUE(narrow_contacts(wide, points, sides.pairs, sides.comm).empty());
-  points[0].force = 1.1;
-  const auto found = narrow_contacts(wide, points, sides.pairs, sides.comm);
+  const auto& status = wide[0].status;
+  const auto pressed = std::find_if(status.begin(), status.end(), [](int of_node) { return of_node != 0; }) - status.begin();
+  const auto with = [&](double between_nodes) {
+    std::vector<contact::ContactNodeState> points(2);
+    if (pressed == std::ssize(status)) return narrow_contacts(wide, {}, sides.pairs, sides.comm);
+    for (auto& point : points) point.node = sides.pairs[0].secondary.node_id[static_cast<std::size_t>(pressed)];
+    points[0].parts.push_back({points[0].node, 1, Point(0, 0, 1)});
+    points[0].force = between_nodes;
+    points[1].force = 1;
+    return narrow_contacts(wide, points, sides.pairs, sides.comm);
+  };
+  EXPECT_TRUE(with(0.9).empty());
+  const auto found = with(1.1);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].value, 0);
 }

@@ -14,10 +14,11 @@ struct DriveLimits {
   double refused = 0;  ///< what works more on it has no equilibrium
 };
 
-/// `pressed_round`: the part of the forces on its bodies that are pressures on curved faces: facets change their resultants as
-/// much as they tilt. All other loads have resultants that meshes do not change, so that a motion that hardly turns feels their
-/// exact component; of one that turns, facets move the centre of mass beside its axis by a part of their arcs' height.
-DriveLimits drive_limits(const FreeMotion& motion, double pressed_round);
+/// `opposed_loads`: the part of the forces on its bodies that are pressures and tractions which cancel, all round a bore or on two
+/// sides: areas of meshes leave some of them. All other loads have resultants that meshes do not change, so that a motion that
+/// hardly turns feels their exact component; of one that turns, facets move the centre of mass beside its axis by a part of their
+/// arcs' height.
+DriveLimits drive_limits(const FreeMotion& motion, double opposed_loads);
 
 /// A load on a motion that nothing resists, which the solution holds.
 struct UnresistedLoad {

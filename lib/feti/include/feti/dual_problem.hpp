@@ -43,19 +43,19 @@ struct NodeRows {
 class DualProblem {
  public:
   /// `load`: f of each subdomain. Looks for free rigid motions and gauges those that nothing loads. `sliding_surfaces`: what
-  /// surfaces in contact feel, apart from facets. `pressed_round`: of each body, see drive_limits(), forces; or none. Throws
+  /// surfaces in contact feel, apart from facets. `opposed_loads`: of each body, see drive_limits(), forces; or none. Throws
   /// Error(no_equilibrium), naming the body and its motion, if a load works on a motion that nothing resists. `decomposition` and
   /// `system` outlive it. Collective.
   DualProblem(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
               const partition::Interface& interface, constraint::Constraints constraints, const SubdomainSystem& system,
               std::vector<Eigen::VectorXd> load, const Options& options, const Context& context,
-              std::span<const constraint::SlidingSurface> sliding_surfaces = {}, std::vector<double> pressed_round = {});
+              std::span<const constraint::SlidingSurface> sliding_surfaces = {}, std::vector<double> opposed_loads = {});
   DualProblem(const DualProblem&) = delete;
   DualProblem& operator=(const DualProblem&) = delete;
   /// New d, e and c: the same rows with other bounds, and other loads; everything else stays. Returns false, and changes nothing,
   /// if the new loads drive a gauged motion that facets resist: then a new problem has to be built.
   /// Throws Error(no_equilibrium) as the constructor does. Collective.
-  bool update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load, std::vector<double> pressed_round = {});
+  bool update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load, std::vector<double> opposed_loads = {});
 
   // The quadratic programme; vectors and operators are distributed as jump().rows().
   const JumpOperator& jump() const { return *jump_; }                    ///< B
@@ -141,7 +141,7 @@ class DualProblem {
   void make_set();
   void make_rhs();
   std::vector<Eigen::VectorXd> less_motion(std::vector<Eigen::VectorXd> u, const Eigen::VectorXd& nu) const;
-  static DriveLimits limits(const FreeMotion& motion, const std::vector<double>& pressed_round);
+  static DriveLimits limits(const FreeMotion& motion, const std::vector<double>& opposed_loads);
 
   const partition::Decomposition& decomposition_;
   constraint::Constraints constraints_;
@@ -158,7 +158,7 @@ class DualProblem {
   qp::FeasibleSet set_;
   std::vector<NodeRows> node_rows_;
   std::vector<FreeMotion> gauged_;
-  std::vector<double> pressed_round_;
+  std::vector<double> opposed_loads_;
   std::vector<double> sizes_;  // of the bodies
   // K^+ (f - B'lambda) of the last lambda that was asked for: an error, a norm and how far displacements fit ask in turn.
   struct Elastic {

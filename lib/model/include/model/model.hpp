@@ -1,6 +1,8 @@
 // From the deck to the pieces of the dual problem: boundaries by name, stiffness, loads, supports, contact pairs.
 #pragma once
 
+#include <functional>
+
 #include "base/context.hpp"
 #include "constraint/supports.hpp"
 #include "contact/mortar.hpp"
@@ -58,8 +60,9 @@ class Model {
   /// The consistent nodal loads of every subdomain; of boundary elements those on the surface alone. Throws Error(bad_input) if a
   /// formula is no number somewhere, or a loaded boundary has no area. Collective.
   std::vector<Eigen::VectorXd> loads(const LoadState& state, const Communicator& comm) const;
-  /// Of each body, of what pressures on its boundaries add up to, what cancels since these are curved: 0 on planes. Collective.
-  std::vector<double> pressed_round(const LoadState& state, const Communicator& comm) const;
+  /// Of each body, of what pressures and tractions on its boundaries add up to, what cancels: all round a bore, or on two sides.
+  /// The areas of meshes, by polygons of different sides, leave some of it. Forces; throws as loads(). Collective.
+  std::vector<double> opposed_loads(const LoadState& state, const Communicator& comm) const;
   /// The deck's supports, and in axisymmetry one more: on the axis nothing moves sideways. Those that do not act hold nothing.
   /// Each coupling stands for one more, of its name, without displacements.
   std::vector<constraint::Support> supports(const LoadState& state) const;
@@ -72,8 +75,8 @@ class Model {
   std::vector<mesh::Surface> support_surfaces() const;
   /// The boundaries of supports that act along their normals alone, this rank's faces: prescribed or on springs.
   std::vector<mesh::Surface> surfaces_held_along_normals(const LoadState& state) const;
-  /// What supports, loads and couplings of a state do at the nodes of this rank's faces. In axisymmetry the axis is a face as well.
-  /// Collective.
+  /// What supports, loads and couplings of a state do at the nodes of this rank's faces. In axisymmetry the axis is a face as
+  /// well. Collective.
   std::vector<FaceAction> face_actions(const LoadState& state, const Communicator& comm) const;
   /// For each body whether one of the deck's supports lies on it. Collective.
   std::vector<bool> supported(const Communicator& comm) const;
@@ -114,6 +117,12 @@ class Model {
   fem::Temperature temperature_change(const partition::Subdomain& subdomain, const LoadState& state) const;
   /// The sum of all accelerations of its body.
   Point acceleration(const partition::Subdomain& subdomain, const LoadState& state) const;
+  /// A formula of loads[index] at x, times the load's factor. Throws Error(bad_input) if it is no number there.
+  double load_at(std::size_t index, const deck::Formula& formula, const LoadState& state, const Point& x) const;
+  double pressure_at(std::size_t index, const LoadState& state, const Point& x) const;
+  /// The traction of loads[index] along the axes of the model, a function of the place; empty if it has none. `state` outlives
+  /// it.
+  std::function<Point(const Point&)> traction_of(std::size_t index, const LoadState& state) const;
   void add_boundary_load(std::size_t index, const LoadState& state, std::vector<Eigen::VectorXd>& f,
                          const Communicator& comm) const;
   /// The force or moment of a load along the axes of the model; zero if it has none.
