@@ -151,10 +151,10 @@ void DualProblem::make_rhs()
 
 DriveLimits DualProblem::limits(const FreeMotion& motion, const std::vector<double>& opposed_loads)
 {
-  double round = 0;
+  double opposed = 0;
   for (const auto& part : motion.motions)
-    if (!opposed_loads.empty()) round += opposed_loads[static_cast<std::size_t>(part.body)];
-  return drive_limits(motion, motion.force > 0 ? round / motion.force : 0);
+    if (!opposed_loads.empty()) opposed += opposed_loads[static_cast<std::size_t>(part.body)];
+  return drive_limits(motion, motion.force > 0 ? opposed / motion.force : 0);
 }
 
 std::vector<UnresistedLoad> DualProblem::unresisted_loads() const

@@ -57,27 +57,29 @@ std::vector<double> Model::opposed_loads(const LoadState& state, const Communica
 {
   constexpr double rounding = 1e-9;
   std::vector<double> sums(4 * decomposition_.catalogue.bodies.size(), 0.0);  // of each body the resultant and the sum of sizes
-  for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
-    const auto& load = deck_.loads[i];
-    if (state.load[i] == 0 || (!load.pressure && !load.traction)) continue;
-    const auto [boundary, on_body] = select(load.boundary);
-    const auto traction = traction_of(i, state);
-    for (const auto& subdomain : decomposition_.subdomains) {
-      if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
-      double* const sum = &sums[4 * static_cast<std::size_t>(subdomain.body)];
-      const auto visit = [&](std::span<const Local> nodes, const Eigen::VectorXd& shape, const Point& area) {
-        Point x = Point::Zero();
-        for (std::size_t n = 0; n < nodes.size(); ++n)
-          x += shape[static_cast<Eigen::Index>(n)] * subdomain.mesh.points[static_cast<std::size_t>(nodes[n])];
-        Point force = Point::Zero();
-        if (load.pressure) force += pressure_at(i, state, x) * area;
-        if (load.traction) force += traction(x) * area.norm();
-        for (int c = 0; c < 3; ++c) sum[c] += force[c];
-        sum[3] += force.norm();
-      };
-      fem::for_each_point_of_boundary(subdomain.mesh, boundary, deck_.kinematics, visit);
+  collectively(comm, [&] {
+    for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
+      const auto& load = deck_.loads[i];
+      if (state.load[i] == 0 || (!load.pressure && !load.traction)) continue;
+      const auto [boundary, on_body] = select(load.boundary);
+      const auto traction = traction_of(i, state);
+      for (const auto& subdomain : decomposition_.subdomains) {
+        if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
+        double* const sum = &sums[4 * static_cast<std::size_t>(subdomain.body)];
+        const auto visit = [&](std::span<const Local> nodes, const Eigen::VectorXd& shape, const Point& area) {
+          Point x = Point::Zero();
+          for (std::size_t n = 0; n < nodes.size(); ++n)
+            x += shape[static_cast<Eigen::Index>(n)] * subdomain.mesh.points[static_cast<std::size_t>(nodes[n])];
+          Point force = Point::Zero();
+          if (load.pressure) force += pressure_at(i, state, x) * area;
+          if (load.traction) force += traction(x) * area.norm();
+          for (int c = 0; c < 3; ++c) sum[c] += force[c];
+          sum[3] += force.norm();
+        };
+        fem::for_each_point_of_boundary(subdomain.mesh, boundary, deck_.kinematics, visit);
+      }
     }
-  }
+  });
   comm.sum_in_place(sums);
   std::vector<double> result(sums.size() / 4, 0.0);
   for (std::size_t b = 0; b < result.size(); ++b) {

@@ -4,27 +4,20 @@
     products.py MORTISE [--write]
 """
 import argparse
-import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1]))
+sys.path[:0] = [str(HERE.parents[0]), str(HERE.parents[1])]
 import page_tables  # noqa: E402
+from products_of import products_of  # noqa: E402
 
 HEAD = ["preconditioner", "ESPRESO: iterations", "Mortise: products"]
 ROWS = ["none", "lumped", "dirichlet"]
 
 
 def products(mortise, preconditioner):
-    with tempfile.TemporaryDirectory(prefix="mortise_elastic_box_") as directory:
-        command = [mortise, str(HERE / "elastic_box.yaml"), "--output", directory, "--set", f"solver.preconditioner={preconditioner}"]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode != 0:
-            raise SystemExit(done.stdout + done.stderr)
-        return json.loads((pathlib.Path(directory) / "summary.json").read_text())["hessian_multiplications"]
+    return products_of(mortise, HERE / "elastic_box.yaml", [f"solver.preconditioner={preconditioner}"])
 
 
 def main():

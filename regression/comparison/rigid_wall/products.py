@@ -4,28 +4,21 @@
     products.py MORTISE [--write]
 """
 import argparse
-import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1]))
+sys.path[:0] = [str(HERE.parents[0]), str(HERE.parents[1])]
 import page_tables  # noqa: E402
+from products_of import products_of  # noqa: E402
 
 HEAD = ["subdomains, cells an edge of each", "ESPRESO", "PERMON, default", "Mortise"]
 ROWS = [(2, 5), (2, 8), (3, 5), (4, 8), (6, 5)]  # subdomains along an edge of the cube, cells along one of theirs
 
 
 def products(mortise, subdomains, cells):
-    with tempfile.TemporaryDirectory(prefix="mortise_rigid_wall_") as directory:
-        settings = [f"mesh.blocks.cube.cells={[subdomains * cells] * 3}", f"decomposition.counts={{cube: {[subdomains] * 3}, wall: [1, 1, 1]}}"]
-        command = [mortise, str(HERE / "rigid_wall.yaml"), "--output", directory] + [word for s in settings for word in ("--set", s)]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode != 0:
-            raise SystemExit(done.stdout + done.stderr)
-        return json.loads((pathlib.Path(directory) / "summary.json").read_text())["hessian_multiplications"]
+    settings = [f"mesh.blocks.cube.cells={[subdomains * cells] * 3}", f"decomposition.counts={{cube: {[subdomains] * 3}, wall: [1, 1, 1]}}"]
+    return products_of(mortise, HERE / "rigid_wall.yaml", settings)
 
 
 def main():
