@@ -23,13 +23,12 @@ bool ends_a_step(const model::LoadState& acts)
 
 }  // namespace
 
-Report::LoadSteps::LoadSteps(Report& report, const analysis::Assembly& assembly, std::size_t states,
-                             const analysis::Approach& approach)
+Report::LoadSteps::LoadSteps(Report& report, const analysis::Assembly& assembly, std::size_t states, analysis::Approach approach)
     : run_(report),
       deck_(report.deck_),
       context_(report.context_),
       assembly_(assembly),
-      approach_(approach),
+      approach_(std::move(approach)),
       states_(states),
       files_(deck_),
       probe_files_(deck_)
@@ -79,7 +78,7 @@ void Report::LoadSteps::write(const analysis::LoadStepSolver& solver, const anal
   summary.algorithm = approach_.algorithm == "auto" ? "face_newton" : approach_.algorithm;
   if (approach_.kind == analysis::Approach::Kind::direct_instead && run_.sizes_as_cut_.subdomains > 0)
     output::copy_sizes(run_.sizes_as_cut_, summary);
-  if (first) summary.hessian_multiplications += solver.spent_before();
+  if (first) summary.hessian_multiplications += approach_.spent;
   output::accumulate_steps(acts_, summary_, summary);
   run_.warnings_.add(analysis::check_results(model, state, results, comm));
   {
@@ -98,10 +97,18 @@ void Report::LoadSteps::write(const analysis::LoadStepSolver& solver, const anal
   run_.tell_stage("output", "output");  // does not end the run: a state that is written is to be kept for --resume
 }
 
+analysis::Outcome Report::LoadSteps::failed(const analysis::LoadStepSolver& solver)
+{
+  try {
+    return analysis::failed(approach_, solver.applications(), context_.comm);
+  } catch (const Error& error) {
+    fail(error);
+  }
+}
+
 void Report::LoadSteps::fail(const Error& error)
 {
   context_.log.end_progress();
-  if (analysis::is_tried_again(approach_, error)) throw error;
   if (summary_.version.empty()) throw error;  // no state is written
   summary_.converged = false;
   summary_.exit_status = static_cast<int>(error.status());

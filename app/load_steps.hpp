@@ -13,7 +13,7 @@ namespace mortise {
 class Report::LoadSteps {
  public:
   /// `states`: how many equilibria there are to be.
-  LoadSteps(Report& report, const analysis::Assembly& assembly, std::size_t states, const analysis::Approach& approach);
+  LoadSteps(Report& report, const analysis::Assembly& assembly, std::size_t states, analysis::Approach approach);
   LoadSteps(const LoadSteps&) = delete;
   LoadSteps& operator=(const LoadSteps&) = delete;
 
@@ -26,8 +26,10 @@ class Report::LoadSteps {
   /// The files of a state, which has been evaluated.
   void write(const analysis::LoadStepSolver& solver, const analysis::StepState& state, const post::Probes& probes,
              post::Results results);
-  /// A load step failed: leaves the results of those before, and throws the error, which names the load step then.
-  [[noreturn]] void fail(const Error& error);
+  /// To be called where an exception is handled that a load step threw: the outcome of the attempt if another approach may do
+  /// better, see analysis::failed; else leaves the results of the load steps before, and throws the error, which names the load
+  /// step then.
+  analysis::Outcome failed(const analysis::LoadStepSolver& solver);
   /// The place of the present state, from 1.
   std::size_t state() const { return index_; }
   /// Whether another load step is to be solved after the one that was written.
@@ -37,6 +39,7 @@ class Report::LoadSteps {
   ExitStatus end();
 
  private:
+  [[noreturn]] void fail(const Error& error);
   bool is_due(bool converged) const;
   void write_summary(bool finished);
 
@@ -44,7 +47,7 @@ class Report::LoadSteps {
   const model::Deck& deck_;
   const Context& context_;
   const analysis::Assembly& assembly_;
-  const analysis::Approach& approach_;
+  const analysis::Approach approach_;
   const std::size_t states_;
   std::size_t index_ = 0;  // of the present state, from 1
   int increment_ = 0;      // of the present step, from 1

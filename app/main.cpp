@@ -24,9 +24,9 @@ namespace {
 
 using namespace mortise;
 
-// From constraint rows to files, for all load steps; nothing if the approach gave up.
-std::optional<ExitStatus> solve_load_steps(const model::Model& model, const post::Probes& probes, analysis::Approach& approach,
-                                           const analysis::Restart& restart, Report& report, const Context& context)
+// From constraint rows to files, for all load steps.
+analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes& probes, const analysis::Approach& approach,
+                                   const analysis::Restart& restart, Report& report, const Context& context)
 {
   const auto states = model::load_states(model.deck(), model.contacts());
   auto rows = analysis::make_rows(model, states.front(), {}, context);
@@ -35,13 +35,13 @@ std::optional<ExitStatus> solve_load_steps(const model::Model& model, const post
   const auto memory = analysis::foresee_memory(model, copies, report.only_checks(), context.comm);
   report.memory(model, rows, memory);
   analysis::require(memory, model);
-  if (report.only_checks()) return ExitStatus::solved;
+  if (report.only_checks()) return {ExitStatus::solved};
 
   const analysis::Assembly assembly(model, copies, context);
   report.assembly(assembly, copies);
-  approach = analysis::with_patience(approach, assembly, rows.constraints, context.comm);
-  analysis::LoadStepSolver solver(assembly, std::move(rows), approach, context);
-  Report::LoadSteps steps(report, assembly, states.size(), approach);
+  const auto patient = analysis::with_patience(approach, assembly, rows.constraints, context.comm);
+  analysis::LoadStepSolver solver(assembly, std::move(rows), patient, context);
+  Report::LoadSteps steps(report, assembly, states.size(), patient);
   std::optional<analysis::StepState> state;
   for (const auto& acts : states) {
     steps.begin(acts);
@@ -49,18 +49,18 @@ std::optional<ExitStatus> solve_load_steps(const model::Model& model, const post
       const auto* before = restart.find(approach, acts.time);
       state =
           before ? solver.take_up(acts, std::move(state), *before) : solver.solve(acts, std::move(state), steps.observer(acts));
-      if (steps.gave_up(solver, *state)) return {};
+      if (steps.gave_up(solver, *state)) return {.status = {}, .next = patient.next, .spent = solver.applications()};
       auto results = analysis::evaluate(assembly, solver, *state, probes, context);
       steps.write(solver, *state, probes, std::move(results));
       if (acts.time < states.back().time) restart.keep(steps.state(), approach, solver, *state);
-    } catch (const Error& error) {
-      steps.fail(error);
+    } catch (...) {
+      return steps.failed(solver);
     }
     if (!steps.goes_on()) break;
   }
   const auto status = steps.end();
   if (status == ExitStatus::solved) restart.remove();
-  return status;
+  return {status};
 }
 
 ExitStatus solve(const CommandLine& command_line, const Context& context)
@@ -78,7 +78,7 @@ ExitStatus solve(const CommandLine& command_line, const Context& context)
   const auto resolved = model::resolve(deck, document, std::move(decomposition), context);
   report.resolution(resolved);
 
-  const auto attempt = [&](const partition::Decomposition& bodies, analysis::Approach& approach) {
+  const auto attempt = [&](const partition::Decomposition& bodies, const analysis::Approach& approach) {
     const model::Model model(deck, resolved.contacts, bodies, resolved.temperatures);
     model.require_fit(document, context.comm);
     const auto probes = analysis::find_probes(model, document, context.comm);

@@ -50,11 +50,21 @@ std::string cut_skin(const partition::Decomposition& decomposition, const Commun
 
 }  // namespace
 
-bool is_tried_again(const Approach& approach, const Error& error)
+Outcome failed(const Approach& approach, int spent, const Communicator& comm)
 {
-  return approach.kind == Approach::Kind::direct_instead &&
-         (error.status() == ExitStatus::bad_input || error.status() == ExitStatus::not_converged ||
-          error.cause() == Error::Cause::memory);
+  const Outcome outcome{.status = {}, .spent = spent, .error = std::current_exception()};
+  try {
+    throw;
+  } catch (const Error& error) {
+    if (approach.kind == Approach::Kind::direct_instead &&
+        (error.status() == ExitStatus::bad_input || error.status() == ExitStatus::not_converged ||
+         error.cause() == Error::Cause::memory))
+      return outcome;
+    throw;
+  } catch (const std::bad_alloc&) {  // the other ranks would know nothing of it
+    if (approach.kind == Approach::Kind::direct_instead && comm.size() == 1) return outcome;
+    throw;
+  }
 }
 
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
@@ -90,6 +100,36 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
   return approach;
 }
 
+namespace {
+
+// Also where the attempt throws before it solves anything.
+Outcome attempt_directly(const Attempt& attempt, const partition::Decomposition& bodies, const Approach& approach,
+                         const Communicator& comm)
+{
+  try {
+    return attempt(bodies, approach);
+  } catch (...) {
+    return failed(approach, approach.spent, comm);
+  }
+}
+
+// Of a direct solution. Throws its error where the run was resumed and the record is of another model.
+const char* why_it_failed(const Outcome& outcome, bool resumed)
+{
+  constexpr const char* no_room = "finds no room in memory";
+  try {
+    if (outcome.error) std::rethrow_exception(outcome.error);
+  } catch (const Error& error) {
+    if (resumed && error.status() == ExitStatus::bad_input) throw;
+    if (error.cause() == Error::Cause::memory) return no_room;
+  } catch (const std::bad_alloc&) {
+    return no_room;
+  }
+  return "does not converge, or rounding spoils it";
+}
+
+}  // namespace
+
 ExitStatus try_approaches(const model::Deck& deck, const partition::Decomposition& as_cut, const Attempt& attempt,
                           const Context& context, const std::optional<Approach>& resumed)
 {
@@ -100,8 +140,10 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
   partition::Decomposition smaller;
   if (approach.kind == Kind::as_asked) {
     approach.algorithm = asked;
-    if (const auto status = attempt(as_cut, approach)) return *status;
-    approach.smaller = approach.next == Kind::smaller_subdomains;
+    const auto outcome = attempt(as_cut, approach);
+    if (outcome.status) return *outcome.status;
+    approach.spent = outcome.spent;
+    approach.smaller = outcome.next == Kind::smaller_subdomains;
   }
   if (approach.smaller) {
     const int pieces = usual_unknowns(deck) / 2;  // what is slender wants them small
@@ -112,29 +154,23 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
   }
   if (approach.smaller && (approach.kind == Kind::as_asked || approach.kind == Kind::smaller_subdomains)) {
     approach = {Kind::smaller_subdomains, asked, {}, approach.spent, Kind::direct_instead, true};
-    if (const auto status = attempt(smaller, approach)) return *status;
+    const auto outcome = attempt(smaller, approach);
+    if (outcome.status) return *outcome.status;
+    approach.spent = outcome.spent;
   }
   const auto& cut = approach.smaller ? smaller : as_cut;
   if (approach.kind != Kind::products_to_the_end) {
     if (approach.kind != Kind::direct_instead)
       log.line("  {} products with F, and no end near: a direct solution instead, with every body whole", approach.spent);
     approach = {Kind::direct_instead, "direct", {}, approach.spent, Kind::direct_instead, approach.smaller};
-    const char* why = "does not converge, or rounding spoils it";
-    try {
-      if (const auto status = attempt(partition::whole_bodies(cut, comm), approach)) return *status;
-    } catch (const Error& error) {
-      const bool stale = resumed && error.status() == ExitStatus::bad_input;  // a record of another model
-      if (stale || !is_tried_again(approach, error)) throw;
-      if (error.cause() == Error::Cause::memory) why = "finds no room in memory";
-    } catch (const std::bad_alloc&) {
-      if (comm.size() > 1) throw;  // the other ranks know nothing of it
-      why = "finds no room in memory";
-    }
+    const auto outcome = attempt_directly(attempt, partition::whole_bodies(cut, comm), approach, comm);
+    if (outcome.status) return *outcome.status;
     log.end_progress();
-    log.line("  the direct solution {}: back to products with F", why);
+    log.line("  the direct solution {}: back to products with F", why_it_failed(outcome, resumed.has_value()));
+    approach.spent = outcome.spent;
   }
   approach = {Kind::products_to_the_end, "face_newton", {}, approach.spent, Kind::direct_instead, approach.smaller};
-  return attempt(cut, approach).value();
+  return attempt(cut, approach).status.value();
 }
 
 }  // namespace mortise::analysis

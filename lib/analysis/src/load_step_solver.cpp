@@ -75,8 +75,8 @@ post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem
 
 }  // namespace
 
-LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach& approach, const Context& context)
-    : assembly_(assembly), context_(context), approach_(approach), spent_before_(approach.spent), before_(approach.spent)
+LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach approach, const Context& context)
+    : assembly_(assembly), context_(context), approach_(std::move(approach)), before_(approach_.spent)
 {
   const auto& model = assembly.model();
   std::vector<Eigen::VectorXd> load;
@@ -145,8 +145,7 @@ void LoadStepSolver::make_solver()
   auto options = assembly_.deck().solver.programme;
   options.algorithm = approach_.algorithm;
   if (auto& most = options.max_multiplications.value) *most -= before_;
-  solver_.emplace(*problem_, model::friction_laws(assembly_.model().contacts()), assembly_.deck().friction_loop, options,
-                  approach_.patience);
+  solver_.emplace(*problem_, model::friction_laws(assembly_.model().contacts()), assembly_.deck().friction_loop, options);
 }
 
 // Takes note of how large forces, energies and rounding are in a state, which the next ones are measured by. Collective.
@@ -243,27 +242,27 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
     progress.applications += before_;
     observer(step, change, progress);
   };
-  auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on);
-  if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}};
-  if (approach_.kind == Approach::Kind::direct_instead) {  // what it has solved is not thrown away for a later state
-    approach_.patience.reset();
-    solver_->be_patient();
-  }
+  auto patience = before ? before->patience : approach_.patience;
+  auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on, patience);
+  if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}, patience};
+  if (approach_.kind == Approach::Kind::direct_instead)
+    patience.reset();  // what it has solved is not thrown away for a later state
   found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, unfelt_force * largest_force_);
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   refuse_support_of_facets(*problem_, assembly_, *rows_, found, displacement);
   auto shortenings = problem_->shortenings(found.solution.nu);
-  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings)};
+  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings), patience};
 }
 
 StepState LoadStepSolver::take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record)
 {
   if (before) update(acts, *before);
+  const auto patience = before ? before->patience : approach_.patience;
   auto found = solution_of(record, *problem_);
   before_ += found.applications;
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   auto shortenings = problem_->shortenings(found.solution.nu);
-  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings)};
+  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings), patience};
 }
 
 post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,

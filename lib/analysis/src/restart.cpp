@@ -143,7 +143,6 @@ void Restart::keep(std::size_t index, const Approach& approach, const LoadStepSo
   const auto& problem = solver.problem();
   const auto& solution = state.solved.solution;
   auto numbers = head_of(approach, state.rows->acts.time, comm_);
-  numbers[head::spent] = solver.spent_before();
   std::vector<double> counts(figure::count);
   counts[figure::steps] = state.solved.steps;
   counts[figure::change] = state.solved.change;

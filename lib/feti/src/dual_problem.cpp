@@ -73,13 +73,10 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
   if (!constraints_.springs.rows.empty()) springs_ = std::make_unique<ElasticRows>(constraints_.springs, *jump_, comm_);
   hessian_ = std::make_unique<DualOperator>(*jump_, system.clusters, context.timers, springs_.get());
   if (options.preconditioner != "none") {
-    collectively(comm_, [&] {
-      const auto kind = options.preconditioner == "lumped" ? Preconditioner::Kind::lumped : Preconditioner::Kind::dirichlet;
-      preconditioner_ =
-          std::make_unique<Preconditioner>(kind, decomposition, *jump_, system.clusters.subdomains(), system.nodal_stiffness,
-                                           options.factorization, context.timers, comm_, springs_.get());
-    });
-    preconditioner_->invert_gram(system.nodal_stiffness, decomposition.catalogue.dimension);
+    const auto kind = options.preconditioner == "lumped" ? Preconditioner::Kind::lumped : Preconditioner::Kind::dirichlet;
+    preconditioner_ =
+        std::make_unique<Preconditioner>(kind, decomposition, *jump_, system.clusters.subdomains(), system.nodal_stiffness,
+                                         options.factorization, context.timers, comm_, springs_.get());
   }
   make_set();
   make_rhs();

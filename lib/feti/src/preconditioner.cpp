@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "base/error.hpp"
 #include "contact_gram.hpp"
 
 namespace mortise::feti {
@@ -91,38 +92,36 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
       timers_(timers)
 {
   const int dimension = dimension_;
-  for (auto& [nodes, members] : by_interface(jump, subdomains, dimension)) {
-    const std::size_t s = members.front();
-    Surface surface;
-    for (const Local node : nodes)
-      for (int c = 0; c < dimension; ++c) surface.unknowns.push_back(dimension * node + c);
-    const auto size = static_cast<int>(surface.unknowns.size());
-    surface.weight.resize(size);
-    for (int i = 0; i < size; ++i)
-      surface.weight[i] =
-          1 / nodal_stiffness[s][static_cast<std::size_t>(surface.unknowns[static_cast<std::size_t>(i)] / dimension)];
-    surface.stiffness = subdomains[s]->original().interface_stiffness(surface.unknowns, kind == Kind::dirichlet, factorization);
-    groups_.push_back({std::move(surface), std::move(members)});
-  }
+  collectively(comm, [&] {
+    for (auto& [nodes, members] : by_interface(jump, subdomains, dimension)) {
+      const std::size_t s = members.front();
+      Surface surface;
+      for (const Local node : nodes)
+        for (int c = 0; c < dimension; ++c) surface.unknowns.push_back(dimension * node + c);
+      const auto size = static_cast<int>(surface.unknowns.size());
+      surface.weight.resize(size);
+      for (int i = 0; i < size; ++i)
+        surface.weight[i] =
+            1 / nodal_stiffness[s][static_cast<std::size_t>(surface.unknowns[static_cast<std::size_t>(i)] / dimension)];
+      surface.stiffness = subdomains[s]->original().interface_stiffness(surface.unknowns, kind == Kind::dirichlet, factorization);
+      groups_.push_back({std::move(surface), std::move(members)});
+    }
+  });
+  gram_ = std::make_unique<ContactGram>(jump_, nodal_stiffness, dimension, comm_);
 }
 
 Preconditioner::~Preconditioner() = default;
 
-void Preconditioner::invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension)
-{
-  gram_ = std::make_unique<ContactGram>(jump_, nodal_stiffness, dimension, comm_);
-}
-
 void Preconditioner::fix(std::span<const Local> fixed)
 {
-  if (gram_) gram_->fix(fixed);
+  gram_->fix(fixed);
 }
 
 double Preconditioner::energy(const Vector& r)
 {
   const auto scope = timers_.scope("preconditioner");
   Vector right(r, Teuchos::Copy);
-  if (gram_) gram_->apply_inverse(right);
+  gram_->apply_inverse(right);
   auto u = jump_.apply_transpose(right);
   double sum = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
@@ -145,7 +144,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
     Vector right(*in, Teuchos::Copy);
-    if (gram_) gram_->apply_inverse(right);
+    gram_->apply_inverse(right);
     auto forces = jump_.apply_transpose(right);
     for (const auto& [surface, members] : groups_)
       for (std::size_t first = 0; first < members.size(); first += block_columns) {
@@ -166,7 +165,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
       }
     Vector result = jump_.apply(forces);
     view(result) += jump_.compliance().cwiseProduct(view(right));
-    if (gram_) gram_->apply_inverse(result);
+    gram_->apply_inverse(result);
     if (springs_) springs_->add_stiffness(1, *in, result);
     const auto extra = jump_.ranges().end - jump_.ranges().extra;
     view(result).segment(jump_.ranges().extra, extra) = view(*in).segment(jump_.ranges().extra, extra);

@@ -93,7 +93,7 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   return quick || work < some_seconds ? Turn::second : Turn::never;
 }
 
-SparseProblem::SparseProblem(const DualProblem& problem) : problem_(problem)
+SparseProblem::SparseProblem(const DualProblem& problem) : problem_(problem), inverse_([this] { return make_inverse(); })
 {
   const auto& comm = problem.communicator();
   const auto& jump = problem.jump();
@@ -120,10 +120,10 @@ SparseProblem::SparseProblem(const DualProblem& problem) : problem_(problem)
   const auto set = rows_->to_root(problem.set());
   SparseMatrix stiffness = stiffness_on_root(false);
   collectively(comm, [&] {
-    if (comm.root())
-      whole_ = std::make_unique<WholeProblem>(std::move(stiffness),
-                                              assembled<WholeProblem::Rows>(entries, problem.dual_unknowns(), unknowns_),
-                                              as_vector(compliance), set);
+    if (!comm.root()) return;
+    elimination_ = std::make_unique<SupportElimination>(
+        assembled<SupportElimination::Rows>(entries, problem.dual_unknowns(), unknowns_), as_vector(compliance), set);
+    whole_ = std::make_unique<WholeProblem>(std::move(stiffness), *elimination_);
   });
 }
 
@@ -216,20 +216,24 @@ SparseProblem::Point SparseProblem::solve(const std::vector<VectorXd>& f, const 
   return result;
 }
 
-void SparseProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
+// F^-1 on rank 0. Collective.
+std::unique_ptr<const WholeInverse> SparseProblem::make_inverse() const
 {
   const auto& comm = problem_.communicator();
-  if (!has_inverse_) {
-    SparseMatrix regularised = stiffness_on_root(true);
-    collectively(comm, [&] {
-      if (comm.root()) whole_->make_inverse(std::move(regularised));
-    });
-    has_inverse_ = true;
-  }
+  SparseMatrix regularised = stiffness_on_root(true);
+  std::unique_ptr<const WholeInverse> inverse;
+  collectively(comm, [&] {
+    if (comm.root()) inverse = std::make_unique<WholeInverse>(std::move(regularised), *elimination_);
+  });
+  return inverse;
+}
+
+void SparseProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const
+{
+  const auto& inverse = inverse_.get();
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     Vector result(problem_.jump().rows());
-    view(result) =
-        rows_->map_on_root(view(*x.getVector(column)), [&](const VectorXd& all) { return whole_->inverse_times(all); });
+    view(result) = rows_->map_on_root(view(*x.getVector(column)), [&](const VectorXd& all) { return inverse->times(all); });
     y.getVectorNonConst(column)->update(alpha, result, beta);
   }
 }

@@ -2,7 +2,6 @@
 // one unknown each.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "base/cholesky.hpp"
@@ -10,12 +9,45 @@
 
 namespace mortise::feti {
 
+/// The rows of B that hold one unknown and have no constraint, an unknown once: they and their unknowns are eliminated.
+class SupportElimination {
+ public:
+  using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+  /// `rows`: B. `compliance`: how far each row gives way. `set` is over the rows.
+  SupportElimination(Rows rows, Eigen::VectorXd compliance, const qp::FeasibleSet& set);
+
+  const Rows& rows() const { return rows_; }                                        ///< all of them
+  const std::vector<int>& free() const { return free_; }                            ///< unknowns that no support holds
+  const std::vector<int>& kept() const { return kept_; }                            ///< rows that are none of these supports
+  Local number(Local row) const { return number_[static_cast<std::size_t>(row)]; }  ///< in kept(); -1 for others
+
+  /// K, given by its lower triangle, and B over free() and kept().
+  qp::SparseMatrices reduced(const SparseMatrix& stiffness) const;
+  qp::FeasibleSet reduced(const qp::FeasibleSet& set) const;
+  /// The unknowns that supports hold, over all unknowns, where their rows are to see these bounds.
+  Eigen::VectorXd held(const Eigen::VectorXd& bounds) const;
+  /// The multipliers of all rows from those of kept(), where supports take up what `forces` lack.
+  Eigen::VectorXd complete(const Eigen::VectorXd& multipliers, const Eigen::VectorXd& forces) const;
+
+ private:
+  // A row that holds one unknown.
+  struct Support {
+    Local row;
+    int unknown;
+    double coefficient;
+  };
+  Rows rows_;
+  Eigen::VectorXd compliance_;
+  std::vector<Support> supports_;
+  std::vector<int> free_, kept_;
+  std::vector<Local> number_;
+};
+
 /// Over all rows of B and all unknowns, which are numbered as the matrices have them. Heavy: neither copies nor moves.
 class WholeProblem {
  public:
-  using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-  /// `stiffness`: K, lower triangle. `compliance`: how far each row gives way.
-  WholeProblem(SparseMatrix stiffness, Rows rows, Eigen::VectorXd compliance, const qp::FeasibleSet& set);
+  /// `stiffness`: K, lower triangle; `elimination` of the same unknowns outlives it.
+  WholeProblem(SparseMatrix stiffness, const SupportElimination& elimination);
 
   struct Solution {
     Eigen::VectorXd x, u;
@@ -28,36 +60,26 @@ class WholeProblem {
   Solution solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const qp::FeasibleSet& set,
                  const Eigen::VectorXd* near = nullptr);
 
-  /// `regularised`: what K^+ is the inverse of, lower triangle. Throws as qp::SparseInverse.
-  void make_inverse(SparseMatrix regularised);
-  /// (B K^+ B' + S)^-1 r, once there is an inverse.
-  Eigen::VectorXd inverse_times(const Eigen::VectorXd& r) const;
+ private:
+  SparseMatrix stiffness_;
+  const SupportElimination& elimination_;
+  qp::SparseNewton newton_;
+  Eigen::VectorXd last_, last_reaction_;  // displacements of the last solution, and the reaction of its kept rows
+};
+
+/// (B K^+ B' + S)^-1. Heavy: moves, does not copy.
+class WholeInverse {
+ public:
+  /// `regularised`: what K^+ is the inverse of, lower triangle; `elimination` of the same unknowns outlives it. Throws as
+  /// qp::SparseInverse.
+  WholeInverse(SparseMatrix regularised, const SupportElimination& elimination);
+  /// Times r.
+  Eigen::VectorXd times(const Eigen::VectorXd& r) const;
 
  private:
-  // A row that holds one unknown.
-  struct Support {
-    Local row;
-    int unknown;
-    double coefficient;
-  };
-
-  void choose_supports(const qp::FeasibleSet& set);
-  qp::SparseMatrices reduced(const SparseMatrix& stiffness) const;
-  qp::FeasibleSet reduced(const qp::FeasibleSet& set) const;
-  Eigen::VectorXd held(const Eigen::VectorXd& bounds) const;
-  Eigen::VectorXd complete(const Eigen::VectorXd& kept, const Eigen::VectorXd& forces) const;
-
-  SparseMatrix stiffness_;
-  Rows rows_;
-  Eigen::VectorXd compliance_;
-  std::vector<Support> supports_;
-  std::vector<int> free_;      // unknowns that no support holds
-  std::vector<int> kept_;      // rows that are none of these,
-  std::vector<Local> number_;  // and their numbers, -1 for others
-  std::unique_ptr<qp::SparseNewton> newton_;
-  Eigen::VectorXd last_, last_reaction_;        // displacements of the last solution, and the reaction of its kept rows
-  SparseMatrix regularised_;                    // what K^+ is the inverse of,
-  std::unique_ptr<qp::SparseInverse> inverse_;  // once F^-1 is asked for
+  SparseMatrix regularised_;
+  const SupportElimination& elimination_;
+  qp::SparseInverse inverse_;
 };
 
 }  // namespace mortise::feti

@@ -39,6 +39,8 @@ std::vector<double> radii(const qp::FeasibleSet& set)
 struct Solver::Run {
   qp::Goal goal;
   qp::Observer watch;
+  std::optional<qp::Patience> patience;
+  StateRecord states;  // of contact nodes
   std::vector<double> bounds, previous_bounds;
   std::optional<qp::Solution> solution;  // at first that of the load step before
   bool solved = false;                   // `solution` is of this load step
@@ -59,13 +61,11 @@ struct Solver::Run {
   }
 };
 
-Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver,
-               std::optional<qp::Patience> patience)
+Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver)
     : problem_(problem),
       laws_(std::move(laws)),
       options_(options),
       tolerance_(solver.tolerance.value),
-      patience_(patience),
       from_direct_(solver.algorithm == "direct"),
       hessian_(problem.hessian(), 0),
       budget_(hessian_, solver.max_multiplications.value, qp::solver_kind(solver.algorithm).steady),
@@ -121,7 +121,7 @@ bool Solver::obeys_law(const qp::Solution& found, const std::vector<double>& bou
 void Solver::follow_cautiously(const qp::Solution* start, Run& run)
 {
   if (hessian_.exhausted()) run.limit = budget_.reason();
-  if (run.converged || patience_ || !budget_.left()) return;
+  if (run.converged || run.patience || !budget_.left()) return;
   budget_.change_algorithm();
   const auto before = radii(problem_.set());
   const qp::SlipLaw law{problem_.set(), [this](const Vector* x) { return slip_bounds(problem_, laws_, x); }, true};
@@ -308,12 +308,12 @@ void Solver::fixed_point(Run& run)
 }
 
 // Everything that a load step needs before its first solve.
-Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy)
+Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy, std::optional<qp::Patience> patience)
 {
-  budget_.start(patience_, tolerance_.value_or(qp::Goal{}.residual));
-  states_ = std::make_unique<StateRecord>();
+  budget_.start(patience, tolerance_.value_or(qp::Goal{}.residual));
   if (problem_.balancing_multipliers()) hessian_.apply(*problem_.balancing_multipliers(), driven_);
   Run run;
+  run.patience = patience;
   if (tolerance_) {
     run.goal.residual = *tolerance_;
   } else {
@@ -331,11 +331,12 @@ Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy)
   return run;
 }
 
-Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer)
+Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer,
+                     std::optional<qp::Patience> patience)
 {
   const bool coulomb = any_coulomb(laws_);
   const int before = hessian_.count();
-  Run run = begin(start, accuracy);
+  Run run = begin(start, accuracy, patience);
   run.watch = [&](const qp::Progress& progress) {
     note(run, progress);
     if (observer) observer(run.step, run.change, progress);
@@ -344,7 +345,7 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   algorithm_->begin(run.solution, run.goal, run.watch);
   if (coulomb) {
     follow_law(run);
-    if (!run.solved || !patience_ || from_direct_) fixed_point(run);  // a few products each, from what A^-1 leads on from
+    if (!run.solved || !patience || from_direct_) fixed_point(run);  // a few products each, from what A^-1 leads on from
     follow_cautiously(start, run);
     const bool spent = !run.limit.empty() || hessian_.exhausted();
     if (run.solved && (run.converged || !spent)) judge_by_law(problem_, laws_, hessian_, *run.solution);
@@ -358,7 +359,7 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   result.steps = run.step;
   result.change = run.change;
   result.converged = run.converged && result.solution.converged;
-  result.gave_up = patience_ && !result.converged && budget_.left();
+  result.gave_up = patience && !result.converged && budget_.left();
   if (!result.converged && hessian_.exhausted())
     result.limit = budget_.reason();
   else if (!result.converged && !run.limit.empty())
@@ -368,19 +369,19 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
   result.applications = hessian_.count() - before;
   result.preconditionings = run.preconditionings;
   result.outer_iterations = run.outer;
-  if (!result.gave_up) report_unresolved_nodes(result);
+  if (!result.gave_up) report_unresolved_nodes(run, result);
   return result;
 }
 
-void Solver::note(const Run& run, const qp::Progress& progress)
+void Solver::note(Run& run, const qp::Progress& progress)
 {
   std::optional<long long> changes;
-  if (progress.point) changes = problem_.communicator().sum(states_->note(states_at(problem_, *progress.point)));
+  if (progress.point) changes = problem_.communicator().sum(run.states.note(states_at(problem_, *progress.point)));
   budget_.note(progress, changes, run.change);
 }
 
 // What the last residual still changes, by the preconditioner. No product.
-void Solver::report_unresolved_nodes(Result& result)
+void Solver::report_unresolved_nodes(const Run& run, Result& result)
 {
   const auto& bonded = problem_.constraints().contacts.bonded;
   const bool any = std::find(bonded.begin(), bonded.end(), false) != bonded.end();
@@ -388,7 +389,7 @@ void Solver::report_unresolved_nodes(Result& result)
   qp::ActiveSetPreconditioner* preconditioner = algorithm_->preconditioner();
   const auto predicted = preconditioner ? predict(problem_, result.solution, *preconditioner) : std::nullopt;
   if (predicted) result.undecided = undecided(problem_, result.solution.x, *predicted);
-  if (!result.converged) result.stuck = stuck(problem_, *states_, result.solution.x, predicted ? &*predicted : nullptr);
+  if (!result.converged) result.stuck = stuck(problem_, run.states, result.solution.x, predicted ? &*predicted : nullptr);
 }
 
 }  // namespace mortise::friction

@@ -254,8 +254,8 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
     options.tolerance.value = 1e-10;
     constexpr int few = 15;
     if (!waiting) options.max_multiplications.value = few;
-    Solver solver(problem, {law}, {1e-9, 50}, options, waiting ? std::optional(few) : std::nullopt);
-    const Result result = solver.solve(nullptr, {}, {});
+    Solver solver(problem, {law}, {1e-9, 50}, options);
+    const Result result = solver.solve(nullptr, {}, {}, waiting ? std::optional<qp::Patience>(few) : std::nullopt);
     EXPECT_FALSE(result.converged);
     EXPECT_EQ(result.gave_up, waiting);
     EXPECT_LE(result.applications, few + 3);

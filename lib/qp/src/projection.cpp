@@ -93,7 +93,8 @@ Projector::Projector(const EqualityConstraint& equality, const FeasibleSet& set)
       set_(set),
       constrained_(set.constrained()),
       columns_(columns_of(equality.local(), constrained_)),
-      matrix_(equality, blocks_of(set, set.has_cones()))
+      matrix_(equality, blocks_of(set, set.has_cones())),
+      trial_matrix_([this] { return CoarseMatrix(equality_, blocks_of(set_, true)); })
 {
 }
 
@@ -289,12 +290,6 @@ Projection Projector::operator()(const Vector& from, const Eigen::VectorXd& star
   result.found = result.residual <= acceptable;
   result.empty = !result.found && least_norm(result.nu, from) > far_away * y.scale;
   return result;
-}
-
-CoarseMatrix& Projector::trial_matrix()
-{
-  if (!trial_matrix_) trial_matrix_ = std::make_unique<CoarseMatrix>(equality_, blocks_of(set_, true));
-  return *trial_matrix_;
 }
 
 Projection project(const Vector& y, const EqualityConstraint& equality, const FeasibleSet& set)

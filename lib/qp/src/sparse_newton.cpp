@@ -84,6 +84,8 @@ SparseInverse::SparseInverse(SparseMatrices matrices) : data_(std::make_unique<D
 }
 
 SparseInverse::~SparseInverse() = default;
+SparseInverse::SparseInverse(SparseInverse&&) noexcept = default;
+SparseInverse& SparseInverse::operator=(SparseInverse&&) noexcept = default;
 
 SparseInverse::Result SparseInverse::solve(const VectorXd& r, const VectorXd& f) const
 {

@@ -2,6 +2,7 @@
 // finds no end.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -39,13 +40,21 @@ struct Approach {
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
                        const Communicator& comm);
 
-/// Whether an error of this approach leads to the next one instead of ending the run: rounding and lack of memory may spoil a
-/// direct solution, and not products with F.
-bool is_tried_again(const Approach& approach, const Error& error);
+/// What an attempt to solve all load steps comes to.
+struct Outcome {
+  std::optional<ExitStatus> status;                      ///< of the run; nothing if another approach is to go on,
+  Approach::Kind next = Approach::Kind::direct_instead;  ///< this one where products gave up
+  int spent = 0;                                         ///< products with F so far, those of earlier approaches included
+  std::exception_ptr error = {};                         ///< what it threw, if it failed in a way that another one may not
+};
 
-/// Solves all load steps by one approach on one decomposition; nothing if it gave up. Adds the products that it takes to
-/// approach.spent, also where it throws. Collective.
-using Attempt = std::function<std::optional<ExitStatus>(const partition::Decomposition&, Approach&)>;
+/// To be called where an exception is handled that an approach threw after so many products with F, those of earlier approaches
+/// included. Rounding and lack of memory may spoil a direct solution, and not products with F: then the outcome of this attempt;
+/// else the exception goes on.
+Outcome failed(const Approach& approach, int spent, const Communicator& comm);
+
+/// Solves all load steps by one approach on one decomposition. Collective.
+using Attempt = std::function<Outcome(const partition::Decomposition&, const Approach&)>;
 
 /// Tries one approach after the other until one does not give up. First what the deck asks for on the decomposition `as_cut`.
 /// Where products with F find no end, large subdomains are cut into small pieces, since the coarse problem of many small ones

@@ -23,16 +23,15 @@ struct StepState {
   friction::Result solved;
   std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
   std::vector<double> shortenings;            ///< of the preloaded contacts, lengths
+  std::optional<qp::Patience> patience;       ///< when the next load step gives up
 };
 
 /// Heavy: neither copies nor moves.
 class LoadStepSolver {
  public:
-  /// Makes the dual problem of the rows `first`. The assembly and the approach outlive it; its destructor brings approach.spent
-  /// up to date. Throws Error(no_equilibrium), naming the body and its motion, if loads drive a body that nothing holds.
-  /// Collective.
-  LoadStepSolver(const Assembly& assembly, Rows first, Approach& approach, const Context& context);
-  ~LoadStepSolver() { approach_.spent = applications(); }
+  /// Makes the dual problem of the rows `first`. The assembly outlives it. Throws Error(no_equilibrium), naming the body and its
+  /// motion, if loads drive a body that nothing holds. Collective.
+  LoadStepSolver(const Assembly& assembly, Rows first, Approach approach, const Context& context);
   LoadStepSolver(const LoadStepSolver&) = delete;
   LoadStepSolver& operator=(const LoadStepSolver&) = delete;
 
@@ -52,8 +51,6 @@ class LoadStepSolver {
   const post::Rounding& rounding_before() const { return rounding_before_; }
   /// ||B'lambda||, the largest of the states before.
   double largest_force_before() const { return largest_force_; }
-  /// Products with F of the earlier approaches.
-  int spent_before() const { return spent_before_; }
   /// Products with F of all load steps and of the earlier approaches, also of a load step that threw.
   int applications() const { return before_ + (solver_ ? solver_->applications() : 0); }
 
@@ -73,8 +70,7 @@ class LoadStepSolver {
 
   const Assembly& assembly_;
   const Context& context_;
-  Approach& approach_;
-  const int spent_before_;
+  const Approach approach_;
   std::shared_ptr<const Rows> rows_;  // of the problem
   std::shared_ptr<const SymmetricNodes> symmetric_;
   std::unique_ptr<feti::DualProblem> problem_;

@@ -30,13 +30,11 @@ class Preconditioner : public qp::ActiveSetPreconditioner {
  public:
   enum class Kind { lumped, dirichlet };
   /// nodal_stiffness[s][n]: D. `factorization`: of K_ii, by a solver of DirectSolver's. `springs`: null if there are none. Throws
-  /// as DirectSolver.
+  /// as DirectSolver. Collective.
   Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
                  const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization, Timers& timers,
                  const Communicator& comm, const ElasticRows* springs = nullptr);
   ~Preconditioner() override;
-  /// Computes B D^-1 B' on the contact rows; without this C is the identity. Collective.
-  void invert_gram(const std::vector<std::vector<double>>& nodal_stiffness, int dimension);
 
   /// As ActiveSetPreconditioner has it: the inverse of B D^-1 B' is that of the contact rows that stay free. Collective.
   void fix(std::span<const Local> fixed) override;
@@ -63,7 +61,7 @@ class Preconditioner : public qp::ActiveSetPreconditioner {
     std::vector<std::size_t> members;  // copies of one subdomain, and alike in which nodes are touched
   };
   std::vector<Group> groups_;
-  std::unique_ptr<ContactGram> gram_;  // B D^-1 B' of the contact rows; null: the identity
+  std::unique_ptr<ContactGram> gram_;  // B D^-1 B' of the contact rows
   const ElasticRows* springs_;         // null if there are none
   const Communicator& comm_;
   Timers& timers_;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/cholesky.hpp"
+#include "base/lazy.hpp"
 #include "feti/dual_problem.hpp"
 #include "qp/solver.hpp"
 #include "qp/sparse_newton.hpp"
@@ -21,6 +22,8 @@ double work_of_dense_solution(double free, double closing);
 double work_of_sparse_solution(double entries, double unknowns);
 
 class RowsOnRoot;
+class SupportElimination;
+class WholeInverse;
 class WholeProblem;
 
 /// K and B of all subdomains as sparse matrices on rank 0. As an operator it is F^-1, by a sparse factor of its own. Heavy:
@@ -54,15 +57,18 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
 
  private:
   SparseMatrix stiffness_on_root(bool regularised) const;
+  std::unique_ptr<const WholeInverse> make_inverse() const;
   Eigen::VectorXd on_root(const std::vector<Eigen::VectorXd>& parts) const;
   Point solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const Vector* near) const;
 
   const DualProblem& problem_;
   std::unique_ptr<const RowsOnRoot> rows_;
-  std::vector<int> offset_;              // of the unknowns of this rank's subdomains among all; one past the last
-  int unknowns_ = 0;                     // of all ranks
-  std::unique_ptr<WholeProblem> whole_;  // rank 0
-  mutable bool has_inverse_ = false;
+  std::vector<int> offset_;  // of the unknowns of this rank's subdomains among all; one past the last
+  int unknowns_ = 0;         // of all ranks
+  // On rank 0:
+  std::unique_ptr<const SupportElimination> elimination_;
+  std::unique_ptr<WholeProblem> whole_;
+  Lazy<std::unique_ptr<const WholeInverse>> inverse_;  // a factor as large as K's, for those who go on from a solution
 };
 
 }  // namespace mortise::feti

@@ -51,31 +51,27 @@ struct Accuracy {
   double negligible = 0;         ///< see qp::Goal
 };
 
-class StateRecord;
-
 /// A sequence of load steps on one dual problem, which may get other right-hand sides between them: recycled directions stay.
 class Solver {
  public:
-  /// The problem outlives it. laws[c]: of contact c. `patience`: when each solve gives up in favour of another approach; with
-  /// one, a solve also gives up where its algorithm makes no more progress. Collective.
-  Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver,
-         std::optional<qp::Patience> patience = {});
+  /// The problem outlives it. laws[c]: of contact c. Collective.
+  Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options& options, const qp::Options& solver);
   ~Solver();
-  /// From now on no solve gives up in favour of another approach.
-  void be_patient() { patience_.reset(); }
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
   /// Solves for the multipliers, to the tolerance of the solver's options or, where that is auto, to the allowed error; from
-  /// `start`, the solution of the step before, if there is one. Throws Error(no_equilibrium) that names the body that moves and
-  /// how. Collective.
-  Result solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer);
+  /// `start`, the solution of the step before, if there is one. `patience`: when it gives up in favour of another approach; with
+  /// one, it also gives up where its algorithm makes no more progress. Throws Error(no_equilibrium) that names the body that
+  /// moves and how. Collective.
+  Result solve(const qp::Solution* start, const Accuracy& accuracy, const Observer& observer,
+               std::optional<qp::Patience> patience = {});
   /// Products with F of all solves, also of one that threw.
   int applications() const { return hessian_.count(); }
 
  private:
   struct Run;
-  Run begin(const qp::Solution* start, const Accuracy& accuracy);
+  Run begin(const qp::Solution* start, const Accuracy& accuracy, std::optional<qp::Patience> patience);
   void follow_law(Run& run);
   void follow_cautiously(const qp::Solution* start, Run& run);
   bool obeys_law(const qp::Solution& found, const std::vector<double>& bounds, double change, const Run& run) const;
@@ -87,18 +83,16 @@ class Solver {
   double change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const;
   void admit(Run& run);
   void fixed_point(Run& run);
-  void note(const Run& run, const qp::Progress& progress);
-  void report_unresolved_nodes(Result& result);
+  void note(Run& run, const qp::Progress& progress);
+  void report_unresolved_nodes(const Run& run, Result& result);
 
   feti::DualProblem& problem_;
   std::vector<Law> laws_;
   Options options_;
   std::optional<double> tolerance_;  // of the residual; without one the error decides
-  std::optional<qp::Patience> patience_;
   bool from_direct_;  // a direct solution is where all begins
   qp::Hessian hessian_;
   qp::Budget budget_;
-  std::unique_ptr<StateRecord> states_;
   Vector driven_;
   qp::Problem programme_;
   std::unique_ptr<qp::Solver> algorithm_;

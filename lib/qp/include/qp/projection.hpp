@@ -1,6 +1,7 @@
 // The exact projection onto C = {x : G x = e} intersected with Omega: everything about feasibility that needs no product with A.
 #pragma once
 
+#include "base/lazy.hpp"
 #include "qp/coarse_matrix.hpp"
 
 namespace mortise::qp {
@@ -33,7 +34,7 @@ class Projector {
   /// The matrix G D G', which a caller may factorize for its own purposes between two projections.
   CoarseMatrix& matrix() { return matrix_; }
   /// A second one, in which discs are downdated together with their normal unknowns; made at the first call. Collective.
-  CoarseMatrix& trial_matrix();
+  CoarseMatrix& trial_matrix() { return trial_matrix_.get(); }
   const EqualityConstraint& equality() const { return equality_; }
   const FeasibleSet& set() const { return set_; }
 
@@ -52,7 +53,7 @@ class Projector {
   std::vector<Local> constrained_;  // unknowns of this rank
   SparseMatrix columns_;            // G over them
   CoarseMatrix matrix_;
-  std::unique_ptr<CoarseMatrix> trial_matrix_;
+  Lazy<CoarseMatrix> trial_matrix_;
 };
 
 /// The point of C nearest to y, by a projector for this one use. Collective.

@@ -38,12 +38,14 @@ class SparseNewton {
   SparseMatrices matrices_;
 };
 
-/// (B K^-1 B' + S)^-1 for a positive definite K. Heavy: neither copies nor moves.
+/// (B K^-1 B' + S)^-1 for a positive definite K. Heavy: moves, does not copy.
 class SparseInverse {
  public:
   /// Throws Error(not_converged) if K is not positive definite to rounding.
   explicit SparseInverse(SparseMatrices matrices);
   ~SparseInverse();
+  SparseInverse(SparseInverse&&) noexcept;
+  SparseInverse& operator=(SparseInverse&&) noexcept;
 
   /// x with B u + S x = r, K u = f + B'x; returns u, too.
   struct Result {
