@@ -164,20 +164,16 @@ void Restart::keep(std::size_t index, const Approach& approach, const LoadStepSo
   const auto rows = problem.jump().rows()->getNodeElementList();
   multipliers.row.assign(rows.begin(), rows.end());
   multipliers.values.assign(own.data(), own.data() + own.size());
-  const auto discs = problem.set().discs();
-  const auto count = static_cast<long long>(discs.size());
-  io::Table radii{"dual/slip_bounds", "of the tangential multipliers", 1, comm_.sum(count), {}, {}};
-  Global row = comm_.offset(count);
-  for (const auto& disc : discs) {
-    radii.row.push_back(row++);
-    radii.values.push_back(disc.radius);
-  }
+  const auto count = static_cast<long long>(state.solved.slip_bounds.size());
+  io::Table bounds{"dual/slip_bounds", "of tangential forces", 1, comm_.sum(count), {}, state.solved.slip_bounds};
+  const Global first = comm_.offset(count);
+  for (Global row = first; row < first + count; ++row) bounds.row.push_back(row);
   const std::vector<double> nu(solution.nu.begin(), solution.nu.end()),
       augmented(solution.augmented.begin(), solution.augmented.end());
   io::write_results(path(index),
                     {column("restart/run", "ranks, time, approach, figures of the solution", numbers, comm_),
                      column("restart/kernel", "multipliers of the equality constraints", nu, comm_),
-                     column("restart/augmented", "those of the augmented Lagrangian", augmented, comm_), multipliers, radii},
+                     column("restart/augmented", "those of the augmented Lagrangian", augmented, comm_), multipliers, bounds},
                     comm_);
 }
 
@@ -188,24 +184,23 @@ void Restart::remove() const
   for (std::size_t index = 1; fs::remove(path(index), ignored);) ++index;
 }
 
-friction::Result solution_of(const Record& record, feti::DualProblem& problem)
+friction::Result solution_of(const Record& record, const feti::DualProblem& problem)
 {
   const auto& comm = problem.communicator();
   const auto discs = static_cast<long long>(problem.set().discs().size());
   const auto all_discs = comm.sum(discs);
-  std::vector<double> multipliers, radii, nu, augmented;
+  std::vector<double> multipliers, bounds, nu, augmented;
   collectively(comm, [&] {
     multipliers = io::read_table(record.file, "dual/multipliers");
-    radii = io::read_table(record.file, "dual/slip_bounds");
+    bounds = io::read_table(record.file, "dual/slip_bounds");
     nu = io::read_table(record.file, "restart/kernel");
     augmented = io::read_table(record.file, "restart/augmented");
     if (static_cast<Global>(multipliers.size()) != problem.dual_unknowns() ||
-        static_cast<Eigen::Index>(nu.size()) != problem.equality().size() || static_cast<long long>(radii.size()) != all_discs)
+        static_cast<Eigen::Index>(nu.size()) != problem.equality().size() || static_cast<long long>(bounds.size()) != all_discs)
       throw Error(ExitStatus::bad_input,
                   "--resume: the mesh or its subdomains are not those of the run that was ended; run the deck without it");
   });
-  const auto first = static_cast<std::size_t>(comm.offset(discs));
-  problem.set().set_radii(std::span(radii).subspan(first, static_cast<std::size_t>(discs)));
+  const auto own_bounds = bounds.begin() + static_cast<std::ptrdiff_t>(comm.offset(discs));
   Vector x(problem.jump().rows());
   {
     auto own = view(x);
@@ -230,7 +225,7 @@ friction::Result solution_of(const Record& record, feti::DualProblem& problem)
   solution.hessian_norm = record.counts[figure::hessian_norm];
   solution.precision = record.counts[figure::precision];
   solution.augmented = Eigen::Map<const Eigen::VectorXd>(augmented.data(), static_cast<Eigen::Index>(augmented.size()));
-  friction::Result result{std::move(solution)};
+  friction::Result result{std::move(solution), {own_bounds, own_bounds + static_cast<std::ptrdiff_t>(discs)}};
   result.converged = true;
   result.steps = static_cast<int>(record.counts[figure::steps]);
   result.change = record.counts[figure::change];

@@ -265,10 +265,11 @@ Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
   return jump_->jumps(u);
 }
 
-double DualProblem::slip_bound(std::size_t point) const
+std::vector<double> DualProblem::slip_bounds(const qp::FeasibleSet& set) const
 {
-  const auto& rows = node_rows_[point];
-  return rows.disc < 0 ? 0.0 : jump_->force(rows.normal, set_.discs()[static_cast<std::size_t>(rows.disc)].radius);
+  std::vector<double> forces;
+  for (const auto& disc : set.discs()) forces.push_back(jump_->force(disc.normal, disc.radius));
+  return forces;
 }
 
 std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const

@@ -107,7 +107,7 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
   const auto& g = problem.equality().local();
   const auto parts = parts_on_root(*elimination_, problem.jump().blocks().size(), comm);
   const auto columns = columns_on_root(*elimination_, g, comm);
-  const qp::FeasibleSet set = rows_->to_root(problem.set());
+  const auto set = rows_->to_root(problem.set());
   const auto giving = compliance_on_root(*elimination_, problem.jump(), comm);
   const auto* springs = problem.springs();
   const auto spring_rows = springs ? rows_of_springs(*elimination_, *springs) : std::vector<int>();
@@ -141,14 +141,15 @@ void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
   }
 }
 
-ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::VectorXd e, const Point* near) const
+ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::VectorXd e, const qp::FeasibleSet& set,
+                                              const Point* near) const
 {
   const auto& comm = problem_.communicator();
   const Eigen::VectorXd right_side = e;
   const auto reduced = rows_->to_root(view(elimination_->reduce(linear, e)));
   const auto start = near ? rows_->to_root(view(near->x)) : std::vector<double>();
   const auto felt = near ? rows_->to_root(view(*near->reaction)) : std::vector<double>();
-  const qp::FeasibleSet set = rows_->to_root(problem_.set());
+  const auto on_root = rows_->to_root(set);
   const auto map = [](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   };
@@ -158,7 +159,7 @@ ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::Vecto
     if (!comm.root()) return;
     qp::CondensedNewton::Point from;
     if (near) from = {map(start), near->nu, true, 0, map(felt)};
-    const auto found = newton_->solve(map(reduced), e, set, near ? &from : nullptr);
+    const auto found = newton_->solve(map(reduced), e, on_root, near ? &from : nullptr);
     x.assign(found.x.begin(), found.x.end());
     nu.assign(found.nu.begin(), found.nu.end());
     reaction.assign(found.reaction.begin(), found.reaction.end());

@@ -14,10 +14,10 @@ qp::ExplicitProgramme sparse_programme(const DualProblem& problem)
 {
   using Point = qp::ExplicitProgramme::Point;
   const auto matrices = std::make_shared<SparseProblem>(problem);
-  const auto go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const Point& near) {
-    return matrices->go_on(linear, e, near.x);
+  const auto go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set, const Point& near) {
+    return matrices->go_on(linear, e, set, near.x);
   };
-  return {matrices, [matrices] { return matrices->solve(); }, go_on, true};
+  return {matrices, [matrices](const qp::FeasibleSet& set) { return matrices->solve(set); }, go_on, true};
 }
 
 }  // namespace
@@ -30,9 +30,9 @@ qp::Means means_of(DualProblem& problem, qp::Budget& budget)
     if (turn == SparseProblem::Turn::first) return sparse_programme(problem);
     const auto matrices = std::make_shared<ExplicitProblem>(problem);
     using Point = qp::ExplicitProgramme::Point;
-    qp::ExplicitProgramme programme{matrices, [matrices] { return matrices->solve(); }};
-    programme.go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const Point& near) {
-      return matrices->solve(linear, e, &near);
+    qp::ExplicitProgramme programme{matrices, [matrices](const qp::FeasibleSet& set) { return matrices->solve(set); }};
+    programme.go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set, const Point& near) {
+      return matrices->solve(linear, e, set, &near);
     };
     programme.differs = matrices->differs();
     if (turn == SparseProblem::Turn::second) programme.instead = [&problem] { return sparse_programme(problem); };

@@ -160,13 +160,14 @@ VectorXd SparseProblem::on_root(const std::vector<VectorXd>& parts) const
   return as_vector(feti::on_root(std::move(own), problem_.communicator()));
 }
 
-SparseProblem::Point SparseProblem::solve() const
+SparseProblem::Point SparseProblem::solve(const qp::FeasibleSet& set) const
 {
-  return solve(problem_.load(), problem_.bound(), nullptr);
+  return solve(problem_.load(), problem_.bound(), set, nullptr);
 }
 
 // Forces R de move bodies and nothing else: c' = c + d - d' + B K^+ R de.
-SparseProblem::Point SparseProblem::go_on(const Vector& linear, const VectorXd& e, const Vector& near) const
+SparseProblem::Point SparseProblem::go_on(const Vector& linear, const VectorXd& e, const qp::FeasibleSet& set,
+                                          const Vector& near) const
 {
   const auto& clusters = problem_.clusters();
   const VectorXd more = e - problem_.equality().right_side();
@@ -178,21 +179,22 @@ SparseProblem::Point SparseProblem::go_on(const Vector& linear, const VectorXd& 
   clusters.apply_inverse(push);
   const Vector moved = problem_.jump().apply(push);
   const VectorXd bound = problem_.bound() + view(problem_.linear()) - view(linear) + view(moved);
-  return solve(f, bound, &near);
+  return solve(f, bound, set, &near);
 }
 
-SparseProblem::Point SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const Vector* near) const
+SparseProblem::Point SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const qp::FeasibleSet& set,
+                                          const Vector* near) const
 {
   const auto& comm = problem_.communicator();
   const VectorXd load = on_root(f);
   const auto c = rows_->to_root(bound), start = near ? rows_->to_root(view(*near)) : std::vector<double>();
-  const auto set = rows_->to_root(problem_.set());
+  const auto set_on_root = rows_->to_root(set);
   std::vector<double> x, u, reaction;
   std::vector<long long> outcome;
   collectively(comm, [&] {
     if (!comm.root()) return;
     const VectorXd from = as_vector(start);
-    const auto found = whole_->solve(load, as_vector(c), set, near ? &from : nullptr);
+    const auto found = whole_->solve(load, as_vector(c), set_on_root, near ? &from : nullptr);
     x.assign(found.x.begin(), found.x.end());
     u.assign(found.u.begin(), found.u.end());
     reaction.assign(found.reaction.begin(), found.reaction.end());

@@ -171,10 +171,10 @@ TEST_P(Varied, SolvesAsWithoutElimination)
   const Stack stack(Point(1, 0.5, -10), pieces, variant);
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
-  auto& set = problem.set();
+  auto set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
-  const auto found = ExplicitProblem(problem, 0).solve();
+  const auto found = ExplicitProblem(problem, 0).solve(set);
   ASSERT_TRUE(found.converged);
 
   const Dense dense(problem);
@@ -196,14 +196,14 @@ TEST_P(Varied, SolvesAsWithSparseMatrices)
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
   EXPECT_EQ(SparseProblem::turn(problem), SparseProblem::Turn::second);  // so few rows
-  auto& set = problem.set();
+  auto set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
   const SparseProblem sparse(problem);
-  const auto found = sparse.solve();
+  const auto found = sparse.solve(set);
   ASSERT_TRUE(found.converged);
   const ExplicitProblem direct(problem);
-  const auto expected = direct.solve();
+  const auto expected = direct.solve(set);
   ASSERT_TRUE(expected.converged);
   const auto expect_near = [](const Vector& a, const Vector& b) {
     Vector difference(a, Teuchos::Copy);
@@ -222,9 +222,9 @@ TEST_P(Varied, SolvesAsWithSparseMatrices)
   Vector linear(problem.linear(), Teuchos::Copy);
   linear.update(1e-3, in, 1);
   const Eigen::VectorXd e = problem.equality().right_side().array() + 1e-3;
-  const auto next = sparse.go_on(linear, e, found.x);
+  const auto next = sparse.go_on(linear, e, set, found.x);
   EXPECT_TRUE(next.converged);
-  expect_near(next.x, direct.solve(linear, e).x);
+  expect_near(next.x, direct.solve(linear, e, set).x);
 }
 
 class Directly : public testing::TestWithParam<std::pair<double, int>> {};
@@ -238,12 +238,12 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
   const Stack stack(Point(push, 0, -10), pieces);
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
-  auto& set = problem.set();
+  auto set = problem.set();
   ASSERT_EQ(stack.comm.sum(static_cast<long long>(set.discs().size())), 16);
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
   const ExplicitProblem direct(problem);
-  const auto found = direct.solve();
+  const auto found = direct.solve(set);
   ASSERT_TRUE(found.converged);
 
   // Coulomb's law: within cones; and with the radii that it gives it is the one solution of a problem with fixed radii.
@@ -276,9 +276,9 @@ TEST(ExplicitProblem, SaysWhereNothingBalancesTheLoads)
   const Stack stack(Point(4.5, 0, -10), 1);  // friction holds 4
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
-  auto& set = problem.set();
+  auto set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
-  EXPECT_FALSE(ExplicitProblem(problem).solve().converged);
+  EXPECT_FALSE(ExplicitProblem(problem).solve(set).converged);
 }
 
 }  // namespace

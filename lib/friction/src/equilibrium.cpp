@@ -34,12 +34,23 @@ void nothing_found(const feti::DualProblem& problem, const qp::FeasibleSet& set,
   no_equilibrium(problem, nearest.empty ? nearest.nu : escape, fall_short(nearest));
 }
 
-void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::Hessian& hessian, qp::Solution& solution)
+namespace {
+
+qp::FeasibleSet with_radii(qp::FeasibleSet set, const std::vector<double>& radii)
 {
-  const qp::Projection nearest = qp::project(solution.x, problem.equality(), problem.set().with_cones());
+  set.set_radii(radii);
+  return set;
+}
+
+}  // namespace
+
+void judge_by_law(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws,
+                  qp::Hessian& hessian, qp::Solution& solution)
+{
+  const qp::Projection nearest = qp::project(solution.x, problem.equality(), set.with_cones());
   if (nearest.empty) {  // with bounds that are given bodies slide; along the edge of a cone they would also lift
-    problem.set().set_radii(slip_bounds(problem, laws, &solution.x));
-    const qp::Projection given = qp::project(solution.x, problem.equality(), problem.set());
+    const auto of_forces = with_radii(set, slip_bounds(problem, laws, &solution.x));
+    const qp::Projection given = qp::project(solution.x, problem.equality(), of_forces);
     no_equilibrium(problem, given.empty ? given.nu : nearest.nu, true);
   }
   Vector beyond(solution.x, Teuchos::Copy), product(beyond.getMap());
@@ -48,39 +59,39 @@ void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::
   solution.error += std::sqrt(std::max(beyond.dot(product), 0.0));
 }
 
-bool balances(const feti::DualProblem& problem, const std::vector<double>& bounds, const Vector& x)
+bool balances(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<double>& bounds, const Vector& x)
 {
   constexpr double rounding = 1e-3;
   auto larger = bounds;
   for (auto& bound : larger) bound *= 1 + rounding;
-  qp::FeasibleSet given = problem.set();
-  given.set_radii(larger);
-  return !qp::project(x, problem.equality(), given).empty;
+  return !qp::project(x, problem.equality(), with_radii(set, larger)).empty;
 }
 
 namespace {
 
 // Throws if bounds that are larger than those at x by a part do not balance the loads.
-void refuse_if_short(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x, double short_of)
+void refuse_if_short(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws, const Vector& x,
+                     double short_of)
 {
   auto larger = slip_bounds(problem, laws, &x);
   for (auto& bound : larger) bound *= 1 + short_of;
-  problem.set().set_radii(larger);
-  const qp::Projection nearest = qp::project(x, problem.equality(), problem.set());
+  const qp::Projection nearest = qp::project(x, problem.equality(), with_radii(set, larger));
   if (nearest.empty) no_equilibrium(problem, nearest.nu, true);
 }
 
 }  // namespace
 
-void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x, double response)
+void refuse_if_far(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws, const Vector& x,
+                   double response)
 {
   constexpr double little = 0.3;  // of an answer
-  refuse_if_short(problem, laws, x, response < little ? 2e-3 : 0.05);
+  refuse_if_short(problem, set, laws, x, response < little ? 2e-3 : 0.05);
 }
 
-void refuse_if_sliding(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x)
+void refuse_if_sliding(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws,
+                       const Vector& x)
 {
-  refuse_if_short(problem, laws, x, 1e-4);
+  refuse_if_short(problem, set, laws, x, 1e-4);
 }
 
 }  // namespace mortise::friction

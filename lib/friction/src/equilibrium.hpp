@@ -1,4 +1,4 @@
-// Whether forces within the law of friction balance the loads at all.
+// Whether forces within the law of friction balance the loads at all. Each `set` is Omega with the law's coefficients.
 #pragma once
 
 #include "friction/law.hpp"
@@ -22,20 +22,23 @@ bool fall_short(const qp::Projection& nearest);
 
 /// Forces that bounds just allowed may be more than the law allows, by what bounds and normal forces still differ by. That counts
 /// as error; and where no forces within the law balance the loads there is no equilibrium, however little they lack. One product.
-/// Throws as no_equilibrium(). Changes radii. Collective.
-void judge_by_law(feti::DualProblem& problem, const std::vector<Law>& laws, qp::Hessian& hessian, qp::Solution& solution);
+/// Throws as no_equilibrium(). Collective.
+void judge_by_law(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws,
+                  qp::Hessian& hessian, qp::Solution& solution);
 
 /// Where forces within the law balance the loads, but those that the bodies' stiffness asks for never do: throws as
 /// no_equilibrium() if those at x fall short by more than 5 %, or where the normal forces hardly answer to the bounds by more
-/// than 0.2 %: `response` is the part of a change of bounds that their answer changes by. Changes radii. Collective.
-void refuse_if_far(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x, double response);
+/// than 0.2 %: `response` is the part of a change of bounds that their answer changes by. Collective.
+void refuse_if_far(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws, const Vector& x,
+                   double response);
 
 /// Throws as no_equilibrium() if bodies slide on for ever with the forces x (qp::Solution::slides), whose normal forces slip
-/// changes no more, and friction falls short by more than a ten-thousandth. Changes radii. Collective.
-void refuse_if_sliding(feti::DualProblem& problem, const std::vector<Law>& laws, const Vector& x);
+/// changes no more, and friction falls short by more than a ten-thousandth. Collective.
+void refuse_if_sliding(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws,
+                       const Vector& x);
 
 /// Whether slip bounds leave forces that balance the loads, to a thousandth. What a solution at other bounds would still change
 /// by does not tell it: where all slips, no stiffness resists. Collective.
-bool balances(const feti::DualProblem& problem, const std::vector<double>& bounds, const Vector& x);
+bool balances(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<double>& bounds, const Vector& x);
 
 }  // namespace mortise::friction

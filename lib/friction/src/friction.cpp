@@ -70,10 +70,10 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
       hessian_(problem.hessian(), 0),
       budget_(hessian_, solver.max_multiplications.value, qp::solver_kind(solver.algorithm).steady),
       driven_(problem.linear().getMap()),
-      programme_{hessian_, problem.linear(), problem.equality(), problem.set(),
-                 problem.balancing_multipliers() ? &driven_ : nullptr}
+      set_(problem.set()),
+      programme_{hessian_, problem.linear(), problem.equality(), set_, problem.balancing_multipliers() ? &driven_ : nullptr}
 {
-  problem.set().set_coefficients(coefficients(problem, laws_));
+  set_.set_coefficients(coefficients(problem, laws_));
   algorithm_ = qp::solver_kind(solver.algorithm).make(programme_, feti::means_of(problem, budget_));
 }
 
@@ -91,11 +91,11 @@ double Solver::change_of_bounds(const std::vector<double>& wanted, const std::ve
 // Bounds and forces together, if the algorithm can. Where that does not converge, the fixed point goes on from there.
 void Solver::follow_law(Run& run)
 {
-  const qp::SlipLaw law{problem_.set(), [this](const Vector* x) { return slip_bounds(problem_, laws_, x); }};
+  const qp::SlipLaw law{set_, [this](const Vector* x) { return friction::slip_bounds(problem_, laws_, x); }};
   run.step = 1;
   auto found = algorithm_->solve(law, run.solution, run.goal, run.watch);
   if (found && found->slides) {
-    refuse_if_sliding(problem_, laws_, found->x);
+    refuse_if_sliding(problem_, set_, laws_, found->x);
     found = algorithm_->solve(law, run.solution, run.goal, run.watch);
   }
   if (!found) {
@@ -104,8 +104,8 @@ void Solver::follow_law(Run& run)
   }
   run.count(*found);
   if (!found->feasible) return;
-  run.bounds = slip_bounds(problem_, laws_, &found->x);
-  run.change = change_of_bounds(run.bounds, radii(problem_.set()), *found);
+  run.bounds = friction::slip_bounds(problem_, laws_, &found->x);
+  run.change = change_of_bounds(run.bounds, radii(set_), *found);
   run.converged = obeys_law(*found, run.bounds, run.change, run);
   run.solution = std::move(found);
   run.solved = true;
@@ -114,7 +114,7 @@ void Solver::follow_law(Run& run)
 // Of bounds and forces that were found together. Where the error decides, what the bounds would still change counts in it.
 bool Solver::obeys_law(const qp::Solution& found, const std::vector<double>& bounds, double change, const Run& run) const
 {
-  return found.converged && (run.goal.allowed_error || change <= options_.tolerance) && balances(problem_, bounds, found.x);
+  return found.converged && (run.goal.allowed_error || change <= options_.tolerance) && balances(problem_, set_, bounds, found.x);
 }
 
 // Once more together from the beginning, where neither that nor the fixed point converges, by steps that may be shortened.
@@ -123,16 +123,16 @@ void Solver::follow_cautiously(const qp::Solution* start, Run& run)
   if (hessian_.exhausted()) run.limit = budget_.reason();
   if (run.converged || run.patience || !budget_.left()) return;
   budget_.change_algorithm();
-  const auto before = radii(problem_.set());
-  const qp::SlipLaw law{problem_.set(), [this](const Vector* x) { return slip_bounds(problem_, laws_, x); }, true};
+  const auto before = radii(set_);
+  const qp::SlipLaw law{set_, [this](const Vector* x) { return friction::slip_bounds(problem_, laws_, x); }, true};
   std::optional<qp::Solution> from;
   if (start) from = *start;
   auto found = algorithm_->solve(law, from, run.goal, run.watch);
   if (!found) return;
   run.count(*found);
   if (found->feasible) {
-    auto bounds = slip_bounds(problem_, laws_, &found->x);
-    const double change = change_of_bounds(bounds, radii(problem_.set()), *found);
+    auto bounds = friction::slip_bounds(problem_, laws_, &found->x);
+    const double change = change_of_bounds(bounds, radii(set_), *found);
     if (obeys_law(*found, bounds, change, run)) {
       run.bounds = std::move(bounds);
       run.change = change;
@@ -141,13 +141,13 @@ void Solver::follow_cautiously(const qp::Solution* start, Run& run)
       return;
     }
   }
-  problem_.set().set_radii(before);
+  set_.set_radii(before);
 }
 
 // One Tresca problem; false if it is infeasible.
 bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
 {
-  problem_.set().set_radii(run.bounds);
+  set_.set_radii(run.bounds);
   auto next = algorithm_->solve(run.solution, goal, run.watch);
   if (!next.feasible) {
     run.escape = next.nu;
@@ -167,7 +167,7 @@ bool Solver::contacts_at_rest(const Run& run)
   const auto& goal = run.goal;
   qp::ActiveSetPreconditioner* preconditioner = algorithm_->preconditioner();
   if (goal.contact_converged && preconditioner) {
-    const auto predicted = predict(problem_, solution, *preconditioner);
+    const auto predicted = predict(problem_, set_, solution, *preconditioner);
     if (predicted && !goal.contact_converged(solution.x, predicted->argument, predicted->change)) return false;
   }
   return !goal.incompatibility || goal.incompatibility(solution.x, solution.nu) <= qp::Goal::nearly_compatible;
@@ -183,7 +183,7 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
                           run.goal);
   solution.error += error_of_bounds(wanted, run);
   if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu) &&
-      qp::fits(solution, run.goal) && balances(problem_, wanted, solution.x) && contacts_at_rest(run))
+      qp::fits(solution, run.goal) && balances(problem_, set_, wanted, solution.x) && contacts_at_rest(run))
     return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
@@ -218,7 +218,7 @@ double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run
   {
     const auto x = view(std::as_const(run.solution->x));
     auto to = view(moved);
-    const auto discs = problem_.set().discs();
+    const auto discs = set_.discs();
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const Eigen::Vector2d at = qp::from_centre(discs[i], x);
       if (!std::isfinite(wanted[i]) || !std::isfinite(run.bounds[i]) || at.norm() < 0.99 * run.bounds[i] || at.norm() == 0)
@@ -240,11 +240,11 @@ void Solver::admit(Run& run)
 {
   constexpr double room = 1 + 1e-6;
   constexpr double balanced = 1e-6;  // of all forces: what a search that does not converge may leave
-  const qp::FeasibleSet cones = problem_.set().with_cones();
+  const qp::FeasibleSet cones = set_.with_cones();
   const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), cones);
   if (!nearest.found && nearest.residual > balanced)
     no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, fall_short(nearest));
-  run.bounds = slip_bounds(problem_, laws_, &nearest.point);
+  run.bounds = friction::slip_bounds(problem_, laws_, &nearest.point);
   for (auto& bound : run.bounds) bound *= room;
 }
 
@@ -271,13 +271,13 @@ void Solver::fixed_point(Run& run)
                                  : std::max(tightest, std::min(qp::tolerances::loosest, 0.1 * strictness * run.least_change));
     const bool first = !run.solved;
     if (!solve_tresca({tolerance}, run)) {
-      if (!run.solved) nothing_found(problem_, problem_.set().with_cones(), run.escape, run.proven);
+      if (!run.solved) nothing_found(problem_, set_.with_cones(), run.escape, run.proven);
       // Bounds fell ever faster until they were too small, and did so again from those that are surely enough.
       if (infeasible == 0 && relaxation.growing() >= steps_of_fall && ++falls >= most_falls)
-        refuse_if_far(problem_, laws_, run.solution->x, run.response);
-      problem_.set().set_radii(run.bounds);
+        refuse_if_far(problem_, set_, laws_, run.solution->x, run.response);
+      set_.set_radii(run.bounds);
       if (++failures > most_failures || run.step >= options_.max_steps) {
-        refuse_if_far(problem_, laws_, run.solution->x, run.response);
+        refuse_if_far(problem_, set_, laws_, run.solution->x, run.response);
         return;
       }
       // Bounds from inexact normal forces may fall short by as much: half way back, now and then to what surely is feasible.
@@ -288,7 +288,7 @@ void Solver::fixed_point(Run& run)
     }
     run.solved = true;
     infeasible = 0;
-    auto wanted = slip_bounds(problem_, laws_, &run.solution->x);
+    auto wanted = friction::slip_bounds(problem_, laws_, &run.solution->x);
     run.change = first ? 1.0 : change_of_bounds(wanted, run.bounds, *run.solution);
     note_response(wanted, run);
     run.converged = !first && at_rest(wanted, tolerance, run);
@@ -327,7 +327,7 @@ Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy, s
   }
   run.goal.energy_norm = accuracy.energy_norm;
   if (start) run.solution = *start;
-  run.bounds = run.previous_bounds = slip_bounds(problem_, laws_, nullptr);
+  run.bounds = run.previous_bounds = friction::slip_bounds(problem_, laws_, nullptr);
   return run;
 }
 
@@ -341,21 +341,21 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
     note(run, progress);
     if (observer) observer(run.step, run.change, progress);
   };
-  problem_.set().set_radii(run.bounds);
+  set_.set_radii(run.bounds);
   algorithm_->begin(run.solution, run.goal, run.watch);
   if (coulomb) {
     follow_law(run);
     if (!run.solved || !patience || from_direct_) fixed_point(run);  // a few products each, from what A^-1 leads on from
     follow_cautiously(start, run);
     const bool spent = !run.limit.empty() || hessian_.exhausted();
-    if (run.solved && (run.converged || !spent)) judge_by_law(problem_, laws_, hessian_, *run.solution);
+    if (run.solved && (run.converged || !spent)) judge_by_law(problem_, set_, laws_, hessian_, *run.solution);
   } else {
     run.step = 1;
-    if (!solve_tresca(run.goal, run)) nothing_found(problem_, problem_.set(), run.escape, run.proven);
+    if (!solve_tresca(run.goal, run)) nothing_found(problem_, set_, run.escape, run.proven);
     run.converged = true;
     run.change = 0;
   }
-  Result result{std::move(*run.solution)};
+  Result result{std::move(*run.solution), slip_bounds()};
   result.steps = run.step;
   result.change = run.change;
   result.converged = run.converged && result.solution.converged;
@@ -376,7 +376,7 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
 void Solver::note(Run& run, const qp::Progress& progress)
 {
   std::optional<long long> changes;
-  if (progress.point) changes = problem_.communicator().sum(run.states.note(states_at(problem_, *progress.point)));
+  if (progress.point) changes = problem_.communicator().sum(run.states.note(states_at(problem_, set_, *progress.point)));
   budget_.note(progress, changes, run.change);
 }
 
@@ -387,8 +387,8 @@ void Solver::report_unresolved_nodes(const Run& run, Result& result)
   const bool any = std::find(bonded.begin(), bonded.end(), false) != bonded.end();
   if (!problem_.communicator().any(any)) return;
   qp::ActiveSetPreconditioner* preconditioner = algorithm_->preconditioner();
-  const auto predicted = preconditioner ? predict(problem_, result.solution, *preconditioner) : std::nullopt;
-  if (predicted) result.undecided = undecided(problem_, result.solution.x, *predicted);
+  const auto predicted = preconditioner ? predict(problem_, set_, result.solution, *preconditioner) : std::nullopt;
+  if (predicted) result.undecided = undecided(problem_, set_, result.solution.x, *predicted);
   if (!result.converged) result.stuck = stuck(problem_, run.states, result.solution.x, predicted ? &*predicted : nullptr);
 }
 

@@ -106,7 +106,7 @@ std::optional<Stuck> worst_points(const feti::DualProblem& problem, int contact,
 
 }  // namespace
 
-std::vector<ContactStatus> states_at(const feti::DualProblem& problem, const Vector& x)
+std::vector<ContactStatus> states_at(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Vector& x)
 {
   const double least = active_set_tolerance * x.normInf();
   const auto value = view(x);
@@ -121,7 +121,7 @@ std::vector<ContactStatus> states_at(const feti::DualProblem& problem, const Vec
     } else if (rows.disc < 0) {
       states.push_back(ContactStatus::closed);
     } else {
-      const auto& disc = problem.set().discs()[static_cast<std::size_t>(rows.disc)];
+      const auto& disc = set.discs()[static_cast<std::size_t>(rows.disc)];
       const bool slips = qp::from_centre(disc, value).norm() >= (1 - edge) * disc.radius;
       states.push_back(slips ? ContactStatus::slips : ContactStatus::sticks);
     }
@@ -129,14 +129,14 @@ std::vector<ContactStatus> states_at(const feti::DualProblem& problem, const Vec
   return states;
 }
 
-std::optional<PredictedSolution> predict(const feti::DualProblem& problem, const qp::Solution& solution,
-                                         qp::ActiveSetPreconditioner& preconditioner)
+std::optional<PredictedSolution> predict(const feti::DualProblem& problem, const qp::FeasibleSet& set,
+                                         const qp::Solution& solution, qp::ActiveSetPreconditioner& preconditioner)
 {
   const double norm = solution.hessian_norm;
   if (!(norm > 0)) return {};
   Vector gap(solution.x, Teuchos::Copy);
   gap.update(-1 / norm, solution.gradient, 1);
-  const qp::Projection natural = qp::project(gap, problem.equality(), problem.set());
+  const qp::Projection natural = qp::project(gap, problem.equality(), set);
   if (!natural.found) return {};
   gap.update(norm, solution.x, -norm, natural.point, 0);
   PredictedSolution result{natural.argument, Vector(gap.getMap())};
@@ -145,7 +145,8 @@ std::optional<PredictedSolution> predict(const feti::DualProblem& problem, const
   return result;
 }
 
-std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector& x, const PredictedSolution& predicted)
+std::vector<Undecided> undecided(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Vector& x,
+                                 const PredictedSolution& predicted)
 {
   const auto& points = problem.constraints().contacts.nodes;
   const Pressures pressures(problem, x);
@@ -158,7 +159,7 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector&
     const double off = std::abs(change[rows.normal]), at = argument[rows.normal];
     rim[i] = pressures.of(i, off) > negligible_change * largest && off >= std::abs(at);
     if (rows.disc < 0 || rim[i] || at <= 0) continue;
-    const auto& disc = problem.set().discs()[static_cast<std::size_t>(rows.disc)];
+    const auto& disc = set.discs()[static_cast<std::size_t>(rows.disc)];
     const double moved = tangential(rows, change) + disc.coefficient * off;
     edge_of_stick[i] = pressures.of(i, moved) > negligible_change * largest &&
                        moved >= std::abs(qp::from_centre(disc, argument).norm() - disc.radius);

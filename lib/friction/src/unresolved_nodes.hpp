@@ -15,9 +15,9 @@ namespace mortise::friction {
 /// Change of a pressure over the largest of the contact that decides nothing.
 inline constexpr double negligible_change = 1e-4;
 
-/// The states of this rank's points at multipliers x in Omega; forces of 1e-8 of the largest multiplier are none. Bonded points
-/// stick. Collective.
-std::vector<ContactStatus> states_at(const feti::DualProblem& problem, const Vector& x);
+/// The states of this rank's points at multipliers x in Omega, which is `set`; forces of 1e-8 of the largest multiplier are none.
+/// Bonded points stick. Collective.
+std::vector<ContactStatus> states_at(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Vector& x);
 
 /// What is known of the multipliers of the solution beside x: `argument`, the projection of which onto Omega is x but for the
 /// residual, tells by its distance from the border of a half-line or a disc how firmly a state is decided; `change` is about what
@@ -27,12 +27,13 @@ struct PredictedSolution {
 };
 
 /// By what `preconditioner` makes of the natural residual of a solution; nothing if its projection fails. No product. Collective.
-std::optional<PredictedSolution> predict(const feti::DualProblem& problem, const qp::Solution& solution,
-                                         qp::ActiveSetPreconditioner& preconditioner);
+std::optional<PredictedSolution> predict(const feti::DualProblem& problem, const qp::FeasibleSet& set,
+                                         const qp::Solution& solution, qp::ActiveSetPreconditioner& preconditioner);
 
 /// Contacts with points that `change` may carry across the border, one after the other. Points whose change is next to nothing
 /// beside the largest pressure of the contact count as decided. The same on every rank. Collective.
-std::vector<Undecided> undecided(const feti::DualProblem& problem, const Vector& x, const PredictedSolution& predicted);
+std::vector<Undecided> undecided(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Vector& x,
+                                 const PredictedSolution& predicted);
 
 /// Where a solve is stuck that did not converge: points whose state went there and back, or if none did, that changed, or if none
 /// did, with the largest change of force still to come (`predicted`, if it is known). The same on every rank. Collective.

@@ -41,8 +41,8 @@ Eigen::VectorXd forces_of_rows(const feti::DualProblem& problem, const Vector& l
 }  // namespace
 
 ContactResults contact_results(const feti::DualProblem& problem, const Vector& lambda, const Eigen::VectorXd& nu,
-                               const std::vector<Eigen::VectorXd>& displacement, std::span<const contact::Pair> pairs,
-                               double largest_force)
+                               std::span<const double> slip_bounds, const std::vector<Eigen::VectorXd>& displacement,
+                               std::span<const contact::Pair> pairs, double largest_force)
 {
   const auto& comm = problem.communicator();
   const Eigen::VectorXd forces = forces_of_rows(problem, lambda, pairs.size(), largest_force);
@@ -68,9 +68,10 @@ ContactResults contact_results(const feti::DualProblem& problem, const Vector& l
       const auto row = point.row + static_cast<std::size_t>(r - rows.normal);
       if (r > rows.normal) row_jumps.back() -= bound[row] - contacts.slipped_before(row);
     }
-    const auto& state = results.points.emplace_back(
-        contact::state_of(point, contacts.bonded[i], multipliers, row_jumps, bound[point.row], problem.slip_bound(i),
-                          nothing * largest[static_cast<std::size_t>(point.contact)]));
+    const double slip_bound = rows.disc < 0 ? 0.0 : slip_bounds[static_cast<std::size_t>(rows.disc)];
+    const auto& state =
+        results.points.emplace_back(contact::state_of(point, contacts.bonded[i], multipliers, row_jumps, bound[point.row],
+                                                      slip_bound, nothing * largest[static_cast<std::size_t>(point.contact)]));
     if (contacts.bonded[i]) continue;
     results.penetration = std::max(results.penetration, -state.gap * std::min(point.weight, 1.0));
     results.work_of_gaps += std::abs(state.gap * state.force);

@@ -102,7 +102,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   results.max_displacement = largest_displacement(displacement, dimension, comm);
   results.stress = recover_stress(bodies, displacement, comm);
   estimate_errors(solved, rounding, stored, comm, results);
-  results.contact = contact_results(problem, lambda, nu, displacement, pairs, largest_force);
+  results.contact = contact_results(problem, lambda, nu, solved.slip_bounds, displacement, pairs, largest_force);
   if (bodies.kinematics != fem::Kinematics::axisymmetric)
     results.moments = contact_moments(problem, lambda, bodies.decomposition, pairs, results.contact.points);
   results.reactions = reactions(problem, lambda, supports);

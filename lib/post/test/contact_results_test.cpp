@@ -21,7 +21,7 @@ TEST(ContactResults, OfAPressedColumn)
   const auto& lambda = result.solution.x;
   const auto& nu = result.solution.nu;
   const auto u = problem.displacement(lambda, nu);
-  const auto results = contact_results(problem, lambda, nu, u, pairs, 0);
+  const auto results = contact_results(problem, lambda, nu, result.slip_bounds, u, pairs, 0);
   EXPECT_EQ(column.comm.sum(static_cast<long long>(results.points.size())), 15);
   for (std::size_t i = 0; i < results.points.size(); ++i) {
     const auto& point = results.points[i];
@@ -79,17 +79,17 @@ struct MadeUp {
     return problem.multipliers(all);
   }
   ContactResults results(const feti::DualProblem& problem, const Vector& lambda, const std::vector<Eigen::VectorXd>& u,
-                         double largest = 0) const
+                         double largest = 0, double slip_bound = std::numeric_limits<double>::infinity()) const
   {
-    return contact_results(problem, lambda, Eigen::VectorXd::Zero(problem.kernel_dimension()), u, pairs, largest);
+    const std::vector<double> bounds(problem.set().discs().size(), slip_bound);
+    return contact_results(problem, lambda, Eigen::VectorXd::Zero(problem.kernel_dimension()), bounds, u, pairs, largest);
   }
 };
 
 TEST(ContactResults, AreThoseOfRowsAndJumps)
 {
   MadeUp contact(false, 0.01);
-  auto problem = contact.column.problem();
-  problem.set().set_radii(std::vector<double>(problem.set().discs().size(), std::numeric_limits<double>::infinity()));
+  const auto problem = contact.column.problem();
   // Pressed with 4 for x < 1.9 and pulled by nothing elsewhere, along the first tangent (0.6, 0.8, 0) by 1.
   const auto lambda =
       contact.multipliers(problem, [](const Point& x) { return x[0] < 1.9 ? Point(4, 1, 0) : Point(Point::Zero()); });
@@ -118,12 +118,8 @@ TEST(ContactResults, AreThoseOfRowsAndJumps)
 
   // Within bounds of 2 nodes stick; on them they slip, and a gap that opens is no penetration.
   for (const double bound : {2.0, 1.0}) {
-    std::vector<double> radii(problem.set().discs().size(), 0.0);
-    for (const auto& rows : problem.node_rows())
-      radii[static_cast<std::size_t>(rows.disc)] = problem.jump().multiplier(rows.normal, bound);
-    problem.set().set_radii(radii);
     const auto rest =
-        contact.results(problem, lambda, contact.column.displacement([](const Point&, int) { return Point(0, 0, 0); }));
+        contact.results(problem, lambda, contact.column.displacement([](const Point&, int) { return Point(0, 0, 0); }), 0, bound);
     EXPECT_EQ(rest.resultants[0].stick, bound > 1 ? 10 : 0);
     EXPECT_EQ(rest.resultants[0].slip, bound > 1 ? 0 : 10);
     EXPECT_EQ(rest.penetration, 0);

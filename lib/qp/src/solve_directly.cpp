@@ -67,14 +67,15 @@ class DirectSolver : public Solver {
     if (before && matrices_.go_on) {
       Vector reaction(before->gradient, Teuchos::Copy);
       problem_.equality.add_transpose(1, before->nu, reaction);
-      auto next = matrices_.go_on(problem_.linear, problem_.equality.right_side(), {before->x, before->nu, true, reaction});
+      auto next =
+          matrices_.go_on(problem_.linear, problem_.equality.right_side(), problem_.set, {before->x, before->nu, true, reaction});
       if (next.converged && next.settled) return next;
     }
-    auto found = matrices_.solve();
+    auto found = matrices_.solve(problem_.set);
     if ((found.converged && found.settled) || found.slides) return found;
     if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
     if (!others_) return found;
-    auto next = others_->solve();
+    auto next = others_->solve(problem_.set);
     if (!next.converged || (found.converged && !next.settled)) return found;
     std::swap(matrices_, *others_);
     faces_ = face_newton_with(matrices_.inverse.get(), problem_, means_);
@@ -109,7 +110,7 @@ class DirectSolver : public Solver {
       if (!nearer || step == most_corrections || (size <= enough && is_nothing(felt, found, goal))) break;
       linear.update(-1, defect, 1);
       right_side += lacking;
-      auto next = matrices_.go_on(linear, right_side, found);
+      auto next = matrices_.go_on(linear, right_side, problem_.set, found);
       if (!next.converged) break;
       found = std::move(next);
     }

@@ -54,7 +54,7 @@ struct Setting {
   Budget budget{programme.hessian, {}, false};
   Means means{budget, nullptr, [this] {
                 auto matrices = std::make_shared<DenseProgramme>(programme);
-                return ExplicitProgramme{matrices, [matrices] { return matrices->solve(); }};
+                return ExplicitProgramme{matrices, [matrices](const FeasibleSet&) { return matrices->solve(); }};
               }};
   std::unique_ptr<Solver> make(const SolverKind& kind) { return kind.make(programme.problem, means); }
 };
@@ -129,10 +129,9 @@ TEST(Solvers, ANearbyMatrixIsCorrectedByAFewProducts)
   Setting exact, nearby;
   nearby.means.make_explicit = [&nearby] {
     const auto matrices = std::make_shared<DenseProgramme>(nearby.programme, 1e-5);
-    ExplicitProgramme programme{matrices, [matrices] { return matrices->solve(); }};
-    programme.go_on = [matrices](const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Point& near) {
-      return matrices->solve(b, e, &near);
-    };
+    ExplicitProgramme programme{matrices, [matrices](const FeasibleSet&) { return matrices->solve(); }};
+    programme.go_on = [matrices](const Vector& b, const Eigen::VectorXd& e, const FeasibleSet&,
+                                 const ExplicitProgramme::Point& near) { return matrices->solve(b, e, &near); };
     programme.differs = true;
     return programme;
   };
@@ -150,8 +149,9 @@ TEST(Solvers, ADirectSolutionBeginsWithTheStatesBefore)
     int anew = 0, on = 0;
     setting.means.make_explicit = [&] {
       const auto matrices = std::make_shared<DenseProgramme>(setting.programme);
-      ExplicitProgramme programme{matrices, [&anew, matrices] { return ++anew, matrices->solve(); }};
-      programme.go_on = [&, matrices](const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Point& near) {
+      ExplicitProgramme programme{matrices, [&anew, matrices](const FeasibleSet&) { return ++anew, matrices->solve(); }};
+      programme.go_on = [&, matrices](const Vector& b, const Eigen::VectorXd& e, const FeasibleSet&,
+                                      const ExplicitProgramme::Point& near) {
         ++on;
         auto found = matrices->solve(b, e, &near);
         EXPECT_TRUE(found.converged);
@@ -187,7 +187,7 @@ TEST(Solvers, OtherMatricesFollowThoseThatFail)
     Setting setting;
     const auto programme_with = [&setting](Outcome outcome, double scale) {
       const auto matrices = std::make_shared<DenseProgramme>(setting.programme);
-      return ExplicitProgramme{matrices, [matrices, outcome, scale] {
+      return ExplicitProgramme{matrices, [matrices, outcome, scale](const FeasibleSet&) {
                                  auto found = matrices->solve();
                                  found.x.scale(scale);
                                  found.converged = outcome.converged;

@@ -47,8 +47,8 @@ class Restart {
   std::vector<Record> records_;
 };
 
-/// The solution that a record holds; sets the radii of the problem's discs to those of the record. Throws Error(bad_input) if the
-/// record is of another problem, as that of a mesh that has changed. Collective.
-friction::Result solution_of(const Record& record, feti::DualProblem& problem);
+/// The solution that a record holds. Throws Error(bad_input) if the record is of another problem, as that of a mesh that has
+/// changed. Collective.
+friction::Result solution_of(const Record& record, const feti::DualProblem& problem);
 
 }  // namespace mortise::analysis

@@ -62,7 +62,7 @@ class DualProblem {
   const Operator& hessian() const { return *hessian_; }                  ///< F
   const Vector& linear() const { return *linear_; }                      ///< d
   const qp::EqualityConstraint& equality() const { return *equality_; }  ///< G and e
-  qp::FeasibleSet& set() { return set_; }                                ///< Omega
+  /// Omega but for friction: discs have infinite radii. Slip bounds belong to who solves.
   const qp::FeasibleSet& set() const { return set_; }
   qp::ActiveSetPreconditioner* preconditioner() const { return preconditioner_.get(); }  ///< null if the options want none
   const ElasticRows* springs() const { return springs_.get(); }                          ///< null if there are none
@@ -107,9 +107,8 @@ class DualProblem {
   Vector multipliers(const Eigen::VectorXd& forces) const;
   /// row . u of each owned row as it was given, a length. Collective.
   Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
-  /// The bound of the tangential force of the contact node constraints().contacts.nodes[point]: 0 without friction, infinite
-  /// where it sticks.
-  double slip_bound(std::size_t point) const;
+  /// The radii of the discs of `set`, which has those of set(), as bounds of tangential forces.
+  std::vector<double> slip_bounds(const qp::FeasibleSet& set) const;
 
   /// u of each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> displacement(const Vector& lambda, const Eigen::VectorXd& nu) const;

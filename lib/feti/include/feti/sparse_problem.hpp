@@ -42,12 +42,12 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   ~SparseProblem() override;
 
   using Point = qp::ExplicitProgramme::Point;
-  /// The solution for the loads, bounds and slip bounds that the problem has when this is called. Throws as qp::SparseNewton.
-  /// Collective.
-  Point solve() const;
+  /// The solution in `set`, over the unknowns of problem.set(), for the loads and bounds that the problem has when this is
+  /// called. Throws as qp::SparseNewton. Collective.
+  Point solve(const qp::FeasibleSet& set) const;
   /// The same for another linear term d and another e, from the last solution on, whose lambda is given; nothing else is tried.
   /// The first solution of all comes from anywhere. Collective.
-  Point go_on(const Vector& linear, const Eigen::VectorXd& e, const Vector& near) const;
+  Point go_on(const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set, const Vector& near) const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
@@ -59,7 +59,8 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   SparseMatrix stiffness_on_root(bool regularised) const;
   std::unique_ptr<const WholeInverse> make_inverse() const;
   Eigen::VectorXd on_root(const std::vector<Eigen::VectorXd>& parts) const;
-  Point solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const Vector* near) const;
+  Point solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const qp::FeasibleSet& set,
+              const Vector* near) const;
 
   const DualProblem& problem_;
   std::unique_ptr<const RowsOnRoot> rows_;

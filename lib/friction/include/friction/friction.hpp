@@ -25,6 +25,7 @@ namespace mortise::friction {
 /// The multipliers of one load step, and what it took to find them.
 struct Result {
   qp::Solution solution;
+  std::vector<double> slip_bounds = {};  ///< of each disc of problem.set(), forces: infinite where it sticks
   int steps = 1;      ///< Tresca problems solved
   double change = 0;  ///< relative, of the slip bounds in the last step
   bool converged = false;
@@ -68,6 +69,8 @@ class Solver {
                std::optional<qp::Patience> patience = {});
   /// Products with F of all solves, also of one that threw.
   int applications() const { return hessian_.count(); }
+  /// Of the Tresca problem at work, or of the last one: as Result::slip_bounds.
+  std::vector<double> slip_bounds() const { return problem_.slip_bounds(set_); }
 
  private:
   struct Run;
@@ -94,6 +97,7 @@ class Solver {
   qp::Hessian hessian_;
   qp::Budget budget_;
   Vector driven_;
+  qp::FeasibleSet set_;  // Omega with the radii of the Tresca problem at work
   qp::Problem programme_;
   std::unique_ptr<qp::Solver> algorithm_;
 };

@@ -42,12 +42,12 @@ struct ExplicitProgramme {
     bool slides = false;  ///< if it did not converge: see Solution::slides
   };
   std::shared_ptr<ActiveSetPreconditioner> inverse;  ///< A^-1
-  /// Solves with the linear term, right-hand side and set that the programme has by now; radii of discs with a coefficient follow
-  /// their normal unknown. Collective.
-  std::function<Point()> solve;
+  /// Solves with the linear term and right-hand side that the programme has by now, in a set over the same unknowns; radii of
+  /// discs with a coefficient follow their normal unknown. Collective.
+  std::function<Point(const FeasibleSet& set)> solve;
   /// The same for any linear term and right-hand side, from the states of constraints at `near`, the solution of a problem
   /// before; nothing else is tried. Empty if it cannot. Collective.
-  std::function<Point(const Vector& b, const Eigen::VectorXd& e, const Point& near)> go_on = {};
+  std::function<Point(const Vector& b, const Eigen::VectorXd& e, const FeasibleSet& set, const Point& near)> go_on = {};
   bool differs = false;  ///< whether the matrix differs from A by a little, so that go_on() has to correct solutions
   /// Other matrices, for where a solution with these does not converge or settle. Else empty. Collective.
   std::function<ExplicitProgramme()> instead = {};
