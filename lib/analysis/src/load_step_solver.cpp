@@ -177,8 +177,7 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   const auto scope = context_.timers.scope("solve");
   note_sizes(from);
   Rows rows = *from.rows;
-  const Eigen::VectorXd jumps =
-      problem_->jumps(from.displacement) - problem_->jump().given_way(from.solved.solution.x);
+  const Eigen::VectorXd jumps = problem_->jumps(from.displacement) - problem_->given_way(from.solved.solution.x);
   const auto& ranges = problem_->jump().ranges();
   constraint::remember_slip(rows.constraints.contacts,
                             {jumps.data() + ranges.contacts, static_cast<std::size_t>(ranges.extra - ranges.contacts)});

@@ -35,8 +35,9 @@ enum : std::size_t {
 };
 }
 namespace head {
-enum : std::size_t { ranks, time, kind, smaller, spent, count };
+enum : std::size_t { format, ranks, time, kind, smaller, spent, count };
 }
+constexpr int format = 2;  // of the file. 1, without a number: multipliers and slip bounds as B's rows are scaled
 
 io::Table column(const std::string& name, const std::string& description, const std::vector<double>& whole,
                  const Communicator& comm)
@@ -52,7 +53,11 @@ io::Table column(const std::string& name, const std::string& description, const 
 
 std::vector<double> head_of(const Approach& approach, double time, const Communicator& comm)
 {
-  return {static_cast<double>(comm.size()), time, static_cast<double>(approach.kind), approach.smaller ? 1.0 : 0.0,
+  return {format,
+          static_cast<double>(comm.size()),
+          time,
+          static_cast<double>(approach.kind),
+          approach.smaller ? 1.0 : 0.0,
           static_cast<double>(approach.spent)};
 }
 
@@ -100,8 +105,10 @@ Restart::Restart(const model::Deck& deck, bool resume, const Communicator& comm)
                           "into another directory");
     for (std::size_t index = 1; fs::exists(path(index)); ++index) {
       const auto numbers = io::read_table(path(index), "restart/run");
-      if (numbers.size() != std::size_t{head::count} + figure::count)
-        throw_not_resumable(directory_, path(index) + " is of another version of this program");
+      if (numbers.size() != std::size_t{head::count} + figure::count || static_cast<int>(numbers[head::format]) != format)
+        throw_not_resumable(directory_, path(index) +
+                                            " is of another version of this program, in another format; run the deck "
+                                            "without it");
       if (static_cast<int>(numbers[head::ranks]) != comm_.size())
         throw_not_resumable(directory_, fmt::format("the run that was ended there had {} ranks, not {}; take as many",
                                                     static_cast<int>(numbers[head::ranks]), comm_.size()));
@@ -159,11 +166,11 @@ void Restart::keep(std::size_t index, const Approach& approach, const LoadStepSo
   counts[figure::energy] = print.energy;
   numbers.insert(numbers.end(), counts.begin(), counts.end());
 
-  io::Table multipliers{"dual/multipliers", "multipliers of the scaled rows", 1, problem.dual_unknowns(), {}, {}};
-  const auto own = view(solution.x);
+  io::Table multipliers{"dual/multipliers", "forces of the rows", 1, problem.dual_unknowns(), {}, {}};
+  const Eigen::VectorXd forces = problem.forces(solution.x);
   const auto rows = problem.jump().rows()->getNodeElementList();
   multipliers.row.assign(rows.begin(), rows.end());
-  multipliers.values.assign(own.data(), own.data() + own.size());
+  multipliers.values.assign(forces.begin(), forces.end());
   const auto count = static_cast<long long>(state.solved.slip_bounds.size());
   io::Table bounds{"dual/slip_bounds", "of tangential forces", 1, comm_.sum(count), {}, state.solved.slip_bounds};
   const Global first = comm_.offset(count);
@@ -171,7 +178,7 @@ void Restart::keep(std::size_t index, const Approach& approach, const LoadStepSo
   const std::vector<double> nu(solution.nu.begin(), solution.nu.end()),
       augmented(solution.augmented.begin(), solution.augmented.end());
   io::write_results(path(index),
-                    {column("restart/run", "ranks, time, approach, figures of the solution", numbers, comm_),
+                    {column("restart/run", "format, ranks, time, approach, figures of the solution", numbers, comm_),
                      column("restart/kernel", "multipliers of the equality constraints", nu, comm_),
                      column("restart/augmented", "those of the augmented Lagrangian", augmented, comm_), multipliers, bounds},
                     comm_);
@@ -201,13 +208,11 @@ friction::Result solution_of(const Record& record, const feti::DualProblem& prob
                   "--resume: the mesh or its subdomains are not those of the run that was ended; run the deck without it");
   });
   const auto own_bounds = bounds.begin() + static_cast<std::ptrdiff_t>(comm.offset(discs));
-  Vector x(problem.jump().rows());
-  {
-    auto own = view(x);
-    const auto rows = problem.jump().rows()->getNodeElementList();
-    for (Eigen::Index i = 0; i < own.size(); ++i)
-      own[i] = multipliers[static_cast<std::size_t>(rows[static_cast<Teuchos::Ordinal>(i)])];
-  }
+  const auto rows = problem.jump().rows()->getNodeElementList();
+  Eigen::VectorXd forces(static_cast<Eigen::Index>(rows.size()));
+  for (Eigen::Index i = 0; i < forces.size(); ++i)
+    forces[i] = multipliers[static_cast<std::size_t>(rows[static_cast<Teuchos::Ordinal>(i)])];
+  const Vector x = problem.multipliers(forces);
   Vector gradient(problem.linear(), Teuchos::Copy);
   problem.hessian().apply(x, gradient, Teuchos::NO_TRANS, 1, -1);
   const auto print = fingerprint(x, gradient, problem.linear());

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/dense.hpp"
+#include "row_scaling.hpp"
 #include "unit_motions.hpp"
 
 namespace mortise::feti {
@@ -90,8 +91,7 @@ BodyRows body_rows(const JumpOperator& jump, Bodies& bodies, const SparseMatrix&
 {
   const auto& contacts = constraints.contacts;
   const Local first = jump.ranges().dirichlet, count = jump.ranges().extra - first;
-  Eigen::VectorXd unscale(count);
-  for (Local row = 0; row < count; ++row) unscale[row] = 1 / jump.scaled(first + row, 1);
+  const Eigen::VectorXd unscale = jump.scaling().factor.segment(first, count).cwiseInverse();
   BodyRows rows;
   rows.values = unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
   rows.first_contact = jump.ranges().contacts - first;

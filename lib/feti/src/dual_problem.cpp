@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "neutral_motions.hpp"
+#include "row_scaling.hpp"
 
 namespace mortise::feti {
 
@@ -107,7 +108,7 @@ Eigen::VectorXd DualProblem::bound() const
     if (!section.preload.force)
       for (const auto& [row, part] : section.rows) {
         const auto at = jump_->ranges().contacts + static_cast<Local>(row);
-        c[at] += jump_->scaled(at, part * section.preload.shortening);
+        c[at] += jump_->scaling().factor[at] * (part * section.preload.shortening);
       }
   return c;
 }
@@ -252,23 +253,38 @@ void DualProblem::make_set()
 
 Eigen::VectorXd DualProblem::forces(const Vector& lambda) const
 {
-  return jump_->forces(lambda);
+  return view(lambda).cwiseProduct(jump_->scaling().factor);
 }
 
 Vector DualProblem::multipliers(const Eigen::VectorXd& forces) const
 {
-  return jump_->multipliers(forces);
+  Vector lambda(jump_->rows());
+  view(lambda) = forces.cwiseQuotient(jump_->scaling().factor);
+  return lambda;
 }
 
 Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
 {
-  return jump_->jumps(u);
+  const Vector scaled = jump_->apply(u);
+  return view(scaled).cwiseQuotient(jump_->scaling().factor);
+}
+
+Eigen::VectorXd DualProblem::given_way(const Vector& lambda) const
+{
+  return view(lambda).cwiseProduct(jump_->compliance()).cwiseQuotient(jump_->scaling().factor);
+}
+
+std::vector<double> DualProblem::radii(std::span<const double> slip_bounds) const
+{
+  std::vector<double> radii(slip_bounds.begin(), slip_bounds.end());
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] /= jump_->scaling().factor[set_.discs()[i].normal];
+  return radii;
 }
 
 std::vector<double> DualProblem::slip_bounds(const qp::FeasibleSet& set) const
 {
   std::vector<double> forces;
-  for (const auto& disc : set.discs()) forces.push_back(jump_->force(disc.normal, disc.radius));
+  for (const auto& disc : set.discs()) forces.push_back(jump_->scaling().factor[disc.normal] * disc.radius);
   return forces;
 }
 
@@ -314,8 +330,7 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
 
   const Local first = jump_->ranges().dirichlet, count = jump_->ranges().end - first;
   const auto kernels = system_.clusters.kernel_dimension();
-  Eigen::VectorXd unscale(count);
-  for (Local row = 0; row < count; ++row) unscale[row] = 1 / jump_->scaled(first + row, 1);
+  const Eigen::VectorXd unscale = jump_->scaling().factor.segment(first, count).cwiseInverse();
   const SparseMatrix g = equality_->local().middleCols(first, count);
   FeltMotions felt{unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.transpose()).leftCols(kernels) * bodies.aggregate),
                    Eigen::VectorXd::Ones(count), Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};

@@ -71,7 +71,7 @@ Felt feel(const Search& search, const Eigen::VectorXd& amplitudes, double sagitt
     double* sum = &sums[static_cast<std::size_t>(contacts.nodes[i].contact) * sums_each];
     const double normal = felt[rows.normal - search.first()], area = contacts.nodes[i].area;
     if (rows.disc >= 0)
-      sum[0] += problem.jump().force(rows.normal, search.bounds[static_cast<std::size_t>(rows.disc)]) *
+      sum[0] += search.bounds[static_cast<std::size_t>(rows.disc)] *
                 felt.segment(rows.normal + 1 - search.first(), rows.tangents).norm();
     sum[1] += area;
     sum[2] += area * normal;
@@ -105,7 +105,7 @@ Eigen::VectorXd slid_along(const Search& search, const Eigen::MatrixXd& basis)
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(count, count + 1);
   for (const auto& rows : problem.node_rows()) {
     if (rows.disc < 0) continue;
-    const double bound = problem.jump().force(rows.normal, search.bounds[static_cast<std::size_t>(rows.disc)]);
+    const double bound = search.bounds[static_cast<std::size_t>(rows.disc)];
     const auto there = felt.middleRows(rows.normal + 1 - search.first(), rows.tangents);
     sums.leftCols(count) += bound * there.transpose() * there;
     sums.col(count) += bound * there.transpose() * search.slid.segment(rows.normal + 1, rows.tangents);
@@ -128,7 +128,7 @@ bool all_slid(const Search& search, const Eigen::VectorXd& amplitudes)
   for (const auto& rows : problem.node_rows()) {
     if (rows.disc < 0) continue;
     const auto there = felt.segment(rows.normal + 1 - search.first(), rows.tangents);
-    nodes.push_back({problem.jump().force(rows.normal, search.bounds[static_cast<std::size_t>(rows.disc)]), there.norm(),
+    nodes.push_back({search.bounds[static_cast<std::size_t>(rows.disc)], there.norm(),
                      there.dot(search.slid.segment(rows.normal + 1, rows.tangents))});
     hardest = std::max(hardest, nodes.back().bound);
     fastest = std::max(fastest, nodes.back().speed);
@@ -254,7 +254,7 @@ std::optional<std::string> held_by_facets(const DualProblem& problem, const part
     const auto& node = problem.node_rows()[i];
     rubs[i] = node.disc >= 0;
     if (!rubs[i]) continue;
-    const double bound = problem.jump().force(node.normal, bounds[static_cast<std::size_t>(node.disc)]);
+    const double bound = bounds[static_cast<std::size_t>(node.disc)];
     const double force = search.force.segment(node.normal + 1, node.tangents).norm();
     slips[i] = force >= at_bound * bound;
     joins[i] = !slips[i];

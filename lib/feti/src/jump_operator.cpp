@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "row_builder.hpp"
+#include "row_scaling.hpp"
 
 namespace mortise::feti {
 
@@ -84,7 +85,7 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   contact_rows_.second = rows.end();
   rows.add(extra);
   ranges_.end = rows.size();
-  scale_ = Eigen::Map<const Eigen::VectorXd>(rows.scale().data(), ranges_.end);
+  scaling_ = std::make_unique<RowScaling>(RowScaling{Eigen::Map<const Eigen::VectorXd>(rows.scale().data(), ranges_.end)});
   compliance_ = Eigen::VectorXd::Zero(ranges_.end);
   for (const auto& node : contacts.nodes)
     for (std::size_t r = node.row; r <= node.row + node.tangents.size(); ++r)
@@ -101,6 +102,10 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
     blocks_.push_back(block_of(subdomain, decomposition.catalogue.dimension, piece, pieces.end(), *overlap_));
 }
 
+JumpOperator::~JumpOperator() = default;
+JumpOperator::JumpOperator(JumpOperator&&) noexcept = default;
+JumpOperator& JumpOperator::operator=(JumpOperator&&) noexcept = default;
+
 void JumpOperator::update_rhs(std::span<const constraint::PrescribedDof> prescribed,
                               std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
                               std::span<const constraint::MeanMotion> mean_motions)
@@ -112,7 +117,7 @@ void JumpOperator::update_rhs(std::span<const constraint::PrescribedDof> prescri
   for (const auto& mean : mean_motions) bound_[row++] = mean.value;
   for (std::size_t r = 0; r < contacts.rows.size(); ++r)
     bound_[ranges_.contacts + static_cast<Local>(r)] = contacts.rows.bound[r];
-  bound_.array() *= scale_.array();
+  bound_.array() *= scaling_->factor.array();
 }
 
 std::vector<Eigen::VectorXd> JumpOperator::apply_transpose(const Vector& lambda) const
@@ -191,19 +196,6 @@ SparseMatrix JumpOperator::gather_columns(const std::vector<Columns>& parts, int
     for (const auto& entry : part) result.insert(entry.index, rows_->getLocalElement(entry.row)) = entry.value;
   result.makeCompressed();
   return result;
-}
-
-Vector JumpOperator::multipliers(const Eigen::VectorXd& forces) const
-{
-  Vector lambda(rows_);
-  view(lambda) = forces.cwiseQuotient(scale_);
-  return lambda;
-}
-
-Eigen::VectorXd JumpOperator::jumps(const std::vector<Eigen::VectorXd>& u) const
-{
-  const Vector scaled = apply(u);
-  return view(scaled).cwiseQuotient(scale_);
 }
 
 }  // namespace mortise::feti

@@ -74,7 +74,7 @@ void RowBuilder::glue(const partition::Interface& interface)
       const auto coefficients = gluing_coefficients(copies, k);
       for (int c = 0; c < dimension_; ++c, ++next_) {
         for (std::size_t q = 0; q <= k; ++q) send({copies[q].subdomain, next_, copies[q].node * dimension_ + c, coefficients[q]});
-        own(next_, 1);
+        own(next_, -coefficients.back());  // over the row: mean of the copies before less this copy
       }
     }
   });

@@ -39,7 +39,7 @@ class RowBuilder {
   Local size() const { return static_cast<Local>(owned_.size()); }  // rows of this rank
   Global end() const { return end_; }                               // rows of all ranks
   const std::vector<Global>& owned() const { return owned_; }
-  const std::vector<double>& scale() const { return scale_; }  // of each, as of JumpOperator
+  const std::vector<double>& scale() const { return scale_; }  // of each, see RowScaling
   // Pieces of this rank's subdomains, ordered by subdomain, row and unknown. Once.
   std::vector<Piece> receive();
 

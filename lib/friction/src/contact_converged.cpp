@@ -23,7 +23,7 @@ bool contact_converged(const feti::DualProblem& problem, const Vector& x, const 
   const auto& comm = problem.communicator();
   const auto& points = problem.constraints().contacts.nodes;
   const auto& bonded = problem.constraints().contacts.bonded;
-  const auto differs = view(change), firmly = view(argument);
+  const Eigen::VectorXd differs = problem.forces(change), firmly = problem.forces(argument);
   const Pressures pressures(problem, x);
   const auto count = pressures.parts();
   std::vector<double> moved(count, 0.0), pressed(count, 0.0), undecided(count, 0.0);

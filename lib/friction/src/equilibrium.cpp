@@ -49,7 +49,7 @@ void judge_by_law(const feti::DualProblem& problem, const qp::FeasibleSet& set, 
 {
   const qp::Projection nearest = qp::project(solution.x, problem.equality(), set.with_cones());
   if (nearest.empty) {  // with bounds that are given bodies slide; along the edge of a cone they would also lift
-    const auto of_forces = with_radii(set, slip_bounds(problem, laws, &solution.x));
+    const auto of_forces = with_radii(set, problem.radii(slip_bounds(problem, laws, &solution.x)));
     const qp::Projection given = qp::project(solution.x, problem.equality(), of_forces);
     no_equilibrium(problem, given.empty ? given.nu : nearest.nu, true);
   }
@@ -59,11 +59,11 @@ void judge_by_law(const feti::DualProblem& problem, const qp::FeasibleSet& set, 
   solution.error += std::sqrt(std::max(beyond.dot(product), 0.0));
 }
 
-bool balances(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<double>& bounds, const Vector& x)
+bool balances(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<double>& radii, const Vector& x)
 {
   constexpr double rounding = 1e-3;
-  auto larger = bounds;
-  for (auto& bound : larger) bound *= 1 + rounding;
+  auto larger = radii;
+  for (auto& radius : larger) radius *= 1 + rounding;
   return !qp::project(x, problem.equality(), with_radii(set, larger)).empty;
 }
 
@@ -73,8 +73,8 @@ namespace {
 void refuse_if_short(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws, const Vector& x,
                      double short_of)
 {
-  auto larger = slip_bounds(problem, laws, &x);
-  for (auto& bound : larger) bound *= 1 + short_of;
+  auto larger = problem.radii(slip_bounds(problem, laws, &x));
+  for (auto& radius : larger) radius *= 1 + short_of;
   const qp::Projection nearest = qp::project(x, problem.equality(), with_radii(set, larger));
   if (nearest.empty) no_equilibrium(problem, nearest.nu, true);
 }

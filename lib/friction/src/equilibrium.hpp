@@ -37,8 +37,8 @@ void refuse_if_far(const feti::DualProblem& problem, const qp::FeasibleSet& set,
 void refuse_if_sliding(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws,
                        const Vector& x);
 
-/// Whether slip bounds leave forces that balance the loads, to a thousandth. What a solution at other bounds would still change
-/// by does not tell it: where all slips, no stiffness resists. Collective.
-bool balances(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<double>& bounds, const Vector& x);
+/// Whether discs of these radii leave forces that balance the loads, to a thousandth. What a solution at other bounds would still
+/// change by does not tell it: where all slips, no stiffness resists. Collective.
+bool balances(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<double>& radii, const Vector& x);
 
 }  // namespace mortise::friction

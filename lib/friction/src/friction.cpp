@@ -26,7 +26,7 @@ bool any_coulomb(const std::vector<Law>& laws)
 }
 
 // Radii that discs have.
-std::vector<double> radii(const qp::FeasibleSet& set)
+std::vector<double> radii_of(const qp::FeasibleSet& set)
 {
   std::vector<double> result;
   for (const auto& disc : set.discs()) result.push_back(disc.radius);
@@ -41,14 +41,14 @@ struct Solver::Run {
   qp::Observer watch;
   std::optional<qp::Patience> patience;
   StateRecord states;  // of contact nodes
-  std::vector<double> bounds, previous_bounds;
+  std::vector<double> radii, previous_radii;  // of discs, see DualProblem::radii()
   std::optional<qp::Solution> solution;  // at first that of the load step before
   bool solved = false;                   // `solution` is of this load step
   Eigen::VectorXd escape;                // nu of the last Tresca problem that was infeasible,
   bool proven = false;                   // and whether it proves that
   double change = 1, least_change = 1;
   bool any_answer = false;               // of a Tresca problem,
-  std::vector<double> answered, answer;  // its last bounds, and those that its solution asks for; maybe none on this rank
+  std::vector<double> answered, answer;  // its last radii, and those that its solution asks for; maybe none on this rank
   double response = 1;                   // how much of a change of bounds the normal forces answer with; 1: unknown
   int step = 0, outer = 0, preconditionings = 0;
   bool converged = false;
@@ -79,6 +79,12 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
 
 Solver::~Solver() = default;
 
+// The radii of discs by the law, with the forces of these multipliers or before any are known.
+std::vector<double> Solver::radii_at(const Vector* lambda) const
+{
+  return problem_.radii(friction::slip_bounds(problem_, laws_, lambda));
+}
+
 // ||wanted - now|| / ||wanted|| of slip bounds at a solution, but for what rounding makes of no force at all: of multipliers of
 // the size ||b|| / ||A||.
 double Solver::change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const
@@ -91,7 +97,7 @@ double Solver::change_of_bounds(const std::vector<double>& wanted, const std::ve
 // Bounds and forces together, if the algorithm can. Where that does not converge, the fixed point goes on from there.
 void Solver::follow_law(Run& run)
 {
-  const qp::SlipLaw law{set_, [this](const Vector* x) { return friction::slip_bounds(problem_, laws_, x); }};
+  const qp::SlipLaw law{set_, [this](const Vector* x) { return radii_at(x); }};
   run.step = 1;
   auto found = algorithm_->solve(law, run.solution, run.goal, run.watch);
   if (found && found->slides) {
@@ -104,9 +110,9 @@ void Solver::follow_law(Run& run)
   }
   run.count(*found);
   if (!found->feasible) return;
-  run.bounds = friction::slip_bounds(problem_, laws_, &found->x);
-  run.change = change_of_bounds(run.bounds, radii(set_), *found);
-  run.converged = obeys_law(*found, run.bounds, run.change, run);
+  run.radii = radii_at(&found->x);
+  run.change = change_of_bounds(run.radii, radii_of(set_), *found);
+  run.converged = obeys_law(*found, run.radii, run.change, run);
   run.solution = std::move(found);
   run.solved = true;
 }
@@ -123,18 +129,18 @@ void Solver::follow_cautiously(const qp::Solution* start, Run& run)
   if (hessian_.exhausted()) run.limit = budget_.reason();
   if (run.converged || run.patience || !budget_.left()) return;
   budget_.change_algorithm();
-  const auto before = radii(set_);
-  const qp::SlipLaw law{set_, [this](const Vector* x) { return friction::slip_bounds(problem_, laws_, x); }, true};
+  const auto before = radii_of(set_);
+  const qp::SlipLaw law{set_, [this](const Vector* x) { return radii_at(x); }, true};
   std::optional<qp::Solution> from;
   if (start) from = *start;
   auto found = algorithm_->solve(law, from, run.goal, run.watch);
   if (!found) return;
   run.count(*found);
   if (found->feasible) {
-    auto bounds = friction::slip_bounds(problem_, laws_, &found->x);
-    const double change = change_of_bounds(bounds, radii(set_), *found);
+    auto bounds = radii_at(&found->x);
+    const double change = change_of_bounds(bounds, radii_of(set_), *found);
     if (obeys_law(*found, bounds, change, run)) {
-      run.bounds = std::move(bounds);
+      run.radii = std::move(bounds);
       run.change = change;
       run.solution = std::move(found);
       run.solved = run.converged = true;
@@ -147,7 +153,7 @@ void Solver::follow_cautiously(const qp::Solution* start, Run& run)
 // One Tresca problem; false if it is infeasible.
 bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
 {
-  set_.set_radii(run.bounds);
+  set_.set_radii(run.radii);
   auto next = algorithm_->solve(run.solution, goal, run.watch);
   if (!next.feasible) {
     run.escape = next.nu;
@@ -198,8 +204,8 @@ void Solver::note_response(const std::vector<double>& wanted, Run& run) const
   if (run.any_answer) {
     std::array<double, 3> squares{0, 0, 0};  // of the changes of bounds and answers, of the answers
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      if (!std::isfinite(run.bounds[i]) || !std::isfinite(run.answered[i])) continue;
-      squares[0] += std::pow(run.bounds[i] - run.answered[i], 2);
+      if (!std::isfinite(run.radii[i]) || !std::isfinite(run.answered[i])) continue;
+      squares[0] += std::pow(run.radii[i] - run.answered[i], 2);
       squares[1] += std::pow(wanted[i] - run.answer[i], 2);
       squares[2] += wanted[i] * wanted[i];
     }
@@ -207,7 +213,7 @@ void Solver::note_response(const std::vector<double>& wanted, Run& run) const
     if (squares[0] > step * step * squares[2]) run.response = std::sqrt(squares[1] / squares[0]);
   }
   run.any_answer = true;
-  run.answered = run.bounds;
+  run.answered = run.radii;
   run.answer = wanted;
 }
 
@@ -221,10 +227,10 @@ double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run
     const auto discs = set_.discs();
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const Eigen::Vector2d at = qp::from_centre(discs[i], x);
-      if (!std::isfinite(wanted[i]) || !std::isfinite(run.bounds[i]) || at.norm() < 0.99 * run.bounds[i] || at.norm() == 0)
+      if (!std::isfinite(wanted[i]) || !std::isfinite(run.radii[i]) || at.norm() < 0.99 * run.radii[i] || at.norm() == 0)
         continue;
       for (int k = 0; k < discs[i].size(); ++k)
-        to[discs[i].index[static_cast<std::size_t>(k)]] = (wanted[i] - run.bounds[i]) * at[k] / at.norm();
+        to[discs[i].index[static_cast<std::size_t>(k)]] = (wanted[i] - run.radii[i]) * at[k] / at.norm();
     }
   }
   if (moved.norm2() == 0) return 0;
@@ -244,8 +250,8 @@ void Solver::admit(Run& run)
   const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), cones);
   if (!nearest.found && nearest.residual > balanced)
     no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, fall_short(nearest));
-  run.bounds = friction::slip_bounds(problem_, laws_, &nearest.point);
-  for (auto& bound : run.bounds) bound *= room;
+  run.radii = radii_at(&nearest.point);
+  for (auto& bound : run.radii) bound *= room;
 }
 
 // Tresca problems until their bounds are at rest.
@@ -275,21 +281,21 @@ void Solver::fixed_point(Run& run)
       // Bounds fell ever faster until they were too small, and did so again from those that are surely enough.
       if (infeasible == 0 && relaxation.growing() >= steps_of_fall && ++falls >= most_falls)
         refuse_if_far(problem_, set_, laws_, run.solution->x, run.response);
-      set_.set_radii(run.bounds);
+      set_.set_radii(run.radii);
       if (++failures > most_failures || run.step >= options_.max_steps) {
         refuse_if_far(problem_, set_, laws_, run.solution->x, run.response);
         return;
       }
       // Bounds from inexact normal forces may fall short by as much: half way back, now and then to what surely is feasible.
-      auto half_way = qp::half_way_back(run.bounds, run.previous_bounds);
+      auto half_way = qp::half_way_back(run.radii, run.previous_radii);
       admit(run);
-      if (++infeasible % retreats != 0) run.bounds = std::move(half_way);
+      if (++infeasible % retreats != 0) run.radii = std::move(half_way);
       continue;
     }
     run.solved = true;
     infeasible = 0;
-    auto wanted = friction::slip_bounds(problem_, laws_, &run.solution->x);
-    run.change = first ? 1.0 : change_of_bounds(wanted, run.bounds, *run.solution);
+    auto wanted = radii_at(&run.solution->x);
+    run.change = first ? 1.0 : change_of_bounds(wanted, run.radii, *run.solution);
     note_response(wanted, run);
     run.converged = !first && at_rest(wanted, tolerance, run);
     idle = first || !apart || run.change < run.least_change ? 0 : idle + 1;
@@ -300,10 +306,10 @@ void Solver::fixed_point(Run& run)
     }
     if (run.converged || run.step >= options_.max_steps || hessian_.exhausted()) return;
     run.least_change = first ? 1.0 : std::min(run.least_change, run.change);
-    const double part = relaxation(run.bounds, wanted);
+    const double part = relaxation(run.radii, wanted);
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (!std::isinf(run.bounds[i])) wanted[i] = run.bounds[i] + part * (wanted[i] - run.bounds[i]);
-    run.previous_bounds = std::exchange(run.bounds, std::move(wanted));
+      if (!std::isinf(run.radii[i])) wanted[i] = run.radii[i] + part * (wanted[i] - run.radii[i]);
+    run.previous_radii = std::exchange(run.radii, std::move(wanted));
   }
 }
 
@@ -327,7 +333,7 @@ Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy, s
   }
   run.goal.energy_norm = accuracy.energy_norm;
   if (start) run.solution = *start;
-  run.bounds = run.previous_bounds = friction::slip_bounds(problem_, laws_, nullptr);
+  run.radii = run.previous_radii = radii_at(nullptr);
   return run;
 }
 
@@ -341,7 +347,7 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
     note(run, progress);
     if (observer) observer(run.step, run.change, progress);
   };
-  set_.set_radii(run.bounds);
+  set_.set_radii(run.radii);
   algorithm_->begin(run.solution, run.goal, run.watch);
   if (coulomb) {
     follow_law(run);

@@ -15,17 +15,18 @@ constexpr double nothing_part = 1e-10;  // of the bounds of a group, over those 
 std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda)
 {
   const auto& points = problem.constraints().contacts.nodes;
-  std::vector<double> radii(problem.set().discs().size(), 0.0);
+  const Eigen::VectorXd forces = lambda ? problem.forces(*lambda) : Eigen::VectorXd();
+  std::vector<double> bounds(problem.set().discs().size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& rows = problem.node_rows()[i];
     if (rows.disc < 0) continue;
     const Law& law = laws[static_cast<std::size_t>(points[i].contact)];
-    double& radius = radii[static_cast<std::size_t>(rows.disc)];
-    if (law.kind == Law::Kind::tresca) radius = problem.jump().multiplier(rows.normal, law.value * points[i].area);
+    double& bound = bounds[static_cast<std::size_t>(rows.disc)];
+    if (law.kind == Law::Kind::tresca) bound = law.value * points[i].area;
     if (law.kind == Law::Kind::coulomb)
-      radius = lambda ? law.value * std::max(view(*lambda)[rows.normal], 0.0) : std::numeric_limits<double>::infinity();
+      bound = lambda ? law.value * std::max(forces[rows.normal], 0.0) : std::numeric_limits<double>::infinity();
   }
-  return radii;
+  return bounds;
 }
 
 std::vector<double> coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws)

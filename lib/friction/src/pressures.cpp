@@ -46,15 +46,15 @@ std::vector<double> least_loads(const feti::DualProblem& problem)
 Pressures::Pressures(const feti::DualProblem& problem, const Vector& x) : problem_(problem), least_load_(least_loads(problem))
 {
   const auto& comm = problem.communicator();
-  const auto value = view(x);
+  const Eigen::VectorXd forces = problem.forces(x);
   find_parts();
   largest_.assign(group_.size(), 0.0);
   force_ = largest_;
   const auto& contacts = problem.constraints().contacts;
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
-    const double multiplier = value[problem.node_rows()[i].normal];
-    largest_[part_[i]] = std::max(largest_[part_[i]], of(i, multiplier));
-    if (!contacts.bonded[i]) force_[part_[i]] += std::max(problem.jump().force(problem.node_rows()[i].normal, multiplier), 0.0);
+    const double force = forces[problem.node_rows()[i].normal];
+    largest_[part_[i]] = std::max(largest_[part_[i]], of(i, force));
+    if (!contacts.bonded[i]) force_[part_[i]] += std::max(force, 0.0);
   }
   comm.sum_in_place(force_);
   all_.assign(least_load_.size(), 0.0);
@@ -90,12 +90,12 @@ void Pressures::find_parts()
   for (const auto& part : all) group_.push_back(static_cast<std::size_t>(part.group));
 }
 
-double Pressures::of(std::size_t point, double multiplier) const
+double Pressures::of(std::size_t point, double force) const
 {
   const auto& contacts = problem_.constraints().contacts;
   const auto& node = contacts.nodes[point];
   if (contacts.bonded[point] || node.cover < narrow_cover || !(node.area > 0)) return 0;
-  return problem_.jump().force(problem_.node_rows()[point].normal, multiplier) / node.area;
+  return force / node.area;
 }
 
 bool Pressures::idle(std::size_t part) const

@@ -18,8 +18,8 @@ class Pressures {
   /// Collective. `problem` outlives it.
   Pressures(const feti::DualProblem& problem, const Vector& x);
 
-  /// The pressure that a multiplier makes at a point of this rank; 0 where a point has none of its own or is bonded.
-  double of(std::size_t point, double multiplier) const;
+  /// The pressure that a force makes at a point of this rank; 0 where a point has none of its own or is bonded.
+  double of(std::size_t point, double force) const;
   std::size_t parts() const { return group_.size(); }
   /// Of a point of this rank.
   std::size_t part_of(std::size_t point) const { return part_[point]; }

@@ -150,7 +150,8 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const qp::Fea
 {
   const auto& points = problem.constraints().contacts.nodes;
   const Pressures pressures(problem, x);
-  const auto change = view(predicted.change), argument = view(predicted.argument);
+  const Eigen::VectorXd change = problem.forces(predicted.change), argument = problem.forces(predicted.argument);
+  const auto bounds = problem.slip_bounds(set);
   std::vector<bool> rim(points.size(), false), edge_of_stick(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto& rows = problem.node_rows()[i];
@@ -159,10 +160,10 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const qp::Fea
     const double off = std::abs(change[rows.normal]), at = argument[rows.normal];
     rim[i] = pressures.of(i, off) > negligible_change * largest && off >= std::abs(at);
     if (rows.disc < 0 || rim[i] || at <= 0) continue;
-    const auto& disc = set.discs()[static_cast<std::size_t>(rows.disc)];
-    const double moved = tangential(rows, change) + disc.coefficient * off;
-    edge_of_stick[i] = pressures.of(i, moved) > negligible_change * largest &&
-                       moved >= std::abs(qp::from_centre(disc, argument).norm() - disc.radius);
+    const auto disc = static_cast<std::size_t>(rows.disc);
+    const double moved = tangential(rows, change) + set.discs()[disc].coefficient * off;
+    edge_of_stick[i] =
+        pressures.of(i, moved) > negligible_change * largest && moved >= std::abs(tangential(rows, argument) - bounds[disc]);
   }
   const auto rims = bands(problem, static_cast<std::size_t>(contact_count(problem)), rim);
   const auto edges = bands(problem, rims.size(), edge_of_stick);
@@ -196,7 +197,7 @@ std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& re
   }
   if (!predicted) return result;
   const Pressures pressures(problem, x);
-  const auto change = view(predicted->change);
+  const Eigen::VectorXd change = problem.forces(predicted->change);
   std::vector<double> parts(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& rows = problem.node_rows()[i];

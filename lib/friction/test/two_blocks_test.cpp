@@ -185,14 +185,13 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
     EXPECT_LE(result.applications, most) << pieces;
     const Eigen::VectorXd forces = forces_of(problem, result.solution.x, contact_points);
     EXPECT_LT((forces - expected.forces).norm(), (slow ? 1e-4 : 1e-6) * size) << pieces;
-    // The radii of the laws, at the solution.
+    // The bounds of the laws, at the solution.
     const auto bounds = slip_bounds(problem, {law}, &result.solution.x);
     for (std::size_t i = 0; i < problem.node_rows().size(); ++i) {
       const auto& rows = problem.node_rows()[i];
       if (rows.disc < 0) continue;
       const auto p = static_cast<Eigen::Index>(i) * stack.comm.size() + stack.comm.rank();
-      EXPECT_NEAR(problem.jump().force(rows.normal, bounds[static_cast<std::size_t>(rows.disc)]), expected.bounds[p],
-                  slow ? 1e-4 : 1e-6);
+      EXPECT_NEAR(bounds[static_cast<std::size_t>(rows.disc)], expected.bounds[p], slow ? 1e-4 : 1e-6);
     }
   }
 }
@@ -209,14 +208,19 @@ TEST(SlipBounds, StickFirstAndFollowTheNormalForces)
   EXPECT_EQ(slip_bounds(problem, {{Kind::frictionless, 0}}, nullptr), std::vector<double>(count, 0.0));
   EXPECT_EQ(coefficients(problem, {{Kind::coulomb, 0.5}}), std::vector<double>(count, 0.5));
   EXPECT_EQ(coefficients(problem, {{Kind::tresca, 0.5}}), std::vector<double>(count, 0.0));
-  Vector x(problem.linear().getMap());
-  for (std::size_t i = 0; i < problem.node_rows().size(); ++i) view(x)[problem.node_rows()[i].normal] = i % 2 == 0 ? 3.0 : -3.0;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(problem.jump().ranges().end);
+  for (std::size_t i = 0; i < problem.node_rows().size(); ++i) forces[problem.node_rows()[i].normal] = i % 2 == 0 ? 3.0 : -3.0;
+  const Vector x = problem.multipliers(forces);
   const auto coulomb = slip_bounds(problem, {{Kind::coulomb, 0.5}}, &x), tresca = slip_bounds(problem, {{Kind::tresca, 7}}, &x);
   for (std::size_t i = 0; i < problem.node_rows().size(); ++i) {
     const auto& rows = problem.node_rows()[i];
     const auto disc = static_cast<std::size_t>(rows.disc);
-    EXPECT_EQ(coulomb[disc], i % 2 == 0 ? 1.5 : 0.0);
-    EXPECT_NEAR(problem.jump().force(rows.normal, tresca[disc]), 7, 1e-12);  // as a force, on an area of 1
+    EXPECT_NEAR(coulomb[disc], i % 2 == 0 ? 1.5 : 0.0, 1e-12);
+    EXPECT_EQ(tresca[disc], 7);  // a force, on an area of 1
+    // The solver's radii stand for the same forces.
+    qp::FeasibleSet set = problem.set();
+    set.set_radii(problem.radii(coulomb));
+    EXPECT_NEAR(problem.slip_bounds(set)[disc], coulomb[disc], 1e-12);
   }
 }
 

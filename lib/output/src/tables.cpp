@@ -152,15 +152,15 @@ io::Table contact_table(const std::vector<contact::ContactNodeState>& nodes, con
 io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambda)
 {
   io::Table table{"dual/multipliers",
-                  "multipliers of the scaled rows: gluing, supports, contacts, gauges",
+                  "forces of the rows: gluing (between copies of a node), supports, contacts, gauges",
                   1,
                   problem.dual_unknowns(),
                   {},
                   {}};
-  const auto values = view(lambda);
+  const Eigen::VectorXd values = problem.forces(lambda);
   const auto rows = problem.jump().rows()->getNodeElementList();
   table.row.assign(rows.begin(), rows.end());
-  table.values.assign(values.data(), values.data() + values.size());
+  table.values.assign(values.begin(), values.end());
   return table;
 }
 

@@ -46,7 +46,7 @@ ContactResults contact_results(const feti::DualProblem& problem, const Vector& l
 {
   const auto& comm = problem.communicator();
   const Eigen::VectorXd forces = forces_of_rows(problem, lambda, pairs.size(), largest_force);
-  const Eigen::VectorXd jumps = problem.jumps(displacement) - problem.jump().given_way(lambda);
+  const Eigen::VectorXd jumps = problem.jumps(displacement) - problem.given_way(lambda);
   const auto& contacts = problem.constraints().contacts;
   const auto bound = contact_bounds(problem, nu);
   std::vector<double> largest(pairs.size(), 0.0);  // pressure of each contact

@@ -57,7 +57,8 @@ class DualProblem {
   /// Throws Error(no_equilibrium) as the constructor does. Collective.
   bool update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load, std::vector<double> opposed_loads = {});
 
-  // The quadratic programme; vectors and operators are distributed as jump().rows().
+  // The quadratic programme; vectors and operators are distributed as jump().rows(). Its unknowns are the multipliers of B's
+  // rows, whose scaling nobody else knows: see forces() and the functions after it.
   const JumpOperator& jump() const { return *jump_; }                    ///< B
   const Operator& hessian() const { return *hessian_; }                  ///< F
   const Vector& linear() const { return *linear_; }                      ///< d
@@ -76,7 +77,7 @@ class DualProblem {
   /// The largest of all subdomains of all ranks; 0 if F is exact.
   double rounding() const { return hessian_->rounded() ? rounding_ : 0; }
 
-  /// c of B u = c: the bounds of the jumps, and the shortenings that are given.
+  /// c of B u = c, as B's rows are scaled: the bounds of the jumps, and the shortenings that are given.
   Eigen::VectorXd bound() const;
 
   /// What the rows of B come from, in mesh numbering.
@@ -101,13 +102,18 @@ class DualProblem {
   /// coordinates and the shortenings that are unknown.
   Eigen::Index first_coupling_motion() const;
 
-  /// The force of each owned row in physical units, from the multipliers of the scaled rows of B.
+  // Between the unknowns of the quadratic programme and what engineers measure, of owned rows as they were given.
+  /// The force of each row, of gluing rows that between the copies.
   Eigen::VectorXd forces(const Vector& lambda) const;
-  /// The multipliers of the scaled rows from the forces of the owned rows.
+  /// The other way.
   Vector multipliers(const Eigen::VectorXd& forces) const;
-  /// row . u of each owned row as it was given, a length. Collective.
+  /// row . u of each row, a length. Collective.
   Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
-  /// The radii of the discs of `set`, which has those of set(), as bounds of tangential forces.
+  /// How far each row gives way by itself under these multipliers, a length: see JumpOperator::compliance().
+  Eigen::VectorXd given_way(const Vector& lambda) const;
+  /// Radii for the discs of set() from slip bounds, forces, one for each disc.
+  std::vector<double> radii(std::span<const double> slip_bounds) const;
+  /// The other way: the slip bounds, forces, that the radii of `set` stand for; it has the discs of set().
   std::vector<double> slip_bounds(const qp::FeasibleSet& set) const;
 
   /// u of each subdomain of this rank. Collective.

@@ -22,7 +22,7 @@ namespace mortise::feti {
 /// not grow with the way, so it holds there by the forces of facets (a ball in its cup turns until tilts of 1e-6 have wedged it)
 /// or by turns that are no longer small (a ladder slips until its round ends have shortened its weight's lever).
 ///
-/// `lambda`, `displacement`: a solution; `bounds`: r_i of each disc of problem.set(), as multipliers; `slack`: part of the right
+/// `lambda`, `displacement`: a solution; `bounds`: r_i of each disc of problem.set(), forces; `slack`: part of the right
 /// side that counts as inexact. Returns `body "ring" rotates about ..` and how much of the load friction holds, or nothing where
 /// friction holds all. Collective.
 std::optional<std::string> held_by_facets(const DualProblem& problem, const partition::Decomposition& decomposition,

@@ -3,11 +3,12 @@
 // Gluing rows of a node with copies of stiffness w_1 .. w_m: row k = 1 .. m-1 (and component) has the coefficients a w_q at
 // copies q < k and -a (w_1 + .. + w_k) at the copy after them, which makes the rows orthonormal in the inner product of D^-1, D =
 // diag(w). Supports and contacts act on the average of the copies with weights w_q / sum w, and are therefore D^-1-orthogonal to
-// the gluing rows. Each such row is multiplied by a factor `scale` that makes it a unit vector in D^-1 as well (one factor for
+// the gluing rows. Each such row is multiplied by a factor that makes it a unit vector in D^-1 as well (one factor for
 // all rows of a contact node, so that discs stay discs). This keeps the dual operator well conditioned when the stiffness jumps
 // by 1e6.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "base/cholesky.hpp"
@@ -26,6 +27,8 @@ struct SubdomainRow {
   double scale = 1;
 };
 
+struct RowScaling;
+
 /// Heavy: moves, does not copy.
 class JumpOperator {
  public:
@@ -37,6 +40,9 @@ class JumpOperator {
                std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
                std::span<const SubdomainRow> extra, const Communicator& comm,
                std::span<const constraint::MeanMotion> mean_motions = {}, const constraint::Springs& springs = {});
+  ~JumpOperator();
+  JumpOperator(JumpOperator&&) noexcept;
+  JumpOperator& operator=(JumpOperator&&) noexcept;
 
   /// The dual space: each row on one rank.
   Teuchos::RCP<const Map> rows() const { return rows_; }
@@ -47,25 +53,12 @@ class JumpOperator {
   const Ranges& ranges() const { return ranges_; }
   /// Global numbers of the contact rows of all ranks: first, and one past the last.
   std::pair<Global, Global> contact_rows() const { return contact_rows_; }
-  /// The force of a row with this multiplier, and the other way. By the same factor a coefficient, a bound or a jump of the row
-  /// as it was given becomes one of the row of B.
-  double force(Local row, double multiplier) const { return scale_[row] * multiplier; }
-  double multiplier(Local row, double force) const { return force / scale_[row]; }
-  double scaled(Local row, double given) const { return scale_[row] * given; }
-  /// force() and multiplier() of all owned rows.
-  Eigen::VectorXd forces(const Vector& lambda) const { return view(lambda).cwiseProduct(scale_); }
-  Vector multipliers(const Eigen::VectorXd& forces) const;
+  /// For this module alone.
+  const RowScaling& scaling() const { return *scaling_; }
   /// How far each owned row gives way under its multiplier: F gets these on its diagonal. Rows between contact nodes give way
   /// as a node does, for without it they depend on those of the nodes; and so do rows without entries, of friction between what
   /// supports hold. The others do not.
   const Eigen::VectorXd& compliance() const { return compliance_; }
-  /// And in lengths, under these multipliers.
-  Eigen::VectorXd given_way(const Vector& lambda) const
-  {
-    return view(lambda).cwiseProduct(compliance_).cwiseQuotient(scale_);
-  }
-  /// B u as jumps of the rows as they were given, in lengths. Collective.
-  Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
   /// c, scaled, of the owned rows: B u = c, B u <= c.
   const Eigen::VectorXd& bound() const { return bound_; }
   /// New c: the same rows with other bounds.
@@ -107,7 +100,7 @@ class JumpOperator {
   Teuchos::RCP<const Import> import_;
   Ranges ranges_;
   std::pair<Global, Global> contact_rows_;
-  Eigen::VectorXd scale_;  // of each owned row: that of B over that which was given; 1 for gluing
+  std::unique_ptr<const RowScaling> scaling_;
   Eigen::VectorXd compliance_;
   Eigen::VectorXd bound_;
   std::vector<Block> blocks_;

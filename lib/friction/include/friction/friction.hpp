@@ -75,6 +75,7 @@ class Solver {
  private:
   struct Run;
   Run begin(const qp::Solution* start, const Accuracy& accuracy, std::optional<qp::Patience> patience);
+  std::vector<double> radii_at(const Vector* lambda) const;
   void follow_law(Run& run);
   void follow_cautiously(const qp::Solution* start, Run& run);
   bool obeys_law(const qp::Solution& found, const std::vector<double>& bounds, double change, const Run& run) const;

@@ -13,15 +13,15 @@ struct Law {
   double value = 0;  ///< tresca: traction; coulomb: coefficient
 };
 
-/// The radius of each disc of problem.set(), in its scaled unknowns, from the multipliers `lambda`; without lambda Coulomb points
-/// stick, with an infinite radius. laws[c]: of contact c.
+/// The slip bound of each disc of problem.set(), a force, from the multipliers `lambda`; without lambda Coulomb points stick,
+/// with an infinite one. laws[c]: of contact c.
 std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda);
 
 /// The coefficient of each disc of problem.set() under Coulomb's law, see qp::Disc; 0 under others.
 std::vector<double> coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws);
 
-/// ||next - now|| / ||next|| of slip bounds, the largest of any group of bodies (feti::BodyGroups), those that are infinite in
-/// either left out; `least` is the size below which bounds are rounding. Collective.
+/// ||next - now|| / ||next|| of the radii of discs, the largest of any group of bodies (feti::BodyGroups), those that are
+/// infinite in either left out; `least` is the size below which radii are rounding. Collective.
 double relative_change(const feti::DualProblem& problem, const std::vector<double>& next, const std::vector<double>& now,
                        double least);
 
