@@ -53,24 +53,21 @@ Eigen::MatrixXd compliance(const JumpOperator::Block& block, const std::vector<s
 
 }  // namespace
 
-ConstrainedSubdomain::ConstrainedSubdomain(const SubdomainOperator& subdomain, std::vector<Local> prescribed, int block)
+ConstrainedSubdomain::ConstrainedSubdomain(const SubdomainOperator& subdomain, std::vector<Local> prescribed, int block,
+                                           const std::string& factorization)
     : subdomain_(subdomain), prescribed_(std::move(prescribed))
 {
   if (prescribed_.empty()) return;
   k_ = subdomain.regularised();
-  const SparseMatrix alone = with_identity(k_, prescribed_);
-  factor_ = std::make_unique<Cholesky>(alone, block);
-  if (!factor_->factorize(alone))
-    throw Error(ExitStatus::bad_input, "the stiffness matrix of a subdomain is not positive definite");
-  factor_->prepare_for_many_solves();
+  solver_.emplace(factorization, with_identity(k_, prescribed_), block);
 }
 
 void ConstrainedSubdomain::apply_inverse(std::span<double* const> columns) const
 {
-  if (!factor_) return subdomain_.apply_inverse(columns);
+  if (!solver_) return subdomain_.apply_inverse(columns);
   for (double* column : columns)
     for (const Local u : prescribed_) column[u] = 0;
-  factor_->solve(columns);
+  solver_->solve(columns);
 }
 
 Eigen::VectorXd ConstrainedSubdomain::displacement(const Eigen::VectorXd& values, Eigen::VectorXd forces) const
@@ -98,7 +95,8 @@ DirichletElimination::DirichletElimination(const DualProblem& problem, Global fe
       stop_if_requested();
       std::vector<Local> prescribed;
       for (const auto& row : rows_[s]) prescribed.push_back(row.unknown);
-      subdomains_.emplace_back(*problem.clusters().subdomains()[s], std::move(prescribed), problem.dimension());
+      subdomains_.emplace_back(*problem.clusters().subdomains()[s], std::move(prescribed), problem.dimension(),
+                               problem.factorization());
     }
   });
 }

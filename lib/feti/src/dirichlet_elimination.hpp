@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "base/cholesky.hpp"
+#include "feti/direct_solver.hpp"
 #include "feti/dual_problem.hpp"
 
 namespace mortise::feti {
@@ -19,9 +19,10 @@ namespace mortise::feti {
 /// A subdomain with some of its unknowns prescribed. Heavy: moves, does not copy.
 class ConstrainedSubdomain {
  public:
-  /// Factorizes K_ff, with an identity in place of K_hh, unless `prescribed` is empty: then the subdomain's own factor serves,
-  /// and it outlives this. Throws Error(bad_input) if K_ff is not positive definite, and Error(machine) if memory runs out.
-  ConstrainedSubdomain(const SubdomainOperator& subdomain, std::vector<Local> prescribed, int block);
+  /// Factorizes K_ff, with an identity in place of K_hh, by the DirectSolver called `factorization`, unless `prescribed` is
+  /// empty: then the subdomain's own factor serves, and it outlives this. `block`: unknowns a node. Throws as DirectSolver.
+  ConstrainedSubdomain(const SubdomainOperator& subdomain, std::vector<Local> prescribed, int block,
+                       const std::string& factorization);
 
   const std::vector<Local>& prescribed() const { return prescribed_; }
   /// columns[c], of all unknowns, <- X columns[c]_f, zero at prescribed ones.
@@ -35,7 +36,7 @@ class ConstrainedSubdomain {
   const SubdomainOperator& subdomain_;
   std::vector<Local> prescribed_;
   SparseMatrix k_;
-  std::unique_ptr<Cholesky> factor_;
+  std::optional<DirectSolver> solver_;  // none if nothing is prescribed
 };
 
 /// All rows that can be eliminated: supports along an axis, at unknowns that no other subdomain has, of nodes with no skew

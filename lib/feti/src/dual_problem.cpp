@@ -62,6 +62,7 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
     : decomposition_(decomposition),
       constraints_(std::move(constraints)),
       system_(system),
+      factorization_(options.factorization),
       load_(std::move(load)),
       comm_(context.comm),
       opposed_loads_(std::move(opposed_loads))

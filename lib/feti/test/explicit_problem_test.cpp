@@ -271,6 +271,24 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
   EXPECT_LT(again.count(), 12);
 }
 
+// Bodies whose supports are eliminated are factorized by the solver of the deck.
+TEST(ExplicitProblem, TakesTheFactorizationThatIsAskedFor)
+{
+  const Stack stack(Point(1, 0.5, -10), 2);
+  const auto solve = [&](const std::string& factorization) {
+    DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
+                        {.factorization = factorization, .preconditioner = "none"}, stack.context);
+    auto set = problem.set();
+    set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
+    return Eigen::VectorXd(view(ExplicitProblem(problem, 0).solve(set).x));
+  };
+  const Eigen::VectorXd x = solve("cholmod");
+  EXPECT_GT(stack.comm.sum(x.squaredNorm()), 0.01);
+  for (const char* other : {"cholmod_plain", "klu2"})
+    EXPECT_LT(stack.comm.sum((solve(other) - x).squaredNorm()), 1e-18 * stack.comm.sum(x.squaredNorm())) << other;
+  EXPECT_THROW(solve("none_of_these"), Error);
+}
+
 TEST(ExplicitProblem, SaysWhereNothingBalancesTheLoads)
 {
   const Stack stack(Point(4.5, 0, -10), 1);  // friction holds 4

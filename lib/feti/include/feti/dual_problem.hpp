@@ -89,6 +89,8 @@ class DualProblem {
   const BodyGroups& groups() const { return groups_; }
   int dimension() const { return decomposition_.catalogue.dimension; }
   const Clusters& clusters() const { return system_.clusters; }
+  /// The DirectSolver by which matrices of subdomains are factorized.
+  const std::string& factorization() const { return factorization_; }
   const Communicator& communicator() const { return comm_; }
   /// Rows of B, and the sum of the kernels' dimensions, over all ranks.
   Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
@@ -151,6 +153,7 @@ class DualProblem {
   const partition::Decomposition& decomposition_;
   constraint::Constraints constraints_;
   const SubdomainSystem& system_;
+  std::string factorization_;
   std::vector<Eigen::VectorXd> load_;
   const Communicator& comm_;
   std::unique_ptr<JumpOperator> jump_;
