@@ -23,12 +23,14 @@ bool ends_a_step(const model::LoadState& acts)
 
 }  // namespace
 
-Report::LoadSteps::LoadSteps(Report& report, const analysis::Assembly& assembly, std::size_t states, analysis::Approach approach)
+Report::LoadSteps::LoadSteps(Report& report, const analysis::Assembly& assembly, std::size_t states, analysis::Approach approach,
+                             const analysis::Restart& restart)
     : run_(report),
       deck_(report.deck_),
       context_(report.context_),
       assembly_(assembly),
       approach_(std::move(approach)),
+      restart_(restart),
       states_(states),
       files_(deck_),
       probe_files_(deck_)
@@ -45,9 +47,9 @@ void Report::LoadSteps::begin(const model::LoadState& acts)
   ++index_;
 }
 
-friction::Observer Report::LoadSteps::observer(const model::LoadState& acts)
+friction::Observer Report::LoadSteps::observer()
 {
-  return [this, acts](int step, double change, const qp::Progress& p) { run_.history_.note(acts, step, change, p); };
+  return [this, acts = acts_](int step, double change, const qp::Progress& p) { run_.history_.note(acts, step, change, p); };
 }
 
 // Whether the fields of the present state are to be written.
@@ -95,6 +97,7 @@ void Report::LoadSteps::write(const analysis::LoadStepSolver& solver, const anal
   run_.state_is_written_ = true;
   results_ = std::move(results);
   run_.tell_stage("output", "output");  // does not end the run: a state that is written is to be kept for --resume
+  if (index_ < states_) restart_.keep(index_, approach_, solver, state);
 }
 
 analysis::Outcome Report::LoadSteps::failed(const analysis::LoadStepSolver& solver)
@@ -158,7 +161,9 @@ ExitStatus Report::LoadSteps::end()
   print_communication(summary_, log);
   print_times(spreads, log);
   print_warnings(run_.warnings_, log);
-  return results_.verdict.status;
+  const auto status = results_.verdict.status;
+  if (status == ExitStatus::solved) restart_.remove();
+  return status;
 }
 
 }  // namespace mortise

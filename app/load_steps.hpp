@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/load_step_solver.hpp"
+#include "analysis/restart.hpp"
 #include "output/field_files.hpp"
 #include "output/probe_files.hpp"
 #include "report.hpp"
@@ -12,26 +13,25 @@ namespace mortise {
 /// copies nor moves.
 class Report::LoadSteps {
  public:
-  /// `states`: how many equilibria there are to be.
-  LoadSteps(Report& report, const analysis::Assembly& assembly, std::size_t states, analysis::Approach approach);
+  /// `states`: how many equilibria there are to be. `restart` keeps a record of each but the last, until all are solved.
+  LoadSteps(Report& report, const analysis::Assembly& assembly, std::size_t states, analysis::Approach approach,
+            const analysis::Restart& restart);
   LoadSteps(const LoadSteps&) = delete;
   LoadSteps& operator=(const LoadSteps&) = delete;
 
   /// The next state is about to be solved.
   void begin(const model::LoadState& acts);
   /// Writes the solver's progress to the history and on the terminal.
-  friction::Observer observer(const model::LoadState& acts);
+  friction::Observer observer();
   /// The solver has come to an end with this state. True if it gave up.
   bool gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state);
-  /// The files of a state, which has been evaluated.
+  /// The files of a state, which has been evaluated, and its record.
   void write(const analysis::LoadStepSolver& solver, const analysis::StepState& state, const post::Probes& probes,
              post::Results results);
   /// To be called where an exception is handled that a load step threw: the outcome of the attempt if another approach may do
   /// better, see analysis::failed; else leaves the results of the load steps before, and throws the error, which names the load
   /// step then.
   analysis::Outcome failed(const analysis::LoadStepSolver& solver);
-  /// The place of the present state, from 1.
-  std::size_t state() const { return index_; }
   /// Whether another load step is to be solved after the one that was written.
   bool goes_on();
 
@@ -48,6 +48,7 @@ class Report::LoadSteps {
   const Context& context_;
   const analysis::Assembly& assembly_;
   const analysis::Approach approach_;
+  const analysis::Restart& restart_;
   const std::size_t states_;
   std::size_t index_ = 0;  // of the present state, from 1
   int increment_ = 0;      // of the present step, from 1

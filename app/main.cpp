@@ -5,18 +5,11 @@
 //
 // Sample runs:  mortise inputs/hertz_sphere/hertz_sphere.yaml
 //               mpirun -n 2 mortise inputs/cantilever_3d/cantilever_3d.yaml --set solver.tolerance=1e-6
-#include "analysis/approach.hpp"
-#include "analysis/checks.hpp"
 #include "analysis/load_step_solver.hpp"
-#include "analysis/memory.hpp"
 #include "analysis/probes.hpp"
-#include "analysis/restart.hpp"
 #include "deck_file.hpp"
 #include "load_steps.hpp"
-#include "model/resolution.hpp"
-#include "partition/decompose.hpp"
-#include "partition/skins.hpp"
-#include "partition/whole_bodies.hpp"
+#include "model/subdomains.hpp"
 #include "process.hpp"
 #include "report.hpp"
 
@@ -24,43 +17,36 @@ namespace {
 
 using namespace mortise;
 
-// From constraint rows to files, for all load steps.
-analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes& probes, const analysis::Approach& approach,
+// On one decomposition, by one approach: from constraint rows to files, for all load steps.
+analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes& probes, const analysis::Approach& asked,
                                    const analysis::Restart& restart, Report& report, const Context& context)
 {
   const auto states = model::load_states(model.deck(), model.contacts());
-  auto rows = analysis::make_rows(model, states.front(), {}, context);
-  report.rows(model, rows, probes, approach);
+  auto rows = analysis::make_rows(model, states.front(), {}, context);  // B u = c, B u <= c
   const auto copies = model.congruent();
-  const auto memory = analysis::foresee_memory(model, copies, report.only_checks(), context.comm);
-  report.memory(model, rows, memory);
-  analysis::require(memory, model);
-  if (report.only_checks()) return {ExitStatus::solved};
+  if (!report.may_solve(model, rows, copies, probes, asked)) return {ExitStatus::solved};  // --check
 
-  const analysis::Assembly assembly(model, copies, context);
+  const analysis::Assembly assembly(model, copies, context);  // K of every subdomain, and its factors
   report.assembly(assembly, copies);
-  const auto patient = analysis::with_patience(approach, assembly, rows.constraints, context.comm);
-  analysis::LoadStepSolver solver(assembly, std::move(rows), patient, context);
-  Report::LoadSteps steps(report, assembly, states.size(), patient);
+  const auto approach = analysis::with_patience(asked, assembly, rows.constraints, context.comm);
+  auto problem = analysis::make_dual_problem(assembly, std::move(rows), context);  // min 1/2 l'F l - l'd, G l = e, l in Omega
+  analysis::LoadStepSolver solver(assembly, std::move(problem), approach, context);
+
+  Report::LoadSteps steps(report, assembly, states.size(), approach, restart);
   std::optional<analysis::StepState> state;
   for (const auto& acts : states) {
     steps.begin(acts);
     try {
-      const auto* before = restart.find(approach, acts.time);
-      state =
-          before ? solver.take_up(acts, std::move(state), *before) : solver.solve(acts, std::move(state), steps.observer(acts));
-      if (steps.gave_up(solver, *state)) return {.status = {}, .next = patient.next, .spent = solver.applications()};
-      auto results = analysis::evaluate(assembly, solver, *state, probes, context);
-      steps.write(solver, *state, probes, std::move(results));
-      if (acts.time < states.back().time) restart.keep(steps.state(), approach, solver, *state);
+      const auto* record = restart.find(approach, acts.time);  // of a run that this one resumes
+      state = record ? solver.take_up(acts, std::move(state), *record) : solver.solve(acts, std::move(state), steps.observer());
+      if (steps.gave_up(solver, *state)) return {{}, approach.next, solver.applications()};
+      steps.write(solver, *state, probes, analysis::evaluate(assembly, solver, *state, probes, context));
     } catch (...) {
       return steps.failed(solver);
     }
     if (!steps.goes_on()) break;
   }
-  const auto status = steps.end();
-  if (status == ExitStatus::solved) restart.remove();
-  return {status};
+  return {steps.end()};
 }
 
 ExitStatus solve(const CommandLine& command_line, const Context& context)
@@ -70,26 +56,19 @@ ExitStatus solve(const CommandLine& command_line, const Context& context)
   const analysis::Restart restart(deck, command_line.resume, context.comm);
   Report report(deck, document, command_line, context);
 
-  auto decomposition = partition::decompose(deck.mesh, deck.decomposition, deck.dimension(), context);
-  if (deck.solver.programme.algorithm == "direct") decomposition = partition::whole_bodies(decomposition, context.comm);
-  const auto on_surface = model::bodies_of_boundary_elements(deck, decomposition.catalogue);
-  decomposition = partition::skins(std::move(decomposition), on_surface, deck.output.asks_inside(), context.comm);
-  report.mesh(decomposition);
-  const auto resolved = model::resolve(deck, document, std::move(decomposition), context);
+  auto subdomains = model::make_subdomains(deck, context);  // mesh, bodies, subdomains
+  report.mesh(subdomains);
+  const auto resolved = model::resolve(deck, document, std::move(subdomains), context);
   report.resolution(resolved);
 
-  const auto attempt = [&](const partition::Decomposition& bodies, const analysis::Approach& approach) {
-    const model::Model model(deck, resolved.contacts, bodies, resolved.temperatures);
+  const auto attempt = [&](const partition::Decomposition& decomposition, const analysis::Approach& approach) {
+    const model::Model model(deck, resolved.contacts, decomposition, resolved.temperatures);
     model.require_fit(document, context.comm);
     const auto probes = analysis::find_probes(model, document, context.comm);
     return solve_load_steps(model, probes, approach, restart, report, context);
   };
-  try {
-    return analysis::try_approaches(deck, resolved.decomposition, attempt, context, restart.approach());
-  } catch (const Error& error) {
-    report.tell_interrupted(error);
-    throw;
-  }
+  return report.watch(
+      [&] { return analysis::try_approaches(deck, resolved.decomposition, attempt, context, restart.approach()); });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "analysis/checks.hpp"
+#include "analysis/memory.hpp"
 #include "analysis/probes.hpp"
 #include "base/interruption.hpp"
 #include "initial_gaps.hpp"
@@ -65,28 +66,33 @@ void Report::resolution(const model::Resolution& resolved)
   if (directory_) directory_->clear(command_line_.resume);
 }
 
-void Report::rows(const model::Model& model, const analysis::Rows& first, const post::Probes& probes,
-                  const analysis::Approach& approach)
+bool Report::may_solve(const model::Model& model, const analysis::Rows& first, const std::vector<partition::CopyOf>& copies,
+                       const post::Probes& probes, const analysis::Approach& approach)
 {
-  auto& [comm, log, timers] = context_;
   state_is_written_ = false;
   if (approach.kind == Kind::as_asked) {
     end_stage("supports and contact", "contact");
-    for (auto& warning : analysis::check_model(model, first, comm)) warnings_.report(std::move(warning), log);
-    for (auto& warning : analysis::idle_planes(deck_, probes, comm)) warnings_.report(std::move(warning), log);
-    print_initial_gaps(first.initial_gaps, model.contacts(), command_line_.check, log);
-    for (auto& warning : post::unasked_overlaps(first.initial_gaps, model.contacts().options))
-      warnings_.report(std::move(warning), log);
-    for (auto& warning : post::uneven_clearances(first.initial_gaps, model.contacts().options))
-      warnings_.report(std::move(warning), log);
-    for (auto& warning : post::bonded_gaps(first.initial_gaps, model.contacts().options)) warnings_.report(std::move(warning), log);
-    analysis::check_unconstrained_bodies(model, first, context_, warnings_);
+    warn(model, first, probes);
   }
+  const auto memory = analysis::foresee_memory(model, copies, command_line_.check, context_.comm);
+  if (command_line_.check) print_check(model, first.constraints, memory, context_);
+  analysis::require(memory, model);
+  return !command_line_.check;
 }
 
-void Report::memory(const model::Model& model, const analysis::Rows& first, const analysis::Memory& memory)
+void Report::warn(const model::Model& model, const analysis::Rows& first, const post::Probes& probes)
 {
-  if (command_line_.check) print_check(model, first.constraints, memory, context_);
+  auto& [comm, log, timers] = context_;
+  const auto tell = [&](std::vector<Warning> warnings) {
+    for (auto& warning : warnings) warnings_.report(std::move(warning), log);
+  };
+  tell(analysis::check_model(model, first, comm));
+  tell(analysis::idle_planes(deck_, probes, comm));
+  print_initial_gaps(first.initial_gaps, model.contacts(), command_line_.check, log);
+  tell(post::unasked_overlaps(first.initial_gaps, model.contacts().options));
+  tell(post::uneven_clearances(first.initial_gaps, model.contacts().options));
+  tell(post::bonded_gaps(first.initial_gaps, model.contacts().options));
+  analysis::check_unconstrained_bodies(model, first, context_, warnings_);
 }
 
 void Report::assembly(const analysis::Assembly& assembly, const std::vector<partition::CopyOf>& copies)
@@ -97,6 +103,17 @@ void Report::assembly(const analysis::Assembly& assembly, const std::vector<part
   print_precision(copies, assembly.system().clusters.subdomains(), context_);
 }
 
+ExitStatus Report::watch(const std::function<ExitStatus()>& run)
+{
+  try {
+    return run();
+  } catch (const Error& error) {
+    tell_interrupted(error);
+    throw;
+  }
+}
+
+// Never throws.
 void Report::tell_interrupted(const Error& error)
 {
   if (error.status() != ExitStatus::interrupted || state_is_written_ || !context_.comm.root()) return;

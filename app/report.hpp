@@ -1,12 +1,12 @@
 // What a run tells on the way to its load steps.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 
 #include "analysis/approach.hpp"
 #include "analysis/assembly.hpp"
-#include "analysis/memory.hpp"
 #include "analysis/warnings.hpp"
 #include "base/traffic.hpp"
 #include "command_line.hpp"
@@ -29,24 +29,24 @@ class Report {
   Report(const Report&) = delete;
   Report& operator=(const Report&) = delete;
 
-  /// --check: nothing is solved or written.
-  bool only_checks() const { return command_line_.check; }
   /// --check lists bodies and boundaries.
   void mesh(const partition::Decomposition& decomposition);
   /// Removes what an earlier run left in the output directory.
   void resolution(const model::Resolution& resolved);
 
-  /// An approach begins: the functions from here on are called again for the next one. Throws Error(no_equilibrium), see
-  /// analysis::check_unconstrained_bodies.
-  void rows(const model::Model& model, const analysis::Rows& first, const post::Probes& probes,
-            const analysis::Approach& approach);
-  void memory(const model::Model& model, const analysis::Rows& first, const analysis::Memory& memory);
+  /// An approach begins: the functions from here on are called again for the next one. Warns of the model, and foresees the
+  /// memory of the run. False with --check, which ends here. Throws Error(no_equilibrium), see
+  /// analysis::check_unconstrained_bodies, and Error(machine) if there is not enough memory.
+  bool may_solve(const model::Model& model, const analysis::Rows& first, const std::vector<partition::CopyOf>& copies,
+                 const post::Probes& probes, const analysis::Approach& approach);
   void assembly(const analysis::Assembly& assembly, const std::vector<partition::CopyOf>& copies);
 
-  /// For an error that ends the run: if it was told to end before any state was written, a summary that says so. Never throws.
-  void tell_interrupted(const Error& error);
+  /// Calls `run`. If that is told to end before any state was written, leaves a summary that says so, and throws on.
+  ExitStatus watch(const std::function<ExitStatus()>& run);
 
  private:
+  void warn(const model::Model& model, const analysis::Rows& first, const post::Probes& probes);
+  void tell_interrupted(const Error& error);
   void end_stage(const char* what, const char* name);
   void tell_stage(const char* what, const char* name);
 

@@ -75,30 +75,13 @@ post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem
 
 }  // namespace
 
-LoadStepSolver::LoadStepSolver(const Assembly& assembly, Rows first, Approach approach, const Context& context)
-    : assembly_(assembly), context_(context), approach_(std::move(approach)), before_(approach_.spent)
-{
-  const auto& model = assembly.model();
-  std::vector<Eigen::VectorXd> load;
-  {
-    const auto scope = context.timers.scope("assembly");
-    take_rows(place(std::move(first), model, assembly.directory(), {}, context.comm));
-    load = assembly.loads(rows_->acts, context.comm);
-  }
-  const auto scope = context.timers.scope("solve");
-  problem_ = make_problem(std::move(load));
-  make_solver();
-}
-
-// The rows of a state, and what goes with them. Collective.
-void LoadStepSolver::take_rows(Rows rows)
-{
-  symmetric_ = std::make_shared<const SymmetricNodes>(
-      find_symmetric_nodes(assembly_.model(), rows, assembly_.directory(), assembly_.interface(), context_.comm));
-  rows_ = std::make_shared<const Rows>(std::move(rows));
-}
-
 namespace {
+
+std::shared_ptr<const SymmetricNodes> symmetric_nodes_of(const Rows& rows, const Assembly& assembly, const Communicator& comm)
+{
+  return std::make_shared<const SymmetricNodes>(
+      find_symmetric_nodes(assembly.model(), rows, assembly.directory(), assembly.interface(), comm));
+}
 
 std::vector<constraint::SlidingSurface> sliding_surfaces_of(const Rows& rows, const model::Model& model, const Communicator& comm)
 {
@@ -126,18 +109,53 @@ void refuse_support_of_facets(const feti::DualProblem& problem, const Assembly& 
                 "no equilibrium: " + *moved + ". Support it, or look at the direction of the loads and at the friction");
 }
 
+std::unique_ptr<feti::DualProblem> make_problem(const Assembly& assembly, const Rows& rows, std::vector<Eigen::VectorXd> load,
+                                                const Context& context)
+{
+  auto problem = std::make_unique<feti::DualProblem>(
+      assembly.decomposition(), assembly.directory(), assembly.interface(), rows.constraints, assembly.system(), std::move(load),
+      assembly.deck().solver.subdomains, context, sliding_surfaces_of(rows, assembly.model(), context.comm),
+      assembly.model().opposed_loads(rows.acts, context.comm));
+  context.log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(), problem->kernel_dimension());
+  return problem;
+}
+
 }  // namespace
 
-std::unique_ptr<feti::DualProblem> LoadStepSolver::make_problem(std::vector<Eigen::VectorXd> load) const
+StepProblem make_dual_problem(const Assembly& assembly, Rows rows, const Context& context)
 {
-  const auto& deck = assembly_.deck();
-  auto problem = std::make_unique<feti::DualProblem>(
-      assembly_.decomposition(), assembly_.directory(), assembly_.interface(), rows_->constraints, assembly_.system(),
-      std::move(load), deck.solver.subdomains, context_, sliding_surfaces_of(*rows_, assembly_.model(), context_.comm),
-      assembly_.model().opposed_loads(rows_->acts, context_.comm));
-  context_.log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(),
-                    problem->kernel_dimension());
+  StepProblem problem;
+  std::vector<Eigen::VectorXd> load;
+  {
+    const auto scope = context.timers.scope("assembly");
+    rows = place(std::move(rows), assembly.model(), assembly.directory(), {}, context.comm);
+    problem.symmetric = symmetric_nodes_of(rows, assembly, context.comm);
+    load = assembly.loads(rows.acts, context.comm);
+    problem.rows = std::make_shared<const Rows>(std::move(rows));
+  }
+  const auto scope = context.timers.scope("solve");
+  problem.dual = make_problem(assembly, *problem.rows, std::move(load), context);
   return problem;
+}
+
+LoadStepSolver::LoadStepSolver(const Assembly& assembly, StepProblem first, Approach approach, const Context& context)
+    : assembly_(assembly),
+      context_(context),
+      approach_(std::move(approach)),
+      rows_(std::move(first.rows)),
+      symmetric_(std::move(first.symmetric)),
+      problem_(std::move(first.dual)),
+      before_(approach_.spent)
+{
+  const auto scope = context.timers.scope("solve");
+  make_solver();
+}
+
+// The rows of a state, and what goes with them. Collective.
+void LoadStepSolver::take_rows(Rows rows)
+{
+  symmetric_ = symmetric_nodes_of(rows, assembly_, context_.comm);
+  rows_ = std::make_shared<const Rows>(std::move(rows));
 }
 
 void LoadStepSolver::make_solver()
@@ -195,7 +213,7 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   take_rows(std::move(*same));
   before_ = applications();
   solver_.reset();
-  auto next = make_problem(std::move(load));
+  auto next = make_problem(assembly_, *rows_, std::move(load), context_);
   from.solved.solution = carry_multipliers(*problem_, from.solved.solution, *next);
   problem_ = std::move(next);
   make_solver();

@@ -49,7 +49,8 @@ class Analysis {
     const auto copies = model_->congruent();
     assembly_.emplace(*model_, copies, quiet_.context);
     approach_.algorithm = deck_.solver.programme.algorithm;
-    solver_.emplace(*assembly_, make_rows(*model_, states_.front(), {}, quiet_.context), approach_, quiet_.context);
+    auto rows = make_rows(*model_, states_.front(), {}, quiet_.context);
+    solver_.emplace(*assembly_, make_dual_problem(*assembly_, std::move(rows), quiet_.context), approach_, quiet_.context);
   }
 
   // The states of all steps and what they come to.

@@ -41,7 +41,8 @@ TEST(Runs, LeaveFilesAndASummary)
   const analysis::Assembly assembly(model, model.congruent(), context);
   analysis::Approach approach;
   approach.algorithm = deck.solver.programme.algorithm;
-  analysis::LoadStepSolver solver(assembly, analysis::make_rows(model, states.front(), {}, context), approach, context);
+  auto rows = analysis::make_rows(model, states.front(), {}, context);
+  analysis::LoadStepSolver solver(assembly, analysis::make_dual_problem(assembly, std::move(rows), context), approach, context);
 
   FieldFiles files(deck);
   io::Summary all;

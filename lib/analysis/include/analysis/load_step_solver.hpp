@@ -26,18 +26,32 @@ struct StepState {
   std::optional<qp::Patience> patience;       ///< when the next load step gives up
 };
 
+/// The dual problem of a load state, and the rows that it is of. Heavy: moves, does not copy.
+struct StepProblem {
+  std::shared_ptr<const Rows> rows;
+  std::shared_ptr<const SymmetricNodes> symmetric;
+  std::unique_ptr<feti::DualProblem> dual;
+};
+
+/// What the first load step is to find, multipliers lambda of the rows of B, see feti::DualProblem:
+///
+///     minimise  1/2 lambda'F lambda - lambda'd   subject to  G lambda = e,  lambda in Omega.
+///
+/// The assembly outlives it. Throws Error(no_equilibrium), naming the body and its motion, if loads drive a body that nothing
+/// holds. Collective.
+StepProblem make_dual_problem(const Assembly& assembly, Rows rows, const Context& context);
+
 /// Heavy: neither copies nor moves.
 class LoadStepSolver {
  public:
-  /// Makes the dual problem of the rows `first`. The assembly outlives it. Throws Error(no_equilibrium), naming the body and its
-  /// motion, if loads drive a body that nothing holds. Collective.
-  LoadStepSolver(const Assembly& assembly, Rows first, Approach approach, const Context& context);
+  /// `first`: the problem of the first state. The assembly outlives it. Collective.
+  LoadStepSolver(const Assembly& assembly, StepProblem first, Approach approach, const Context& context);
   LoadStepSolver(const LoadStepSolver&) = delete;
   LoadStepSolver& operator=(const LoadStepSolver&) = delete;
 
-  /// Finds the equilibrium of the state `acts`: first that of the constructor's rows, with nothing for `before`; then one state
-  /// after the other, each with what the call before returned, from which friction counts slip. Throws Error(no_equilibrium).
-  /// Collective.
+  /// Finds the equilibrium of the state `acts`: first that of the constructor's problem, with nothing for `before`; then one
+  /// state after the other, each with what the call before returned, from which friction counts slip. Throws
+  /// Error(no_equilibrium). Collective.
   StepState solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer);
 
   /// The same without solving: takes the solution from the record of an earlier run. Throws as solution_of(). Collective.
@@ -62,7 +76,6 @@ class LoadStepSolver {
   };
   Norms norms(std::span<const fem::Constitution> constitution, const Vector& lambda,
               const std::vector<Eigen::VectorXd>& displacement) const;
-  std::unique_ptr<feti::DualProblem> make_problem(std::vector<Eigen::VectorXd> load) const;
   void make_solver();
   void take_rows(Rows rows);
   void note_sizes(const StepState& state);
