@@ -1,0 +1,199 @@
+// The way back from multipliers: forces, jumps and slip bounds in the units of the model, displacements, and what they tell.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "exactly_free.hpp"
+#include "feti/dual_problem.hpp"
+#include "neutral_motions.hpp"
+#include "row_scaling.hpp"
+
+namespace mortise::feti {
+
+Eigen::VectorXd DualProblem::forces(const Vector& lambda) const
+{
+  return view(lambda).cwiseProduct(jump_->scaling().factor);
+}
+
+Vector DualProblem::multipliers(const Eigen::VectorXd& forces) const
+{
+  Vector lambda(jump_->rows());
+  view(lambda) = forces.cwiseQuotient(jump_->scaling().factor);
+  return lambda;
+}
+
+Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
+{
+  const Vector scaled = jump_->apply(u);
+  return view(scaled).cwiseQuotient(jump_->scaling().factor);
+}
+
+Eigen::VectorXd DualProblem::given_way(const Vector& lambda) const
+{
+  return view(lambda).cwiseProduct(jump_->compliance()).cwiseQuotient(jump_->scaling().factor);
+}
+
+std::vector<double> DualProblem::radii(std::span<const double> slip_bounds) const
+{
+  std::vector<double> radii(slip_bounds.begin(), slip_bounds.end());
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] /= jump_->scaling().factor[set_.discs()[i].normal];
+  return radii;
+}
+
+std::vector<double> DualProblem::slip_bounds(const qp::FeasibleSet& set) const
+{
+  std::vector<double> forces;
+  for (const auto& disc : set.discs()) forces.push_back(jump_->scaling().factor[disc.normal] * disc.radius);
+  return forces;
+}
+
+std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const
+{
+  const auto& clusters = system_.clusters;
+  const auto values = view(lambda);
+  if (comm_.any(!last_ || last_->lambda != values)) {
+    auto elastic = jump_->apply_transpose(lambda);
+    for (std::size_t s = 0; s < elastic.size(); ++s) elastic[s] = load_[s] - elastic[s];
+    clusters.apply_inverse(elastic);
+    last_.emplace(Elastic{values, std::move(elastic)});
+  }
+  return less_motion(last_->displacement, nu);
+}
+
+std::vector<Eigen::VectorXd> DualProblem::displacement_of_product(const Vector& lambda, const Eigen::VectorXd& nu) const
+{
+  const auto* response = hessian_->response(lambda);
+  if (comm_.any(!response)) return displacement(lambda, nu);
+  auto u = loaded_;
+  for (std::size_t s = 0; s < u.size(); ++s) u[s] -= (*response)[s];
+  return less_motion(std::move(u), nu);
+}
+
+// u - R nu.
+std::vector<Eigen::VectorXd> DualProblem::less_motion(std::vector<Eigen::VectorXd> u, const Eigen::VectorXd& nu) const
+{
+  const auto& clusters = system_.clusters;
+  for (std::size_t s = 0; s < u.size(); ++s) u[s] -= clusters.motion(s, nu.segment(clusters.first(s), clusters.modes()));
+  return u;
+}
+
+Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double negligible_force) const
+{
+  constexpr double no_force = 1e-9;   // of the largest contact force: the next node may just touch
+  constexpr Eigen::Index most = 600;  // amplitudes: more would take seconds
+  const auto& contacts = constraints_.contacts;
+  const bool unbonded = std::find(contacts.bonded.begin(), contacts.bonded.end(), false) != contacts.bonded.end();
+  if (!comm_.any(unbonded)) return nu;
+  const Bodies bodies = aggregate(decomposition_, system_.clusters, system_.kinematics, load_, comm_);
+  if (bodies.aggregate.cols() > most) return nu;
+
+  const Local first = jump_->ranges().dirichlet, count = jump_->ranges().end - first;
+  const auto kernels = system_.clusters.kernel_dimension();
+  const Eigen::VectorXd unscale = jump_->scaling().factor.segment(first, count).cwiseInverse();
+  const SparseMatrix g = equality_->local().middleCols(first, count);
+  FeltMotions felt{unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.transpose()).leftCols(kernels) * bodies.aggregate),
+                   Eigen::VectorXd::Ones(count), Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};
+  const auto u = displacement(lambda, nu);
+  const Eigen::VectorXd force = forces(lambda), jump = jumps(u);
+  double largest = 0;
+  for (const auto& rows : node_rows_) largest = std::max(largest, std::abs(force[rows.normal]));
+  const double least = std::max(no_force * comm_.max(largest), negligible_force);
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
+    const auto& rows = node_rows_[i];
+    if (contacts.bonded[i] || force[rows.normal] > least) continue;
+    felt.closed.segment(rows.normal - first, 1 + rows.tangents).setZero();
+    felt.gap[rows.normal - first] = contacts.rows.bound[contacts.nodes[i].row] - jump[rows.normal];
+  }
+  const Eigen::VectorXd change = towards_rest(felt, mean_amplitudes(decomposition_, bodies, u, comm_), comm_);
+  Eigen::VectorXd result = nu;
+  result.head(kernels) -= bodies.aggregate * change;
+  return result;
+}
+
+std::string DualProblem::unbounded_rigid_mode(const Eigen::VectorXd& nu) const
+{
+  const auto frames = body_frames(decomposition_, comm_);
+  RigidMotion fastest;
+  double speed = -1;
+  for (std::size_t b = 0; b < frames.size(); ++b) {
+    const auto motion =
+        rigid_part(decomposition_, system_.clusters, system_.kinematics, frames[b], static_cast<int>(b), -nu, comm_);
+    const double v = motion.translation.norm() + motion.rotation.norm() * frames[b].radius;
+    if (v <= speed) continue;
+    fastest = motion;
+    speed = v;
+  }
+  const auto body = static_cast<std::size_t>(fastest.body);
+  return fmt::format("body \"{}\" {}", decomposition_.catalogue.bodies[body].name, describe(fastest, frames[body].radius));
+}
+
+Point DualProblem::gauge_force(const Vector& lambda) const
+{
+  Vector gauges(lambda.getMap());
+  const auto& ranges = jump_->ranges();
+  // Owned rows keep the order of the gauges; which of them this rank owns says the row's number.
+  const Global first = jump_->contact_rows().second;
+  {
+    auto value = view(gauges);
+    const auto from = view(lambda);
+    for (Local row = ranges.extra; row < ranges.end; ++row) {
+      const auto& motion = gauged_[static_cast<std::size_t>(lambda.getMap()->getGlobalElement(row) - first)];
+      if (motion.sliding || motion.resistance < exactly_free) value[row] = from[row];
+    }
+  }
+  std::vector<double> sum(3, 0.0);
+  const auto dimension = static_cast<std::size_t>(decomposition_.catalogue.dimension);
+  for (const auto& f : jump_->apply_transpose(gauges))
+    for (Eigen::Index i = 0; i < f.size(); ++i) sum[static_cast<std::size_t>(i) % dimension] -= f[i];
+  comm_.sum_in_place(sum);
+  return {sum[0], sum[1], sum[2]};
+}
+
+std::vector<double> DualProblem::loads_of_bodies() const
+{
+  std::vector<double> loads(decomposition_.catalogue.bodies.size(), 0.0);
+  for (std::size_t s = 0; s < load_.size(); ++s)
+    for (Eigen::Index i = 0; i < load_[s].size(); i += dimension())
+      loads[static_cast<std::size_t>(decomposition_.subdomains[s].body)] += load_[s].segment(i, dimension()).norm();
+  comm_.sum_in_place(loads);
+  return loads;
+}
+
+double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double negligible_force) const
+{
+  const auto forces = jump_->apply_transpose(lambda);
+  std::vector<Eigen::VectorXd> given;
+  for (std::size_t s = 0; s < forces.size(); ++s) given.push_back(load_[s] - forces[s]);
+  const auto inner = system_.clusters.inner_forces(given);
+  double residual = 0, size = 0;
+  for (std::size_t s = 0; s < u.size(); ++s) {
+    residual += (system_.clusters.subdomains()[s]->apply(u[s]) + forces[s] - load_[s] + inner[s]).squaredNorm();
+    size += load_[s].squaredNorm() + forces[s].squaredNorm();
+    for (Eigen::Index i = 0; i < u[s].size(); ++i) {  // what rounding makes of a rigid motion is no force
+      const double k = system_.nodal_stiffness[s][static_cast<std::size_t>(i / decomposition_.catalogue.dimension)];
+      size += std::pow(1e-6 * k * u[s][i], 2);
+    }
+  }
+  size = std::max(comm_.sum(size), negligible_force * negligible_force);
+  return size > 0 ? std::sqrt(comm_.sum(residual) / size) : 0;
+}
+
+std::vector<double> DualProblem::shortenings(const Eigen::VectorXd& nu) const
+{
+  std::vector<double> result;
+  Eigen::Index next = kernel_dimension();
+  for (const auto& section : constraints_.pretension_sections)
+    result.push_back(section.preload.force ? nu[next++] : section.preload.shortening);
+  return result;
+}
+
+Eigen::Index DualProblem::first_coupling_motion() const
+{
+  const auto& sections = constraints_.pretension_sections;
+  const auto unknown = [](const auto& section) { return section.preload.force.has_value(); };
+  return kernel_dimension() + std::count_if(sections.begin(), sections.end(), unknown);
+}
+
+}  // namespace mortise::feti
