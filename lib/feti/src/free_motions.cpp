@@ -150,6 +150,7 @@ class FreeMotionSearch {
     return combine(unit.front(), bodies_.frames[static_cast<std::size_t>(unit.front())], v, bodies_.kinematics);
   }
   Eigen::MatrixXd spread(const std::vector<int>& unit) const;
+  Eigen::VectorXd fixed(std::span<const constraint::SlidingSurface> sliding_surfaces) const;
   double turning(const FreeMotion& motion) const;
   bool along_surfaces(const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) const;
 
@@ -171,6 +172,17 @@ Eigen::MatrixXd FreeMotionSearch::spread(const std::vector<int>& unit) const
     for (int k = 0; k < modes; ++k)
       result.block(b * modes, k, modes, 1) = amplitudes_of(unit_motion(unit.front(), frame, k, bodies_.kinematics),
                                                            bodies_.frames[static_cast<std::size_t>(b)], bodies_.kinematics);
+  return result;
+}
+
+// 1 for each row whose resistance is no matter of facets: of supports, bonds, and the cuts of a sector, which are no surfaces that
+// slide past each other. 0 for those of the contacts that `sliding_surfaces` speak of.
+Eigen::VectorXd FreeMotionSearch::fixed(std::span<const constraint::SlidingSurface> sliding_surfaces) const
+{
+  Eigen::VectorXd result = rows_.fixed;
+  for (const auto& node : contacts_.nodes)
+    if (std::ranges::none_of(sliding_surfaces, [&](const auto& surface) { return surface.contact == node.contact; }))
+      result[rows_.first_contact + static_cast<Local>(node.row)] = 1;
   return result;
 }
 
@@ -237,7 +249,8 @@ void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constr
   align_apart(taken, drives, rotations, force);
   for (const auto& v : taken.colwise()) add(v, largest(rows * v, comm_), false);
 
-  Eigen::MatrixXd sliding = sliding_modes.free(unfelt_by(rows_.fixed, rows, complement(taken), exactly * support_weight, comm_));
+  Eigen::MatrixXd sliding = sliding_modes.free(
+      unfelt_by(fixed(sliding_surfaces), rows, complement(taken), exactly * support_weight, comm_));
   align_apart(sliding, drives, rotations, force);
   for (const auto& v : sliding.colwise()) add(v, sliding_modes.resistance(v), true);
 
