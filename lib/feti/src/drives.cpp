@@ -15,8 +15,9 @@ constexpr double hardly_turns = 2e-2;
 constexpr double no_component = 1e-4;
 // The axis of a motion that lets facets slide along themselves, and the centre of mass beside it.
 constexpr double work_of_facets = 1e-3, part_of_sagitta = 0.5, told_part_of_sagitta = 0.3;
-// Of pressures that cancel: what the areas of two sides differ by, whose rims are polygons of their own.
-constexpr double part_of_opposed = 1e-2;
+// Of pressures that cancel: what the areas of two sides differ by, whose rims are polygons of their own; and what of that may be
+// left out, also where surfaces slide along themselves exactly.
+constexpr double part_of_opposed = 1e-2, work_of_areas = 1e-3;
 // How well the direction of a motion is known that rows feel something of.
 constexpr double of_resistance = 3, told_of_resistance = 10;
 
@@ -29,9 +30,10 @@ DriveLimits drive_limits(const FreeMotion& motion, double opposed_loads)
   if (motion.turning > hardly_turns)
     return {std::max({no_work, told_part_of_sagitta * motion.sagitta, told_of_resistance * felt}),
             std::max({no_work, facets, of_resistance * felt})};
-  const double unsure = std::max(motion.turning, part_of_opposed * opposed_loads);
-  return {std::max({no_work_of_sums, unsure, told_of_resistance * felt}),
-          std::max({no_work, std::min(facets, std::max(no_component, unsure)), of_resistance * felt})};
+  const double cancels = part_of_opposed * opposed_loads, unsure = std::max(motion.turning, cancels);
+  return {std::max({no_work_of_sums, motion.turning, std::min(cancels, std::max(facets, no_work)), told_of_resistance * felt}),
+          std::max({no_work, std::min(facets, std::max(no_component, unsure)), std::min(cancels, work_of_areas),
+                    of_resistance * felt})};
 }
 
 UnresistedLoad unresisted_load(const FreeMotion& motion, double limit, double size)

@@ -175,8 +175,8 @@ Eigen::MatrixXd FreeMotionSearch::spread(const std::vector<int>& unit) const
   return result;
 }
 
-// 1 for each row whose resistance is no matter of facets: of supports, bonds, and the cuts of a sector, which are no surfaces that
-// slide past each other. 0 for those of the contacts that `sliding_surfaces` speak of.
+// 1 for each row whose resistance is no matter of facets: of supports, bonds, and the cuts of a sector, which are no surfaces
+// that slide past each other. 0 for those of the contacts that `sliding_surfaces` speak of.
 Eigen::VectorXd FreeMotionSearch::fixed(std::span<const constraint::SlidingSurface> sliding_surfaces) const
 {
   Eigen::VectorXd result = rows_.fixed;
@@ -249,8 +249,8 @@ void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constr
   align_apart(taken, drives, rotations, force);
   for (const auto& v : taken.colwise()) add(v, largest(rows * v, comm_), false);
 
-  Eigen::MatrixXd sliding = sliding_modes.free(
-      unfelt_by(fixed(sliding_surfaces), rows, complement(taken), exactly * support_weight, comm_));
+  Eigen::MatrixXd sliding =
+      sliding_modes.free(unfelt_by(fixed(sliding_surfaces), rows, complement(taken), exactly * support_weight, comm_));
   align_apart(sliding, drives, rotations, force);
   for (const auto& v : sliding.colwise()) add(v, sliding_modes.resistance(v), true);
 

@@ -16,11 +16,12 @@ bool fall_short(const qp::Projection& nearest)
 void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven)
 {
   if (!proven)
-    throw Error(ExitStatus::bad_input,
-                "no forces were found that balance the loads, though nothing proves that there are none: " +
-                    problem.unbounded_rigid_mode(nu) +
-                    " nearly freely, and stiffnesses that differ by 1e12 are too far apart for rounding. "
-                    "Look at the units of young_modulus and of sizes, or support that body");
+    throw Error(
+        ExitStatus::bad_input,
+        "no forces were found that balance the loads, though nothing proves that there are none: " +
+            problem.unbounded_rigid_mode(nu) +
+            " nearly freely. Support that body, or look at the direction of the loads, of which a small part may drive it, "
+            "and at the units of young_modulus and of sizes: stiffnesses that differ by 1e12 are too far apart for rounding");
   throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.unbounded_rigid_mode(nu) +
                                               "; contacts can only push and friction is limited, so nothing holds it against "
                                               "the loads. Support it, or look at the direction of the loads and at the friction");
@@ -30,7 +31,9 @@ void nothing_found(const feti::DualProblem& problem, const qp::FeasibleSet& set,
 {
   if (proven) no_equilibrium(problem, escape, true);
   const Vector nothing(problem.linear().getMap());
-  const qp::Projection nearest = qp::project(nothing, problem.equality(), set);
+  qp::Projector projector(problem.equality(), set);
+  qp::Projection nearest = projector(nothing);
+  if (!nearest.empty) projector.prove_empty(nearest);
   no_equilibrium(problem, nearest.empty ? nearest.nu : escape, fall_short(nearest));
 }
 

@@ -116,9 +116,12 @@ void Solver::admit(Run& run)
   constexpr double room = 1 + 1e-6;
   constexpr double balanced = 1e-6;  // of all forces: what a search that does not converge may leave
   const qp::FeasibleSet cones = set_.with_cones();
-  const qp::Projection nearest = qp::project(run.solution->x, problem_.equality(), cones);
-  if (!nearest.found && nearest.residual > balanced)
+  qp::Projector projector(problem_.equality(), cones);
+  qp::Projection nearest = projector(run.solution->x);
+  if (!nearest.found && nearest.residual > balanced) {
+    if (!run.proven && !nearest.empty) projector.prove_empty(nearest);
     no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, fall_short(nearest));
+  }
   run.radii = radii_at(&nearest.point);
   for (auto& bound : run.radii) bound *= room;
 }

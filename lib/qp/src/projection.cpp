@@ -191,6 +191,13 @@ std::vector<DowndateBlock> Projector::downdates(const Eigen::VectorXd& w) const
 // ||x|| for every x of C, v the part of w that points into Omega for ever.
 double Projector::least_norm(const Eigen::VectorXd& nu, const Vector& like) const
 {
+  const auto [gained, felt] = work_and_feeling(nu, like);
+  return gained > 0 ? gained / std::max(felt, std::numeric_limits<double>::min()) : 0;
+}
+
+// -e'nu less the sum of radius |w|, and ||v||, with the w and v of least_norm().
+std::pair<double, double> Projector::work_and_feeling(const Eigen::VectorXd& nu, const Vector& like) const
+{
   Vector w(like.getMap());
   equality_.add_transpose(-1, nu, w);
   auto values = view(w);
@@ -209,8 +216,7 @@ double Projector::least_norm(const Eigen::VectorXd& nu, const Vector& like) cons
   for (auto& bound : bounds) bound.lower = 0;
   const FeasibleSet directions(std::move(bounds), std::move(cones));
   (set_.has_cones() ? directions.with_cones() : directions).project(values);
-  const double gained = -equality_.right_side().dot(nu) - equality_.communicator().sum(in_discs);
-  return gained > 0 ? gained / std::max(w.norm2(), std::numeric_limits<double>::min()) : 0;
+  return {-equality_.right_side().dot(nu) - equality_.communicator().sum(in_discs), w.norm2()};
 }
 
 // Minimises theta from `nu` on; the multiplier with the smallest gradient, or one that has grown beyond all bounds.
@@ -273,6 +279,68 @@ void Projector::repair(const Vector& from, const Given& y, Evaluation now, Proje
     if (!matrix_.factorize(downdates(w), 1e-14)) break;
     now.nu -= matrix_.solve(missing);
   }
+}
+
+// The nu that minimises theta(nu), of y = 0, + epsilon / 2 nu'D nu, D the diagonal of G G' where constraints touch G, for an
+// epsilon that becomes small. It always exists, and epsilon D nu tends to the negative of the least r = e - G x, in the norm of
+// D^-1, of all x in Omega: if that is not 0, nu proves that C is empty [Farkas].
+Eigen::VectorXd Projector::towards_least_residual()
+{
+  constexpr double first = 1e-2, factor = 1e-2, last = 1e-10, solved = 1e-10;
+  constexpr int steps = 50, halvings = 10;
+  Eigen::VectorXd metric = columns_.cwiseAbs() * Eigen::VectorXd::Ones(columns_.cols());
+  equality_.communicator().sum_in_place({metric.data(), static_cast<std::size_t>(metric.size())});
+  metric = (metric.array() > 0).select(Eigen::VectorXd(equality_.gram().diagonal()), 0.0);
+  const FeasibleSet compact = set_.compact();
+  const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(columns_.cols()), none = Eigen::VectorXd::Zero(equality_.size());
+  const double small = solved * equality_.norm(equality_.right_side());
+  Eigen::VectorXd nu = none;
+  for (double epsilon = first; epsilon >= last; epsilon *= factor) {
+    const auto gradient = [&](const Evaluation& at) {
+      return Eigen::VectorXd(at.gradient + epsilon * metric.cwiseProduct(at.nu));
+    };
+    Evaluation now = evaluate(nothing, none, nu, compact);
+    for (int step = 0; step < steps && equality_.norm(gradient(now)) > small; ++step) {
+      if (!matrix_.factorize(downdates(now.w), epsilon)) return nu;
+      const Eigen::VectorXd direction = -matrix_.solve(gradient(now));
+      const double slope = gradient(now).dot(direction);
+      double t = 1;
+      Evaluation next = evaluate(nothing, none, now.nu + direction, compact);
+      for (int halving = 0; halving < halvings && gradient(next).dot(direction) > flat * std::abs(slope); ++halving)
+        next = evaluate(nothing, none, now.nu + (t /= 2) * direction, compact);
+      now = std::move(next);
+    }
+    nu = now.nu;
+  }
+  return nu;
+}
+
+bool Projector::prove_empty(Projection& failed)
+{
+  constexpr double hardly = 1e-3, regularisation = 1e-12;
+  constexpr double rounding_of_rows = 1e-10;  // what exact contact rows feel of motions along them
+  constexpr int iterations = 3;
+  const auto& comm = equality_.communicator();
+  const double size = equality_.norm(equality_.right_side());
+  for (Eigen::VectorXd nu : {towards_least_residual(), failed.nu}) {
+    // Near a proof only: what w = -G' nu hardly feels is made 0, by inverse iteration with the matrix of the rest.
+    Eigen::VectorXd w = -(columns_.transpose() * nu);
+    const double largest = comm.max(w.size() > 0 ? w.cwiseAbs().maxCoeff() : 0.0);
+    w = (w.array().abs() < hardly * largest).select(0.0, w) * (unbounded * size / std::max(largest, 1e-300));
+    for (auto& value : w)
+      if (value == 0) value = std::numeric_limits<double>::min();  // of a bound at 0: kept
+    if (!matrix_.factorize(downdates(w), regularisation)) continue;
+    for (int i = 0; i < iterations; ++i) {
+      nu = matrix_.solve(equality_.gram().selfadjointView<Eigen::Lower>() * nu);
+      nu /= std::sqrt(std::max(nu.dot(equality_.gram().selfadjointView<Eigen::Lower>() * nu), 1e-300));
+    }
+    const auto [gained, felt] = work_and_feeling(nu, failed.point);
+    if (!(gained > acceptable * size) || !(felt < rounding_of_rows)) continue;
+    failed.nu = std::move(nu);
+    failed.empty = true;
+    return true;
+  }
+  return false;
 }
 
 Projection Projector::operator()(const Vector& from, const Eigen::VectorXd& start)

@@ -62,6 +62,29 @@ TEST(Projection, TellsThatNothingIsFeasible)
   EXPECT_GT(result.nu[0], 1);
 }
 
+// A block of weight 1 between a smooth floor, two forces n >= 0, and a wall to its right, w >= 0, that a small force pulls to the
+// left.
+TEST(Projection, ProvesThatLittleIsOutOfReach)
+{
+  constexpr int n = 3;
+  const auto map = even_map(n, world());
+  std::vector<Bound> bounds;
+  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) bounds.push_back({i, 0});
+  const FeasibleSet set(bounds, {});
+  for (const double pull : {-1e-6, 1e-6}) {
+    // Up, to the left, and turning about the middle of the floor, where the wall presses half as high as the floor is long.
+    const Eigen::MatrixXd g{{1, 1, 0}, {0, 0, 1}, {-1, 1, 0.5}};
+    const EqualityConstraint equality(local_columns(g, *map), Eigen::Vector3d(1, pull, 0.1), world());
+    Projector projector(equality, set);
+    Projection result = projector(Vector(map));
+    EXPECT_EQ(result.found, pull > 0);
+    if (result.found || result.empty) continue;
+    ASSERT_TRUE(projector.prove_empty(result));
+    EXPECT_GT(-result.nu.dot(equality.right_side()), 0);
+    EXPECT_LE((-g.transpose() * result.nu).maxCoeff(), 1e-10 * (g.transpose() * result.nu).cwiseAbs().maxCoeff());
+  }
+}
+
 TEST(Projection, DiscsLimitWhatFrictionCanCarry)
 {
   constexpr int n = 6;

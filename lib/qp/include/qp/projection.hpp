@@ -1,6 +1,8 @@
 // The exact projection onto C = {x : G x = e} intersected with Omega: everything about feasibility that needs no product with A.
 #pragma once
 
+#include <utility>
+
 #include "base/lazy.hpp"
 #include "qp/coarse_matrix.hpp"
 
@@ -31,6 +33,11 @@ class Projector {
   /// The point of C nearest to y = `from`, from the multiplier `start` (0 if empty). Collective.
   Projection operator()(const Vector& from, const Eigen::VectorXd& start = {});
 
+  /// Looks for a multiplier that proves that C is empty where the iteration ended without one, since little of e is out of reach:
+  /// more than 1e-8 of it, along a direction that constraints do not feel but for rounding. Returns whether there is one;
+  /// failed.nu is it then. Dear: for the last word on a programme. Collective.
+  bool prove_empty(Projection& failed);
+
   /// The matrix G D G', which a caller may factorize for its own purposes between two projections.
   CoarseMatrix& matrix() { return matrix_; }
   /// A second one, in which discs are downdated together with their normal unknowns; made at the first call. Collective.
@@ -47,6 +54,8 @@ class Projector {
   void repair(const Vector& from, const Given& y, Evaluation now, Projection& result);
   std::vector<DowndateBlock> downdates(const Eigen::VectorXd& w) const;
   double least_norm(const Eigen::VectorXd& nu, const Vector& like) const;
+  Eigen::VectorXd towards_least_residual();
+  std::pair<double, double> work_and_feeling(const Eigen::VectorXd& nu, const Vector& like) const;
 
   const EqualityConstraint& equality_;
   const FeasibleSet& set_;
