@@ -81,7 +81,9 @@ std::vector<Eigen::VectorXd> DualProblem::less_motion(std::vector<Eigen::VectorX
 
 Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double negligible_force) const
 {
-  constexpr double no_force = 1e-9;   // of the largest contact force: the next node may just touch
+  // Of the largest contact force on the body: the next node may just touch, with what loads typed with six digits turn the body
+  // by.
+  constexpr double no_force = 1e-6;
   constexpr Eigen::Index most = 600;  // amplitudes: more would take seconds
   const auto& contacts = constraints_.contacts;
   const bool unbonded = std::find(contacts.bonded.begin(), contacts.bonded.end(), false) != contacts.bonded.end();
@@ -97,12 +99,12 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
                    Eigen::VectorXd::Ones(count), Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};
   const auto u = displacement(lambda, nu);
   const Eigen::VectorXd force = forces(lambda), jump = jumps(u);
-  double largest = 0;
-  for (const auto& rows : node_rows_) largest = std::max(largest, std::abs(force[rows.normal]));
-  const double least = std::max(no_force * comm_.max(largest), negligible_force);
+  Eigen::VectorXd normal_force = Eigen::VectorXd::Zero(count);
+  for (const auto& rows : node_rows_) normal_force[rows.normal - first] = force[rows.normal];
+  const Eigen::VectorXd least = no_force * largest_on_bodies(felt.rows, normal_force, bodies.modes, comm_);
   for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
     const auto& rows = node_rows_[i];
-    if (contacts.bonded[i] || force[rows.normal] > least) continue;
+    if (contacts.bonded[i] || force[rows.normal] > std::max(least[rows.normal - first], negligible_force)) continue;
     felt.closed.segment(rows.normal - first, 1 + rows.tangents).setZero();
     felt.gap[rows.normal - first] = contacts.rows.bound[contacts.nodes[i].row] - jump[rows.normal];
   }

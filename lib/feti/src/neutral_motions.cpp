@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "base/dense.hpp"
 #include "unit_motions.hpp"
@@ -26,6 +28,22 @@ Eigen::VectorXd unfelt_change(const SparseMatrix& rows, const Eigen::VectorXd& c
 }
 
 }  // namespace
+
+Eigen::VectorXd largest_on_bodies(const SparseMatrix& rows, const Eigen::VectorXd& forces, int modes, const Communicator& comm)
+{
+  constexpr double unfelt = 1e-9;
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(rows.cols() / modes);
+  const auto for_each_body = [&](const auto& visit) {
+    for (Eigen::Index column = 0; column < rows.cols(); ++column)
+      for (SparseMatrix::InnerIterator entry(rows, column); entry; ++entry)
+        if (std::abs(entry.value()) > unfelt) visit(entry.row(), column / modes);
+  };
+  for_each_body([&](Eigen::Index row, Eigen::Index body) { largest[body] = std::max(largest[body], std::abs(forces[row])); });
+  for (auto& force : largest) force = comm.max(force);
+  Eigen::VectorXd result = Eigen::VectorXd::Constant(rows.rows(), std::numeric_limits<double>::infinity());
+  for_each_body([&](Eigen::Index row, Eigen::Index body) { result[row] = std::min(result[row], largest[body]); });
+  return result;
+}
 
 Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now, const Communicator& comm)
 {

@@ -12,6 +12,10 @@ struct FeltMotions {
   Eigen::VectorXd gap;     ///< of open contacts' normal rows; infinite for all others
 };
 
+/// Of each row of this rank the largest of `forces`, of these rows, on that of its bodies where it is smallest: what a force is
+/// little beside. `modes`: amplitudes of a body. Collective.
+Eigen::VectorXd largest_on_bodies(const SparseMatrix& rows, const Eigen::VectorXd& forces, int modes, const Communicator& comm);
+
 /// The change of the amplitudes that takes the present ones, `now`, as near to 0 as can be: along motions that no closed row
 /// feels (to 1e-6 of a row), and so far that no gap closes; what closes a gap counts as closed, and motions beside it go on. 0
 /// where there is no such motion. The same on every rank. Collective.

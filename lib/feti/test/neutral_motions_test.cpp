@@ -46,5 +46,15 @@ TEST(NeutralMotions, NothingMovesThroughAGapThatIsClosed)
   EXPECT_NEAR(way.norm(), 0, 1e-12);
 }
 
+TEST(NeutralMotions, AForceIsLittleBesideThoseOnTheLighterBody)
+{
+  const Communicator comm;
+  // Two bodies that move along a line, each on the ground, and one on the other.
+  const auto rows = felt(Eigen::Matrix<double, 3, 2>{{1, 0}, {1, -1}, {0, 1}}, {}, {}, comm).rows;
+  const VectorXd forces = rows.rows() == 3 ? VectorXd(Eigen::Vector3d(100, 1e-3, 2)) : VectorXd(0);
+  const VectorXd largest = largest_on_bodies(rows, forces, 1, comm);
+  if (rows.rows() == 3) EXPECT_EQ(largest, Eigen::Vector3d(100, 2, 2));
+}
+
 }  // namespace
 }  // namespace mortise::feti
