@@ -148,18 +148,36 @@ void print_copies(const std::vector<partition::CopyOf>& copies, const partition:
 
 void print_precision(const std::vector<partition::CopyOf>& copies, const feti::Subdomains& subdomains, const Context& context)
 {
-  long long originals = 0, rounded = 0;
-  double rounding = 0;
+  struct Group {
+    long long count = 0;
+    double worst = 0;
+    void add(double size, double limit)
+    {
+      count += size > limit ? 1 : 0;
+      worst = std::max(worst, size);
+    }
+    void reduce(const Communicator& comm)
+    {
+      count = comm.sum(count);
+      worst = comm.max(worst);
+    }
+  };
+  long long originals = 0;
+  Group rounded, refined;
   for (std::size_t s = 0; s < copies.size(); ++s) {
     if (copies[s].original != s) continue;
     originals += 1;
-    rounded += subdomains[s]->rounding() > 0 ? 1 : 0;
-    rounding = std::max(rounding, subdomains[s]->rounding());
+    rounded.add(subdomains[s]->rounding(), 0);
+    refined.add(subdomains[s]->inaccuracy(), feti::inaccurate);
   }
   originals = context.comm.sum(originals);
-  rounded = context.comm.sum(rounded);
-  rounding = context.comm.max(rounding);
-  if (rounded > 0) context.log.line("  factors in single precision: {} of {}, exact to {:.0e}", rounded, originals, rounding);
+  rounded.reduce(context.comm);
+  refined.reduce(context.comm);
+  if (rounded.count > 0)
+    context.log.line("  factors in single precision: {} of {}, exact to {:.0e}", rounded.count, originals, rounded.worst);
+  if (refined.count > 0)
+    context.log.line("  slender subdomains: {} of {}; their solutions are refined, rounding would change them by {:.0e}",
+                     refined.count, originals, refined.worst);
 }
 
 void print_state(const model::LoadState& state, std::size_t index, std::size_t count, double seconds_left, Log& log)

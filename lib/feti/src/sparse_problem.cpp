@@ -73,11 +73,12 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   auto entries = entries_of_rows(problem.jump());
   bool dense = problem.springs() || problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension() ||
                std::any_of(entries.begin(), entries.end(), [](std::size_t count) { return count > most_entries; });
-  double unknowns = 0, factors = 0;
+  double unknowns = 0, factors = 0, inaccuracy = 0;
   for (const auto& subdomain : subdomains) {
     dense = dense || subdomain->lower().nonZeros() > static_cast<Eigen::Index>(most_entries) * subdomain->size();
     unknowns += subdomain->size();
     factors += static_cast<double>(subdomain->original().factor_bytes()) / sizeof(double);
+    inaccuracy = std::max(inaccuracy, subdomain->inaccuracy());
   }
   const auto constrained = problem.set().constrained();
   for (const Local i : constrained) entries[static_cast<std::size_t>(i)] = 0;
@@ -89,7 +90,8 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   const double work = work_of_sparse_solution(sums[2], sums[1]);
   const bool quick = work < worth_of_sparse * work_of_dense_solution(rows - closing, closing);
   if (sums[0] > 0) return Turn::never;
-  if (quick && rows >= many_rows) return Turn::first;
+  // A matrix F that is large in the softest motions has nothing left of what stiff cells do.
+  if ((quick && rows >= many_rows) || (comm.max(inaccuracy) > inaccurate && (quick || work < some_seconds))) return Turn::first;
   return quick || work < some_seconds ? Turn::second : Turn::never;
 }
 

@@ -37,6 +37,9 @@ class SubdomainOperator {
   /// rounding().
   virtual void apply_rounded_inverse(std::span<double* const> columns) const { apply_inverse(columns); }
   virtual double rounding() const { return 0; }
+  /// What double precision changes of a rough v = K^+ K v, relative to it. Much where a subdomain is soft in some motions beside
+  /// the stiffness of its cells: 1e-5 for a strip a thousand times as long as thick.
+  virtual double inaccuracy() const { return 0; }
   /// K u.
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
   /// The lower triangle of K, and that of a positive definite matrix whose inverse K^+ is.
@@ -59,6 +62,9 @@ class SubdomainOperator {
   virtual void rotate(Eigen::VectorXd&) const {}
 };
 
+/// Above this inaccuracy() solutions are refined.
+constexpr double inaccurate = 1e-9;
+
 /// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Copies by translation have the same one.
 using Subdomains = std::vector<std::shared_ptr<const SubdomainOperator>>;
 
@@ -73,6 +79,7 @@ void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v
 /// the mean of diag K: multiplied by R' it shows that R_I'u_I = 0 when f is in Im K, so that K u = f exactly for every r > 0.
 ///
 /// Where the factor is rounded to single precision, apply_inverse() refines its solutions with K + r N, in double precision.
+/// Where double precision is inaccurate, both inverses refine them with residuals in extended precision.
 class ElasticSubdomain : public SubdomainOperator {
  public:
   /// `lower`: lower triangle of K, unknown dimension * node + component. `kernel`: orthonormal rigid motions. Throws as
@@ -86,8 +93,9 @@ class ElasticSubdomain : public SubdomainOperator {
   int size() const override { return static_cast<int>(stiffness_.cols()); }
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
   void apply_inverse(std::span<double* const> columns) const override;
-  void apply_rounded_inverse(std::span<double* const> columns) const override { solver_->solve(columns); }
+  void apply_rounded_inverse(std::span<double* const> columns) const override;
   double rounding() const override { return solver_->rounding(); }
+  double inaccuracy() const override { return inaccuracy_; }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
   SparseMatrix lower() const override { return stiffness_; }
   SparseMatrix regularised() const override { return stiffness_ + fixing_; }
@@ -99,12 +107,17 @@ class ElasticSubdomain : public SubdomainOperator {
   std::size_t factor_bytes() const override { return solver_->factor_bytes(); }
 
  private:
+  double measured_inaccuracy() const;
+  Eigen::VectorXd residual(const double* b, const double* x) const;
+  void refine(std::span<double* const> columns) const;
+
   SparseMatrix stiffness_;
   SparseMatrix fixing_;  // r N, lower triangle
   Eigen::MatrixXd kernel_;
   int dimension_;
   int column_block_;  // of the stiffness: the dimension, or 1 where columns of a node differ
   std::unique_ptr<DirectSolver> solver_;
+  double inaccuracy_ = 0;
 };
 
 /// A copy of another subdomain, rotated in space: its vectors are rotated back, go through the original's factor and
@@ -118,6 +131,7 @@ class RotatedSubdomain : public SubdomainOperator {
   const Eigen::MatrixXd& kernel() const override { return kernel_; }
   void apply_inverse(std::span<double* const> columns) const override;
   double rounding() const override { return original_->rounding(); }
+  double inaccuracy() const override { return original_->inaccuracy(); }
   Eigen::VectorXd apply(const Eigen::VectorXd& u) const override;
   SparseMatrix lower() const override { return rotated(original_->lower()); }
   SparseMatrix regularised() const override { return rotated(original_->regularised()); }
