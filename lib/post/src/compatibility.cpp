@@ -137,9 +137,11 @@ double incompatibility(const feti::DualProblem& problem, const partition::Decomp
     auto& of_group = largest[static_cast<std::size_t>(groups[b])];
     of_group = std::max(of_group, size[b]);
   }
-  const auto overlap = openings(problem, u, nu).overlap, away = distances_from_supports(problem, u, nu);
+  const auto [overlap, bonded] = openings(problem, u, nu);
+  const auto away = distances_from_supports(problem, u, nu);
   double worst = 0;
-  for (std::size_t g = 0; g < groups.size(); ++g) worst = std::max(worst, std::max(overlap[g], away[g]) / largest[g]);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    worst = std::max(worst, std::max({overlap[g], bonded[g], away[g]}) / largest[g]);
   worst = comm.max(worst);
   for (std::size_t b = 0; b < tear.size(); ++b) {
     const bool loaded = loads[b] > loaded_part * load;
