@@ -58,7 +58,8 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
   Solution result(feasible.point, Vector(map), feasible.nu);
   if (!feasible.found) return infeasible(std::move(result), feasible);
   preconditionings_ = 0;
-  if (slip_bound_update && slip_bound_update->cautious) recycled_directions_.clear();  // they would lead where they have led before
+  if (slip_bound_update && slip_bound_update->cautious)
+    recycled_directions_.clear();  // they would lead where they have led before
   find_norm(start, observer);
 
   Run run{start, goal, slip_bound_update, observer, std::move(result), State(map), ContactForces(problem_)};
@@ -84,9 +85,11 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
     report(run, "outer", true);
     run.result.converged = is_solved(run, natural);
     if (run.result.converged || gives_up(run)) {
+      if (!run.result.converged && run.exact_but_for_states) run.go_back();
       if (std::isnan(run.result.error)) find_error(run, natural);
       return solution_of(std::move(run));
     }
+    if (is_exact_but_for_states(run, natural)) run.exact_but_for_states.emplace(run);
     minimise(run, trial);
   }
 }

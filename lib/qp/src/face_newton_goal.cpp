@@ -1,6 +1,7 @@
 // When face Newton ends: whether a point is what was asked for, and when there is no hope of one.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "face_newton_run.hpp"
@@ -19,6 +20,7 @@ constexpr double at_rest = 0.05;              // of normal forces: change that i
 constexpr double certain = 0.1;               // of the allowed error, at which their change does not matter
 constexpr double part_that_is_nothing = 0.1;  // of what rounding may make of an error
 constexpr double residual_of_direct = 1e-7;   // at which a direct solution has settled contact
+constexpr double away = 10;                   // times the error of a start that will do
 constexpr double first_look = 0.1;            // part of the first error at which the allowed one is asked for
 
 }  // namespace
@@ -92,7 +94,7 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   if (goal.allowed_error && !solved && std::isfinite(result.error)) {
     // What is allowed costs most to find and hardly changes from point to point: once known, it tells when to look again.
     const double part = to_come <= at_rest ? 1 : certain;
-    if (run.allowed < 0 && result.error <= first_look * run.first_error)
+    if (run.allowed < 0 && (goal.exact > 0 || result.error <= first_look * run.first_error))
       run.allowed = (goal.expected_allowed_error ? goal.expected_allowed_error : goal.allowed_error)(z, result.nu);
     if (run.allowed >= 0 && result.error <= part * run.allowed && contact()) {
       run.allowed = goal.allowed_error(z, result.nu);
@@ -107,6 +109,22 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   if (radii_settled(run) && is_compatible(run)) return true;
   run.doubtful = true;
   return false;
+}
+
+// Whether z is a direct solution with an error that does not matter, whose contact forces are known, though not the states of
+// points that hardly press: surfaces that lie on each other without a force. Rounding decides these, and what follows it leads
+// away.
+bool FaceNewton::is_exact_but_for_states(Run& run, const Projection& natural)
+{
+  const auto& goal = run.goal;
+  if (!(goal.exact > 0) || !goal.allowed_error || !goal.incompatibility || !std::isfinite(run.result.error)) return false;
+  if (run.exact_but_for_states && run.result.error >= run.exact_but_for_states->result.error) return false;
+  if (run.allowed < 0) run.allowed = goal.allowed_error(run.state.z, run.result.nu);
+  if (!(run.result.error <= certain * run.allowed) || run.worst() > Goal::largest_residual * run.size || !radii_settled(run))
+    return false;
+  Projection firm{natural.point, Vector(natural.argument.getMap()), natural.nu};
+  firm.argument.putScalar(std::numeric_limits<double>::infinity());  // as if all states were decided
+  return contact_converged(run, firm) && goal.incompatibility(run.state.z, run.result.nu) <= Goal::nearly_compatible;
 }
 
 // Whether contact at z has converged, as far as the goal asks for that.
@@ -134,6 +152,7 @@ bool FaceNewton::gives_up(Run& run) const
   run.best = std::min(run.best, worst);
   run.best_error = std::min(run.best_error, run.result.error);
   if (run.since_best > 1) run.active_set_tolerance *= 0.1;  // perhaps it is these that matter
+  if (run.exact_but_for_states && run.result.error > away * run.exact_but_for_states->result.error) return true;
   return problem_.hessian.exhausted() || run.result.outer_iterations >= max_active_sets ||
          run.since_best >= (run.slip_bound_update ? update_patience : patience) || run.result.safeguards > max_safeguards;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <optional>
 
 #include "qp/face_newton.hpp"
 
@@ -65,6 +66,29 @@ struct FaceNewton::Run {
   bool doubtful = false;                 // a small residual beside a large error
   double best = std::numeric_limits<double>::infinity(), best_error = best;
   int since_best = 0;  // active sets
+
+  // The point that is to be the solution if nothing better comes of it, see is_exact_but_for_states().
+  struct Point {
+    explicit Point(const Run& run)
+        : z(run.state.z, Teuchos::Copy), g(run.state.g, Teuchos::Copy), result(run.result), residual(run.residual)
+    {
+    }
+    Vector z, g;
+    Solution result;
+    double residual;
+  };
+  std::optional<Point> exact_but_for_states = {};
+  void go_back()
+  {
+    auto& point = *exact_but_for_states;
+    state.z.assign(point.z);
+    state.g.assign(point.g);
+    point.result.outer_iterations = result.outer_iterations;
+    point.result.preconditionings = result.preconditionings;
+    result = std::move(point.result);
+    result.converged = true;
+    residual = point.residual;
+  }
 
   double worst() const { return std::max(residual, mismatch); }
   // The largest of the last residuals; infinite as long as there are none.
