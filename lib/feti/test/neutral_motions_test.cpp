@@ -53,7 +53,8 @@ TEST(NeutralMotions, AForceIsLittleBesideThoseOnTheLighterBody)
   const auto rows = felt(Eigen::Matrix<double, 3, 2>{{1, 0}, {1, -1}, {0, 1}}, {}, {}, comm).rows;
   const VectorXd forces = rows.rows() == 3 ? VectorXd(Eigen::Vector3d(100, 1e-3, 2)) : VectorXd(0);
   const VectorXd largest = largest_on_bodies(rows, forces, 1, comm);
-  if (rows.rows() == 3) EXPECT_EQ(largest, Eigen::Vector3d(100, 2, 2));
+  if (rows.rows() == 0) return;
+  EXPECT_EQ(largest, Eigen::Vector3d(100, 2, 2));
 }
 
 }  // namespace
