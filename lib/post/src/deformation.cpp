@@ -263,9 +263,11 @@ std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const con
     }
   const auto nodes = fetch(std::move(wanted), own_nodes(pairs, decomposition, displacement), comm);
   std::vector<Found> longest(pairs.size()), parts(pairs.size());  // slide; slide over size of the face
+  std::vector<double> closed(pairs.size(), 0.0);                  // nodes
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!counts(i)) continue;
     const auto& point = contacts.nodes[i];
+    closed[static_cast<std::size_t>(point.contact)] += 1;
     const auto found = nodes.find(point.node);
     if (found == nodes.end() || !(found->second.size > 0)) continue;
     const double slide = tangential_jump(contacts, point, nodes).norm();
@@ -275,20 +277,28 @@ std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const con
   }
   parts = largest_of_ranks(parts, comm);
   longest = largest_of_ranks(longest, comm);
+  comm.sum_in_place(closed);
+  // Of the corners of one facet: what is round turns until it stands on it.
+  constexpr double part_on_a_facet = 0.1;
+  const double corners = decomposition.catalogue.dimension;
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    if (!(parts[c].value > 1)) continue;
+    const bool on_a_facet = closed[c] <= corners;
+    const double limit = on_a_facet ? part_on_a_facet : 1;
+    if (!(parts[c].value > limit)) continue;
     Warning w{
         "long_slide",
-        fmt::format("in contact {} a point at {} slides over {:.3g} of its face, by up to {:.3g}: it presses where it stood "
-                    "before, not where it came to",
-                    pairs[c].options.name, spell(parts[c].at), parts[c].value, longest[c].value),
+        fmt::format(
+            "in contact {} a point at {} slides over {:.3g} of its face, by up to {:.3g}: it presses where it stood "
+            "before, not where it came to{}",
+            pairs[c].options.name, spell(parts[c].at), parts[c].value, longest[c].value,
+            on_a_facet ? "; so few nodes press that, if the body is round, it turns until it stands on a facet" : ""),
         "draw the bodies where they come to rest, hold what slides, or take larger faces if the surfaces are flat"};
     w.at = parts[c].at;
     w.contact = pairs[c].options.name;
     w.boundary = pairs[c].options.secondary;
     w.value = parts[c].value;
-    w.limit = 1;
+    w.limit = limit;
     result.push_back(std::move(w));
   }
   return worst(std::move(result), "contacts");

@@ -116,7 +116,8 @@ TEST(InvertedCells, are_counted_and_placed)
 }
 
 // Of a slide of the upper block by `length` along (1, 0, 0), with the lower one moving by `lower`; faces are 0.5 x 0.5.
-std::vector<Warning> slide(double length, double lower, contact::Law law, contact::Status status)
+// `closed`: nodes of the first ranks that have `status`; the others are open.
+std::vector<Warning> slide(double length, double lower, contact::Law law, contact::Status status, long long closed = 1000)
 {
   const Blocks blocks;
   std::vector<contact::Pair> pairs{blocks.pair("upper.zmin", "lower.zmax")};
@@ -128,7 +129,9 @@ std::vector<Warning> slide(double length, double lower, contact::Law law, contac
   const auto contacts = contact::discretize(pairs, prescribed, fem::Kinematics::solid, blocks.comm);
   EXPECT_GT(blocks.comm.sum(static_cast<long long>(contacts.nodes.size())), 0);
   std::vector<contact::ContactNodeState> points(contacts.nodes.size());
-  for (auto& point : points) point.status = status;
+  const auto first = blocks.comm.offset(static_cast<long long>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].status = first + static_cast<long long>(i) < closed ? status : contact::Status::open;
   auto u = blocks.displacement(1, [&](const Point&) { return Point(length, 0, 0.3); });
   const auto below = blocks.displacement(0, [&](const Point&) { return Point(lower, 0, 0.3); });
   for (std::size_t s = 0; s < u.size(); ++s) u[s] += below[s];
@@ -149,6 +152,19 @@ TEST(LongSlides, are_longer_than_a_face)
     EXPECT_TRUE(slide(2 * face, 0, law, contact::Status::open).empty());
   }
   EXPECT_TRUE(slide(2 * face, 0, contact::Law::bonded, contact::Status::stick).empty());
+}
+
+TEST(LongSlides, are_shorter_on_the_corners_of_a_facet)
+{
+  const double face = std::sqrt(0.5);
+  const auto law = contact::Law::frictionless;
+  const auto status = contact::Status::slip;
+  EXPECT_TRUE(slide(0.09 * face, 0, law, status, 3).empty());
+  const auto found = slide(0.11 * face, 0, law, status, 3);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].text.find("it turns until it stands"), std::string::npos);
+  EXPECT_EQ(found[0].limit, 0.1);
+  EXPECT_TRUE(slide(0.11 * face, 0, law, status, 4).empty());
 }
 
 TEST(DoubledContacts, share_faces_on_both_sides)
