@@ -17,6 +17,7 @@ constexpr double steps_of_gmres = 15;      // in each of these
 constexpr double slow = 8;                 // operations of a factor in the time of one that a solution with it takes
 constexpr double some_seconds = 1e11;      // operations
 constexpr double joined = 1.3;             // entries of the factor of joined bodies, over those of their own
+constexpr double lost_in_dense = 3e-8;     // inaccuracy of a subdomain at which F as a matrix keeps too little of stiff cells
 constexpr std::size_t most_entries = 400;  // of a row of B, and of a column of K on average
 
 using Eigen::VectorXd;
@@ -91,7 +92,8 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   const bool quick = work < worth_of_sparse * work_of_dense_solution(rows - closing, closing);
   if (sums[0] > 0) return Turn::never;
   // A matrix F that is large in the softest motions has nothing left of what stiff cells do.
-  if ((quick && rows >= many_rows) || (comm.max(inaccuracy) > inaccurate && (quick || work < some_seconds))) return Turn::first;
+  if ((quick && rows >= many_rows) || (comm.max(inaccuracy) > lost_in_dense && (quick || work < some_seconds)))
+    return Turn::first;
   return quick || work < some_seconds ? Turn::second : Turn::never;
 }
 
