@@ -1,5 +1,6 @@
 #include "feti/means.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -20,6 +21,14 @@ qp::ExplicitProgramme sparse_programme(const DualProblem& problem)
   return {matrices, [matrices](const qp::FeasibleSet& set) { return matrices->solve(set); }, go_on, true};
 }
 
+// The largest of the subdomains. Collective.
+double inaccuracy(const DualProblem& problem)
+{
+  double result = 0;
+  for (const auto& subdomain : problem.clusters().subdomains()) result = std::max(result, subdomain->inaccuracy());
+  return problem.communicator().max(result);
+}
+
 }  // namespace
 
 qp::Means means_of(DualProblem& problem, qp::Budget& budget)
@@ -35,6 +44,7 @@ qp::Means means_of(DualProblem& problem, qp::Budget& budget)
       return matrices->solve(linear, e, set, &near);
     };
     programme.differs = matrices->differs();
+    programme.doubtful = inaccuracy(problem) > inaccurate;
     if (turn == SparseProblem::Turn::second) programme.instead = [&problem] { return sparse_programme(problem); };
     return programme;
   };

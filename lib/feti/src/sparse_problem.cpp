@@ -17,7 +17,6 @@ constexpr double steps_of_gmres = 15;      // in each of these
 constexpr double slow = 8;                 // operations of a factor in the time of one that a solution with it takes
 constexpr double some_seconds = 1e11;      // operations
 constexpr double joined = 1.3;             // entries of the factor of joined bodies, over those of their own
-constexpr double lost_in_dense = 3e-8;     // inaccuracy of a subdomain at which F as a matrix keeps too little of stiff cells
 constexpr std::size_t most_entries = 400;  // of a row of B, and of a column of K on average
 
 using Eigen::VectorXd;
@@ -74,12 +73,11 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   auto entries = entries_of_rows(problem.jump());
   bool dense = problem.springs() || problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension() ||
                std::any_of(entries.begin(), entries.end(), [](std::size_t count) { return count > most_entries; });
-  double unknowns = 0, factors = 0, inaccuracy = 0;
+  double unknowns = 0, factors = 0;
   for (const auto& subdomain : subdomains) {
     dense = dense || subdomain->lower().nonZeros() > static_cast<Eigen::Index>(most_entries) * subdomain->size();
     unknowns += subdomain->size();
     factors += static_cast<double>(subdomain->original().factor_bytes()) / sizeof(double);
-    inaccuracy = std::max(inaccuracy, subdomain->inaccuracy());
   }
   const auto constrained = problem.set().constrained();
   for (const Local i : constrained) entries[static_cast<std::size_t>(i)] = 0;
@@ -91,9 +89,7 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   const double work = work_of_sparse_solution(sums[2], sums[1]);
   const bool quick = work < worth_of_sparse * work_of_dense_solution(rows - closing, closing);
   if (sums[0] > 0) return Turn::never;
-  // A matrix F that is large in the softest motions has nothing left of what stiff cells do.
-  if ((quick && rows >= many_rows) || (comm.max(inaccuracy) > lost_in_dense && (quick || work < some_seconds)))
-    return Turn::first;
+  if (quick && rows >= many_rows) return Turn::first;
   return quick || work < some_seconds ? Turn::second : Turn::never;
 }
 

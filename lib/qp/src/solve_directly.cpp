@@ -72,14 +72,25 @@ class DirectSolver : public Solver {
       if (next.converged && next.settled) return next;
     }
     auto found = matrices_.solve(problem_.set);
-    if ((found.converged && found.settled) || found.slides) return found;
+    if ((found.converged && found.settled && !matrices_.doubtful) || found.slides) return found;
     if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
     if (!others_) return found;
     auto next = others_->solve(problem_.set);
-    if (!next.converged || (found.converged && !next.settled)) return found;
+    if (!next.converged) return found;
+    if (found.converged && (matrices_.doubtful ? defect_size(next) >= defect_size(found) : !next.settled)) return found;
     std::swap(matrices_, *others_);
     faces_ = face_newton_with(matrices_.inverse.get(), problem_, means_);
     return next;
+  }
+
+  // A x - b + G'nu - reaction, without what G'nu may take up: 0 of an exact solution. One product.
+  double defect_size(const ExplicitProgramme::Point& at)
+  {
+    Vector defect(problem_.linear.getMap());
+    problem_.hessian.apply(at.x, defect);
+    defect.update(-1, problem_.linear, -1, *at.reaction, 1);
+    problem_.equality.project(defect);
+    return defect.norm2();
   }
 
   // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M)

@@ -33,8 +33,8 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   /// When a direct solution should take these: never, first, or after dense matrices have failed.
   enum class Turn { never, first, second };
   /// Possible for bodies whose stiffness is sparse, with nothing but rigid motions in G, without springs and without rows over
-  /// whole bodies (gauges). First where there are many rows and sparse matrices take less time, and where a subdomain is
-  /// inaccurate; second where they take no more than some times as long, or some seconds. The same on every rank. Collective.
+  /// whole bodies (gauges). First where there are many rows and sparse matrices take less time; second where they take no more
+  /// than some times as long, or some seconds. The same on every rank. Collective.
   static Turn turn(const DualProblem& problem);
 
   /// The problem outlives it. Throws Error(machine) if memory runs out. Collective.

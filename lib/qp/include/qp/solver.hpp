@@ -51,6 +51,8 @@ struct ExplicitProgramme {
   bool differs = false;  ///< whether the matrix differs from A by a little, so that go_on() has to correct solutions
   /// Other matrices, for where a solution with these does not converge or settle. Else empty. Collective.
   std::function<ExplicitProgramme()> instead = {};
+  /// Whether rounding may spoil these or the others, so that products with A are to tell which are better.
+  bool doubtful = false;
 };
 
 /// What a solver may use besides the problem.
