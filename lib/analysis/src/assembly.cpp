@@ -73,9 +73,9 @@ feti::Subdomains factorize(const model::Model& model, const std::vector<partitio
     try {
       SparseMatrix own;  // so that it goes when it is factorized: Eigen 3.4 would copy what is moved
       own.swap(stiffness[s]);
-      subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(std::move(own), fem::rigid_motions(points, deck.kinematics),
-                                                                    points, deck.dimension(),
-                                                                    deck.solver.subdomains.factorization, most_rounded));
+      subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(
+          std::move(own), fem::rigid_motions(points, deck.kinematics), points, deck.dimension(),
+          deck.solver.subdomains.factorization, most_rounded, !deck.solver.programme.tolerance.value));
     } catch (const Error& error) {
       if (error.status() != ExitStatus::bad_input) throw;
       const auto& body = decomposition.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];

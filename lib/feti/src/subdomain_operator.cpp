@@ -175,14 +175,14 @@ class SparseInterface : public InterfaceStiffness {
 
 // `lower` is taken by a swap: Eigen 3.4 has no move of sparse matrices.
 ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
-                                   const std::string& factorization, std::optional<double> most_rounded)
+                                   const std::string& factorization, std::optional<double> most_rounded, bool refined)
     : kernel_(std::move(kernel)), dimension_(dimension)
 {
   stiffness_.swap(lower);
   column_block_ = has_column_blocks(stiffness_, dimension) ? dimension : 1;
   fixing_ = fixing_term(diagonal(), kernel_, points, dimension);
   solver_ = std::make_unique<DirectSolver>(factorization, stiffness_ + fixing_, dimension, most_rounded);
-  if (rounding() == 0) inaccuracy_ = measured_inaccuracy();
+  if (refined && rounding() == 0) inaccuracy_ = measured_inaccuracy();
 }
 
 // Of a vector that all motions are part of, those of single nodes above all: what rounding makes of it is mostly the softest

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double rounding_of_direct = 1e-4;  // of the energy norm: error that a direct solution may leave
 constexpr int most_corrections = 4;          // of what the matrix differs from A by, as long as each leaves
-constexpr double better = 0.3;               // times the defect before,
+constexpr double better = 0.3;               // times the defect before, or of other matrices,
 constexpr double of_goal = 0.1;              // and more than so much of the residual that is asked for, or of
 constexpr double asked_at_least = 1e-6;      // for what is left makes states turn,
 constexpr double of_energy = 3e-5;           // or of the energy norm
@@ -77,20 +77,21 @@ class DirectSolver : public Solver {
     if (!others_) return found;
     auto next = others_->solve(problem_.set);
     if (!next.converged) return found;
-    if (found.converged && (matrices_.doubtful ? defect_size(next) >= defect_size(found) : !next.settled)) return found;
+    if (found.converged && (matrices_.doubtful ? defect(found) < better * defect(next) : !next.settled)) return found;
     std::swap(matrices_, *others_);
     faces_ = face_newton_with(matrices_.inverse.get(), problem_, means_);
     return next;
   }
 
-  // A x - b + G'nu - reaction, without what G'nu may take up: 0 of an exact solution. One product.
-  double defect_size(const ExplicitProgramme::Point& at)
+  // ||A x - b + G'nu - reaction|| in the norm of A^-1 by the other matrices, without what G'nu may take up. One product.
+  double defect(const ExplicitProgramme::Point& at)
   {
-    Vector defect(problem_.linear.getMap());
+    Vector defect(problem_.linear.getMap()), error(defect.getMap());
     problem_.hessian.apply(at.x, defect);
     defect.update(-1, problem_.linear, -1, *at.reaction, 1);
     problem_.equality.project(defect);
-    return defect.norm2();
+    others_->inverse->apply(defect, error);
+    return std::sqrt(std::max(defect.dot(error), 0.0));
   }
 
   // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M)

@@ -37,8 +37,8 @@ class SubdomainOperator {
   /// rounding().
   virtual void apply_rounded_inverse(std::span<double* const> columns) const { apply_inverse(columns); }
   virtual double rounding() const { return 0; }
-  /// What double precision changes of a rough v = K^+ K v, relative to it. Much where a subdomain is soft in some motions beside
-  /// the stiffness of its cells: 1e-5 for a strip a thousand times as long as thick.
+  /// What double precision changes of a rough v = K^+ K v, relative to it; 0 if nobody asked for refined solutions. Much where a
+  /// subdomain is soft in some motions beside the stiffness of its cells: 1e-5 for a strip a thousand times as long as thick.
   virtual double inaccuracy() const { return 0; }
   /// K u.
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
@@ -63,7 +63,7 @@ class SubdomainOperator {
 };
 
 /// Above this inaccuracy() solutions are refined.
-constexpr double inaccurate = 1e-9;
+constexpr double inaccurate = 3e-8;
 
 /// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Copies by translation have the same one.
 using Subdomains = std::vector<std::shared_ptr<const SubdomainOperator>>;
@@ -83,9 +83,9 @@ void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v
 class ElasticSubdomain : public SubdomainOperator {
  public:
   /// `lower`: lower triangle of K, unknown dimension * node + component. `kernel`: orthonormal rigid motions. Throws as
-  /// DirectSolver, which says what `most_rounded` is.
+  /// DirectSolver, which says what `most_rounded` is. `refined`: where double precision is inaccurate solutions are refined.
   ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
-                   const std::string& factorization, std::optional<double> most_rounded = {});
+                   const std::string& factorization, std::optional<double> most_rounded = {}, bool refined = true);
   /// Bytes that the factor of such a subdomain will take, from the analysis of its pattern alone.
   static std::size_t foreseen_factor_bytes(const SparseMatrix& lower, const Eigen::MatrixXd& kernel,
                                            std::span<const Point> points, int dimension);
