@@ -11,6 +11,9 @@ namespace mortise::feti {
 
 namespace {
 
+// Inaccuracy of a subdomain from which on F as a matrix, large in soft motions, has nothing left of what stiff cells do.
+constexpr double lost_in_dense = 1e-5;
+
 qp::ExplicitProgramme sparse_programme(const DualProblem& problem)
 {
   using Point = qp::ExplicitProgramme::Point;
@@ -36,7 +39,9 @@ qp::Means means_of(DualProblem& problem, qp::Budget& budget)
   const auto make_explicit = [&problem] {
     problem.be_exact();
     const auto turn = SparseProblem::turn(problem);
-    if (turn == SparseProblem::Turn::first) return sparse_programme(problem);
+    const double lost = inaccuracy(problem);
+    if (turn == SparseProblem::Turn::first || (turn == SparseProblem::Turn::second && lost > lost_in_dense))
+      return sparse_programme(problem);
     const auto matrices = std::make_shared<ExplicitProblem>(problem);
     using Point = qp::ExplicitProgramme::Point;
     qp::ExplicitProgramme programme{matrices, [matrices](const qp::FeasibleSet& set) { return matrices->solve(set); }};
@@ -44,7 +49,7 @@ qp::Means means_of(DualProblem& problem, qp::Budget& budget)
       return matrices->solve(linear, e, set, &near);
     };
     programme.differs = matrices->differs();
-    programme.doubtful = inaccuracy(problem) > inaccurate;
+    programme.doubtful = lost > inaccurate;
     if (turn == SparseProblem::Turn::second) programme.instead = [&problem] { return sparse_programme(problem); };
     return programme;
   };
