@@ -38,7 +38,7 @@ class SubdomainOperator {
   virtual void apply_rounded_inverse(std::span<double* const> columns) const { apply_inverse(columns); }
   virtual double rounding() const { return 0; }
   /// What double precision changes of a rough v = K^+ K v, relative to it; 0 if nobody asked for refined solutions. Much where a
-  /// subdomain is soft in some motions beside the stiffness of its cells: 1e-5 for a strip a thousand times as long as thick.
+  /// subdomain is soft in some motions beside the stiffness of its cells: 2e-4 for a strip a thousand times as long as thick.
   virtual double inaccuracy() const { return 0; }
   /// K u.
   virtual Eigen::VectorXd apply(const Eigen::VectorXd& u) const = 0;
