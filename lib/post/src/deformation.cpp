@@ -288,11 +288,10 @@ std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const con
     if (!(parts[c].value > limit)) continue;
     Warning w{
         "long_slide",
-        fmt::format(
-            "in contact {} a point at {} slides over {:.3g} of its face, by up to {:.3g}: it presses where it stood "
-            "before, not where it came to{}",
-            pairs[c].options.name, spell(parts[c].at), parts[c].value, longest[c].value,
-            on_a_facet ? "; so few nodes press that, if the body is round, it turns until it stands on a facet" : ""),
+        fmt::format("in contact {} a point at {} slides over {:.3g} of its face, by up to {:.3g}: it presses where it stood "
+                    "before, not where it came to{}",
+                    pairs[c].options.name, spell(parts[c].at), parts[c].value, longest[c].value,
+                    on_a_facet ? "; so few nodes press that, if the body is round, it turns until it stands on a facet" : ""),
         "draw the bodies where they come to rest, hold what slides, or take larger faces if the surfaces are flat"};
     w.at = parts[c].at;
     w.contact = pairs[c].options.name;

@@ -6,8 +6,8 @@
 
 namespace mortise::post {
 
-/// The largest distance of a held node from where supports hold it, along what each of them prescribes, or from where the motion of
-/// its rigid coupling's point takes it; nu are the multipliers that u belongs to. Springs are no such supports. Collective.
+/// The largest distance of a held node from where supports hold it, along what each of them prescribes, or from where the motion
+/// of its rigid coupling's point takes it; nu are the multipliers that u belongs to. Springs are no such supports. Collective.
 double distance_from_supports(const feti::DualProblem& problem, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu);
 
 /// How far parts that are one are from each other: the largest distance of a copy of a node from the mean of its copies, and of a
@@ -18,9 +18,9 @@ double distance_between_parts(const feti::DualProblem& problem, const partition:
 
 /// How far displacements `u` of subdomains, with the multipliers nu, are from those of one assembly: the largest distance of a
 /// copy of a node from the mean of its copies, over the largest displacement of its body if that is loaded, else of all; and
-/// the largest overlap at a contact node, distance across a bond and distance_from_supports() over the largest displacement. A plate
-/// bends by much at little energy, and so do a clip beside a press and soft glue, so that a small error in the energy norm alone
-/// says little of them. Collective.
+/// the largest overlap at a contact node, distance across a bond and distance_from_supports() over the largest displacement. A
+/// plate bends by much at little energy, and so do a clip beside a press and soft glue, so that a small error in the energy norm
+/// alone says little of them. Collective.
 double incompatibility(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                        const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu);
 
