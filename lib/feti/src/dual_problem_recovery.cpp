@@ -81,9 +81,10 @@ std::vector<Eigen::VectorXd> DualProblem::less_motion(std::vector<Eigen::VectorX
 
 Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double negligible_force) const
 {
-  // Of the largest contact force on the body: the next node may just touch, with what loads typed with six digits turn the body
-  // by.
-  constexpr double no_force = 1e-6;
+  constexpr double no_force = 1e-9;  // of the largest contact force: the next node may just touch
+  // Of that on the lighter body, for what turns, as in drives.cpp: so much loads typed with six digits turn it by, and nodes
+  // beside their arc. What a small load lets travel until it meets something stays there.
+  constexpr double no_moment = 1e-6;
   constexpr Eigen::Index most = 600;  // amplitudes: more would take seconds
   const auto& contacts = constraints_.contacts;
   const bool unbonded = std::find(contacts.bonded.begin(), contacts.bonded.end(), false) != contacts.bonded.end();
@@ -95,20 +96,33 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   const auto kernels = system_.clusters.kernel_dimension();
   const Eigen::VectorXd unscale = jump_->scaling().factor.segment(first, count).cwiseInverse();
   const SparseMatrix g = equality_->local().middleCols(first, count);
-  FeltMotions felt{unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.transpose()).leftCols(kernels) * bodies.aggregate),
-                   Eigen::VectorXd::Ones(count), Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};
+  const SparseMatrix rows_of_bodies =
+      unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.transpose()).leftCols(kernels) * bodies.aggregate);
   const auto u = displacement(lambda, nu);
   const Eigen::VectorXd force = forces(lambda), jump = jumps(u);
   Eigen::VectorXd normal_force = Eigen::VectorXd::Zero(count);
-  for (const auto& rows : node_rows_) normal_force[rows.normal - first] = force[rows.normal];
-  const Eigen::VectorXd least = no_force * largest_on_bodies(felt.rows, normal_force, bodies.modes, comm_);
-  for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
-    const auto& rows = node_rows_[i];
-    if (contacts.bonded[i] || force[rows.normal] > std::max(least[rows.normal - first], negligible_force)) continue;
-    felt.closed.segment(rows.normal - first, 1 + rows.tangents).setZero();
-    felt.gap[rows.normal - first] = contacts.rows.bound[contacts.nodes[i].row] - jump[rows.normal];
-  }
-  const Eigen::VectorXd change = towards_rest(felt, mean_amplitudes(decomposition_, bodies, u, comm_), comm_);
+  for (const auto& rows : node_rows_) normal_force[rows.normal - first] = std::abs(force[rows.normal]);
+  const double largest = comm_.max(count > 0 ? normal_force.maxCoeff() : 0.0);
+  const Eigen::VectorXd now = mean_amplitudes(decomposition_, bodies, u, comm_);
+  // The way back if what turns counts forces as none that travellers do not.
+  const auto way_back = [&](const std::vector<bool>& travel) {
+    const Eigen::VectorXd on_lighter = largest_on_bodies(rows_of_bodies, normal_force, travel, comm_);
+    FeltMotions felt{rows_of_bodies, Eigen::VectorXd::Ones(count),
+                     Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};
+    for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
+      const auto& rows = node_rows_[i];
+      const Local row = rows.normal - first;
+      if (contacts.bonded[i] ||
+          force[rows.normal] > std::max({no_force * largest, no_moment * on_lighter[row], negligible_force}))
+        continue;
+      felt.closed.segment(row, 1 + rows.tangents).setZero();
+      felt.gap[row] = contacts.rows.bound[contacts.nodes[i].row] - jump[rows.normal];
+    }
+    return towards_rest(felt, now, comm_);
+  };
+  Eigen::VectorXd change = way_back(std::vector<bool>(bodies.frames.size(), false));
+  const auto travel = travellers(change, bodies);
+  if (std::ranges::find(travel, true) != travel.end()) change = way_back(travel);
   Eigen::VectorXd result = nu;
   result.head(kernels) -= bodies.aggregate * change;
   return result;

@@ -29,17 +29,20 @@ Eigen::VectorXd unfelt_change(const SparseMatrix& rows, const Eigen::VectorXd& c
 
 }  // namespace
 
-Eigen::VectorXd largest_on_bodies(const SparseMatrix& rows, const Eigen::VectorXd& forces, int modes, const Communicator& comm)
+Eigen::VectorXd largest_on_bodies(const SparseMatrix& rows, const Eigen::VectorXd& forces, const std::vector<bool>& left_out,
+                                  const Communicator& comm)
 {
   constexpr double unfelt = 1e-9;
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(rows.cols() / modes);
+  const auto modes = rows.cols() / static_cast<Eigen::Index>(left_out.size());
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(left_out.size()));
   const auto for_each_body = [&](const auto& visit) {
     for (Eigen::Index column = 0; column < rows.cols(); ++column)
       for (SparseMatrix::InnerIterator entry(rows, column); entry; ++entry)
         if (std::abs(entry.value()) > unfelt) visit(entry.row(), column / modes);
   };
   for_each_body([&](Eigen::Index row, Eigen::Index body) { largest[body] = std::max(largest[body], std::abs(forces[row])); });
-  for (auto& force : largest) force = comm.max(force);
+  for (Eigen::Index b = 0; b < largest.size(); ++b)
+    largest[b] = left_out[static_cast<std::size_t>(b)] ? 0.0 : comm.max(largest[b]);
   Eigen::VectorXd result = Eigen::VectorXd::Constant(rows.rows(), std::numeric_limits<double>::infinity());
   for_each_body([&](Eigen::Index row, Eigen::Index body) { result[row] = std::min(result[row], largest[body]); });
   return result;
@@ -65,6 +68,20 @@ Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now
     for (Eigen::Index i = 0; i < closing.size(); ++i)
       if (closing[i] > least && gap[i] <= least) closed[i] = 1;
   }
+}
+
+std::vector<bool> travellers(const Eigen::VectorXd& change, const Bodies& bodies)
+{
+  constexpr double moves = 1e-6, turns = 1;  // over the largest change; radius times angle, over the way of the centre
+  std::vector<bool> result;
+  for (std::size_t b = 0; b < bodies.frames.size(); ++b) {
+    const auto& frame = bodies.frames[b];
+    const auto own = change.segment(static_cast<Eigen::Index>(b) * bodies.modes, bodies.modes);
+    const auto motion = combine(static_cast<int>(b), frame, own, bodies.kinematics);
+    result.push_back(own.norm() > moves * change.lpNorm<Eigen::Infinity>() &&
+                     motion.rotation.norm() * frame.radius <= turns * motion.at(frame.centre).norm());
+  }
+  return result;
 }
 
 Eigen::VectorXd mean_amplitudes(const partition::Decomposition& decomposition, const Bodies& bodies,

@@ -46,15 +46,28 @@ TEST(NeutralMotions, NothingMovesThroughAGapThatIsClosed)
   EXPECT_NEAR(way.norm(), 0, 1e-12);
 }
 
+TEST(NeutralMotions, WhatTurnsWhereItIsDoesNotTravel)
+{
+  Bodies bodies;
+  bodies.kinematics = fem::Kinematics::plane_strain;
+  bodies.modes = 3;
+  bodies.frames.resize(3);
+  VectorXd change(9);
+  change << 0.02, 0, 0.5, 0, -0.3, 0.01, 1e-8, 0, 0;  // the last is rounding
+  EXPECT_EQ(travellers(change, bodies), (std::vector<bool>{false, true, false}));
+}
+
 TEST(NeutralMotions, AForceIsLittleBesideThoseOnTheLighterBody)
 {
   const Communicator comm;
   // Two bodies that move along a line, each on the ground, and one on the other.
   const auto rows = felt(Eigen::Matrix<double, 3, 2>{{1, 0}, {1, -1}, {0, 1}}, {}, {}, comm).rows;
   const VectorXd forces = rows.rows() == 3 ? VectorXd(Eigen::Vector3d(100, 1e-3, 2)) : VectorXd(0);
-  const VectorXd largest = largest_on_bodies(rows, forces, 1, comm);
+  const VectorXd largest = largest_on_bodies(rows, forces, {false, false}, comm);
+  const VectorXd without = largest_on_bodies(rows, forces, {false, true}, comm);
   if (rows.rows() == 0) return;
   EXPECT_EQ(largest, Eigen::Vector3d(100, 2, 2));
+  EXPECT_EQ(without, Eigen::Vector3d(100, 0, 0));
 }
 
 }  // namespace
