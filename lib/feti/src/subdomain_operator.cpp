@@ -209,7 +209,7 @@ void ElasticSubdomain::apply_rounded_inverse(std::span<double* const> columns) c
 }
 
 // x += K~^+ (b - (K + r N) x) [Wilkinson, Rounding Errors in Algebraic Processes (1963)]: each step takes the error times
-// rounding(), or times inaccuracy().
+// rounding(); of a slender subdomain less is left the less inaccurate it is.
 void ElasticSubdomain::refine(std::span<double* const> columns) const
 {
   constexpr int steps = 2;

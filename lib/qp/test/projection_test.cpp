@@ -8,6 +8,14 @@
 namespace mortise::qp {
 namespace {
 
+// All unknowns of this rank >= 0.
+FeasibleSet pushing(const Map& map)
+{
+  std::vector<Bound> bounds;
+  for (Local i = 0; i < static_cast<Local>(map.getNodeNumElements()); ++i) bounds.push_back({i, 0});
+  return {std::move(bounds), {}};
+}
+
 // sum x = total over n unknowns, x >= 0: the projection is max(y - nu, 0) with one nu that fits.
 TEST(Projection, SimplexHasItsKnownForm)
 {
@@ -15,9 +23,7 @@ TEST(Projection, SimplexHasItsKnownForm)
   const auto map = even_map(n, world());
   Eigen::VectorXd y(n);
   for (int i = 0; i < n; ++i) y[i] = std::sin(3.0 * i);
-  std::vector<Bound> bounds;
-  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) bounds.push_back({i, 0});
-  const FeasibleSet set(bounds, {});
+  const FeasibleSet set = pushing(*map);
   const EqualityConstraint equality(local_columns(Eigen::MatrixXd::Ones(1, n), *map), Eigen::VectorXd::Constant(1, 2.5), world());
   const Projection result = project(local_part(y, map), equality, set);
   ASSERT_TRUE(result.found);
@@ -52,9 +58,7 @@ TEST(Projection, TellsThatNothingIsFeasible)
 {
   constexpr int n = 6;
   const auto map = even_map(n, world());
-  std::vector<Bound> bounds;
-  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) bounds.push_back({i, 0});
-  const FeasibleSet set(bounds, {});
+  const FeasibleSet set = pushing(*map);
   // Pushing bodies pull: a sum of forces that are all >= 0 cannot be -1.
   const EqualityConstraint equality(local_columns(Eigen::MatrixXd::Ones(1, n), *map), Eigen::VectorXd::Constant(1, -1), world());
   const Projection result = project(Vector(map), equality, set);
@@ -68,9 +72,7 @@ TEST(Projection, ProvesThatLittleIsOutOfReach)
 {
   constexpr int n = 3;
   const auto map = even_map(n, world());
-  std::vector<Bound> bounds;
-  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) bounds.push_back({i, 0});
-  const FeasibleSet set(bounds, {});
+  const FeasibleSet set = pushing(*map);
   for (const double pull : {-1e-6, 1e-6}) {
     // Up, to the left, and turning about the middle of the floor, where the wall presses half as high as the floor is long.
     const Eigen::MatrixXd g{{1, 1, 0}, {0, 0, 1}, {-1, 1, 0.5}};
