@@ -9,6 +9,7 @@
 #include "model/crossed_bodies.hpp"
 #include "model/doubled_nodes.hpp"
 #include "model/patterns.hpp"
+#include "post/contact_motion.hpp"
 #include "post/deformation.hpp"
 #include "post/model_checks.hpp"
 #include "post/strength.hpp"
@@ -362,10 +363,14 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   append(result, post::inverted_cells(decomposition, state.displacement, comm));
   append(result,
          post::long_slides(pairs, state.rows->constraints.contacts, contact.points, decomposition, state.displacement, comm));
+  append(result, post::facet_turns(pairs, state.rows->constraints.contacts, contact.points, decomposition, deck.kinematics,
+                                   state.displacement, comm));
   append(result, post::large_pressures(contact.surfaces, pairs, softest, names, comm));
   append(result, post::narrow_contacts(contact.surfaces, contact.points, pairs, comm));
   append(result, post::scattered_contacts(contact.surfaces, pairs, softest, comm));
   append(result, post::lost_moments(results.moments, pairs, results.balance.acting));
+  append(result,
+         post::loose_fits(contact.points, pairs, *std::ranges::min_element(softest), *std::ranges::max_element(sizes), comm));
   append(result, post::frictions_across_gaps(contact.points, pairs, results.balance.acting, comm));
   append(result, post::pressing_overlaps(
                      {state.rows->constraints.contacts.nodes, contact.points, state.rows->initial_gaps, pairs, contact.surfaces},

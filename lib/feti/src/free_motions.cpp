@@ -250,7 +250,7 @@ void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constr
   for (const auto& v : taken.colwise()) add(v, largest(rows * v, comm_), false);
 
   Eigen::MatrixXd sliding =
-      sliding_modes.free(unfelt_by(fixed(sliding_surfaces), rows, complement(taken), exactly * support_weight, comm_));
+      sliding_modes.free(unfelt_by(fixed(sliding_surfaces), rows, complement(taken), exactly * support_weight, comm_), taken);
   align_apart(sliding, drives, rotations, force);
   for (const auto& v : sliding.colwise()) add(v, sliding_modes.resistance(v), true);
 

@@ -11,17 +11,14 @@ namespace mortise::feti {
 
 namespace {
 
-// Inaccuracy of a subdomain from which on F as a matrix, large in soft motions, has nothing left of what stiff cells do.
-constexpr double lost_in_dense = 1e-5;
-
-qp::ExplicitProgramme sparse_programme(const DualProblem& problem)
+qp::ExplicitProgramme sparse_programme(const DualProblem& problem, bool slender)
 {
   using Point = qp::ExplicitProgramme::Point;
   const auto matrices = std::make_shared<SparseProblem>(problem);
   const auto go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set, const Point& near) {
     return matrices->go_on(linear, e, set, near.x);
   };
-  return {matrices, [matrices](const qp::FeasibleSet& set) { return matrices->solve(set); }, go_on, true};
+  return {matrices, [matrices](const qp::FeasibleSet& set) { return matrices->solve(set); }, go_on, true, {}, slender};
 }
 
 // The largest of the subdomains. Collective.
@@ -39,9 +36,10 @@ qp::Means means_of(DualProblem& problem, qp::Budget& budget)
   const auto make_explicit = [&problem] {
     problem.be_exact();
     const auto turn = SparseProblem::turn(problem);
-    const double lost = inaccuracy(problem);
-    if (turn == SparseProblem::Turn::first || (turn == SparseProblem::Turn::second && lost > lost_in_dense))
-      return sparse_programme(problem);
+    // F as a dense matrix is large in soft motions: little may be left in it of what thin cells do.
+    const bool slender = inaccuracy(problem) > inaccurate;
+    if (turn == SparseProblem::Turn::first || (turn == SparseProblem::Turn::second && slender))
+      return sparse_programme(problem, slender);
     const auto matrices = std::make_shared<ExplicitProblem>(problem);
     using Point = qp::ExplicitProgramme::Point;
     qp::ExplicitProgramme programme{matrices, [matrices](const qp::FeasibleSet& set) { return matrices->solve(set); }};
@@ -49,8 +47,7 @@ qp::Means means_of(DualProblem& problem, qp::Budget& budget)
       return matrices->solve(linear, e, set, &near);
     };
     programme.differs = matrices->differs();
-    programme.doubtful = lost > inaccurate;
-    if (turn == SparseProblem::Turn::second) programme.instead = [&problem] { return sparse_programme(problem); };
+    if (turn == SparseProblem::Turn::second) programme.instead = [&problem] { return sparse_programme(problem, false); };
     return programme;
   };
   return {budget, problem.preconditioner(), make_explicit};

@@ -43,11 +43,15 @@ class SlidingModes {
     }
   }
 
-  // Motions in the space of `basis`, orthonormal columns, that surfaces let slide along themselves, orthonormal.
-  Eigen::MatrixXd free(const Eigen::MatrixXd& basis) const
+  // Motions that surfaces let slide along themselves, in the space of the orthonormal columns of `basis` and of `taken`: those
+  // that are free already, which a roller's turn about its own axis needs where its centre of mass is not quite on it. Without
+  // their part in `taken` they are orthonormal.
+  Eigen::MatrixXd free(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& taken) const
   {
-    Eigen::MatrixXd found(basis.rows(), 0);
+    Eigen::MatrixXd found(basis.rows(), 0), known = taken;
     if (own_.empty() || basis.cols() == 0) return found;
+    Eigen::MatrixXd all(basis.rows(), basis.cols() + taken.cols());
+    all << basis, taken;
     std::vector<Eigen::VectorXd> candidates;
     for (const auto* sides : {&own_, &other_}) {
       Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(basis.rows(), basis.rows());
@@ -57,9 +61,9 @@ class SlidingModes {
           normal += part.smooth / std::pow(part.tolerance(), 2);
           speed += part.speed;
         }
-      const auto eigen = dense::generalized_eigenpairs(dense::form(normal, basis), dense::form(speed, basis));
-      for (Eigen::Index k = 0; k < basis.cols(); ++k) {
-        const Eigen::VectorXd v = basis * eigen.vectors.col(k).normalized();
+      const auto eigen = dense::generalized_eigenpairs(dense::form(normal, all), dense::form(speed, all));
+      for (Eigen::Index k = 0; k < all.cols(); ++k) {
+        const Eigen::VectorXd v = all * eigen.vectors.col(k).normalized();
         if (slides(v)) candidates.push_back(v);
       }
     }
@@ -67,10 +71,12 @@ class SlidingModes {
     std::stable_sort(candidates.begin(), candidates.end(),
                      [&](const auto& a, const auto& b) { return resistance(a) < resistance(b); });
     for (const auto& v : candidates) {
-      const Eigen::VectorXd rest = v - found * (found.transpose() * v);
+      const Eigen::VectorXd rest = v - known * (known.transpose() * v);
       if (rest.norm() < 0.1) continue;  // known by the other side
+      known.conservativeResize(Eigen::NoChange, known.cols() + 1);
+      known.rightCols(1) = rest.normalized();
       found.conservativeResize(Eigen::NoChange, found.cols() + 1);
-      found.rightCols(1) = rest.normalized();
+      found.rightCols(1) = v / rest.norm();
     }
     return found;
   }

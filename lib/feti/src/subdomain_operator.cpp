@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/dense.hpp"
@@ -208,11 +209,24 @@ void ElasticSubdomain::apply_rounded_inverse(std::span<double* const> columns) c
   return inaccuracy_ > inaccurate ? refine(columns) : solver_->solve(columns);
 }
 
+namespace {
+
+// Each leaves a part of what double precision loses; where that is everything, more of them only add.
+int steps_of_refinement(double inaccuracy)
+{
+  constexpr int least = 2, most = 8;
+  constexpr double enough = 1e-12, everything = 0.5;
+  if (inaccuracy >= everything || inaccuracy <= 0) return least;
+  return std::clamp(static_cast<int>(std::ceil(std::log(enough) / std::log(inaccuracy))), least, most);
+}
+
+}  // namespace
+
 // x += K~^+ (b - (K + r N) x) [Wilkinson, Rounding Errors in Algebraic Processes (1963)]: each step takes the error times
 // rounding(); of a slender subdomain less is left the less inaccurate it is.
 void ElasticSubdomain::refine(std::span<double* const> columns) const
 {
-  constexpr int steps = 2;
+  const int steps = steps_of_refinement(inaccuracy_);
   constexpr std::size_t at_once = 16;
   for (; !columns.empty(); columns = columns.subspan(std::min(at_once, columns.size()))) {
     const auto own = columns.first(std::min(at_once, columns.size()));

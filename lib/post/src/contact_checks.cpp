@@ -58,17 +58,26 @@ Point moment_on_supports(const feti::DualProblem& problem, const Vector& part)
   return result;
 }
 
+// How wide the surroundings of a point are: a force there may act somewhere within them.
+double width_of(const contact::ContactNodeState& point, const Point& at, fem::Kinematics kinematics)
+{
+  if (kinematics == fem::Kinematics::solid) return std::sqrt(point.area);
+  const double thickness = fem::thickness(kinematics, at[0]);
+  return thickness > 0 ? point.area / thickness : 0;
+}
+
 // The sum of the sizes of the forces at a contact's points, and what they could turn. Collective.
 std::pair<double, double> turning(std::span<const constraint::ContactNode> nodes,
-                                  std::span<const contact::ContactNodeState> points, int contact, const Communicator& comm)
+                                  std::span<const contact::ContactNodeState> points, int contact, fem::Kinematics kinematics,
+                                  const Communicator& comm)
 {
-  double largest = 0;            // area of a point: a force at one point alone may act somewhere within it
+  double widest = 0;
   std::array<double, 4> sums{};  // size, size * place
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].contact != contact) continue;
     const double size = points[i].force_on_secondary.norm();
     sums[0] += size;
-    if (size > 0) largest = std::max(largest, points[i].area);
+    if (size > 0) widest = std::max(widest, width_of(points[i], nodes[i].at, kinematics));
     for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(1 + c)] += size * nodes[i].at[c];
   }
   comm.sum_in_place(sums);
@@ -76,7 +85,7 @@ std::pair<double, double> turning(std::span<const constraint::ContactNode> nodes
   double second = 0;  // size * distance^2 from there
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].contact == contact) second += points[i].force_on_secondary.norm() * (nodes[i].at - centre).squaredNorm();
-  return {sums[0], std::max(std::sqrt(sums[0] * comm.sum(second)), sums[0] * std::sqrt(comm.max(largest)))};
+  return {sums[0], std::max(std::sqrt(sums[0] * comm.sum(second)), sums[0] * comm.max(widest))};
 }
 
 Warning about(const contact::Pair& pair, const char* kind, std::string text, std::string cure, double value, double limit)
@@ -92,7 +101,8 @@ Warning about(const contact::Pair& pair, const char* kind, std::string text, std
 }  // namespace
 
 std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, const Vector& lambda,
-                                           const partition::Decomposition& decomposition, std::span<const contact::Pair> pairs,
+                                           const partition::Decomposition& decomposition, fem::Kinematics kinematics,
+                                           std::span<const contact::Pair> pairs,
                                            std::span<const contact::ContactNodeState> points)
 {
   const auto& comm = problem.communicator();
@@ -106,7 +116,7 @@ std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, con
         moment(decomposition, problem.jump().apply_transpose(part), problem.dimension()) + moment_on_supports(problem, part);
     std::array<double, 3> sum{mine[0], mine[1], mine[2]};
     comm.sum_in_place(sum);
-    const auto [sizes, scale] = turning(nodes, points, contact, comm);
+    const auto [sizes, scale] = turning(nodes, points, contact, kinematics, comm);
     result[c] = {std::hypot(sum[0], sum[1], sum[2]), scale, sizes};
   }
   return result;
@@ -126,6 +136,32 @@ std::vector<Warning> lost_moments(std::span<const ContactMoment> moments, std::s
         "let the sides lie on each other, or make the cells of curved sides smaller or alike", m.lost, part_of_moment * m.scale));
   }
   return worst(std::move(result), "contacts");
+}
+
+std::vector<Warning> loose_fits(std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
+                                double modulus, double size, const Communicator& comm)
+{
+  constexpr double none = 1e-9;
+  std::vector<double> pressure(pairs.size(), 0.0);
+  for (const auto& p : points) {
+    auto& largest = pressure[static_cast<std::size_t>(p.contact)];
+    if (p.area > 0) largest = std::max(largest, p.force / p.area);
+  }
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const auto& options = pairs[c].options;
+    const double limit = none * modulus * options.interference / size;
+    const double largest = comm.max(pressure[c]);
+    if (options.law != contact::Law::coulomb || !(options.interference > 0) || largest > limit) continue;
+    result.push_back(about(pairs[c], "loose_fit",
+                           fmt::format("contact {} presses nowhere, though its sides were to overlap by {:.3g}: they have come "
+                                       "apart. Friction may hold them together as well, if it locks itself: then both are "
+                                       "equilibria",
+                                       options.name, options.interference),
+                           "press the parts together by a small load, with which coming apart is no equilibrium, and compare",
+                           largest, limit));
+  }
+  return worst(std::move(result), "contacts", [](const Warning& w) { return w.limit; });
 }
 
 std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> points,

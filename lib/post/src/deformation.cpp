@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 
 #include "fem/element.hpp"
 #include "mesh/shape_functions.hpp"
@@ -63,101 +62,6 @@ double least_volume_ratio(const Eigen::MatrixXd& x, const Eigen::MatrixXd& defor
   for (std::size_t i = 0; i < tables.size(); ++i)
     if (before[i] > collapsed) least = std::min(least, after[i] / before[i]);
   return least;
-}
-
-// What a row needs to know of a node: its displacement, and the size of the faces of secondary sides at it.
-struct Nodal {
-  Global node;
-  double u[3], size;
-};
-
-double size_of(const mesh::Surface& surface, std::size_t face)
-{
-  const auto nodes = surface.faces[face];
-  const int corners = mesh::corner_count(surface.faces.type[face]);
-  double result = 0;
-  for (int i = 0; i < corners; ++i)
-    for (int j = 0; j < i; ++j)
-      result = std::max(result, (surface.points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)])] -
-                                 surface.points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(j)])])
-                                    .norm());
-  return result;
-}
-
-// This rank's nodes of all sides.
-std::vector<Nodal> own_nodes(std::span<const contact::Pair> pairs, const partition::Decomposition& decomposition,
-                             const std::vector<Eigen::VectorXd>& displacement)
-{
-  std::unordered_map<Global, double> sizes;
-  for (const auto& pair : pairs) {
-    if (pair.primary)
-      for (const Global node : pair.primary->node_id) sizes.emplace(node, 0.0);
-    for (std::size_t f = 0; f < pair.secondary.faces.size(); ++f) {
-      const double size = size_of(pair.secondary, f);
-      for (const Local n : pair.secondary.faces[f]) {
-        auto& known = sizes[pair.secondary.node_id[static_cast<std::size_t>(n)]];
-        known = std::max(known, size);
-      }
-    }
-  }
-  const int dimension = decomposition.catalogue.dimension;
-  std::vector<Nodal> result;
-  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const auto& ids = decomposition.subdomains[s].mesh.node_id;
-    for (std::size_t n = 0; n < ids.size(); ++n) {
-      const auto found = sizes.find(ids[n]);
-      if (found == sizes.end()) continue;
-      Nodal nodal{ids[n], {0, 0, 0}, found->second};
-      for (int c = 0; c < dimension; ++c) nodal.u[c] = displacement[s][static_cast<Eigen::Index>(n) * dimension + c];
-      result.push_back(nodal);
-    }
-  }
-  return result;
-}
-
-// Of the nodes asked for what all ranks know; nodes meet on rank node % ranks. Collective.
-std::unordered_map<Global, Nodal> fetch(std::vector<Global> nodes, const std::vector<Nodal>& own, const Communicator& comm)
-{
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  std::vector<std::vector<Nodal>> told(ranks);
-  std::vector<std::vector<Global>> wanted(ranks);
-  for (const auto& nodal : own) told[static_cast<std::size_t>(nodal.node) % ranks].push_back(nodal);
-  for (const Global node : nodes) wanted[static_cast<std::size_t>(node) % ranks].push_back(node);
-  std::unordered_map<Global, Nodal> known;
-  for (const auto& part : comm.exchange(told))
-    for (const auto& nodal : part) {
-      const auto [place, fresh] = known.emplace(nodal.node, nodal);
-      if (!fresh) place->second.size = std::max(place->second.size, nodal.size);
-    }
-  std::vector<std::vector<Nodal>> answers(ranks);
-  const auto asked = comm.exchange(wanted);
-  for (std::size_t r = 0; r < ranks; ++r)
-    for (const Global node : asked[r])
-      if (const auto found = known.find(node); found != known.end()) answers[r].push_back(found->second);
-  std::unordered_map<Global, Nodal> result;
-  for (const auto& part : comm.exchange(answers))
-    for (const auto& nodal : part) result.emplace(nodal.node, nodal);
-  return result;
-}
-
-// The jump of the displacements at a point, along the surface. A normal row has m n at each node; of nodes that supports hold in
-// part it has the other components.
-Point tangential_jump(const constraint::Contacts& contacts, const constraint::ContactNode& point,
-                      const std::unordered_map<Global, Nodal>& nodes)
-{
-  std::map<Global, std::array<double, 2>> parts;  // of each node: |n_c| of the best component, m from it
-  for (const auto& entry : contacts.rows[point.row]) {
-    const double n = point.normal[entry.component];
-    auto& [best, m] = parts[entry.node];
-    if (std::abs(n) > best) best = std::abs(n), m = entry.coefficient / n;
-  }
-  Point jump = Point::Zero();
-  for (const auto& [node, part] : parts)
-    if (const auto found = nodes.find(node); found != nodes.end()) jump += part[1] * Eigen::Map<const Point>(found->second.u);
-  jump /= point.weight;
-  return jump - jump.dot(point.normal) * point.normal;
 }
 
 }  // namespace
@@ -245,62 +149,6 @@ std::vector<Warning> inverted_cells(const partition::Decomposition& decompositio
     std::erase_if(result, [&](const Warning& w) { return w.body != name; });
   }
   return result;
-}
-
-std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                 std::span<const contact::ContactNodeState> points, const partition::Decomposition& decomposition,
-                                 const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
-{
-  const auto counts = [&](std::size_t i) {
-    const auto& options = pairs[static_cast<std::size_t>(points[i].contact)].options;
-    return points[i].status != contact::Status::open && options.law != contact::Law::bonded && !options.cyclic;
-  };
-  std::vector<Global> wanted;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (counts(i)) {
-      wanted.push_back(contacts.nodes[i].node);
-      for (const auto& entry : contacts.rows[contacts.nodes[i].row]) wanted.push_back(entry.node);
-    }
-  const auto nodes = fetch(std::move(wanted), own_nodes(pairs, decomposition, displacement), comm);
-  std::vector<Found> longest(pairs.size()), parts(pairs.size());  // slide; slide over size of the face
-  std::vector<double> closed(pairs.size(), 0.0);                  // nodes
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!counts(i)) continue;
-    const auto& point = contacts.nodes[i];
-    closed[static_cast<std::size_t>(point.contact)] += 1;
-    const auto found = nodes.find(point.node);
-    if (found == nodes.end() || !(found->second.size > 0)) continue;
-    const double slide = tangential_jump(contacts, point, nodes).norm();
-    const auto c = static_cast<std::size_t>(point.contact);
-    parts[c].take(slide / found->second.size, point.at);
-    longest[c].take(slide, point.at);
-  }
-  parts = largest_of_ranks(parts, comm);
-  longest = largest_of_ranks(longest, comm);
-  comm.sum_in_place(closed);
-  // Of the corners of one facet: what is round turns until it stands on it.
-  constexpr double part_on_a_facet = 0.1;
-  const double corners = decomposition.catalogue.dimension;
-  std::vector<Warning> result;
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const bool on_a_facet = closed[c] <= corners;
-    const double limit = on_a_facet ? part_on_a_facet : 1;
-    if (!(parts[c].value > limit)) continue;
-    Warning w{
-        "long_slide",
-        fmt::format("in contact {} a point at {} slides over {:.3g} of its face, by up to {:.3g}: it presses where it stood "
-                    "before, not where it came to{}",
-                    pairs[c].options.name, spell(parts[c].at), parts[c].value, longest[c].value,
-                    on_a_facet ? "; so few nodes press that, if the body is round, it turns until it stands on a facet" : ""),
-        "draw the bodies where they come to rest, hold what slides, or take larger faces if the surfaces are flat"};
-    w.at = parts[c].at;
-    w.contact = pairs[c].options.name;
-    w.boundary = pairs[c].options.secondary;
-    w.value = parts[c].value;
-    w.limit = limit;
-    result.push_back(std::move(w));
-  }
-  return worst(std::move(result), "contacts");
 }
 
 }  // namespace mortise::post

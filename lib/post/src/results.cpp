@@ -104,7 +104,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   estimate_errors(solved, rounding, stored, comm, results);
   results.contact = contact_results(problem, lambda, nu, solved.slip_bounds, displacement, pairs, largest_force);
   if (bodies.kinematics != fem::Kinematics::axisymmetric)
-    results.moments = contact_moments(problem, lambda, bodies.decomposition, pairs, results.contact.points);
+    results.moments = contact_moments(problem, lambda, bodies.decomposition, bodies.kinematics, pairs, results.contact.points);
   results.reactions = reactions(problem, lambda, supports);
   results.couplings = coupling_states(problem, lambda);
   results.springs = spring_states(problem, lambda);

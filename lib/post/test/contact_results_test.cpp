@@ -40,7 +40,7 @@ TEST(ContactResults, OfAPressedColumn)
   EXPECT_EQ(results.tensions, std::vector<double>{0});
 
   // Both sides feel the same at the same places: nothing is lost of a moment.
-  const auto moments = contact_moments(problem, lambda, column.decomposition, pairs, results.points);
+  const auto moments = contact_moments(problem, lambda, column.decomposition, fem::Kinematics::solid, pairs, results.points);
   ASSERT_EQ(moments.size(), 1U);
   EXPECT_LT(moments[0].lost, 1e-8);
   EXPECT_NEAR(moments[0].sizes, pressure_on_top * Pieces::area, 1e-8);
@@ -187,7 +187,8 @@ TEST(ContactMoments, AreLostAcrossGaps)
     const auto lambda = bond.multipliers(problem, [&](const Point&) { return Point(0, shear, 0); });
     const auto results =
         bond.results(problem, lambda, bond.column.displacement([](const Point&, int) { return Point(0, 0, 0); }));
-    const auto found = contact_moments(problem, lambda, bond.column.decomposition, bond.pairs, results.points);
+    const auto found =
+        contact_moments(problem, lambda, bond.column.decomposition, fem::Kinematics::solid, bond.pairs, results.points);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0].lost, 15 * shear * apart, 1e-10);
     EXPECT_NEAR(found[0].sizes, 15 * shear, 1e-10);
@@ -196,7 +197,8 @@ TEST(ContactMoments, AreLostAcrossGaps)
 
     auto obstacle = bond.pairs;
     obstacle[0].options.obstacle.emplace();
-    EXPECT_EQ(contact_moments(problem, lambda, bond.column.decomposition, obstacle, results.points)[0].lost, 0);
+    EXPECT_EQ(
+        contact_moments(problem, lambda, bond.column.decomposition, fem::Kinematics::solid, obstacle, results.points)[0].lost, 0);
   }
 }
 
@@ -210,7 +212,29 @@ TEST(ContactMoments, CountWhatGoesIntoSupports)
   const auto problem = bond.column.problem();
   const Vector all = bond.multipliers(problem, [&](const Point&) { return Point(2, 0, 0); });
   const auto results = bond.results(problem, all, bond.column.displacement([](const Point&, int) { return Point(0, 0, 0); }));
-  EXPECT_NEAR(contact_moments(problem, all, bond.column.decomposition, bond.pairs, results.points)[0].lost, 2 * 3, 1e-10);
+  EXPECT_NEAR(
+      contact_moments(problem, all, bond.column.decomposition, fem::Kinematics::solid, bond.pairs, results.points)[0].lost, 2 * 3,
+      1e-10);
+}
+
+// Of a modulus of 1e5 and a size of 10 an overlap of 0.01 presses with 1e2: a thousand millionth of that is none.
+TEST(LooseFits, PressNowhere)
+{
+  const MadeUp bond(true);
+  auto pairs = bond.pairs;
+  std::vector<contact::ContactNodeState> points(1);
+  points[0].area = 2;
+  const auto found = [&](double pressure, contact::Law law, double interference) {
+    points[0].force = pressure * points[0].area;
+    pairs[0].options.law = law;
+    pairs[0].options.interference = interference;
+    return loose_fits(points, pairs, 1e5, 10, bond.column.comm).size();
+  };
+  EXPECT_EQ(found(0.9e-7, contact::Law::coulomb, 0.01), 1U);
+  EXPECT_EQ(found(1.1e-7, contact::Law::coulomb, 0.01), 0U);
+  EXPECT_EQ(found(0, contact::Law::coulomb, 0), 0U);
+  EXPECT_EQ(found(0, contact::Law::coulomb, -0.01), 0U);
+  EXPECT_EQ(found(0, contact::Law::frictionless, 0.01), 0U);
 }
 
 TEST(LostMoments, FromAHundredth)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "partition/skins.hpp"
+#include "post/contact_motion.hpp"
 #include "post/drift.hpp"
 #include "post/model_checks.hpp"
 #include "post/strength.hpp"
@@ -195,6 +196,24 @@ TEST(LargePressures, from_a_hundredth_of_the_softer_modulus)
   EXPECT_EQ(large[0].body, "upper");
   EXPECT_EQ(large[0].limit, 10);
   EXPECT_EQ((*large[0].at)[0], 1.5);
+}
+
+// Of a body that turns by 0.01 and is stretched by 1e-3, which has nothing of a rigid motion.
+TEST(RigidMotions, leave_what_deforms)
+{
+  const Blocks blocks;
+  const Point turn(0, 0.006, 0.008), centre(1, 0.5, 1.5);
+  const auto u = blocks.displacement(
+      1, [&](const Point& x) { return Point(turn.cross(x - centre) + Point(0, 0, 1e-3 * (x[2] - centre[2]))); });
+  const auto found = rigid_motions(blocks.decomposition, fem::Kinematics::solid, u, blocks.comm);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].turning, 0);
+  EXPECT_EQ(found[0].rest, 0);
+  EXPECT_LT((found[1].rigid.rotation - turn).norm(), 1e-12);
+  const auto frames = feti::body_frames(blocks.decomposition, blocks.comm);
+  EXPECT_NEAR(found[1].turning, 0.01 * frames[1].radius, 1e-12);
+  EXPECT_GT(found[1].rest, 2e-4);
+  EXPECT_LT(found[1].rest, 5e-4);
 }
 
 TEST(Drifts, are_rigid_motions_beyond_what_is_given)

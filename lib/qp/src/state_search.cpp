@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/error.hpp"
 #include "base/interruption.hpp"
 
 namespace mortise::qp {
@@ -43,6 +44,7 @@ constexpr double path_near = 1e-3;               // residual over x from which o
 constexpr double path_nearer = 0.1;              // and of what it was then, to try again
 constexpr Eigen::Index few_unknowns = 2000;      // up to which a factor of W takes a moment; beyond, as long as many guesses,
 constexpr int guesses_of_path = 60;              // and a path of them as long as so many
+constexpr Eigen::Index few_motions = 10000;      // up to which a sparse factor takes a moment
 constexpr double soft_for_large_ones = 1e4;      // beyond, these take fewer steps along a path than strides to hardness
 constexpr double most_operations = 3e12;         // of factors that a last search may take
 constexpr Eigen::Index very_few_unknowns = 800;  // up to which steps of other lengths are tried: hundreds of guesses
@@ -74,7 +76,8 @@ int compare(const ConstraintStates& before, ConstraintStates& now, std::vector<i
 
 }  // namespace
 
-StateSearch::StateSearch(CondensedProgramme programme) : programme_(std::move(programme)), states_(programme_.all_closed())
+StateSearch::StateSearch(CondensedProgramme programme)
+    : programme_(std::move(programme)), states_(programme_.all_closed()), sparing_(programme_.system().costly())
 {
   point_.x = VectorXd::Zero(programme_.unknowns());
   point_.nu = VectorXd::Zero(programme_.motions());
@@ -83,7 +86,26 @@ StateSearch::StateSearch(CondensedProgramme programme) : programme_(std::move(pr
 
 bool StateSearch::from_anywhere()
 {
-  if (programme_.system().costly()) return (programme_.linear() && guess(to_the_end)) || follow_path() || repeat_paths();
+  if (!sparing_) return find_patiently();
+  const bool found = find_sparingly();
+  if (programme_.motions() > few_motions || (found && point_.settled)) return found;
+  // States that rounding decides, or none: as with small dense matrices.
+  const auto point = point_;
+  const auto states = states_;
+  sparing_ = false;
+  try {
+    if (find_patiently()) return true;
+  } catch (const Error& error) {
+    if (error.status() != ExitStatus::not_converged) throw;
+  }
+  if (!found) return false;
+  point_ = point;
+  states_ = states;
+  return true;
+}
+
+bool StateSearch::find_patiently()
+{
   if (guess(look_back_at_first)) return true;
   if (programme_.unknowns() == 0 || slides()) return false;
   const bool small = programme_.unknowns() <= few_unknowns, very_small = programme_.unknowns() <= very_few_unknowns;
@@ -91,7 +113,18 @@ bool StateSearch::from_anywhere()
   if (near_enough && harden(small ? INT_MAX : guesses_of_path, 1)) return true;
   if (point_.slides) return false;
   if (follow_path() || (small && repeat_paths()) || (very_small && change_steps())) return true;
-  return harden(small ? affordable_guesses() : guesses_of_path, INT_MAX);
+  return harden(small && !programme_.system().costly() ? affordable_guesses() : guesses_of_path, INT_MAX);
+}
+
+// By few factors, or a singular one.
+bool StateSearch::find_sparingly()
+{
+  try {
+    return (programme_.linear() && guess(to_the_end)) || follow_path() || repeat_paths();
+  } catch (const Error& error) {
+    if (error.status() != ExitStatus::not_converged) throw;
+    return false;
+  }
 }
 
 bool StateSearch::from(VectorXd x, VectorXd nu, const VectorXd& reaction)
@@ -173,7 +206,7 @@ bool StateSearch::guess(int look_back)
       residual = programme_.residual(point_.x, point_.nu);
     }
     const double size = programme_.size(point_.x);
-    if (!std::isfinite(residual) && programme_.system().costly()) return false;
+    if (!std::isfinite(residual) && sparing_) return false;
     auto next = programme_.states(point_.x, point_.nu);
     const int changes = compare(states_, next, turns);
     states_ = std::move(next);
@@ -287,7 +320,7 @@ bool StateSearch::follow_path()
 {
   start_soft();
   auto path = programme_.path_from(point_.x, point_.nu);
-  const bool costly = programme_.system().costly();
+  const bool costly = sparing_;
   double wanted = costly ? path_nearer * path_near : path_near;
   const bool ended = walk(path, 0, [&] {
     ++point_.steps;
@@ -310,7 +343,7 @@ bool StateSearch::follow_path()
 bool StateSearch::repeat_paths()
 {
   if (!programme_.follows()) return false;
-  const bool costly = programme_.system().costly();
+  const bool costly = sparing_;
   start_soft();
   double best = std::numeric_limits<double>::infinity();
   for (int since_best = 0; since_best < (costly ? patience_with_costly_radii : patience_with_radii);) {

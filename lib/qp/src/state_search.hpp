@@ -32,6 +32,8 @@ class StateSearch {
 
   // The residual over x.
   double off() const { return programme_.residual(point_.x, point_.nu) / programme_.size(point_.x); }
+  bool find_sparingly();
+  bool find_patiently();
   bool guess(int look_back);
   void shorten(const Eigen::VectorXd& x_before, const Eigen::VectorXd& nu_before);
   int affordable_guesses() const;
@@ -47,6 +49,7 @@ class StateSearch {
 
   CondensedProgramme programme_;
   ConstraintStates states_;
+  bool sparing_;  // with factors: what takes few is all that is tried
   CondensedNewton::Point point_;
   bool run_away_ = false;      // how the last guesses ended,
   Eigen::VectorXd last_step_;  // and their last step of nu

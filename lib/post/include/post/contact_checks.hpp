@@ -22,8 +22,15 @@ struct ContactMoment {
 /// sum_n x_n x (B_c' lambda_c)_n of each contact c; 0 where one side is an obstacle or a sector's neighbour. `points`: as of
 /// contact_results(). Collective.
 std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, const Vector& lambda,
-                                           const partition::Decomposition& decomposition, std::span<const contact::Pair> pairs,
+                                           const partition::Decomposition& decomposition, fem::Kinematics kinematics,
+                                           std::span<const contact::Pair> pairs,
                                            std::span<const contact::ContactNodeState> points);
+
+/// "loose_fit": a contact with friction and an `interference` presses with less than 1e-9 of `modulus` * interference / `size`,
+/// those of the softest material and of the largest body. Wedges that friction alone would keep together have come apart: both
+/// are equilibria. Collective.
+std::vector<Warning> loose_fits(std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
+                                double modulus, double size, const Communicator& comm);
 
 /// "lost_moment": the moments that the two sides of a contact feel differ by more than 1 % of ContactMoment::scale. A row joins
 /// places that lie apart, and a shear force across a gap turns them: a bond over a gap, Tresca friction where it gapes, facets of

@@ -51,8 +51,8 @@ struct ExplicitProgramme {
   bool differs = false;  ///< whether the matrix differs from A by a little, so that go_on() has to correct solutions
   /// Other matrices, for where a solution with these does not converge or settle. Else empty. Collective.
   std::function<ExplicitProgramme()> instead = {};
-  /// Whether rounding may spoil these or the others, so that products with A are to tell which are better.
-  bool doubtful = false;
+  /// Whether products with A are rougher than these matrices, so that a solution is judged by its defect alone.
+  bool rough_products = false;
 };
 
 /// What a solver may use besides the problem.
