@@ -161,7 +161,7 @@ void Restart::keep(std::size_t index, const Approach& approach, const LoadStepSo
   counts[figure::error] = solution.error;
   counts[figure::hessian_norm] = solution.hessian_norm;
   counts[figure::precision] = solution.precision;
-  const auto print = fingerprint(solution.x, solution.gradient, problem.linear());
+  const auto print = fingerprint(solution.x, solution.gradient, problem.right_hand_side()->b);
   counts[figure::linear] = print.linear;
   counts[figure::energy] = print.energy;
   numbers.insert(numbers.end(), counts.begin(), counts.end());
@@ -213,9 +213,10 @@ friction::Result solution_of(const Record& record, const feti::DualProblem& prob
   for (Eigen::Index i = 0; i < forces.size(); ++i)
     forces[i] = multipliers[static_cast<std::size_t>(rows[static_cast<Teuchos::Ordinal>(i)])];
   const Vector x = problem.multipliers(forces);
-  Vector gradient(problem.linear(), Teuchos::Copy);
+  const auto right = problem.right_hand_side();
+  Vector gradient(right->b, Teuchos::Copy);
   problem.hessian().apply(x, gradient, Teuchos::NO_TRANS, 1, -1);
-  const auto print = fingerprint(x, gradient, problem.linear());
+  const auto print = fingerprint(x, gradient, right->b);
   if (differ(print.linear, record.counts[figure::linear], print.linear_scale) ||
       differ(print.energy, record.counts[figure::energy], print.energy_scale))
     throw Error(ExitStatus::bad_input,

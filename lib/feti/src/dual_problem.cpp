@@ -59,14 +59,13 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
       constraints_(std::move(constraints)),
       system_(system),
       factorization_(options.factorization),
-      load_(std::move(load)),
       comm_(context.comm),
       opposed_loads_(std::move(opposed_loads))
 {
   for (const auto& subdomain : system.clusters.subdomains()) rounding_ = std::max(rounding_, subdomain->rounding());
   rounding_ = comm_.max(rounding_);
   make_rows(directory, interface, {});
-  gauge_rigid_modes(directory, interface, sliding_surfaces, context);
+  gauge_rigid_modes(directory, interface, sliding_surfaces, load, context);
   groups_ = body_groups(decomposition, *jump_, constraints_.prescribed, comm_);
   if (!constraints_.springs.rows.empty()) springs_ = std::make_unique<ElasticRows>(constraints_.springs, *jump_, comm_);
   hessian_ = std::make_unique<DualOperator>(*jump_, system.clusters, context.timers, springs_.get());
@@ -77,7 +76,7 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
                                          options.factorization, context.timers, comm_, springs_.get());
   }
   make_set();
-  make_rhs();
+  make_rhs(std::move(load));
 }
 
 void DualProblem::make_rows(const partition::NodeDirectory& directory, const partition::Interface& interface,
@@ -90,17 +89,14 @@ void DualProblem::make_rows(const partition::NodeDirectory& directory, const par
 
 void DualProblem::make_equality(SparseMatrix g)
 {
-  if (const auto more = unknowns(constraints_, *jump_, dimension()); !more.empty()) {
-    g = with_unknowns(g, more, *jump_);
-    balancing_multipliers_ = std::make_unique<Vector>(jump_->rows());
-  }
-  const auto size = g.rows();
-  equality_ = std::make_unique<qp::EqualityConstraint>(std::move(g), Eigen::VectorXd::Zero(size), comm_);
+  if (const auto more = unknowns(constraints_, *jump_, dimension()); !more.empty()) g = with_unknowns(g, more, *jump_);
+  equality_ = std::make_unique<qp::EqualityConstraint>(std::move(g), comm_);
 }
 
+// c of B u = c, as B's rows are scaled: the bounds of the jumps, and the shortenings that are given.
 Eigen::VectorXd DualProblem::bound() const
 {
-  Eigen::VectorXd c = jump_->bound();
+  Eigen::VectorXd c = jump_->bound(constraints_);
   for (const auto& section : constraints_.pretension_sections)
     if (!section.preload.force)
       for (const auto& [row, part] : section.rows) {
@@ -114,34 +110,41 @@ void DualProblem::be_exact()
 {
   if (rounding() == 0) return;
   hessian_->be_exact();
-  make_rhs();
+  make_rhs(right_->f);
 }
 
-void DualProblem::make_rhs()
+void DualProblem::make_rhs(std::vector<Eigen::VectorXd> load)
 {
-  loaded_ = load_;
+  loaded_ = load;
   system_.clusters.apply_inverse(loaded_, hessian_->rounded());
   Vector d = jump_->apply(loaded_);
-  view(d) -= bound();
-  if (linear_)
-    linear_->assign(d);  // solvers refer to it
-  else
-    linear_ = std::make_unique<Vector>(d, Teuchos::Copy);
+  Eigen::VectorXd c = bound();
+  view(d) -= c;
 
-  Eigen::VectorXd e = load_coordinates(system_.clusters, load_, comm_);
+  Eigen::VectorXd e = load_coordinates(system_.clusters, load, comm_);
   const auto kernels = e.size();
   std::vector<double> forces;
   for (const auto& unknown : unknowns(constraints_, *jump_, dimension())) forces.push_back(-unknown.force);
   const auto count = static_cast<Eigen::Index>(forces.size());
   e.conservativeResize(kernels + count);
   e.tail(count) = Eigen::Map<const Eigen::VectorXd>(forces.data(), count);
-  if (balancing_multipliers_) {
-    Eigen::VectorXd alone = Eigen::VectorXd::Zero(e.size());
-    alone.tail(count) = e.tail(count);
-    balancing_multipliers_->putScalar(0);
-    equality_->add_transpose(1, equality_->solve(alone), *balancing_multipliers_);
-  }
-  equality_->set_right_side(std::move(e));
+  right_ =
+      std::make_shared<const qp::RightHandSide>(qp::RightHandSide{std::move(d), std::move(e), {}, std::move(load), std::move(c)});
+}
+
+// Driven by the multipliers of least norm that balance the forces of the unknowns and move no body.
+std::shared_ptr<const qp::RightHandSide> DualProblem::driven_right_hand_side(qp::Hessian& counted) const
+{
+  const auto count = right_->e.size() - kernel_dimension();
+  if (count == 0) return right_;
+  Eigen::VectorXd alone = Eigen::VectorXd::Zero(right_->e.size());
+  alone.tail(count) = right_->e.tail(count);
+  Vector balancing(jump_->rows()), product(jump_->rows());
+  equality_->add_transpose(1, equality_->solve(alone), balancing);
+  counted.apply(balancing, product);
+  auto result = *right_;
+  result.driven = std::move(product);
+  return std::make_shared<const qp::RightHandSide>(std::move(result));
 }
 
 DriveLimits DualProblem::limits(const FreeMotion& motion, const std::vector<double>& opposed_loads)
@@ -181,19 +184,18 @@ bool DualProblem::update_rhs(constraint::Constraints constraints, std::vector<Ei
   gauged_ = std::move(now);
   opposed_loads_ = std::move(opposed_loads);
   constraints_ = std::move(constraints);
-  load_ = std::move(load);
   last_.reset();
-  jump_->update_rhs(constraints_.prescribed, constraints_.skew_supports, constraints_.contacts, constraints_.mean_motions);
-  make_rhs();
+  make_rhs(std::move(load));
   return true;
 }
 
 void DualProblem::gauge_rigid_modes(const partition::NodeDirectory& directory, const partition::Interface& interface,
-                                    std::span<const constraint::SlidingSurface> sliding_surfaces, const Context& context)
+                                    std::span<const constraint::SlidingSurface> sliding_surfaces,
+                                    const std::vector<Eigen::VectorXd>& load, const Context& context)
 {
   SparseMatrix g = coarse_rows(*jump_, system_.clusters, comm_);
   const auto motions = find_free_motions(decomposition_, *jump_, system_.clusters, system_.kinematics, g, constraints_,
-                                         unknowns(constraints_, *jump_, dimension()), sliding_surfaces, load_, comm_);
+                                         unknowns(constraints_, *jump_, dimension()), sliding_surfaces, load, comm_);
   for (const auto& frame : body_frames(decomposition_, comm_)) sizes_.push_back(frame.radius);
   const auto& bodies = decomposition_.catalogue.bodies;
   std::vector<SubdomainRow> gauges;

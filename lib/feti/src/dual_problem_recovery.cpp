@@ -55,7 +55,7 @@ std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, con
   const auto values = view(lambda);
   if (comm_.any(!last_ || last_->lambda != values)) {
     auto elastic = jump_->apply_transpose(lambda);
-    for (std::size_t s = 0; s < elastic.size(); ++s) elastic[s] = load_[s] - elastic[s];
+    for (std::size_t s = 0; s < elastic.size(); ++s) elastic[s] = load()[s] - elastic[s];
     clusters.apply_inverse(elastic);
     last_.emplace(Elastic{values, std::move(elastic)});
   }
@@ -89,7 +89,7 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   const auto& contacts = constraints_.contacts;
   const bool unbonded = std::find(contacts.bonded.begin(), contacts.bonded.end(), false) != contacts.bonded.end();
   if (!comm_.any(unbonded)) return nu;
-  const Bodies bodies = aggregate(decomposition_, system_.clusters, system_.kinematics, load_, comm_);
+  const Bodies bodies = aggregate(decomposition_, system_.clusters, system_.kinematics, load(), comm_);
   if (bodies.aggregate.cols() > most) return nu;
 
   const Local first = jump_->ranges().dirichlet, count = jump_->ranges().end - first;
@@ -170,9 +170,9 @@ Point DualProblem::gauge_force(const Vector& lambda) const
 std::vector<double> DualProblem::loads_of_bodies() const
 {
   std::vector<double> loads(decomposition_.catalogue.bodies.size(), 0.0);
-  for (std::size_t s = 0; s < load_.size(); ++s)
-    for (Eigen::Index i = 0; i < load_[s].size(); i += dimension())
-      loads[static_cast<std::size_t>(decomposition_.subdomains[s].body)] += load_[s].segment(i, dimension()).norm();
+  for (std::size_t s = 0; s < load().size(); ++s)
+    for (Eigen::Index i = 0; i < load()[s].size(); i += dimension())
+      loads[static_cast<std::size_t>(decomposition_.subdomains[s].body)] += load()[s].segment(i, dimension()).norm();
   comm_.sum_in_place(loads);
   return loads;
 }
@@ -181,12 +181,12 @@ double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vecto
 {
   const auto forces = jump_->apply_transpose(lambda);
   std::vector<Eigen::VectorXd> given;
-  for (std::size_t s = 0; s < forces.size(); ++s) given.push_back(load_[s] - forces[s]);
+  for (std::size_t s = 0; s < forces.size(); ++s) given.push_back(load()[s] - forces[s]);
   const auto inner = system_.clusters.inner_forces(given);
   double residual = 0, size = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
-    residual += (system_.clusters.subdomains()[s]->apply(u[s]) + forces[s] - load_[s] + inner[s]).squaredNorm();
-    size += load_[s].squaredNorm() + forces[s].squaredNorm();
+    residual += (system_.clusters.subdomains()[s]->apply(u[s]) + forces[s] - load()[s] + inner[s]).squaredNorm();
+    size += load()[s].squaredNorm() + forces[s].squaredNorm();
     for (Eigen::Index i = 0; i < u[s].size(); ++i) {  // what rounding makes of a rigid motion is no force
       const double k = system_.nodal_stiffness[s][static_cast<std::size_t>(i / decomposition_.catalogue.dimension)];
       size += std::pow(1e-6 * k * u[s][i], 2);

@@ -91,7 +91,6 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
     for (std::size_t r = node.row; r <= node.row + node.tangents.size(); ++r)
       if (!node.parts.empty() || contacts.rows[r].empty())
         compliance_[ranges_.contacts + static_cast<Local>(r)] = compliance_of_node;
-  update_rhs(prescribed, skew_supports, contacts, mean_motions);
 
   const auto pieces = rows.receive();
   rows_ = map_of(rows.owned(), comm);
@@ -106,18 +105,17 @@ JumpOperator::~JumpOperator() = default;
 JumpOperator::JumpOperator(JumpOperator&&) noexcept = default;
 JumpOperator& JumpOperator::operator=(JumpOperator&&) noexcept = default;
 
-void JumpOperator::update_rhs(std::span<const constraint::PrescribedDof> prescribed,
-                              std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
-                              std::span<const constraint::MeanMotion> mean_motions)
+Eigen::VectorXd JumpOperator::bound(const constraint::Constraints& constraints) const
 {
-  bound_ = Eigen::VectorXd::Zero(ranges_.end);
+  Eigen::VectorXd bound = Eigen::VectorXd::Zero(ranges_.end);
   Local row = ranges_.dirichlet;
-  for (const auto& h : prescribed) bound_[row++] = h.value;
-  for (const auto& i : skew_supports) bound_[row++] = i.value;
-  for (const auto& mean : mean_motions) bound_[row++] = mean.value;
-  for (std::size_t r = 0; r < contacts.rows.size(); ++r)
-    bound_[ranges_.contacts + static_cast<Local>(r)] = contacts.rows.bound[r];
-  bound_.array() *= scaling_->factor.array();
+  for (const auto& h : constraints.prescribed) bound[row++] = h.value;
+  for (const auto& i : constraints.skew_supports) bound[row++] = i.value;
+  for (const auto& mean : constraints.mean_motions) bound[row++] = mean.value;
+  const auto& rows = constraints.contacts.rows;
+  for (std::size_t r = 0; r < rows.size(); ++r) bound[ranges_.contacts + static_cast<Local>(r)] = rows.bound[r];
+  bound.array() *= scaling_->factor.array();
+  return bound;
 }
 
 std::vector<Eigen::VectorXd> JumpOperator::apply_transpose(const Vector& lambda) const

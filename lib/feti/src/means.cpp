@@ -15,10 +15,13 @@ qp::ExplicitProgramme sparse_programme(const DualProblem& problem, bool slender)
 {
   using Point = qp::ExplicitProgramme::Point;
   const auto matrices = std::make_shared<SparseProblem>(problem);
-  const auto go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set, const Point& near) {
-    return matrices->go_on(linear, e, set, near.x);
+  const auto solve = [matrices](const qp::RightHandSide& right, const qp::FeasibleSet& set) {
+    return matrices->solve(right, set);
   };
-  return {matrices, [matrices](const qp::FeasibleSet& set) { return matrices->solve(set); }, go_on, true, {}, slender};
+  const auto go_on = [matrices](const qp::RightHandSide& right, const Vector& d, const Eigen::VectorXd& e,
+                                const qp::FeasibleSet& set,
+                                const Point& near) { return matrices->go_on(right, d, e, set, near.x); };
+  return {matrices, solve, go_on, true, {}, slender};
 }
 
 // The largest of the subdomains. Collective.
@@ -42,10 +45,11 @@ qp::Means means_of(DualProblem& problem, qp::Budget& budget)
       return sparse_programme(problem, slender);
     const auto matrices = std::make_shared<ExplicitProblem>(problem);
     using Point = qp::ExplicitProgramme::Point;
-    qp::ExplicitProgramme programme{matrices, [matrices](const qp::FeasibleSet& set) { return matrices->solve(set); }};
-    programme.go_on = [matrices](const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set, const Point& near) {
-      return matrices->solve(linear, e, set, &near);
-    };
+    qp::ExplicitProgramme programme{matrices, [matrices](const qp::RightHandSide& right, const qp::FeasibleSet& set) {
+                                      return matrices->solve(right.b, right.e, set);
+                                    }};
+    programme.go_on = [matrices](const qp::RightHandSide&, const Vector& d, const Eigen::VectorXd& e, const qp::FeasibleSet& set,
+                                 const Point& near) { return matrices->solve(d, e, set, &near); };
     programme.differs = matrices->differs();
     if (turn == SparseProblem::Turn::second) programme.instead = [&problem] { return sparse_programme(problem, false); };
     return programme;

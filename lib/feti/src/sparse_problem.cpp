@@ -160,25 +160,25 @@ VectorXd SparseProblem::on_root(const std::vector<VectorXd>& parts) const
   return as_vector(feti::on_root(std::move(own), problem_.communicator()));
 }
 
-SparseProblem::Point SparseProblem::solve(const qp::FeasibleSet& set) const
+SparseProblem::Point SparseProblem::solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const
 {
-  return solve(problem_.load(), problem_.bound(), set, nullptr);
+  return solve(right.f, right.c, set, nullptr);
 }
 
 // Forces R de move bodies and nothing else: c' = c + d - d' + B K^+ R de.
-SparseProblem::Point SparseProblem::go_on(const Vector& linear, const VectorXd& e, const qp::FeasibleSet& set,
-                                          const Vector& near) const
+SparseProblem::Point SparseProblem::go_on(const qp::RightHandSide& right, const Vector& linear, const VectorXd& e,
+                                          const qp::FeasibleSet& set, const Vector& near) const
 {
   const auto& clusters = problem_.clusters();
-  const VectorXd more = e - problem_.equality().right_side();
-  std::vector<VectorXd> push, f = problem_.load();
+  const VectorXd more = e - right.e;
+  std::vector<VectorXd> push, f = right.f;
   for (std::size_t s = 0; s < f.size(); ++s) {
     push.push_back(clusters.motion(s, more.segment(clusters.first(s), clusters.modes())));
     f[s] += push[s];
   }
   clusters.apply_inverse(push);
   const Vector moved = problem_.jump().apply(push);
-  const VectorXd bound = problem_.bound() + view(problem_.linear()) - view(linear) + view(moved);
+  const VectorXd bound = right.c + view(right.b) - view(linear) + view(moved);
   return solve(f, bound, set, &near);
 }
 

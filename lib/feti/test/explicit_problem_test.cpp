@@ -97,7 +97,7 @@ struct Dense {
     g = Eigen::MatrixXd::Zero(part.rows(), size);
     for (Local i = 0; i < part.cols(); ++i) g.col(number(i)) = part.col(i);
     comm.sum_in_place({g.data(), static_cast<std::size_t>(g.size())});
-    d = whole(problem.linear());
+    d = whole(problem.right_hand_side()->b);
     for (Eigen::Index j = 0; j < size; ++j) {
       Vector unit(problem.jump().rows()), product(problem.jump().rows());
       if (const Local i = rows.getLocalElement(j); i != Teuchos::OrdinalTraits<Local>::invalid()) view(unit)[i] = 1;
@@ -174,13 +174,14 @@ TEST_P(Varied, SolvesAsWithoutElimination)
   auto set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
-  const auto found = ExplicitProblem(problem, 0).solve(set);
+  const auto right = problem.right_hand_side();
+  const auto found = ExplicitProblem(problem, 0).solve(right->b, right->e, set);
   ASSERT_TRUE(found.converged);
 
   const Dense dense(problem);
   const auto motions = dense.g.rows();
   const auto expected = qp::CondensedNewton(dense.f, dense.g, Eigen::MatrixXd::Zero(motions, motions), dense.set)
-                            .solve(dense.d, problem.equality().right_side(), dense.set);
+                            .solve(dense.d, right->e, dense.set);
   ASSERT_TRUE(expected.converged);
   EXPECT_GT(expected.x.norm(), 0.1);
   EXPECT_LT((dense.whole(found.x) - expected.x).norm(), 1e-9 * expected.x.norm());
@@ -200,10 +201,11 @@ TEST_P(Varied, SolvesAsWithSparseMatrices)
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
   const SparseProblem sparse(problem);
-  const auto found = sparse.solve(set);
+  const auto right = problem.right_hand_side();
+  const auto found = sparse.solve(*right, set);
   ASSERT_TRUE(found.converged);
   const ExplicitProblem direct(problem);
-  const auto expected = direct.solve(set);
+  const auto expected = direct.solve(right->b, right->e, set);
   ASSERT_TRUE(expected.converged);
   const auto expect_near = [](const Vector& a, const Vector& b) {
     Vector difference(a, Teuchos::Copy);
@@ -219,10 +221,10 @@ TEST_P(Varied, SolvesAsWithSparseMatrices)
   sparse.apply(in, other, Teuchos::NO_TRANS, 1, 0);
   expect_near(other, out);
 
-  Vector linear(problem.linear(), Teuchos::Copy);
+  Vector linear(right->b, Teuchos::Copy);
   linear.update(1e-3, in, 1);
-  const Eigen::VectorXd e = problem.equality().right_side().array() + 1e-3;
-  const auto next = sparse.go_on(linear, e, set, found.x);
+  const Eigen::VectorXd e = right->e.array() + 1e-3;
+  const auto next = sparse.go_on(*right, linear, e, set, found.x);
   EXPECT_TRUE(next.converged);
   expect_near(next.x, direct.solve(linear, e, set).x);
 }
@@ -243,7 +245,8 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
   const ExplicitProblem direct(problem);
-  const auto found = direct.solve(set);
+  const auto right = problem.right_hand_side();
+  const auto found = direct.solve(right->b, right->e, set);
   ASSERT_TRUE(found.converged);
 
   // Coulomb's law: within cones; and with the radii that it gives it is the one solution of a problem with fixed radii.
@@ -251,8 +254,8 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
   for (const auto& disc : set.discs()) radii.push_back(coefficient * view(found.x)[disc.normal]);
   set.set_radii(radii);
   qp::Hessian hessian(problem.hessian(), 2000);
-  const qp::Problem programme{hessian, problem.linear(), problem.equality(), set};
-  const auto expected = qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-10, {}}, nullptr, {});
+  const qp::Programme programme{hessian, problem.equality(), set};
+  const auto expected = qp::FaceNewton(programme, problem.preconditioner()).solve(*right, radii, nullptr, {}, {1e-10, {}}, {});
   ASSERT_TRUE(expected.converged);
   Vector difference(found.x, Teuchos::Copy);
   difference.update(-1, expected.x, 1);
@@ -263,10 +266,10 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
 
   // As a start it is the end.
   qp::Hessian again(problem.hessian(), 2000);
-  const qp::Problem repeated{again, problem.linear(), problem.equality(), set};
+  const qp::Programme repeated{again, problem.equality(), set};
   ExplicitProblem preconditioner(problem);
-  const auto shown =
-      qp::FaceNewton(repeated, &preconditioner).solve(qp::Solution(found.x, found.x, found.nu), {1e-8, {}}, nullptr, {});
+  const auto shown = qp::FaceNewton(repeated, &preconditioner)
+                         .solve(*right, radii, nullptr, qp::Solution(found.x, found.x, found.nu), {1e-8, {}}, {});
   EXPECT_TRUE(shown.converged);
   EXPECT_LT(again.count(), 12);
 }
@@ -280,7 +283,8 @@ TEST(ExplicitProblem, TakesTheFactorizationThatIsAskedFor)
                         {.factorization = factorization, .preconditioner = "none"}, stack.context);
     auto set = problem.set();
     set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
-    return Eigen::VectorXd(view(ExplicitProblem(problem, 0).solve(set).x));
+    const auto right = problem.right_hand_side();
+    return Eigen::VectorXd(view(ExplicitProblem(problem, 0).solve(right->b, right->e, set).x));
   };
   const Eigen::VectorXd x = solve("cholmod");
   EXPECT_GT(stack.comm.sum(x.squaredNorm()), 0.01);
@@ -296,7 +300,8 @@ TEST(ExplicitProblem, SaysWhereNothingBalancesTheLoads)
                       stack.context);
   auto set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
-  EXPECT_FALSE(ExplicitProblem(problem).solve(set).converged);
+  const auto right = problem.right_hand_side();
+  EXPECT_FALSE(ExplicitProblem(problem).solve(right->b, right->e, set).converged);
 }
 
 }  // namespace

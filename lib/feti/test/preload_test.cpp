@@ -30,12 +30,11 @@ struct Column : Blocks {
 qp::Solution solve(const DualProblem& problem, const std::string& algorithm)
 {
   qp::Hessian hessian(problem.hessian(), 1000);
-  Vector driven(problem.linear().getMap());
-  if (problem.balancing_multipliers()) hessian.apply(*problem.balancing_multipliers(), driven);
-  const qp::Problem programme{hessian, problem.linear(), problem.equality(), problem.set(),
-                              problem.balancing_multipliers() ? &driven : nullptr};
-  return algorithm == "smalse" ? qp::smalse(programme, {}, 1e-10, {})
-                               : qp::FaceNewton(programme, problem.preconditioner()).solve({}, {1e-10, {}}, nullptr, {});
+  const auto right = problem.driven_right_hand_side(hessian);
+  EXPECT_EQ(hessian.count(), right->driven ? 1 : 0);
+  const qp::Programme programme{hessian, problem.equality(), problem.set()};
+  if (algorithm == "smalse") return qp::smalse({programme, *right, problem.set()}, {}, 1e-10, {});
+  return qp::FaceNewton(programme, problem.preconditioner()).solve(*right, problem.set().radii(), nullptr, {}, {1e-10, {}}, {});
 }
 
 // Tension over the pretension section from the multipliers.
@@ -82,7 +81,8 @@ TEST_P(Preloads, AShorteningHasItsForce)
   const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.system,
                             column.load, {}, column.context);
   EXPECT_EQ(problem.equality().size(), 5 * 6);
-  EXPECT_EQ(problem.balancing_multipliers(), nullptr);
+  qp::Hessian hessian(problem.hessian(), 1);
+  EXPECT_FALSE(problem.driven_right_hand_side(hessian)->driven);
   const auto solution = solve(problem, GetParam());
   ASSERT_TRUE(solution.converged);
   EXPECT_NEAR(tension(problem, solution.x), force, 1e-8 * force);

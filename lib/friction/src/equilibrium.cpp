@@ -30,19 +30,20 @@ void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu,
 void nothing_found(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Eigen::VectorXd& escape, bool proven)
 {
   if (proven) no_equilibrium(problem, escape, true);
-  const Vector nothing(problem.linear().getMap());
+  const Vector nothing(problem.jump().rows());
+  const auto right = problem.right_hand_side();
   qp::Projector projector(problem.equality(), set);
-  qp::Projection nearest = projector(nothing);
-  if (!nearest.empty) projector.prove_empty(nearest);
+  qp::Projection nearest = projector(nothing, right->e, set);
+  if (!nearest.empty) projector.prove_empty(right->e, set, nearest);
   no_equilibrium(problem, nearest.empty ? nearest.nu : escape, fall_short(nearest));
 }
 
 namespace {
 
-qp::FeasibleSet with_radii(qp::FeasibleSet set, const std::vector<double>& radii)
+// The forces nearest to x that balance the loads and lie in `set`.
+qp::Projection nearest_in(const qp::FeasibleSet& set, const feti::DualProblem& problem, const Vector& x)
 {
-  set.set_radii(radii);
-  return set;
+  return qp::project(x, problem.equality(), problem.right_hand_side()->e, set);
 }
 
 }  // namespace
@@ -50,10 +51,10 @@ qp::FeasibleSet with_radii(qp::FeasibleSet set, const std::vector<double>& radii
 void judge_by_law(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws,
                   qp::Hessian& hessian, qp::Solution& solution)
 {
-  const qp::Projection nearest = qp::project(solution.x, problem.equality(), set.with_cones());
+  const qp::Projection nearest = nearest_in(set.with_cones(), problem, solution.x);
   if (nearest.empty) {  // with bounds that are given bodies slide; along the edge of a cone they would also lift
-    const auto of_forces = with_radii(set, problem.radii(slip_bounds(problem, laws, &solution.x)));
-    const qp::Projection given = qp::project(solution.x, problem.equality(), of_forces);
+    const auto of_forces = set.with_radii(problem.radii(slip_bounds(problem, laws, &solution.x)));
+    const qp::Projection given = nearest_in(of_forces, problem, solution.x);
     no_equilibrium(problem, given.empty ? given.nu : nearest.nu, true);
   }
   Vector beyond(solution.x, Teuchos::Copy), product(beyond.getMap());
@@ -67,7 +68,7 @@ bool balances(const feti::DualProblem& problem, const qp::FeasibleSet& set, cons
   constexpr double rounding = 1e-3;
   auto larger = radii;
   for (auto& radius : larger) radius *= 1 + rounding;
-  return !qp::project(x, problem.equality(), with_radii(set, larger)).empty;
+  return !nearest_in(set.with_radii(larger), problem, x).empty;
 }
 
 namespace {
@@ -78,7 +79,7 @@ void refuse_if_short(const feti::DualProblem& problem, const qp::FeasibleSet& se
 {
   auto larger = problem.radii(slip_bounds(problem, laws, &x));
   for (auto& radius : larger) radius *= 1 + short_of;
-  const qp::Projection nearest = qp::project(x, problem.equality(), with_radii(set, larger));
+  const qp::Projection nearest = nearest_in(set.with_radii(larger), problem, x);
   if (nearest.empty) no_equilibrium(problem, nearest.nu, true);
 }
 

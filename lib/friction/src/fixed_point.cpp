@@ -22,8 +22,8 @@ constexpr double worth_a_look = 0.05;  // change of the slip bounds at which the
 // One Tresca problem; false if it is infeasible.
 bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
 {
-  set_.set_radii(run.radii);
-  auto next = algorithm_->solve(run.solution, goal, run.watch);
+  run.at_work = run.radii;
+  auto next = algorithm_->solve(*run.right, run.radii, run.solution, goal, run.watch);
   if (!next.feasible) {
     run.escape = next.nu;
     run.proven = next.empty;
@@ -42,7 +42,7 @@ bool Solver::contacts_at_rest(const Run& run)
   const auto& goal = run.goal;
   qp::ActiveSetPreconditioner* preconditioner = algorithm_->preconditioner();
   if (goal.contact_converged && preconditioner) {
-    const auto predicted = predict(problem_, set_, solution, *preconditioner);
+    const auto predicted = predict(problem_, omega_.with_radii(run.at_work), solution, *preconditioner);
     if (predicted && !goal.contact_converged(solution.x, predicted->argument, predicted->change)) return false;
   }
   return !goal.incompatibility || goal.incompatibility(solution.x, solution.nu) <= qp::Goal::nearly_compatible;
@@ -54,15 +54,15 @@ bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& r
   auto& solution = *run.solution;
   if (!run.goal.allowed_error || !std::isfinite(solution.error))
     return run.change <= options_.tolerance && tolerance <= run.goal.residual && solution.converged &&
-           qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
+           qp::believable(solution.error, qp::rounding_of_error(run.right->b, solution.hessian_norm), solution.x, solution.nu,
                           run.goal);
   solution.error += error_of_bounds(wanted, run);
   if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu) &&
-      qp::fits(solution, run.goal) && balances(problem_, set_, wanted, solution.x) && contacts_at_rest(run))
+      qp::fits(solution, run.goal) && balances(problem_, omega_, wanted, solution.x) && contacts_at_rest(run))
     return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
-         qp::believable(solution.error, qp::rounding_of_error(programme_, solution.hessian_norm), solution.x, solution.nu,
+         qp::believable(solution.error, qp::rounding_of_error(run.right->b, solution.hessian_norm), solution.x, solution.nu,
                         run.goal);
 }
 
@@ -89,11 +89,11 @@ void Solver::note_response(const std::vector<double>& wanted, Run& run) const
 // ||.||_F of what multipliers on the edge of their discs would move by with the bounds `wanted`. One product.
 double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run)
 {
-  Vector moved(problem_.linear().getMap()), product(moved.getMap());
+  Vector moved(run.solution->x.getMap()), product(moved.getMap());
   {
     const auto x = view(std::as_const(run.solution->x));
     auto to = view(moved);
-    const auto discs = set_.discs();
+    const auto discs = omega_.discs();
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const Eigen::Vector2d at = qp::from_centre(discs[i], x);
       if (!std::isfinite(wanted[i]) || !std::isfinite(run.radii[i]) || at.norm() < 0.99 * run.radii[i] || at.norm() == 0)
@@ -115,11 +115,11 @@ void Solver::admit(Run& run)
 {
   constexpr double room = 1 + 1e-6;
   constexpr double balanced = 1e-6;  // of all forces: what a search that does not converge may leave
-  const qp::FeasibleSet cones = set_.with_cones();
+  const qp::FeasibleSet cones = omega_.with_radii(run.at_work).with_cones();
   qp::Projector projector(problem_.equality(), cones);
-  qp::Projection nearest = projector(run.solution->x);
+  qp::Projection nearest = projector(run.solution->x, run.right->e, cones);
   if (!nearest.found && nearest.residual > balanced) {
-    if (!run.proven && !nearest.empty) projector.prove_empty(nearest);
+    if (!run.proven && !nearest.empty) projector.prove_empty(run.right->e, cones, nearest);
     no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, fall_short(nearest));
   }
   run.radii = radii_at(&nearest.point);
@@ -149,13 +149,12 @@ void Solver::fixed_point(Run& run)
                                  : std::max(tightest, std::min(qp::tolerances::loosest, 0.1 * strictness * run.least_change));
     const bool first = !run.solved;
     if (!solve_tresca({tolerance}, run)) {
-      if (!run.solved) nothing_found(problem_, set_.with_cones(), run.escape, run.proven);
+      if (!run.solved) nothing_found(problem_, omega_.with_radii(run.at_work).with_cones(), run.escape, run.proven);
       // Bounds fell ever faster until they were too small, and did so again from those that are surely enough.
       if (infeasible == 0 && relaxation.growing() >= steps_of_fall && ++falls >= most_falls)
-        refuse_if_far(problem_, set_, laws_, run.solution->x, run.response);
-      set_.set_radii(run.radii);
+        refuse_if_far(problem_, omega_, laws_, run.solution->x, run.response);
       if (++failures > most_failures || run.step >= options_.max_steps) {
-        refuse_if_far(problem_, set_, laws_, run.solution->x, run.response);
+        refuse_if_far(problem_, omega_, laws_, run.solution->x, run.response);
         return;
       }
       // Bounds from inexact normal forces may fall short by as much: half way back, now and then to what surely is feasible.
@@ -167,7 +166,7 @@ void Solver::fixed_point(Run& run)
     run.solved = true;
     infeasible = 0;
     auto wanted = radii_at(&run.solution->x);
-    run.change = first ? 1.0 : change_of_bounds(wanted, run.radii, *run.solution);
+    run.change = first ? 1.0 : change_of_bounds(wanted, run.radii, *run.solution, run);
     note_response(wanted, run);
     run.converged = !first && at_rest(wanted, tolerance, run);
     idle = first || !apart || run.change < run.least_change ? 0 : idle + 1;

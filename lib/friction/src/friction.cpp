@@ -21,11 +21,11 @@ bool any_coulomb(const std::vector<Law>& laws)
   return std::any_of(laws.begin(), laws.end(), [](const Law& law) { return law.kind == Law::Kind::coulomb; });
 }
 
-// Radii that discs have.
-std::vector<double> radii_of(const qp::FeasibleSet& set)
+// Omega with the coefficients of the laws.
+qp::FeasibleSet omega(const feti::DualProblem& problem, const std::vector<Law>& laws)
 {
-  std::vector<double> result;
-  for (const auto& disc : set.discs()) result.push_back(disc.radius);
+  auto result = problem.set();
+  result.set_coefficients(coefficients(problem, laws));
   return result;
 }
 
@@ -39,12 +39,9 @@ Solver::Solver(feti::DualProblem& problem, std::vector<Law> laws, const Options&
       from_direct_(solver.algorithm == "direct"),
       hessian_(problem.hessian(), 0),
       budget_(hessian_, solver.max_multiplications.value, qp::solver_kind(solver.algorithm).steady),
-      driven_(problem.linear().getMap()),
-      set_(problem.set()),
-      programme_{hessian_, problem.linear(), problem.equality(), set_, problem.balancing_multipliers() ? &driven_ : nullptr}
+      omega_(omega(problem, laws_)),
+      algorithm_(qp::solver_kind(solver.algorithm).make({hessian_, problem.equality(), omega_}, feti::means_of(problem, budget_)))
 {
-  set_.set_coefficients(coefficients(problem, laws_));
-  algorithm_ = qp::solver_kind(solver.algorithm).make(programme_, feti::means_of(problem, budget_));
 }
 
 Solver::~Solver() = default;
@@ -57,31 +54,33 @@ std::vector<double> Solver::radii_at(const Vector* lambda) const
 
 // ||wanted - now|| / ||wanted|| of slip bounds at a solution, but for what rounding makes of no force at all: of multipliers of
 // the size ||b|| / ||A||.
-double Solver::change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const
+double Solver::change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at,
+                                const Run& run) const
 {
   constexpr double rounding = 1e-10;
-  const double least = at.hessian_norm > 0 ? rounding * programme_.linear.norm2() / at.hessian_norm : 0;
+  const double least = at.hessian_norm > 0 ? rounding * run.right->b.norm2() / at.hessian_norm : 0;
   return relative_change(problem_, wanted, now, least);
 }
 
 // Bounds and forces together, if the algorithm can. Where that does not converge, the fixed point goes on from there.
 void Solver::follow_law(Run& run)
 {
-  const qp::SlipLaw law{set_, [this](const Vector* x) { return radii_at(x); }};
+  const qp::SlipLaw law{[this](const Vector* x) { return radii_at(x); }};
   run.step = 1;
-  auto found = algorithm_->solve(law, run.solution, run.goal, run.watch);
+  auto found = algorithm_->solve(*run.right, law, run.solution, run.goal, run.watch);
   if (found && found->slides) {
-    refuse_if_sliding(problem_, set_, laws_, found->x);
-    found = algorithm_->solve(law, run.solution, run.goal, run.watch);
+    refuse_if_sliding(problem_, omega_, laws_, found->x);
+    found = algorithm_->solve(*run.right, law, run.solution, run.goal, run.watch);
   }
   if (!found) {
     run.step = 0;
     return;
   }
   run.count(*found);
+  run.at_work = found->radii;
   if (!found->feasible) return;
   run.radii = radii_at(&found->x);
-  run.change = change_of_bounds(run.radii, radii_of(set_), *found);
+  run.change = change_of_bounds(run.radii, run.at_work, *found, run);
   run.converged = obeys_law(*found, run.radii, run.change, run);
   run.solution = std::move(found);
   run.solved = true;
@@ -90,7 +89,8 @@ void Solver::follow_law(Run& run)
 // Of bounds and forces that were found together. Where the error decides, what the bounds would still change counts in it.
 bool Solver::obeys_law(const qp::Solution& found, const std::vector<double>& bounds, double change, const Run& run) const
 {
-  return found.converged && (run.goal.allowed_error || change <= options_.tolerance) && balances(problem_, set_, bounds, found.x);
+  return found.converged && (run.goal.allowed_error || change <= options_.tolerance) &&
+         balances(problem_, omega_, bounds, found.x);
 }
 
 // Once more together from the beginning, where neither that nor the fixed point converges, by steps that may be shortened.
@@ -99,33 +99,29 @@ void Solver::follow_cautiously(const qp::Solution* start, Run& run)
   if (hessian_.exhausted()) run.limit = budget_.reason();
   if (run.converged || run.patience || !budget_.left()) return;
   budget_.change_algorithm();
-  const auto before = radii_of(set_);
-  const qp::SlipLaw law{set_, [this](const Vector* x) { return radii_at(x); }, true};
+  const qp::SlipLaw law{[this](const Vector* x) { return radii_at(x); }, true};
   std::optional<qp::Solution> from;
   if (start) from = *start;
-  auto found = algorithm_->solve(law, from, run.goal, run.watch);
+  auto found = algorithm_->solve(*run.right, law, from, run.goal, run.watch);
   if (!found) return;
   run.count(*found);
-  if (found->feasible) {
-    auto bounds = radii_at(&found->x);
-    const double change = change_of_bounds(bounds, radii_of(set_), *found);
-    if (obeys_law(*found, bounds, change, run)) {
-      run.radii = std::move(bounds);
-      run.change = change;
-      run.solution = std::move(found);
-      run.solved = run.converged = true;
-      return;
-    }
-  }
-  set_.set_radii(before);
+  if (!found->feasible) return;
+  auto bounds = radii_at(&found->x);
+  const double change = change_of_bounds(bounds, found->radii, *found, run);
+  if (!obeys_law(*found, bounds, change, run)) return;
+  run.at_work = found->radii;
+  run.radii = std::move(bounds);
+  run.change = change;
+  run.solution = std::move(found);
+  run.solved = run.converged = true;
 }
 
 // Everything that a load step needs before its first solve.
 Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy, std::optional<qp::Patience> patience)
 {
   budget_.start(patience, tolerance_.value_or(qp::Goal{}.residual));
-  if (problem_.balancing_multipliers()) hessian_.apply(*problem_.balancing_multipliers(), driven_);
   Run run;
+  run.right = problem_.driven_right_hand_side(hessian_);
   run.patience = patience;
   if (tolerance_) {
     run.goal.residual = *tolerance_;
@@ -140,7 +136,7 @@ Solver::Run Solver::begin(const qp::Solution* start, const Accuracy& accuracy, s
   }
   run.goal.energy_norm = accuracy.energy_norm;
   if (start) run.solution = *start;
-  run.radii = run.previous_radii = radii_at(nullptr);
+  run.radii = run.previous_radii = run.at_work = radii_at(nullptr);
   return run;
 }
 
@@ -154,21 +150,21 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
     note(run, progress);
     if (observer) observer(run.step, run.change, progress);
   };
-  set_.set_radii(run.radii);
-  algorithm_->begin(run.solution, run.goal, run.watch);
+  algorithm_->begin(*run.right, run.radii, run.solution, run.goal, run.watch);
   if (coulomb) {
     follow_law(run);
     if (!run.solved || !patience || from_direct_) fixed_point(run);  // a few products each, from what A^-1 leads on from
     follow_cautiously(start, run);
     const bool spent = !run.limit.empty() || hessian_.exhausted();
-    if (run.solved && (run.converged || !spent)) judge_by_law(problem_, set_, laws_, hessian_, *run.solution);
+    if (run.solved && (run.converged || !spent))
+      judge_by_law(problem_, omega_.with_radii(run.at_work), laws_, hessian_, *run.solution);
   } else {
     run.step = 1;
-    if (!solve_tresca(run.goal, run)) nothing_found(problem_, set_, run.escape, run.proven);
+    if (!solve_tresca(run.goal, run)) nothing_found(problem_, omega_.with_radii(run.at_work), run.escape, run.proven);
     run.converged = true;
     run.change = 0;
   }
-  Result result{std::move(*run.solution), slip_bounds()};
+  Result result{std::move(*run.solution), problem_.slip_bounds(omega_.with_radii(run.at_work))};
   result.steps = run.step;
   result.change = run.change;
   result.converged = run.converged && result.solution.converged;
@@ -189,7 +185,7 @@ Result Solver::solve(const qp::Solution* start, const Accuracy& accuracy, const 
 void Solver::note(Run& run, const qp::Progress& progress)
 {
   std::optional<long long> changes;
-  if (progress.point) changes = problem_.communicator().sum(run.states.note(states_at(problem_, set_, *progress.point)));
+  if (progress.point) changes = problem_.communicator().sum(run.states.note(states_at(problem_, *progress.set, *progress.point)));
   budget_.note(progress, changes, run.change);
 }
 
@@ -200,8 +196,9 @@ void Solver::report_unresolved_nodes(const Run& run, Result& result)
   const bool any = std::find(bonded.begin(), bonded.end(), false) != bonded.end();
   if (!problem_.communicator().any(any)) return;
   qp::ActiveSetPreconditioner* preconditioner = algorithm_->preconditioner();
-  const auto predicted = preconditioner ? predict(problem_, set_, result.solution, *preconditioner) : std::nullopt;
-  if (predicted) result.undecided = undecided(problem_, set_, result.solution.x, *predicted);
+  const auto set = omega_.with_radii(run.at_work);
+  const auto predicted = preconditioner ? predict(problem_, set, result.solution, *preconditioner) : std::nullopt;
+  if (predicted) result.undecided = undecided(problem_, set, result.solution.x, *predicted);
   if (!result.converged) result.stuck = stuck(problem_, run.states, result.solution.x, predicted ? &*predicted : nullptr);
 }
 

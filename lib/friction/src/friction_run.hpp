@@ -11,11 +11,13 @@
 namespace mortise::friction {
 
 struct Solver::Run {
+  std::shared_ptr<const qp::RightHandSide> right;
   qp::Goal goal;
   qp::Observer watch;
   std::optional<qp::Patience> patience;
   StateRecord states;                         // of contact nodes
-  std::vector<double> radii, previous_radii;  // of discs, see DualProblem::radii()
+  std::vector<double> radii, previous_radii;  // of discs, see DualProblem::radii(): those that come next, and before
+  std::vector<double> at_work;                // those of the last problem that was solved, or tried
   std::optional<qp::Solution> solution;       // at first that of the load step before
   bool solved = false;                        // `solution` is of this load step
   Eigen::VectorXd escape;                     // nu of the last Tresca problem that was infeasible,

@@ -136,7 +136,7 @@ std::optional<PredictedSolution> predict(const feti::DualProblem& problem, const
   if (!(norm > 0)) return {};
   Vector gap(solution.x, Teuchos::Copy);
   gap.update(-1 / norm, solution.gradient, 1);
-  const qp::Projection natural = qp::project(gap, problem.equality(), set);
+  const qp::Projection natural = qp::project(gap, problem.equality(), problem.right_hand_side()->e, set);
   if (!natural.found) return {};
   gap.update(norm, solution.x, -norm, natural.point, 0);
   PredictedSolution result{natural.argument, Vector(gap.getMap())};

@@ -133,9 +133,10 @@ TEST_P(Wedges, GoBackFromBoundsThatLeaveNothing)
     options.tolerance.value = tolerance;
     Solver solver(problem, {{Law::Kind::coulomb, coefficient}}, {tolerance, 200}, options);
     std::map<int, double> sums;  // of the bounds of each Tresca problem that has a feasible point
-    const Result result = solver.solve(nullptr, {}, [&](int step, double, const qp::Progress&) {
+    const Result result = solver.solve(nullptr, {}, [&](int step, double, const qp::Progress& progress) {
+      if (!progress.set) return;
       double sum = 0;
-      for (const double bound : solver.slip_bounds()) sum += bound;
+      for (const double bound : problem.slip_bounds(*progress.set)) sum += bound;
       sums.emplace(step, wedge.comm.sum(sum));
     });
     EXPECT_TRUE(result.converged) << algorithm;

@@ -275,7 +275,7 @@ struct Forces {
   Balance operator()() const
   {
     const auto problem = block.problem();
-    return balance(problem, Vector(problem.linear().getMap()), reactions, contacts, pairs, axisymmetric, couplings, rounding);
+    return balance(problem, Vector(problem.jump().rows()), reactions, contacts, pairs, axisymmetric, couplings, rounding);
   }
 };
 

@@ -37,11 +37,10 @@ void factorize(CoarseMatrix& matrix, const std::vector<DowndateBlock>& downdates
 
 }  // namespace
 
-ActiveSet::ActiveSet(Projector& projector, const Vector& argument, double step, std::span<const double> stiffness,
-                     double active_set_tolerance, bool coupled)
+ActiveSet::ActiveSet(Projector& projector, const FeasibleSet& set, const Vector& argument, double step,
+                     std::span<const double> stiffness, double active_set_tolerance, bool coupled)
     : equality_(projector.equality()), matrix_(projector.matrix()), trial_matrix_(&matrix_)
 {
-  const auto& set = projector.set();
   const auto w = view(argument);
   std::vector<DowndateBlock> downdates;
   const double nothing = active_set_tolerance * largest_distance(set, w, equality_.communicator());

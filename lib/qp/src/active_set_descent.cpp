@@ -229,7 +229,7 @@ void FaceNewton::recycle(const ActiveSet& active_set, Vector direction, Vector p
     active_set.add_curvature(pair.direction, pair.image);
     pair.energy = pair.direction.dot(pair.image);
     pair.step = pair.energy > 0;
-    problem_.equality.project(pair.image);
+    programme_.equality.project(pair.image);
   }
   recycled_directions_.push_back(std::move(pair));
   while (recycled_directions_.size() > kept_) recycled_directions_.pop_front();
@@ -252,11 +252,11 @@ bool FaceNewton::descend_alone(const ActiveSet& active_set, double goal, const s
     double energy;
   };
   std::deque<Step> steps;  // the last ones: rounding spoils the orthogonality that two would have
-  for (int step = 0; step < max_unconstrained && !problem_.hessian.exhausted(); ++step) {
+  for (int step = 0; step < max_unconstrained && !programme_.hessian.exhausted(); ++step) {
     precondition(active_set, residual, direction);
     active_set.project(direction);
     for (const auto& before : steps) direction.update(-before.image.dot(direction) / before.energy, before.direction, 1);
-    problem_.hessian.apply(direction, product);
+    programme_.hessian.apply(direction, product);
     const double energy = direction.dot(product);
     if (!(energy > 0)) break;
     const double length = direction.dot(residual) / energy;
@@ -290,7 +290,7 @@ bool FaceNewton::descend(const ActiveSet& active_set, double goal, double weight
     recycle(active_set, Vector(direction, Teuchos::Copy), Vector(product, Teuchos::Copy), false);
   y.assign(z);
   gy.assign(g);
-  Descent descent(active_set, problem_.equality.communicator(), gy);
+  Descent descent(active_set, programme_.equality.communicator(), gy);
   const double start = descent.size();
   if (start <= 1e-2 * goal) return false;
   goal = std::max(goal, inner_reduction * start);
@@ -306,13 +306,13 @@ bool FaceNewton::descend(const ActiveSet& active_set, double goal, double weight
   }
   std::deque<std::pair<Vector, Vector>> fresh;
   const int most = static_cast<int>(std::max(fewest_inner, kept_));
-  for (int step = 0; step < most && descent.size() > goal && !problem_.hessian.exhausted(); ++step) {
+  for (int step = 0; step < most && descent.size() > goal && !programme_.hessian.exhausted(); ++step) {
     const Vector free = descent.split(constrained);
     constrained.scale(1 / weight);
     precondition(active_set, free, direction);
     if (active_set.coupled()) active_set.project(direction);  // else the next projection is the same
     active_set.project_trial(direction, constrained);
-    problem_.hessian.apply(direction, product);
+    programme_.hessian.apply(direction, product);
     const auto& [d, p] = fresh.emplace_back(Vector(direction, Teuchos::Copy), Vector(product, Teuchos::Copy));
     if (!descent.go(d, p, projected_image(active_set, d, p, weight, 2), 0)) break;
     report();

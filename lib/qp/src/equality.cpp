@@ -23,8 +23,7 @@ SparseMatrix sum_over_ranks(const SparseMatrix& part, const Communicator& comm)
   return sum;
 }
 
-EqualityConstraint::EqualityConstraint(SparseMatrix g, Eigen::VectorXd e, const Communicator& comm)
-    : comm_(comm), g_(std::move(g)), e_(std::move(e))
+EqualityConstraint::EqualityConstraint(SparseMatrix g, const Communicator& comm) : comm_(comm), g_(std::move(g))
 {
   if (size() == 0) return;
   const SparseMatrix transpose = g_.transpose();

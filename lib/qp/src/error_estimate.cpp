@@ -47,13 +47,13 @@ double error_bound(const Problem& problem, const Solution& solution, ActiveSetPr
   const double norm = solution.hessian_norm > 0 ? solution.hessian_norm : 1;
   Vector moved(solution.x, Teuchos::Copy);
   moved.update(-1 / norm, solution.gradient, 1);
-  return error_bound(problem, solution.x, project(moved, problem.equality, problem.set), norm, preconditioner);
+  return error_bound(problem, solution.x, project(moved, problem.equality, problem.right.e, problem.set), norm, preconditioner);
 }
 
-double rounding_of_error(const Problem& problem, double norm)
+double rounding_of_error(const Vector& b, double norm)
 {
   constexpr double part = 1e-7;
-  return part * problem.linear.norm2() / std::sqrt(norm > 0 ? norm : 1);
+  return part * b.norm2() / std::sqrt(norm > 0 ? norm : 1);
 }
 
 bool believable(double error, double rounding, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal, bool finest)

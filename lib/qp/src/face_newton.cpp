@@ -30,13 +30,14 @@ constexpr double least_size = 0.01;  // of ||A||^1/2 ||x||_A: where b asks for n
 
 }  // namespace
 
-FaceNewton::FaceNewton(const Problem& problem, ActiveSetPreconditioner* preconditioner)
-    : problem_(problem), preconditioner_(preconditioner), projector_(problem.equality, problem.set)
+FaceNewton::FaceNewton(const Programme& programme, ActiveSetPreconditioner* preconditioner)
+    : programme_(programme), preconditioner_(preconditioner), projector_(programme.equality, programme.set)
 {
-  const auto constraints = static_cast<long long>(problem.set.bounds().size() + problem.set.discs().size());
-  unconstrained_ = problem.equality.communicator().sum(constraints) == 0;
+  const auto& comm = programme.equality.communicator();
+  const auto constraints = static_cast<long long>(programme.set.bounds().size() + programme.set.discs().size());
+  unconstrained_ = comm.sum(constraints) == 0;
   // Three vectors each, and three more while an active set uses them.
-  const double pair = 48.0 * static_cast<double>(problem.linear.getGlobalLength()) / problem.equality.communicator().size();
+  const double pair = 48.0 * static_cast<double>(programme.hessian.map()->getGlobalNumElements()) / comm.size();
   const double room = std::max(std::min(recycled_bytes / std::max(pair, 1.0), max_recycled),
                                std::min(more_bytes / std::max(pair, 1.0), few_recycled));
   kept_ = static_cast<std::size_t>(std::max(room, least_kept));
@@ -44,40 +45,44 @@ FaceNewton::FaceNewton(const Problem& problem, ActiveSetPreconditioner* precondi
 
 // The loop. How the next point is found is in face_newton_trial.cpp, how y is found on an active set in active_set_descent.cpp,
 // when it ends in face_newton_goal.cpp.
-Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goal, const SlipBoundUpdate* slip_bound_update,
-                           const Observer& observer)
+Solution FaceNewton::solve(const RightHandSide& right, std::span<const double> radii, const SlipLaw* law,
+                           const std::optional<Solution>& start, const Goal& goal, const Observer& observer)
 {
-  const auto map = problem_.hessian.map();
-  const auto infeasible = [](Solution result, const Projection& projection) {
+  const auto map = programme_.hessian.map();
+  FeasibleSet set = programme_.set.with_radii(radii);
+  const Problem problem(programme_, right, set);
+  std::optional<FollowedRadii> followed;
+  if (law) followed.emplace(*law, set, programme_.equality.communicator());
+  const auto infeasible = [&set](Solution result, const Projection& projection) {
     result.feasible = false;
     result.empty = projection.empty;
     result.nu = projection.nu;
+    result.radii = set.radii();
     return result;
   };
-  const Projection feasible = projector_(start ? start->x : Vector(map));
+  const Projection feasible = project(problem, start ? start->x : Vector(map));
   Solution result(feasible.point, Vector(map), feasible.nu);
   if (!feasible.found) return infeasible(std::move(result), feasible);
   preconditionings_ = 0;
-  if (slip_bound_update && slip_bound_update->cautious)
-    recycled_directions_.clear();  // they would lead where they have led before
+  if (law && law->cautious) recycled_directions_.clear();  // they would lead where they have led before
   find_norm(start, observer);
 
-  Run run{start, goal, slip_bound_update, observer, std::move(result), State(map), ContactForces(problem_)};
-  const double size = relative_size(problem_, goal.allowed_error ? tolerances::finest : goal.residual);
+  Run run{problem, start, goal, law ? &*followed : nullptr, observer, std::move(result), State(map), ContactForces(problem)};
+  const double size = relative_size(problem, goal.allowed_error ? tolerances::finest : goal.residual);
   if (size != 0) run.size = size;
-  run.active_set_tolerance = slip_bound_update ? first_active_set_tolerance_updated : first_active_set_tolerance;
-  if (start && start->nu.size() == problem_.equality.size()) run.nu = start->nu * (step_length / norm_);
+  run.active_set_tolerance = law ? first_active_set_tolerance_updated : first_active_set_tolerance;
+  if (start && start->nu.size() == problem.equality.size()) run.nu = start->nu * (step_length / norm_);
   auto& [z, g, y, gy] = run.state;
   z.assign(feasible.point);
-  evaluate(z, g);
-  run.energy = energy_of(z, g);
+  evaluate(right.b, z, g);
+  run.energy = energy_of(right.b, z, g);
   y.assign(z);
   gy.assign(g);
   while (true) {
     Trial trial = project_step(run);
     if (!trial.next.found)
       return infeasible(std::move(run.result), trial.next);  // bounds leave no point, for a start there was one
-    evaluate(trial);
+    evaluate(right.b, trial);
     improve_soft_start(run, trial);
     safeguard(run, trial);
     Judged judged = draw_back(run, trial);
@@ -98,9 +103,9 @@ Solution FaceNewton::solve(const std::optional<Solution>& start, const Goal& goa
 void FaceNewton::find_norm(const std::optional<Solution>& start, const Observer& observer)
 {
   if (norm_ != 0) return;
-  norm_ =
-      start && start->hessian_norm > 0 ? start->hessian_norm : projected_norm(problem_.hessian, problem_.equality, norm_accuracy);
-  if (observer) observer({"norm", 0, problem_.hessian.count()});
+  norm_ = start && start->hessian_norm > 0 ? start->hessian_norm
+                                           : projected_norm(programme_.hessian, programme_.equality, norm_accuracy);
+  if (observer) observer({"norm", 0, programme_.hessian.count()});
   if (norm_ == 0) norm_ = 1;
   measure_discs();
 }
@@ -109,11 +114,11 @@ void FaceNewton::find_norm(const std::optional<Solution>& start, const Observer&
 // of the preconditioner, which vectors of random signs tell about. No less compliance than 1 / ||P A P||.
 void FaceNewton::measure_discs()
 {
-  const auto discs = problem_.set.discs();
+  const auto discs = programme_.set.discs();
   const auto wide = std::count_if(discs.begin(), discs.end(), [](const Disc& disc) { return disc.size() == 2; });
   disc_stiffness_.assign(discs.size(), norm_);
-  if (!preconditioner_ || problem_.equality.communicator().sum(static_cast<long long>(wide)) == 0) return;
-  const auto map = problem_.linear.getMap();
+  if (!preconditioner_ || programme_.equality.communicator().sum(static_cast<long long>(wide)) == 0) return;
+  const auto map = programme_.hessian.map();
   Vector signs(map), image(map);
   std::vector<double> sums(discs.size(), 0.0);
   preconditioner_->fix({});
@@ -148,7 +153,7 @@ Projection FaceNewton::accept(Run& run, const Trial& trial, Judged judged)
   run.state.g.assign(trial.gradient);
   run.energy = trial.energy;
   run.nu = trial.next.nu * (step_length / norm_ / trial.step);
-  run.active = problem_.set.active(view(std::as_const(z)));
+  run.active = run.problem.set.active(view(std::as_const(z)));
 
   Projection natural = std::move(judged.natural);
   run.residual = judged.residual;
@@ -165,9 +170,9 @@ Projection FaceNewton::accept(Run& run, const Trial& trial, Judged judged)
 // y becomes the solution on the active set that the trial picked, nearly.
 void FaceNewton::minimise(Run& run, const Trial& trial)
 {
-  const bool follow = run.slip_bound_update != nullptr;
-  const ActiveSet active_set(projector_, trial.next.argument, run.beyond ? longer_step * trial.step : trial.step, disc_stiffness_,
-                             run.active_set_tolerance, follow);
+  const bool follow = run.followed != nullptr;
+  const ActiveSet active_set(projector_, run.problem.set, trial.next.argument, run.beyond ? longer_step * trial.step : trial.step,
+                             disc_stiffness_, run.active_set_tolerance, follow);
   if (preconditioner_) preconditioner_->fix(active_set.fixed());
   const double enough = residual_to_reach(run);
   // Where the last active set was picked badly, what others know leads astray: cells of aspect 1000 tell little of each other.
@@ -197,7 +202,7 @@ Vector FaceNewton::long_gradient_step(const ActiveSet& active_set, const Vector&
   // Slip that goes back sticks first: nobody crosses the disc to slip in the opposite direction.
   const auto from = view(y);
   auto to = view(beyond);
-  for (const auto& disc : problem_.set.discs()) {
+  for (const auto& disc : programme_.set.discs()) {
     if (!(disc.coefficient > 0)) continue;
     const Eigen::Vector2d start = from_centre(disc, from), way = from_centre(disc, to) - start;
     const double part = -start.dot(way) / std::max(way.squaredNorm(), std::numeric_limits<double>::min());
@@ -212,43 +217,38 @@ Vector FaceNewton::long_gradient_step(const ActiveSet& active_set, const Vector&
 Solution FaceNewton::solution_of(Run run) const
 {
   const auto& [z, g, y, gy] = run.state;
-  const auto& equality = problem_.equality;
+  const auto& [hessian, equality, right, set] = run.problem;
   auto& result = run.result;
   result.x.assign(z);
   result.gradient.assign(g);
   result.hessian_norm = norm_;
   result.preconditionings = preconditionings_;
-  const double work = std::max(z.dot(g) + z.dot(problem_.linear), 0.0);  // z'A z
+  result.radii = set.radii();
+  const double work = std::max(z.dot(g) + z.dot(right.b), 0.0);  // z'A z
   result.projected_gradient = run.residual / std::max(run.size, least_size * std::sqrt(norm_ * work));
-  result.equality = equality.size() > 0 ? equality.norm(equality.right_side() - equality.apply(z)) * norm_ / run.size : 0.0;
+  result.equality = equality.size() > 0 ? equality.norm(right.e - equality.apply(z)) * norm_ / run.size : 0.0;
   return std::move(result);
 }
 
 // A x - b. One product.
-void FaceNewton::evaluate(const Vector& x, Vector& gradient) const
+void FaceNewton::evaluate(const Vector& b, const Vector& x, Vector& gradient) const
 {
-  problem_.hessian.apply(x, gradient);
-  gradient.update(-1, problem_.linear, 1);
+  programme_.hessian.apply(x, gradient);
+  gradient.update(-1, b, 1);
 }
 
-void FaceNewton::evaluate(Trial& trial) const
+void FaceNewton::evaluate(const Vector& b, Trial& trial) const
 {
-  evaluate(trial.next.point, trial.gradient);
-  trial.energy = energy_of(trial.next.point, trial.gradient);
-}
-
-// 1/2 x'A x - b'x, from the gradient at x.
-double FaceNewton::energy_of(const Vector& x, const Vector& gradient) const
-{
-  return 0.5 * (x.dot(gradient) - x.dot(problem_.linear));
+  evaluate(b, trial.next.point, trial.gradient);
+  trial.energy = energy_of(b, trial.next.point, trial.gradient);
 }
 
 void FaceNewton::report(const Run& run, const char* what, bool outer) const
 {
   if (run.observer)
-    run.observer({what, run.result.outer_iterations, problem_.hessian.count(), run.residual / run.size, run.mismatch / run.size,
+    run.observer({what, run.result.outer_iterations, programme_.hessian.count(), run.residual / run.size, run.mismatch / run.size,
                   0, run.active, preconditionings_, run.energy, run.result.error, outer ? &run.state.z : nullptr,
-                  run.allowed > 0 ? run.allowed : std::numeric_limits<double>::quiet_NaN()});
+                  outer ? &run.problem.set : nullptr, run.allowed > 0 ? run.allowed : std::numeric_limits<double>::quiet_NaN()});
 }
 
 }  // namespace mortise::qp

@@ -38,8 +38,8 @@ double FaceNewton::rounding_of_motions(const Run& run, const Projection& natural
 // a residual that is to come down to a number does so.
 void FaceNewton::find_error(Run& run, const Projection& natural)
 {
-  run.result.error =
-      error_bound(problem_, run.state.z, natural, norm_, preconditioner_) * (run.residual > 0 ? run.worst() / run.residual : 1.0);
+  run.result.error = error_bound(run.problem, run.state.z, natural, norm_, preconditioner_) *
+                     (run.residual > 0 ? run.worst() / run.residual : 1.0);
   preconditionings_ += preconditioner_ ? 1 : 0;
 }
 
@@ -48,7 +48,7 @@ bool FaceNewton::is_compatible(const Run& run) const
 {
   const auto& goal = run.goal;
   if (!goal.incompatibility || run.worst() <= tolerances::rounding * run.size) return true;
-  if (run.result.error <= rounding_of_error(problem_, norm_)) return true;
+  if (run.result.error <= rounding_of_error(run.problem.right.b, norm_)) return true;
   // From a direct solution figures are cheap to come by: a step of A^-1 each.
   const double enough = run.since_best > 0 ? Goal::nearly_compatible
                         : goal.exact > 0   ? Goal::exactly_compatible
@@ -61,12 +61,12 @@ bool FaceNewton::is_compatible(const Run& run) const
 bool FaceNewton::radii_settled(const Run& run) const
 {
   constexpr double settled = 2e-3;
-  if (!run.slip_bound_update) return true;
+  if (!run.followed) return true;
   double square = 0;
-  for (const auto& disc : problem_.set.discs())
+  for (const auto& disc : run.problem.set.discs())
     if (std::isfinite(disc.radius)) square += disc.radius * disc.radius;
   const double change = run.mismatch * step_length / norm_;
-  return change <= settled * std::sqrt(problem_.equality.communicator().sum(square));
+  return change <= settled * std::sqrt(programme_.equality.communicator().sum(square));
 }
 
 // Whether the residual or the error at z is what the goal asks for.
@@ -78,12 +78,12 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   const double worst = run.worst();
   const double to_come = run.contact.change_to_come(z, result.error);
   // Bodies that only move, or are warm and free to expand, are not strained: b asks for motions, and x is rounding.
-  const double nothing = std::max(goal.negligible, part_that_is_nothing * rounding_of_error(problem_, norm_));
+  const double nothing = std::max(goal.negligible, part_that_is_nothing * rounding_of_error(run.problem.right.b, norm_));
   if (goal.allowed_error && result.error <= nothing && goal.energy_norm(z, result.nu) <= 10 * nothing) return true;
   // Infinite while points stick whose bounds are still to come.
   if (run.first_error == 0 && std::isfinite(result.error)) run.first_error = result.error;
   const bool small = worst <= (goal.allowed_error ? tolerances::finest : goal.residual) * run.size;
-  bool solved = small && believable(result.error, rounding_of_error(problem_, norm_), z, result.nu, goal,
+  bool solved = small && believable(result.error, rounding_of_error(run.problem.right.b, norm_), z, result.nu, goal,
                                     worst <= tolerances::rounding * run.size);
   run.doubtful = small && !solved;
   std::optional<bool> converged;
@@ -153,8 +153,8 @@ bool FaceNewton::gives_up(Run& run) const
   run.best_error = std::min(run.best_error, run.result.error);
   if (run.since_best > 1) run.active_set_tolerance *= 0.1;  // perhaps it is these that matter
   if (run.exact_but_for_states && run.result.error > away * run.exact_but_for_states->result.error) return true;
-  return problem_.hessian.exhausted() || run.result.outer_iterations >= max_active_sets ||
-         run.since_best >= (run.slip_bound_update ? update_patience : patience) || run.result.safeguards > max_safeguards;
+  return programme_.hessian.exhausted() || run.result.outer_iterations >= max_active_sets ||
+         run.since_best >= (run.followed ? update_patience : patience) || run.result.safeguards > max_safeguards;
 }
 
 // The residual to come down to on the next active set, if inner_reduction does not end it before.

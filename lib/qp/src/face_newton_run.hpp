@@ -42,11 +42,18 @@ class ContactForces {
   double error_ = 0;
 };
 
+// 1/2 x'A x - b'x, from the gradient A x - b at x.
+inline double energy_of(const Vector& b, const Vector& x, const Vector& gradient)
+{
+  return 0.5 * (x.dot(gradient) - x.dot(b));
+}
+
 // One solve: what it was called with, where it stands, and how it went so far.
 struct FaceNewton::Run {
+  const Problem& problem;
   const std::optional<Solution>& start;
   const Goal& goal;
-  const SlipBoundUpdate* slip_bound_update;  // null: radii stay
+  FollowedRadii* followed;  // null: radii stay
   const Observer& observer;
   Solution result;
   State state;

@@ -38,18 +38,18 @@ FaceNewton::Trial FaceNewton::project_step(Run& run)
 // The same to a given place; bounds that follow the solution begin at those of `radii_at`, if that is given.
 FaceNewton::Trial FaceNewton::project_step(Run& run, const Vector& to, const Vector* radii_at)
 {
-  const auto* bounds = run.slip_bound_update;
+  auto* const bounds = run.followed;
   const bool follow = bounds && radii_at;
   if (follow) bounds->update(*radii_at, true);
-  Projection next = projector_(to, run.nu);
+  Projection next = project(run.problem, to, run.nu);
   // The normal forces that the projection changes change the bounds once more.
   for (int pass = 0; follow && next.found && pass < max_updates; ++pass) {
     bounds->update(next.point, true);
-    next = projector_(to, next.nu);
+    next = project(run.problem, to, next.nu);
   }
   for (int retreat = 0; bounds && !next.found && retreat < max_retreats; ++retreat) {
     bounds->retreat();
-    next = projector_(to, run.nu);
+    next = project(run.problem, to, run.nu);
   }
   return {std::move(next), step_length / norm_, Vector(run.state.y.getMap())};
 }
@@ -59,13 +59,13 @@ void FaceNewton::improve_soft_start(Run& run, Trial& trial)
 {
   auto& [z, g, y, gy] = run.state;
   if (run.start || unconstrained_ || !run.first()) return;
-  if (!soft_between(z, g, trial.next.point, trial.gradient) || !improve_start(run.state, trial.energy)) return;
-  run.energy = energy_of(z, g);
+  if (!soft_between(z, g, trial.next.point, trial.gradient) || !improve_start(run.problem, run.state, trial.energy)) return;
+  run.energy = energy_of(run.problem.right.b, z, g);
   Vector to(z, Teuchos::Copy);
   to.update(-trial.step, g, 1);
-  if (Projection onward = projector_(to); onward.found) {
+  if (Projection onward = project(run.problem, to); onward.found) {
     trial.next = std::move(onward);
-    evaluate(trial);
+    evaluate(run.problem.right.b, trial);
   }
 }
 
@@ -81,21 +81,22 @@ bool FaceNewton::soft_between(const Vector& a, const Vector& ga, const Vector& b
 // The feasible point nearest to 0 spreads forces over all points of a contact, also over those with wide gaps. Points nearest to
 // ever longer steps along b know the gaps: z becomes the one of least energy, as long as it falls below `energy`. One product
 // each. Returns whether there is one.
-bool FaceNewton::improve_start(State& state, double energy)
+bool FaceNewton::improve_start(const Problem& problem, State& state, double energy)
 {
   auto& [z, g, y, gy] = state;
-  Vector downhill(problem_.linear, Teuchos::Copy);
-  problem_.equality.project(downhill);
+  const Vector& b = problem.right.b;
+  Vector downhill(b, Teuchos::Copy);
+  problem.equality.project(downhill);
   double step = step_length / norm_;
   bool found = false;
-  for (int attempt = 0; attempt < max_starts && !problem_.hessian.exhausted(); ++attempt) {
+  for (int attempt = 0; attempt < max_starts && !programme_.hessian.exhausted(); ++attempt) {
     step *= longer;
     Vector trial(downhill, Teuchos::Copy);
     trial.scale(step);
-    const Projection next = projector_(trial);
+    const Projection next = project(problem, trial);
     if (!next.found) break;
-    evaluate(next.point, gy);
-    const double next_energy = energy_of(next.point, gy);
+    evaluate(b, next.point, gy);
+    const double next_energy = energy_of(b, next.point, gy);
     if (!(next_energy < energy)) break;
     z.assign(next.point);
     g.assign(gy);
@@ -112,16 +113,16 @@ void FaceNewton::safeguard(Run& run, Trial& trial)
 {
   const auto& [z, g, y, gy] = run.state;
   Vector to(z.getMap());
-  for (int attempt = 0; !run.slip_bound_update && run.moved && trial.energy > run.energy + 1e-9 * std::abs(run.energy) &&
-                        !problem_.hessian.exhausted();
+  for (int attempt = 0;
+       !run.followed && run.moved && trial.energy > run.energy + 1e-9 * std::abs(run.energy) && !programme_.hessian.exhausted();
        ++attempt) {
     double& part = trial.part_of_way;
     part = attempt < max_retreats_to_z ? part * 0.25 : 0;
     trial.step = part > 0 ? trial.step : safe_length / norm_;
     to.update(1 - part, z, part, y, 0);
     to.update(-trial.step * (1 - part), g, -trial.step * part, gy, 1);
-    trial.next = projector_(to, Eigen::VectorXd(run.nu * (trial.step * norm_ / step_length)));
-    evaluate(trial);
+    trial.next = project(run.problem, to, Eigen::VectorXd(run.nu * (trial.step * norm_ / step_length)));
+    evaluate(run.problem.right.b, trial);
     ++run.result.safeguards;
     if (part == 0) break;
   }
@@ -133,10 +134,9 @@ FaceNewton::Judged FaceNewton::judge(const Run& run, const Trial& trial)
   const auto& x = trial.next.point;
   Vector to(x, Teuchos::Copy);
   to.update(-1 / norm_, trial.gradient, 1);
-  Projection natural = projector_(to, Eigen::VectorXd(trial.next.nu / (norm_ * trial.step)));
+  Projection natural = project(run.problem, to, Eigen::VectorXd(trial.next.nu / (norm_ * trial.step)));
   to.update(1, x, -1, natural.point, 0);
-  return {std::move(natural), to.norm2() * norm_,
-          run.slip_bound_update ? run.slip_bound_update->update(x, false) * norm_ / step_length : 0.0};
+  return {std::move(natural), to.norm2() * norm_, run.followed ? run.followed->update(x, false) * norm_ / step_length : 0.0};
 }
 
 // Where bounds follow the solution no energy falls, but a residual that rises above all of the last ones tells of an active set
@@ -145,11 +145,11 @@ FaceNewton::Judged FaceNewton::judge(const Run& run, const Trial& trial)
 FaceNewton::Judged FaceNewton::draw_back(Run& run, Trial& trial)
 {
   Judged judged = judge(run, trial);
-  if (!run.slip_bound_update || !run.slip_bound_update->cautious) return judged;
+  if (!run.followed || !run.followed->cautious()) return judged;
   const auto& [z, g, y, gy] = run.state;
   Vector at(z.getMap()), to(z.getMap());
   const double allowed = run.highest() * (2 * run.last_residuals.size() < Run::remembered ? first_rise : 1.0);
-  while (run.moved && run.beyond && judged.worst() > allowed && trial.part_of_way > 0 && !problem_.hessian.exhausted()) {
+  while (run.moved && run.beyond && judged.worst() > allowed && trial.part_of_way > 0 && !programme_.hessian.exhausted()) {
     const double part = trial.part_of_way > least_part ? trial.part_of_way * 0.25 : 0;
     at.update(1 - part, z, part, y, 0);
     to.update(1 - part, *run.beyond_z, part, *run.beyond, 0);
@@ -157,7 +157,7 @@ FaceNewton::Judged FaceNewton::draw_back(Run& run, Trial& trial)
     if (!next.next.found) break;
     next.part_of_way = part;
     trial = std::move(next);
-    evaluate(trial);
+    evaluate(run.problem.right.b, trial);
     judged = judge(run, trial);
     ++run.result.safeguards;
   }

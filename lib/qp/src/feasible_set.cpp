@@ -51,6 +51,20 @@ Eigen::Vector2d from_centre(const Disc& disc, const Eigen::Ref<const Eigen::Vect
   return gather(disc, x) - centre(disc);
 }
 
+std::vector<double> FeasibleSet::radii() const
+{
+  std::vector<double> result;
+  for (const auto& disc : discs_) result.push_back(disc.radius);
+  return result;
+}
+
+FeasibleSet FeasibleSet::with_radii(std::span<const double> radii) const
+{
+  FeasibleSet result = *this;
+  result.set_radii(radii);
+  return result;
+}
+
 void FeasibleSet::set_radii(std::span<const double> radii)
 {
   assert(radii.size() == discs_.size());

@@ -9,7 +9,8 @@ namespace mortise::qp {
 double relative_size(const Problem& problem, double tolerance)
 {
   double size = 0;
-  for (const Vector* v : {&problem.linear, problem.driven}) {
+  const auto& [b, e, driven, f, c] = problem.right;
+  for (const Vector* v : {&b, driven ? &*driven : nullptr}) {
     if (!v) continue;
     Vector projected(*v, Teuchos::Copy);
     problem.equality.project(projected);

@@ -47,7 +47,7 @@ class AugmentedLagrangian {
 void set_constant(const Problem& problem, const Vector& x0, double norm, Vector& constant)
 {
   problem.hessian.apply(x0, constant);
-  constant.update(-1, problem.linear, 1);
+  constant.update(-1, problem.right.b, 1);
   problem.equality.project(constant);
   constant.scale(1 / norm);
 }
@@ -59,7 +59,7 @@ void take_start_steps(const Problem& problem, double norm, Projection& feasible,
   for (int step = 0; step < start_steps; ++step) {
     Vector moved(feasible.point, Teuchos::Copy);
     moved.update(-start_length, constant, 1);
-    Projection next = project(moved, problem.equality, problem.set);
+    Projection next = project(moved, problem.equality, problem.right.e, problem.set);
     if (!next.found) break;
     nu = next.nu / start_length;
     feasible = std::move(next);
@@ -144,7 +144,7 @@ void SmalseRun::report(const char* what, const Vector* at) const
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   if (observer_)
     observer_({what, result_.outer_iterations, problem_.hessian.count(), measure_ / size_, residual_ / size_, result_.precision,
-               set_.active(view(std::as_const(point_.x))), 0, unknown, unknown, at});
+               set_.active(view(std::as_const(point_.x))), 0, unknown, unknown, at, at ? &problem_.set : nullptr});
 }
 
 // Whether the inner iteration may end here. Takes note of both residuals.
@@ -194,9 +194,9 @@ void SmalseRun::finish()
   result_.projected_gradient = measure_ / size_;
   result_.equality = residual_ / size_;
   result_.x.update(1, origin_, 1, point_.x, 0);
-  result_.x.assign(project(result_.x, equality, problem_.set).point);
+  result_.x.assign(project(result_.x, equality, problem_.right.e, problem_.set).point);
   problem_.hessian.apply(result_.x, result_.gradient);
-  result_.gradient.update(-1, problem_.linear, 1);
+  result_.gradient.update(-1, problem_.right.b, 1);
   Vector coarse(result_.gradient, Teuchos::Copy);
   result_.nu = equality.size() > 0 ? Eigen::VectorXd(norm_ * nu_ - equality.project(coarse)) : Eigen::VectorXd();
 }
@@ -206,8 +206,9 @@ void SmalseRun::finish()
 Solution smalse(const Problem& problem, const std::optional<Solution>& start, double tolerance, const Observer& observer)
 {
   const auto map = problem.hessian.map();
-  Projection feasible = project(start ? start->x : Vector(map), problem.equality, problem.set);
+  Projection feasible = project(start ? start->x : Vector(map), problem.equality, problem.right.e, problem.set);
   Solution result(feasible.point, Vector(map), feasible.nu);
+  result.radii = problem.set.radii();
   if (!feasible.found) {
     result.feasible = false;
     result.empty = feasible.empty;

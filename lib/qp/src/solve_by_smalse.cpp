@@ -11,19 +11,21 @@ namespace {
 
 class SmalseSolver : public Solver {
  public:
-  SmalseSolver(const Problem& problem, ActiveSetPreconditioner* preconditioner)
-      : problem_(problem), preconditioner_(preconditioner)
+  SmalseSolver(const Programme& programme, ActiveSetPreconditioner* preconditioner)
+      : programme_(programme), preconditioner_(preconditioner)
   {
   }
 
-  Solution solve(const std::optional<Solution>& start, const Goal& goal, const Observer& observer) override
+  Solution solve(const RightHandSide& right, std::span<const double> radii, const std::optional<Solution>& start,
+                 const Goal& goal, const Observer& observer) override
   {
-    return smalse_to_goal(problem_, start, goal, preconditioner_, observer);
+    const FeasibleSet set = programme_.set.with_radii(radii);
+    return smalse_to_goal({programme_, right, set}, start, goal, preconditioner_, observer);
   }
   ActiveSetPreconditioner* preconditioner() override { return preconditioner_; }
 
  private:
-  const Problem& problem_;
+  Programme programme_;
   ActiveSetPreconditioner* preconditioner_;
 };
 
@@ -40,7 +42,7 @@ Solution smalse_to_goal(const Problem& problem, std::optional<Solution> start, c
     if (!found.feasible) return found;
     found.error = error_bound(problem, found, preconditioner);
     const auto believed = [&](bool rounding) {
-      return believable(found.error, rounding_of_error(problem, found.hessian_norm), found.x, found.nu, goal, rounding);
+      return believable(found.error, rounding_of_error(problem.right.b, found.hessian_norm), found.x, found.nu, goal, rounding);
     };
     if (!found.converged) {
       // Finer than the goal, and no steps make the residual smaller: what is left of it is rounding.
@@ -61,9 +63,9 @@ Solution smalse_to_goal(const Problem& problem, std::optional<Solution> start, c
   }
 }
 
-std::unique_ptr<Solver> make_smalse(const Problem& problem, const Means& means)
+std::unique_ptr<Solver> make_smalse(const Programme& programme, const Means& means)
 {
-  return std::make_unique<SmalseSolver>(problem, means.preconditioner);
+  return std::make_unique<SmalseSolver>(programme, means.preconditioner);
 }
 
 }  // namespace mortise::qp

@@ -21,72 +21,80 @@ constexpr double of_energy = 3e-5;           // or of the energy norm
 
 class DirectSolver : public Solver {
  public:
-  DirectSolver(const Problem& problem, const Means& means)
-      : problem_(problem),
+  DirectSolver(const Programme& programme, const Means& means)
+      : programme_(programme),
         means_(means),
         matrices_(means.make_explicit()),
-        faces_(face_newton_with(matrices_.inverse.get(), problem, means))
+        faces_(face_newton_with(matrices_.inverse.get(), programme, means))
   {
   }
 
-  void begin(std::optional<Solution>& start, Goal& goal, const Observer& observer) override
+  void begin(const RightHandSide& right, std::span<const double> radii, std::optional<Solution>& start, Goal& goal,
+             const Observer& observer) override
   {
-    if (observer) observer({"direct", 0, problem_.hessian.count()});
-    auto found = solve_with_matrices(start);
-    faces_->begin(start, goal, observer);
+    if (observer) observer({"direct", 0, programme_.hessian.count()});
+    const FeasibleSet set = programme_.set.with_radii(radii);
+    const Problem problem(programme_, right, set);
+    auto found = solve_with_matrices(problem, start);
+    faces_->begin(right, radii, start, goal, observer);
     sliding_.reset();
     accepted_.reset();
     if (found.slides) {
       sliding_.emplace(found.x, found.x, found.nu);
       sliding_->feasible = false;
       sliding_->slides = true;
+      sliding_->radii = set.radii();
     }
     if (!found.converged) return;  // a guess of states that are none leads faces astray
-    if (matrices_.differs) correct(found, goal);
+    if (matrices_.differs) correct(problem, found, goal);
     if (goal.allowed_error) goal.exact = rounding_of_direct;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
-    if (matrices_.rough_products && goal.allowed_error) accepted_ = judged(found, solution, goal);
+    if (matrices_.rough_products && goal.allowed_error) accepted_ = judged(problem, found, solution, goal);
     start = std::move(solution);
   }
-  Solution solve(const std::optional<Solution>& start, const Goal& goal, const Observer& observer) override
+  Solution solve(const RightHandSide& right, std::span<const double> radii, const std::optional<Solution>& start,
+                 const Goal& goal, const Observer& observer) override
   {
-    if (accepted_) return *std::exchange(accepted_, {});
-    return faces_->solve(start, goal, observer);
+    if (accepted_) {
+      accepted_->radii.assign(radii.begin(), radii.end());
+      return *std::exchange(accepted_, {});
+    }
+    return faces_->solve(right, radii, start, goal, observer);
   }
-  std::optional<Solution> solve(const SlipLaw& law, const std::optional<Solution>& start, const Goal& goal,
-                                const Observer& observer) override
+  std::optional<Solution> solve(const RightHandSide& right, const SlipLaw& law, const std::optional<Solution>& start,
+                                const Goal& goal, const Observer& observer) override
   {
     if (sliding_) return std::exchange(sliding_, {});
     if (accepted_) {
-      law.set.set_radii(law.radii(&accepted_->x));
+      accepted_->radii = law.radii(&accepted_->x);
       return std::exchange(accepted_, {});
     }
-    return faces_->solve(law, start, goal, observer);
+    return faces_->solve(right, law, start, goal, observer);
   }
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
  private:
   // From the states of the problem before, if there was one; else from anywhere with the matrices that served last, or the other
   // ones, if there are any, where these do not tell the states of all constraints.
-  ExplicitProgramme::Point solve_with_matrices(const std::optional<Solution>& before)
+  ExplicitProgramme::Point solve_with_matrices(const Problem& problem, const std::optional<Solution>& before)
   {
     if (before && matrices_.go_on) {
       Vector reaction(before->gradient, Teuchos::Copy);
-      problem_.equality.add_transpose(1, before->nu, reaction);
-      auto next =
-          matrices_.go_on(problem_.linear, problem_.equality.right_side(), problem_.set, {before->x, before->nu, true, reaction});
+      problem.equality.add_transpose(1, before->nu, reaction);
+      const auto& right = problem.right;
+      auto next = matrices_.go_on(right, right.b, right.e, problem.set, {before->x, before->nu, true, reaction});
       if (next.converged && next.settled) return next;
     }
-    auto found = matrices_.solve(problem_.set);
+    auto found = matrices_.solve(problem.right, problem.set);
     if ((found.converged && found.settled) || found.slides) return found;
     if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
     if (!others_) return found;
-    auto next = others_->solve(problem_.set);
+    auto next = others_->solve(problem.right, problem.set);
     if (!next.converged) return found;
     if (found.converged && !next.settled) return found;
     std::swap(matrices_, *others_);
-    faces_ = face_newton_with(matrices_.inverse.get(), problem_, means_);
+    faces_ = face_newton_with(matrices_.inverse.get(), programme_, means_);
     return next;
   }
 
@@ -94,23 +102,24 @@ class DirectSolver : public Solver {
   // off by no more than d in the norm of A^-1. Where that is nothing, it is the solution, though products with A may be too rough
   // for what states follow from: of a thin body they turn figures that x does not have into motions that open contact. One
   // product.
-  std::optional<Solution> judged(const ExplicitProgramme::Point& found, const Solution& start, const Goal& goal)
+  std::optional<Solution> judged(const Problem& problem, const ExplicitProgramme::Point& found, const Solution& start,
+                                 const Goal& goal)
   {
     if (!found.reaction) return {};
     Solution result = start;
-    problem_.hessian.apply(found.x, result.gradient);
-    result.gradient.update(-1, problem_.linear, 1);
+    problem.hessian.apply(found.x, result.gradient);
+    result.gradient.update(-1, problem.right.b, 1);
     Vector defect(result.gradient, Teuchos::Copy), error(defect.getMap());
     defect.update(-1, *found.reaction, 1);
-    problem_.equality.add_transpose(1, found.nu, defect);
+    problem.equality.add_transpose(1, found.nu, defect);
     matrices_.inverse->apply(defect, error);
     result.error = std::sqrt(std::max(defect.dot(error), 0.0));
-    const double size = relative_size(problem_, tolerances::finest);
+    const double size = relative_size(problem, tolerances::finest);
     if (!(size > 0)) return {};
     result.projected_gradient = defect.norm2() / size;
-    const auto& equality = problem_.equality;
+    const auto& equality = problem.equality;
     if (const double forces = found.x.norm2(); equality.size() > 0 && forces > 0)
-      result.equality = equality.norm(equality.right_side() - equality.apply(found.x)) / forces;
+      result.equality = equality.norm(problem.right.e - equality.apply(found.x)) / forces;
     result.outer_iterations = 1;
     result.converged = result.error <= rounding_of_direct * goal.energy_norm(found.x, found.nu) &&
                        result.projected_gradient <= Goal::largest_residual &&
@@ -122,19 +131,19 @@ class DirectSolver : public Solver {
   // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M)
   // x: less that, b gives the next one [Stetter, The defect correction principle and discretization methods, Numer. Math. 29
   // (1978)]. One product each.
-  void correct(ExplicitProgramme::Point& found, const Goal& goal)
+  void correct(const Problem& problem, ExplicitProgramme::Point& found, const Goal& goal)
   {
-    const auto& equality = problem_.equality;
-    const double enough = of_goal * std::min(goal.residual, asked_at_least) * relative_size(problem_, goal.residual);
-    Vector linear(problem_.linear, Teuchos::Copy), defect(linear.getMap());
-    Eigen::VectorXd right_side = equality.right_side();
+    const auto& equality = problem.equality;
+    const double enough = of_goal * std::min(goal.residual, asked_at_least) * relative_size(problem, goal.residual);
+    Vector linear(problem.right.b, Teuchos::Copy), defect(linear.getMap());
+    Eigen::VectorXd right_side = problem.right.e;
     std::optional<ExplicitProgramme::Point> best;
     double least = std::numeric_limits<double>::infinity();
-    for (int step = 0; !problem_.hessian.exhausted(); ++step) {
-      const Eigen::VectorXd lacking = equality.right_side() - equality.apply(found.x);
+    for (int step = 0; !problem.hessian.exhausted(); ++step) {
+      const Eigen::VectorXd lacking = problem.right.e - equality.apply(found.x);
       equality.add_transpose(1, equality.solve(lacking), found.x);
-      problem_.hessian.apply(found.x, defect);
-      defect.update(-1, problem_.linear, -1, *found.reaction, 1);
+      problem.hessian.apply(found.x, defect);
+      defect.update(-1, problem.right.b, -1, *found.reaction, 1);
       equality.add_transpose(1, found.nu, defect);
       Vector felt(defect, Teuchos::Copy);
       equality.project(felt);
@@ -147,7 +156,7 @@ class DirectSolver : public Solver {
       if (!nearer || step == most_corrections || (size <= enough && is_nothing(felt, found, goal))) break;
       linear.update(-1, defect, 1);
       right_side += lacking;
-      auto next = matrices_.go_on(linear, right_side, problem_.set, found);
+      auto next = matrices_.go_on(problem.right, linear, right_side, problem.set, found);
       if (!next.converged) break;
       found = std::move(next);
     }
@@ -163,7 +172,7 @@ class DirectSolver : public Solver {
     return std::sqrt(std::max(defect.dot(error), 0.0)) <= of_energy * goal.energy_norm(found.x, found.nu);
   }
 
-  const Problem& problem_;
+  Programme programme_;
   Means means_;
   ExplicitProgramme matrices_;
   std::optional<ExplicitProgramme> others_;
@@ -173,9 +182,9 @@ class DirectSolver : public Solver {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_direct(const Problem& problem, const Means& means)
+std::unique_ptr<Solver> make_direct(const Programme& programme, const Means& means)
 {
-  return std::make_unique<DirectSolver>(problem, means);
+  return std::make_unique<DirectSolver>(programme, means);
 }
 
 }  // namespace mortise::qp

@@ -1,7 +1,6 @@
 #include "qp/solver.hpp"
 
 #include <array>
-#include <cmath>
 
 #include "make_solvers.hpp"
 
@@ -22,12 +21,6 @@ const SolverKind& solver_kind(std::string_view name)
   for (const auto& kind : table)
     if (kind.name == name) return kind;
   return table.front();
-}
-
-std::vector<double> half_way_back(std::vector<double> radii, std::span<const double> before)
-{
-  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = std::isinf(before[i]) ? 2 * radii[i] : 0.5 * (radii[i] + before[i]);
-  return radii;
 }
 
 }  // namespace mortise::qp

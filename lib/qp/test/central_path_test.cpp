@@ -15,13 +15,13 @@ namespace mortise::qp {
 namespace {
 
 // With the compliance of each unknown if the others are fixed, as CondensedNewton has it.
-CondensedMatrices matrices_of(const Programme& p, MatrixXd c)
+CondensedMatrices matrices_of(const MatrixProgramme& p, MatrixXd c)
 {
   return {p.a, p.g, std::move(c), p.a.inverse().diagonal().cwiseInverse()};
 }
 
 // Some steps from nowhere, until nothing becomes nearer.
-CondensedNewton::Point walk(const CondensedMatrices& matrices, const Programme& p, double enough = 1e-15, int most = 100)
+CondensedNewton::Point walk(const CondensedMatrices& matrices, const MatrixProgramme& p, double enough = 1e-15, int most = 100)
 {
   const CondensedProgramme programme(matrices, p.a.llt(), p.set, p.b, p.e);
   auto path = programme.path_from(VectorXd::Ones(p.b.size()), VectorXd::Zero(p.e.size()));
@@ -30,7 +30,7 @@ CondensedNewton::Point walk(const CondensedMatrices& matrices, const Programme& 
   return {path.x(), path.nu(), path.product() <= enough, steps};
 }
 
-Programme contact_alone(int seed, int points, int tangents, int rigid)
+MatrixProgramme contact_alone(int seed, int points, int tangents, int rigid)
 {
   return random_programme(seed, points, tangents, 0, rigid);
 }
@@ -40,7 +40,7 @@ Programme contact_alone(int seed, int points, int tangents, int rigid)
 TEST(CentralPath, FiguresOfClarabel)
 {
   constexpr int points = 8, n = 3 * points;
-  Programme p;
+  MatrixProgramme p;
   p.a = MatrixXd::NullaryExpr(n, n, [](Index i, Index j) {
     const auto x = static_cast<double>(i), y = static_cast<double>(j);
     return (i == j ? 0.01 : 0) + std::exp(-std::abs(x - y) / 5) + 100 * std::cos(x) * std::cos(y);

@@ -14,7 +14,7 @@ TEST(CondensedNewton, AStringOnAnObstacle)
 {
   constexpr int n = 199;
   constexpr double h = 2.0 / (n + 1), q = 3, depth = 0.4;
-  Programme p;
+  MatrixProgramme p;
   p.a.resize(n, n);
   p.b.resize(n);
   std::vector<Bound> bounds;
@@ -46,7 +46,7 @@ TEST(CondensedNewton, ACylinderOnAHalfPlane)
   constexpr double width = 0.5, h = width / n, e = 10, radius = 1, force = 0.2, coefficient = 0.4,
                    push = 0.6 * coefficient * force;
   const auto integral = [](double x) { return x == 0 ? 0 : x * std::log(std::abs(x)) - x; };
-  Programme p;
+  MatrixProgramme p;
   p.a = MatrixXd::Zero(2 * n, 2 * n);
   p.b = VectorXd::Zero(2 * n);
   p.g = MatrixXd::Zero(2, 2 * n);
@@ -90,11 +90,11 @@ TEST(CondensedNewton, ACylinderOnAHalfPlane)
 
 // A belt of n bars around a drum, drawn over it at one end by `drawn`, with a given force on the other: Eytelwein. Its bars'
 // forces are unknowns without a constraint; what balances them at the nodes are rows of G.
-Programme belt(int n, double angle, double coefficient, double drawn, double compliance)
+MatrixProgramme belt(int n, double angle, double coefficient, double drawn, double compliance)
 {
   const double part = angle / n, slack = 1;
   const Index size = n + 1 + 2 * n;  // forces of n + 1 bars; normal and tangential force at the n nodes between them
-  Programme p;
+  MatrixProgramme p;
   p.a = MatrixXd::Zero(size, size);
   p.b = VectorXd::Zero(size);
   p.g = MatrixXd::Zero(2 * n + 1, size);

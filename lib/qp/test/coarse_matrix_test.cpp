@@ -46,7 +46,7 @@ TEST_P(Coarse, SolvesWhatConstraintsLeave)
       downdates.emplace_back().index[0] = i;
       downdates.back().matrix(0, 0) = 0.7;
     }
-    const EqualityConstraint equality(local_columns(g, *map), Eigen::VectorXd::Ones(rows), comm);
+    const EqualityConstraint equality(local_columns(g, *map), comm);
     CoarseMatrix matrix(equality, blocks, GetParam());
     EXPECT_EQ(matrix.touched(), constrained == 0 ? 0 : constrained == 7 ? 3 : rows);
     for (int time = 0; time < 2; ++time) {  // nothing of the first stays
@@ -80,7 +80,7 @@ TEST_P(Coarse, BlockJoinsRowsThatAreApart)
     entry.index = {i, i + 1, -1};
     entry.matrix.topLeftCorner<2, 2>() = block;
   }
-  const EqualityConstraint equality(local_columns(g, *map), Eigen::VectorXd::Ones(rows), comm);
+  const EqualityConstraint equality(local_columns(g, *map), comm);
   CoarseMatrix matrix(equality, blocks, GetParam());
   EXPECT_EQ(matrix.touched(), 3);
   ASSERT_TRUE(matrix.factorize(downdates, 0));

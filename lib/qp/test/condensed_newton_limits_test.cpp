@@ -113,8 +113,8 @@ TEST(CondensedNewton, RowsThatDependOnEachOther)
     }
     const MatrixXd compliance = random.definite(2 * points, 1);
     const VectorXd pushed = VectorXd::Ones(2 * points) + 0.5 * random.matrix(2 * points, 1);
-    Programme p{rows * compliance * rows.transpose(), MatrixXd::Zero(0, 4 * points), rows * pushed, VectorXd::Zero(0),
-                FeasibleSet(bounds, discs)};
+    MatrixProgramme p{rows * compliance * rows.transpose(), MatrixXd::Zero(0, 4 * points), rows * pushed, VectorXd::Zero(0),
+                      FeasibleSet(bounds, discs)};
     p.set.set_coefficients(std::vector<double>(discs.size(), 0.3));
     const auto point = p.solve();
     EXPECT_TRUE(point.converged) << seed;

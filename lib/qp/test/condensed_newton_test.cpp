@@ -88,7 +88,7 @@ TEST(CondensedNewton, CoulombConesAtEverySeed)
 
 // All guesses of what each constraint does, one by one: 2 for a bound, 3 for a disc of one unknown, 4 for a point of Coulomb's
 // law. Those that fulfil the conditions.
-std::vector<VectorXd> brute_force(const Programme& p)
+std::vector<VectorXd> brute_force(const MatrixProgramme& p)
 {
   const Index n = p.b.size(), m = p.e.size();
   const auto bounds = p.set.bounds();
@@ -203,7 +203,7 @@ TEST(CondensedNewton, SlidesOnWhereFrictionFallsShort)
     for (const double push : {0.29, 0.2999, 0.3001, 0.31, 3.0}) {
       const Index points = 20, each = 1 + tangents, n = points * each;
       Random random(7);
-      Programme p;
+      MatrixProgramme p;
       p.a = random.definite(n, 0.5);
       for (Index i = 0; i < n; ++i)
         for (Index j = 0; j < n; ++j)

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-struct Programme {
+struct MatrixProgramme {
   MatrixXd a, g;
   VectorXd b, e;
   FeasibleSet set;
@@ -26,7 +26,7 @@ struct Programme {
 
 // How far x and nu are from the conditions of a solution, over the size of forces and of gaps. Nothing of it comes from the code
 // under test.
-inline double violation(const Programme& p, const CondensedNewton::Point& point)
+inline double violation(const MatrixProgramme& p, const CondensedNewton::Point& point)
 {
   const auto &x = point.x, &nu = point.nu;
   if (!x.allFinite() || !nu.allFinite()) return std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ inline double violation(const Programme& p, const CondensedNewton::Point& point)
 // What constraints are at a solution: a test in which nothing slips tells little of slip.
 struct Census {
   int open = 0, closed = 0, sticks = 0, slips = 0;
-  void add(const Programme& p, const VectorXd& x)
+  void add(const MatrixProgramme& p, const VectorXd& x)
   {
     for (const auto& bound : p.set.bounds()) ++(x[bound.index] > bound.lower + 1e-9 ? closed : open);
     for (const auto& disc : p.set.discs()) {
@@ -93,10 +93,10 @@ class Random {
 // `points` contact nodes, each with a normal unknown and `tangents` others, among `free` unknowns without a constraint. The
 // first `rigid` rows of G meet constraints alone, three more meet everything. Points at which all is pressed and little is pulled
 // are feasible.
-inline Programme random_programme(int seed, int points, int tangents, int free, int rigid)
+inline MatrixProgramme random_programme(int seed, int points, int tangents, int free, int rigid)
 {
   Random random(seed);
-  Programme p;
+  MatrixProgramme p;
   const Index each = 1 + tangents, n = points * each + free, mixed = free > 0 ? 3 : 0;
   p.a = random.definite(n, 0.1);
   p.b = 2 * random.matrix(n, 1);

@@ -31,14 +31,14 @@ TEST(ErrorBound, IsOneAtEveryPoint)
   RandomProgramme programme;
   Inverse inverse(programme.dense, programme.map);
   const Eigen::VectorXd exact = programme.reference();
-  const double norm = FaceNewton(programme.problem, nullptr).solve({}, {1e-2}, nullptr, {}).hessian_norm;
+  const double norm = programme.by_face_newton({1e-2}).hessian_norm;
   Projector projector(programme.equality, programme.set);
   for (const double distance : {1.0, 1e-1, 1e-2, 1e-4, 1e-6})
     for (int trial = 0; trial < 10; ++trial) {
-      Solution point(projector(local_part(exact + distance * programme.random(RandomProgramme::n, 1), programme.map)).point,
-                     Vector(programme.map), {});
+      const Vector near = local_part(exact + distance * programme.random(RandomProgramme::n, 1), programme.map);
+      Solution point(projector(near, programme.right.e, programme.set).point, Vector(programme.map), {});
       programme.hessian.apply(point.x, point.gradient);
-      point.gradient.update(-1, programme.b, 1);
+      point.gradient.update(-1, programme.right.b, 1);
       point.hessian_norm = norm;
       const double error = programme.distance(point.x, exact), bound = error_bound(programme.problem, point, &inverse);
       EXPECT_GE(bound, (1 - 1e-5) * error) << distance;
@@ -51,7 +51,7 @@ TEST(ErrorBound, IsNotFarAboveTheErrorWhereSolversStop)
   Inverse inverse(programme.dense, programme.map);
   const Eigen::VectorXd exact = programme.reference();
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-    const Solution solution = FaceNewton(programme.problem, &inverse).solve({}, {tolerance}, nullptr, {});
+    const Solution solution = programme.by_face_newton({tolerance}, &inverse);
     const double error = programme.distance(solution.x, exact);
     EXPECT_GE(solution.error, (1 - 1e-5) * error) << tolerance;
     EXPECT_LE(solution.error, 5 * error + 1e-8) << tolerance;
@@ -78,8 +78,8 @@ TEST(ErrorBound, SmallResidualsAreBelievedWithSmallErrorsAlone)
   // A solution that is a million times smaller than its problem asks for more products, or it is none.
   Goal loose{1e-3}, strict{1e-3};
   strict.energy_norm = norm(1e-3);
-  const Solution first = FaceNewton(programme.problem, nullptr).solve({}, loose, nullptr, {});
-  const Solution second = FaceNewton(programme.problem, nullptr).solve({}, strict, nullptr, {});
+  const Solution first = programme.by_face_newton(loose);
+  const Solution second = programme.by_face_newton(strict);
   EXPECT_TRUE(first.converged);
   EXPECT_TRUE(second.converged);
   const Eigen::VectorXd exact = programme.reference();

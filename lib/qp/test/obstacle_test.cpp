@@ -29,7 +29,8 @@ Solution by_smalse(const Problem& problem, const std::optional<Solution>& start,
 
 Solution by_face_newton(const Problem& problem, const std::optional<Solution>& start, double tolerance)
 {
-  return FaceNewton(problem, nullptr).solve(start, {tolerance, {}}, nullptr, {});
+  const Programme programme{problem.hessian, problem.equality, problem.set};
+  return FaceNewton(programme, nullptr).solve(problem.right, problem.set.radii(), nullptr, start, {tolerance, {}}, {});
 }
 
 class Obstacle : public testing::TestWithParam<Algorithm> {};
@@ -40,13 +41,13 @@ TEST_P(Obstacle, StringIsSolvedToItsKktConditions)
   constexpr int n = 60;
   const auto map = even_map(n, world());
   const DenseOperator a(second_difference(n), map, world());
-  const Vector b = local_part(Eigen::VectorXd::Constant(n, -0.002), map);
+  const RightHandSide right{local_part(Eigen::VectorXd::Constant(n, -0.002), map), {}};
   std::vector<Bound> bounds;
   for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) bounds.push_back({i, -0.4});
   const FeasibleSet set(bounds, {});
-  const EqualityConstraint none(SparseMatrix(0, static_cast<Eigen::Index>(bounds.size())), {}, world());
+  const EqualityConstraint none(SparseMatrix(0, static_cast<Eigen::Index>(bounds.size())), world());
   Hessian hessian(a, 2000);
-  const Problem problem{hessian, b, none, set};
+  const Problem problem({hessian, none, set}, right, set);
   const Solution solution = GetParam()(problem, {}, 1e-9);
   EXPECT_TRUE(solution.converged);
   EXPECT_LT(kkt(solution, problem), 1e-9);
@@ -60,11 +61,11 @@ TEST_P(Obstacle, StringIsSolvedToItsKktConditions)
 TEST_P(Obstacle, EqualityAndDiscs)
 {
   RandomProgramme programme;
-  auto& [hessian, b, equality, set, driven] = programme.problem;
+  auto& [hessian, equality, right, set] = programme.problem;
   const Solution solution = GetParam()(programme.problem, {}, 1e-10);
   ASSERT_TRUE(solution.feasible);
   EXPECT_TRUE(solution.converged);
-  EXPECT_LT(equality.norm(equality.apply(solution.x) - equality.right_side()), 1e-10);
+  EXPECT_LT(equality.norm(equality.apply(solution.x) - right.e), 1e-10);
   EXPECT_LT(kkt(solution, programme.problem), 1e-7);
 
   // A warm start from the solution must end at once and at the same point.
@@ -87,7 +88,7 @@ TEST(FaceNewton, StopsAtTheAllowedError)
                       return allowed;
                     }};
     const int before = programme.hessian.count();
-    const Solution solution = FaceNewton(programme.problem, nullptr).solve({}, goal, nullptr, {});
+    const Solution solution = programme.by_face_newton(goal);
     EXPECT_TRUE(solution.converged);
     EXPECT_GE(asked, 1);
     EXPECT_LE(programme.distance(solution.x, exact), allowed);
@@ -103,12 +104,12 @@ TEST(FaceNewton, GoesOnWhileThePrimalSolutionIsIncompatible)
   const double norm = programme.distance(Vector(programme.map), exact);
   const double allowed = 1e-1 * norm;
   Goal goal{0, [&](const Vector&, const Eigen::VectorXd&) { return allowed; }};
-  const Solution loose = FaceNewton(programme.problem, nullptr).solve({}, goal, nullptr, {});
+  const Solution loose = programme.by_face_newton(goal);
   ASSERT_GT(programme.distance(loose.x, exact), 1e-2 * allowed);
   goal.incompatibility = [&](const Vector& x, const Eigen::VectorXd&) {
     return programme.distance(x, exact) < 1e-2 * allowed ? 0.0 : 1.0;
   };
-  const Solution tight = FaceNewton(programme.problem, nullptr).solve({}, goal, nullptr, {});
+  const Solution tight = programme.by_face_newton(goal);
   EXPECT_TRUE(tight.converged);
   EXPECT_LT(programme.distance(tight.x, exact), 1e-2 * allowed);
 }

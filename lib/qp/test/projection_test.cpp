@@ -24,8 +24,9 @@ TEST(Projection, SimplexHasItsKnownForm)
   Eigen::VectorXd y(n);
   for (int i = 0; i < n; ++i) y[i] = std::sin(3.0 * i);
   const FeasibleSet set = pushing(*map);
-  const EqualityConstraint equality(local_columns(Eigen::MatrixXd::Ones(1, n), *map), Eigen::VectorXd::Constant(1, 2.5), world());
-  const Projection result = project(local_part(y, map), equality, set);
+  const EqualityConstraint equality(local_columns(Eigen::MatrixXd::Ones(1, n), *map), world());
+  const Eigen::VectorXd e = Eigen::VectorXd::Constant(1, 2.5);
+  const Projection result = project(local_part(y, map), equality, e, set);
   ASSERT_TRUE(result.found);
   const Eigen::VectorXd x = gathered(result.point, world());
   EXPECT_NEAR(x.sum(), 2.5, 1e-11);
@@ -45,8 +46,9 @@ TEST(Projection, SoftSpringsAreExactAsWell)
   const FeasibleSet set(bounds, {});
   Eigen::MatrixXd g = Eigen::MatrixXd::Constant(1, n, -1);
   g(0, 0) = soft;
-  const EqualityConstraint equality(local_columns(g, *map), Eigen::VectorXd::Constant(1, 3 * soft), world());
-  const Projection result = project(local_part(Eigen::VectorXd::Constant(n, -10), map), equality, set);
+  const EqualityConstraint equality(local_columns(g, *map), world());
+  const Eigen::VectorXd e = Eigen::VectorXd::Constant(1, 3 * soft);
+  const Projection result = project(local_part(Eigen::VectorXd::Constant(n, -10), map), equality, e, set);
   ASSERT_TRUE(result.found);
   const Eigen::VectorXd x = gathered(result.point, world());
   EXPECT_NEAR(x[0], 3, 1e-10);
@@ -60,8 +62,9 @@ TEST(Projection, TellsThatNothingIsFeasible)
   const auto map = even_map(n, world());
   const FeasibleSet set = pushing(*map);
   // Pushing bodies pull: a sum of forces that are all >= 0 cannot be -1.
-  const EqualityConstraint equality(local_columns(Eigen::MatrixXd::Ones(1, n), *map), Eigen::VectorXd::Constant(1, -1), world());
-  const Projection result = project(Vector(map), equality, set);
+  const EqualityConstraint equality(local_columns(Eigen::MatrixXd::Ones(1, n), *map), world());
+  const Eigen::VectorXd e = Eigen::VectorXd::Constant(1, -1);
+  const Projection result = project(Vector(map), equality, e, set);
   EXPECT_FALSE(result.found);
   EXPECT_GT(result.nu[0], 1);
 }
@@ -76,13 +79,14 @@ TEST(Projection, ProvesThatLittleIsOutOfReach)
   for (const double pull : {-1e-6, 1e-6}) {
     // Up, to the left, and turning about the middle of the floor, where the wall presses half as high as the floor is long.
     const Eigen::MatrixXd g{{1, 1, 0}, {0, 0, 1}, {-1, 1, 0.5}};
-    const EqualityConstraint equality(local_columns(g, *map), Eigen::Vector3d(1, pull, 0.1), world());
+    const EqualityConstraint equality(local_columns(g, *map), world());
+    const Eigen::VectorXd e = Eigen::Vector3d(1, pull, 0.1);
     Projector projector(equality, set);
-    Projection result = projector(Vector(map));
+    Projection result = projector(Vector(map), e, set);
     EXPECT_EQ(result.found, pull > 0);
     if (result.found || result.empty) continue;
-    ASSERT_TRUE(projector.prove_empty(result));
-    EXPECT_GT(-result.nu.dot(equality.right_side()), 0);
+    ASSERT_TRUE(projector.prove_empty(e, set, result));
+    EXPECT_GT(-result.nu.dot(e), 0);
     EXPECT_LE((-g.transpose() * result.nu).maxCoeff(), 1e-10 * (g.transpose() * result.nu).cwiseAbs().maxCoeff());
   }
 }
@@ -97,11 +101,9 @@ TEST(Projection, DiscsLimitWhatFrictionCanCarry)
   const FeasibleSet set({}, discs);
   Eigen::MatrixXd g = Eigen::MatrixXd::Zero(2, n);  // resultant in both directions
   for (int i = 0; i < n; ++i) g(i % 2, i) = 1;
-  const auto columns = local_columns(g, *map);
-  const EqualityConstraint held(columns, Eigen::Vector2d(2.0, 2.0), world());   // 2.83 of 3
-  const EqualityConstraint slips(columns, Eigen::Vector2d(2.2, 2.2), world());  // 3.11 of 3
-  EXPECT_TRUE(project(Vector(map), held, set).found);
-  EXPECT_FALSE(project(Vector(map), slips, set).found);
+  const EqualityConstraint equality(local_columns(g, *map), world());
+  EXPECT_TRUE(project(Vector(map), equality, Eigen::Vector2d(2.0, 2.0), set).found);   // 2.83 of 3
+  EXPECT_FALSE(project(Vector(map), equality, Eigen::Vector2d(2.2, 2.2), set).found);  // 3.11 of 3
 }
 
 // Points with a normal unknown and two tangential ones: pressed together by 6, they carry 0.3 * 6 sideways, whatever share of the
@@ -120,16 +122,14 @@ TEST(Projection, ConesLimitWhatFrictionCanCarry)
   const FeasibleSet set = FeasibleSet(bounds, discs).with_cones();
   Eigen::MatrixXd g = Eigen::MatrixXd::Zero(3, n);
   for (int i = 0; i < n; ++i) g(i % 3, i) = 1;
-  const auto columns = local_columns(g, *map);
-  const auto at = [&](double sideways) {
-    return EqualityConstraint(columns, Eigen::Vector3d(6, 0.6 * sideways, 0.8 * sideways), world());
-  };
-  const EqualityConstraint holds = at(1.8 * 0.9999), slips = at(1.8 * 1.0001);
-  const Projection result = project(Vector(map), holds, set);
+  const EqualityConstraint equality(local_columns(g, *map), world());
+  const auto at = [](double sideways) { return Eigen::VectorXd(Eigen::Vector3d(6, 0.6 * sideways, 0.8 * sideways)); };
+  const Eigen::VectorXd holds = at(1.8 * 0.9999), slips = at(1.8 * 1.0001);
+  const Projection result = project(Vector(map), equality, holds, set);
   ASSERT_TRUE(result.found);
   Eigen::VectorXd sum = g * gathered(result.point, world());
-  EXPECT_LT((sum - holds.right_side()).norm(), 1e-9);
-  EXPECT_FALSE(project(Vector(map), slips, set).found);
+  EXPECT_LT((sum - holds).norm(), 1e-9);
+  EXPECT_FALSE(project(Vector(map), equality, slips, set).found);
 }
 
 }  // namespace

@@ -7,8 +7,7 @@
 #include <random>
 
 #include "dense_operator.hpp"
-#include "qp/problem.hpp"
-#include "qp/solution.hpp"
+#include "qp/face_newton.hpp"
 #include "testing/quiet.hpp"
 
 namespace mortise::qp {
@@ -19,7 +18,7 @@ inline double kkt(const Solution& solution, const Problem& problem)
   Vector moved(solution.x, Teuchos::Copy);
   Vector gradient(solution.x.getMap());
   problem.hessian.apply(solution.x, gradient);
-  gradient.update(-1, problem.linear, 1);
+  gradient.update(-1, problem.right.b, 1);
   if (problem.equality.size() > 0) problem.equality.add_transpose(1, solution.nu, gradient);
   moved.update(-1, gradient, 1);
   problem.set.project(view(moved));
@@ -69,10 +68,17 @@ struct RandomProgramme {
   Teuchos::RCP<const Map> map = blocks_of_three();
   FeasibleSet set = bounds_and_discs(static_cast<Local>(map->getNodeNumElements()));
   DenseOperator a{dense, map, world()};
-  EqualityConstraint equality{local_columns(g, *map), g* inside, world()};
+  EqualityConstraint equality{local_columns(g, *map), world()};
   Hessian hessian{a, 20000};
-  Vector b = local_part(random(n, 1), map);
-  Problem problem{hessian, b, equality, set};
+  RightHandSide right{local_part(random(n, 1), map), g* inside};
+  Programme programme{hessian, equality, set};
+  Problem problem{programme, right, set};
+
+  // With radii as they are given above. Collective.
+  Solution by_face_newton(const Goal& goal, ActiveSetPreconditioner* preconditioner = nullptr) const
+  {
+    return FaceNewton(programme, preconditioner).solve(right, set.radii(), nullptr, {}, goal, {});
+  }
 
   // The solution with radii as they are given above, of whole matrices, by alternating directions [Boyd et al., Found. Trends
   // Mach. Learn. 3 (2011)]: x solves the equations, z lies in Omega. Nothing of it comes from the code under test. Collective.
@@ -85,7 +91,7 @@ struct RandomProgramme {
     k.topRightCorner(n, m) = g.transpose();
     k.bottomLeftCorner(m, n) = g;
     const Eigen::PartialPivLU<Eigen::MatrixXd> factor(k);
-    const Eigen::VectorXd linear = gathered(b, world());
+    const Eigen::VectorXd linear = gathered(right.b, world());
     Eigen::VectorXd right(n + m), z = Eigen::VectorXd::Zero(n), y = z;
     right.tail(m) = g * inside;
     double off = 1;

@@ -28,12 +28,11 @@ class DenseProgramme : public ActiveSetPreconditioner {
   }
   void fix(std::span<const Local>) override {}
 
-  ExplicitProgramme::Point solve() const { return solve(programme_.b, programme_.equality.right_side(), nullptr); }
+  ExplicitProgramme::Point solve(const RightHandSide& right) const { return solve(right.b, right.e, nullptr); }
   ExplicitProgramme::Point solve(const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Point* near) const
   {
     FeasibleSet set = RandomProgramme::bounds_and_discs(RandomProgramme::n);  // of all ranks: all discs are alike
     const auto discs = programme_.set.discs();
-    set.set_radii(std::vector<double>(set.discs().size(), discs.front().radius));
     set.set_coefficients(std::vector<double>(set.discs().size(), discs.front().coefficient));
     constexpr auto n = RandomProgramme::n;
     const CondensedNewton newton(programme_.dense + compliance_ * Eigen::MatrixXd::Identity(n, n), programme_.g,
@@ -54,9 +53,19 @@ struct Setting {
   Budget budget{programme.hessian, {}, false};
   Means means{budget, nullptr, [this] {
                 auto matrices = std::make_shared<DenseProgramme>(programme);
-                return ExplicitProgramme{matrices, [matrices](const FeasibleSet&) { return matrices->solve(); }};
+                return ExplicitProgramme{
+                    matrices, [matrices](const RightHandSide& right, const FeasibleSet&) { return matrices->solve(right); }};
               }};
-  std::unique_ptr<Solver> make(const SolverKind& kind) { return kind.make(programme.problem, means); }
+  std::unique_ptr<Solver> make(const SolverKind& kind) { return kind.make(programme.programme, means); }
+  // With the radii that the programme has. Collective.
+  void begin(Solver& solver, std::optional<Solution>& start, Goal& goal, const Observer& observer = {}) const
+  {
+    solver.begin(programme.right, programme.set.radii(), start, goal, observer);
+  }
+  Solution solve(Solver& solver, const std::optional<Solution>& start, const Goal& goal, const Observer& observer = {}) const
+  {
+    return solver.solve(programme.right, programme.set.radii(), start, goal, observer);
+  }
 };
 
 TEST(Solvers, NamesAreThoseOfTheDeckAndAutoBeginsWithTheFirst)
@@ -87,12 +96,11 @@ TEST(Solvers, EachSolvesWithGivenRadii)
     const auto solver = setting.make(kind);
     Goal goal{1e-10};
     std::optional<Solution> start;
-    solver->begin(start, goal, {});
-    const Solution solution = solver->solve(start, goal, {});
+    setting.begin(*solver, start, goal);
+    const Solution solution = setting.solve(*solver, start, goal);
     ASSERT_TRUE(solution.feasible) << kind.name;
     EXPECT_TRUE(solution.converged) << kind.name;
-    EXPECT_LT(programme.equality.norm(programme.equality.apply(solution.x) - programme.equality.right_side()), 1e-10)
-        << kind.name;
+    EXPECT_LT(programme.equality.norm(programme.equality.apply(solution.x) - programme.right.e), 1e-10) << kind.name;
     EXPECT_LT(kkt(solution, programme.problem), 1e-7) << kind.name;
     const Eigen::VectorXd x = gathered(solution.x, world());
     EXPECT_LT((x - exact).norm(), 1e-7 * exact.norm()) << kind.name;
@@ -108,11 +116,11 @@ TEST(Solvers, ADirectSolutionIsShownByAFewProducts)
   std::optional<Solution> start;
   std::vector<std::string> steps;
   const Observer observer = [&](const Progress& progress) { steps.push_back(progress.what); };
-  solver->begin(start, goal, observer);
+  setting.begin(*solver, start, goal, observer);
   ASSERT_TRUE(start);
   EXPECT_EQ(steps, std::vector<std::string>{"direct"});
   EXPECT_EQ(setting.programme.hessian.count(), 0);
-  EXPECT_TRUE(solver->solve(start, goal, observer).converged);
+  EXPECT_TRUE(setting.solve(*solver, start, goal, observer).converged);
   EXPECT_LE(setting.programme.hessian.count(), 24);  // up to 20 of them for the norm
 }
 
@@ -123,14 +131,15 @@ TEST(Solvers, ANearbyMatrixIsCorrectedByAFewProducts)
     const auto solver = setting.make(solver_kind("direct"));
     Goal goal{1e-12};
     std::optional<Solution> start;
-    solver->begin(start, goal, {});
+    setting.begin(*solver, start, goal);
     return gathered(start->x, world());
   };
   Setting exact, nearby;
   nearby.means.make_explicit = [&nearby] {
     const auto matrices = std::make_shared<DenseProgramme>(nearby.programme, 1e-5);
-    ExplicitProgramme programme{matrices, [matrices](const FeasibleSet&) { return matrices->solve(); }};
-    programme.go_on = [matrices](const Vector& b, const Eigen::VectorXd& e, const FeasibleSet&,
+    ExplicitProgramme programme{matrices,
+                                [matrices](const RightHandSide& right, const FeasibleSet&) { return matrices->solve(right); }};
+    programme.go_on = [matrices](const RightHandSide&, const Vector& b, const Eigen::VectorXd& e, const FeasibleSet&,
                                  const ExplicitProgramme::Point& near) { return matrices->solve(b, e, &near); };
     programme.differs = true;
     return programme;
@@ -149,8 +158,9 @@ TEST(Solvers, ADirectSolutionBeginsWithTheStatesBefore)
     int anew = 0, on = 0;
     setting.means.make_explicit = [&] {
       const auto matrices = std::make_shared<DenseProgramme>(setting.programme);
-      ExplicitProgramme programme{matrices, [&anew, matrices](const FeasibleSet&) { return ++anew, matrices->solve(); }};
-      programme.go_on = [&, matrices](const Vector& b, const Eigen::VectorXd& e, const FeasibleSet&,
+      ExplicitProgramme programme{
+          matrices, [&anew, matrices](const RightHandSide& right, const FeasibleSet&) { return ++anew, matrices->solve(right); }};
+      programme.go_on = [&, matrices](const RightHandSide&, const Vector& b, const Eigen::VectorXd& e, const FeasibleSet&,
                                       const ExplicitProgramme::Point& near) {
         ++on;
         auto found = matrices->solve(b, e, &near);
@@ -163,16 +173,18 @@ TEST(Solvers, ADirectSolutionBeginsWithTheStatesBefore)
     const auto solver = setting.make(solver_kind("direct"));
     Goal goal{1e-10};
     std::optional<Solution> start;
-    solver->begin(start, goal, {});
+    setting.begin(*solver, start, goal);
     EXPECT_EQ(on, 0);
-    start = solver->solve(start, goal, {});
-    setting.programme.b.scale(1.1);
-    solver->begin(start, goal, {});
+    start = setting.solve(*solver, start, goal);
+    RightHandSide next{Vector(setting.programme.right.b, Teuchos::Copy), setting.programme.right.e};
+    next.b.scale(1.1);
+    const auto radii = setting.programme.set.radii();
+    solver->begin(next, radii, start, goal, {});
     EXPECT_EQ(on, 1);
     EXPECT_EQ(anew, lead_on ? 1 : 2);
-    const auto expected = DenseProgramme(setting.programme).solve();
+    const auto expected = DenseProgramme(setting.programme).solve(next);
     EXPECT_LT((gathered(start->x, world()) - gathered(expected.x, world())).norm(), 1e-8 * gathered(expected.x, world()).norm());
-    EXPECT_TRUE(solver->solve(start, goal, {}).converged);
+    EXPECT_TRUE(solver->solve(next, radii, start, goal, {}).converged);
   }
 }
 
@@ -187,8 +199,8 @@ TEST(Solvers, OtherMatricesFollowThoseThatFail)
     Setting setting;
     const auto programme_with = [&setting](Outcome outcome, double scale) {
       const auto matrices = std::make_shared<DenseProgramme>(setting.programme);
-      return ExplicitProgramme{matrices, [matrices, outcome, scale](const FeasibleSet&) {
-                                 auto found = matrices->solve();
+      return ExplicitProgramme{matrices, [matrices, outcome, scale](const RightHandSide& right, const FeasibleSet&) {
+                                 auto found = matrices->solve(right);
                                  found.x.scale(scale);
                                  found.converged = outcome.converged;
                                  found.settled = outcome.settled;
@@ -203,7 +215,7 @@ TEST(Solvers, OtherMatricesFollowThoseThatFail)
     const auto solver = setting.make(solver_kind("direct"));
     Goal goal{1e-12};
     std::optional<Solution> start;
-    solver->begin(start, goal, {});
+    setting.begin(*solver, start, goal);
     return start ? gathered(start->x, world()).norm() : 0;
   };
   const double first = solve({true, true}, {true, true}), second = solve({false, true}, {true, true});
@@ -215,17 +227,15 @@ TEST(Solvers, OtherMatricesFollowThoseThatFail)
   EXPECT_EQ(solve({false, true}, {false, true}), 0);  // no start
 }
 
-// Coulomb's law as SlipLaw; radii are infinite to begin with.
-SlipLaw coulomb(FeasibleSet& set, double coefficient)
+// Coulomb's law with the coefficients of a set as SlipLaw; radii are infinite to begin with.
+SlipLaw coulomb(const FeasibleSet& set)
 {
-  set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
-  return {
-      set, [&set](const Vector* x) {
-        std::vector<double> radii;
-        for (const auto& disc : set.discs())
-          radii.push_back(x ? disc.coefficient * std::max(view(*x)[disc.normal], 0.0) : std::numeric_limits<double>::infinity());
-        return radii;
-      }};
+  return {[&set](const Vector* x) {
+    std::vector<double> radii;
+    for (const auto& disc : set.discs())
+      radii.push_back(x ? disc.coefficient * std::max(view(*x)[disc.normal], 0.0) : std::numeric_limits<double>::infinity());
+    return radii;
+  }};
 }
 
 TEST(Solvers, ThoseThatFollowALawFulfilIt)
@@ -239,24 +249,24 @@ TEST(Solvers, ThoseThatFollowALawFulfilIt)
     const DenseOperator a(programme.dense, programme.map, world());
     Hessian hessian(a, 20000);
     Budget own(hessian, {}, false);
-    const Problem problem{hessian, programme.b, programme.equality, programme.set};
+    programme.set.set_coefficients(std::vector<double>(programme.set.discs().size(), 0.3));
     Eigen::VectorXd pressed = Eigen::VectorXd::Zero(RandomProgramme::n);  // feasible whatever the coefficient
     for (Eigen::Index i = 0; i < pressed.size(); i += 3) pressed[i] = 1;
-    programme.equality.set_right_side(programme.g * pressed);
-    const SlipLaw law = coulomb(programme.set, 0.3);
-    programme.set.set_radii(law.radii(nullptr));
-    const auto solver = kind.make(problem, {own, nullptr, means.make_explicit});
+    const RightHandSide right{programme.right.b, programme.g * pressed};
+    const SlipLaw law = coulomb(programme.set);
+    const Programme own_programme{hessian, programme.equality, programme.set};
+    const auto solver = kind.make(own_programme, {own, nullptr, means.make_explicit});
     Goal goal{1e-9};
     std::optional<Solution> start;
-    solver->begin(start, goal, {});
-    const auto solution = solver->solve(law, start, goal, {});
+    solver->begin(right, law.radii(nullptr), start, goal, {});
+    const auto solution = solver->solve(right, law, start, goal, {});
     if (!solution) continue;
     ++followed;
     ASSERT_TRUE(solution->feasible) << kind.name;
     EXPECT_TRUE(solution->converged) << kind.name;
-    programme.set.set_radii(law.radii(&solution->x));
-    EXPECT_LT(kkt(*solution, problem), 1e-6) << kind.name;
-    EXPECT_GE(world().sum(programme.set.active(view(solution->x)).discs), 3) << kind.name;
+    const FeasibleSet set = programme.set.with_radii(law.radii(&solution->x));
+    EXPECT_LT(kkt(*solution, {own_programme, right, set}), 1e-6) << kind.name;
+    EXPECT_GE(world().sum(set.active(view(solution->x)).discs), 3) << kind.name;
   }
   EXPECT_EQ(followed, 2);  // SMALSE-M needs radii
 }
@@ -269,12 +279,12 @@ TEST(Solvers, SmalseTakesOverWhereFaceNewtonCrawls)
     auto& programme = setting.programme;
     Budget budget(programme.hessian, 400, false);
     budget.start(waiting ? std::optional(390) : std::nullopt);
-    const auto solver = solver_kind("face_newton").make(programme.problem, {budget, nullptr, {}});
+    const auto solver = solver_kind("face_newton").make(programme.programme, {budget, nullptr, {}});
     Goal goal{1e-18};
     std::optional<Solution> start;
-    solver->begin(start, goal, {});
+    setting.begin(*solver, start, goal);
     int of_smalse = 0, of_faces = 0;  // outer steps
-    const Solution solution = solver->solve(start, goal, [&](const Progress& progress) {
+    const Solution solution = setting.solve(*solver, start, goal, [&](const Progress& progress) {
       if (progress.what == "outer") ++(progress.precision > 0 ? of_smalse : of_faces);
     });
     ASSERT_TRUE(solution.feasible);
@@ -301,25 +311,24 @@ TEST(Solvers, WhereTheEquationsLeaveNothingFreeTheyHoldToRounding)
   const Eigen::MatrixXd g = programme.random(6, 6) + 4 * Eigen::MatrixXd::Identity(6, 6);
   const Eigen::VectorXd e = 1e-9 * programme.random(6, 1);
   DenseOperator a(dense, map, world());
-  const Vector b = local_part(programme.random(6, 1), map);
-  EqualityConstraint equality(local_columns(g, *map), e, world());
-  FeasibleSet set;
+  const RightHandSide right{local_part(programme.random(6, 1), map), e};
+  const EqualityConstraint equality(local_columns(g, *map), world());
+  const FeasibleSet set;
   const Eigen::VectorXd eigenvalues = mortise::dense::symmetric_eigenvalues(dense);
   for (const auto* name : {"face_newton", "smalse"}) {
     Hessian hessian(a, 1000);
     const double norm = projected_norm(hessian, equality);
     EXPECT_GE(norm, 0.99 * eigenvalues[0]);
     EXPECT_LE(norm, 1.01 * eigenvalues[5]);
-    const Problem problem{hessian, b, equality, set};
     Budget budget(hessian, {}, false);
-    const auto solver = solver_kind(name).make(problem, {budget, nullptr, {}});
+    const auto solver = solver_kind(name).make({hessian, equality, set}, {budget, nullptr, {}});
     Goal goal{1e-8};
     std::optional<Solution> start;
-    solver->begin(start, goal, {});
-    const Solution solution = solver->solve(start, goal, {});
+    solver->begin(right, set.radii(), start, goal, {});
+    const Solution solution = solver->solve(right, set.radii(), start, goal, {});
     EXPECT_TRUE(solution.converged) << name;
     EXPECT_LT((g * gathered(solution.x, world()) - e).norm(), 1e-13) << name;
-    EXPECT_LT(kkt(solution, problem), 1e-7) << name;
+    EXPECT_LT(kkt(solution, {{hessian, equality, set}, right, set}), 1e-7) << name;
   }
 }
 

@@ -69,7 +69,7 @@ struct Chain {
   VectorXd forces(const VectorXd& u) const { return matrices.k.selfadjointView<Eigen::Lower>() * u; }
 
   // The same with K_r = K + r N, N a projector onto the motions, which is dense.
-  Programme dense() const
+  MatrixProgramme dense() const
   {
     const SparseMatrix whole = matrices.k.selfadjointView<Eigen::Lower>();
     const MatrixXd k = whole;
@@ -83,7 +83,7 @@ struct Chain {
     }
     const MatrixXd b = matrices.b;
     const MatrixXd inverse = (k + r * r.transpose()).llt().solve(MatrixXd::Identity(n, n));
-    Programme p;
+    MatrixProgramme p;
     p.a = b * inverse * b.transpose();
     p.a += MatrixXd(matrices.s.asDiagonal());
     p.b = b * inverse * f - c;

@@ -52,8 +52,8 @@ class DualProblem {
               std::span<const constraint::SlidingSurface> sliding_surfaces = {}, std::vector<double> opposed_loads = {});
   DualProblem(const DualProblem&) = delete;
   DualProblem& operator=(const DualProblem&) = delete;
-  /// New d, e and c: the same rows with other bounds, and other loads; everything else stays. Returns false, and changes nothing,
-  /// if the new loads drive a gauged motion that facets resist: then a new problem has to be built.
+  /// Another right-hand side, of the same rows with other bounds, and of other loads; everything else stays. Returns false, and
+  /// changes nothing, if the new loads drive a gauged motion that facets resist: then a new problem has to be built.
   /// Throws Error(no_equilibrium) as the constructor does. Collective.
   bool update_rhs(constraint::Constraints constraints, std::vector<Eigen::VectorXd> load, std::vector<double> opposed_loads = {});
 
@@ -61,8 +61,12 @@ class DualProblem {
   // rows, whose scaling nobody else knows: see forces() and the functions after it.
   const JumpOperator& jump() const { return *jump_; }                    ///< B
   const Operator& hessian() const { return *hessian_; }                  ///< F
-  const Vector& linear() const { return *linear_; }                      ///< d
-  const qp::EqualityConstraint& equality() const { return *equality_; }  ///< G and e
+  const qp::EqualityConstraint& equality() const { return *equality_; }  ///< G
+  /// d and e, and what they come from, f and c; without RightHandSide::driven.
+  std::shared_ptr<const qp::RightHandSide> right_hand_side() const { return right_; }
+  /// The same with RightHandSide::driven where there are unknowns (see Unknown), which takes one product by `counted`, which
+  /// counts those with F. Collective.
+  std::shared_ptr<const qp::RightHandSide> driven_right_hand_side(qp::Hessian& counted) const;
   /// Omega but for friction: discs have infinite radii. Slip bounds belong to who solves.
   const qp::FeasibleSet& set() const { return set_; }
   qp::ActiveSetPreconditioner* preconditioner() const { return preconditioner_.get(); }  ///< null if the options want none
@@ -77,13 +81,10 @@ class DualProblem {
   /// The largest of all subdomains of all ranks; 0 if F is exact.
   double rounding() const { return hessian_->rounded() ? rounding_ : 0; }
 
-  /// c of B u = c, as B's rows are scaled: the bounds of the jumps, and the shortenings that are given.
-  Eigen::VectorXd bound() const;
-
   /// What the rows of B come from, in mesh numbering.
   const constraint::Constraints& constraints() const { return constraints_; }
   /// f of each subdomain.
-  const std::vector<Eigen::VectorXd>& load() const { return load_; }
+  const std::vector<Eigen::VectorXd>& load() const { return right_->f; }
   /// Of each body the sum of |nodal force| over its nodes. Collective.
   std::vector<double> loads_of_bodies() const;
   const BodyGroups& groups() const { return groups_; }
@@ -95,9 +96,6 @@ class DualProblem {
   /// Rows of B, and the sum of the kernels' dimensions, over all ranks.
   Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
   int kernel_dimension() const { return system_.clusters.kernel_dimension(); }
-  /// The multipliers of least norm that balance the forces of the unknowns (see Unknown) and move no body. They drive the problem
-  /// beside linear(), see qp::Problem::driven. Null if there are no such unknowns.
-  const Vector* balancing_multipliers() const { return balancing_multipliers_.get(); }
   /// The shortening of each of constraints().pretension_sections, given or found.
   std::vector<double> shortenings(const Eigen::VectorXd& nu) const;
   /// Where in nu the unknown motions of rigid couplings begin, in the order of constraint::unknown_motions(): behind the kernels'
@@ -141,12 +139,14 @@ class DualProblem {
 
  private:
   void gauge_rigid_modes(const partition::NodeDirectory& directory, const partition::Interface& interface,
-                         std::span<const constraint::SlidingSurface> sliding_surfaces, const Context& context);
+                         std::span<const constraint::SlidingSurface> sliding_surfaces, const std::vector<Eigen::VectorXd>& load,
+                         const Context& context);
   void make_rows(const partition::NodeDirectory& directory, const partition::Interface& interface,
                  std::span<const SubdomainRow> gauges);
   void make_equality(SparseMatrix g);
   void make_set();
-  void make_rhs();
+  void make_rhs(std::vector<Eigen::VectorXd> load);
+  Eigen::VectorXd bound() const;
   std::vector<Eigen::VectorXd> less_motion(std::vector<Eigen::VectorXd> u, const Eigen::VectorXd& nu) const;
   static DriveLimits limits(const FreeMotion& motion, const std::vector<double>& opposed_loads);
 
@@ -154,15 +154,14 @@ class DualProblem {
   constraint::Constraints constraints_;
   const SubdomainSystem& system_;
   std::string factorization_;
-  std::vector<Eigen::VectorXd> load_;
   const Communicator& comm_;
   std::unique_ptr<JumpOperator> jump_;
   BodyGroups groups_;
   std::unique_ptr<ElasticRows> springs_;
   std::unique_ptr<DualOperator> hessian_;
   std::unique_ptr<Preconditioner> preconditioner_;
-  std::unique_ptr<Vector> linear_, balancing_multipliers_;
   std::unique_ptr<qp::EqualityConstraint> equality_;
+  std::shared_ptr<const qp::RightHandSide> right_;  // replaced, never written to
   qp::FeasibleSet set_;
   std::vector<NodeRows> node_rows_;
   std::vector<FreeMotion> gauged_;

@@ -26,11 +26,8 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   ~ExplicitProblem() override;
 
   using Point = qp::ExplicitProgramme::Point;
-  /// The solution in `set`, over the unknowns of problem.set(), for the loads and bounds that the problem has when this is
-  /// called. Collective.
-  Point solve(const qp::FeasibleSet& set) const { return solve(problem_.linear(), problem_.equality().right_side(), set); }
-  /// The same for another linear term d and another e, the latter the same on every rank. `near`: the solution of a problem
-  /// before, with its reaction, to go on from; nothing else is tried. Collective.
+  /// The solution in `set`, over the unknowns of problem.set(), for the linear term d and for e, the same on every rank. `near`:
+  /// the solution of a problem before, with its reaction, to go on from; nothing else is tried. Collective.
   Point solve(const Vector& linear, Eigen::VectorXd e, const qp::FeasibleSet& set, const Point* near = nullptr) const;
   /// Whether the matrices differ from F by a little: where rows depend on each other they have some compliance that F has not,
   /// and where supports are eliminated the rounding of other factors. The same on every rank.

@@ -59,11 +59,9 @@ class JumpOperator {
   /// as a node does, for without it they depend on those of the nodes; and so do rows without entries, of friction between what
   /// supports hold. The others do not.
   const Eigen::VectorXd& compliance() const { return compliance_; }
-  /// c, scaled, of the owned rows: B u = c, B u <= c.
-  const Eigen::VectorXd& bound() const { return bound_; }
-  /// New c: the same rows with other bounds.
-  void update_rhs(std::span<const constraint::PrescribedDof> prescribed, std::span<const constraint::SkewSupport> skew_supports,
-                  const constraint::Contacts& contacts, std::span<const constraint::MeanMotion> mean_motions = {});
+  /// c, scaled, of the owned rows: B u = c, B u <= c. The rows of `constraints` are those that this was made of, their bounds may
+  /// be others.
+  Eigen::VectorXd bound(const constraint::Constraints& constraints) const;
 
   /// f_s = B_s' lambda for each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> apply_transpose(const Vector& lambda) const;
@@ -102,7 +100,6 @@ class JumpOperator {
   std::pair<Global, Global> contact_rows_;
   std::unique_ptr<const RowScaling> scaling_;
   Eigen::VectorXd compliance_;
-  Eigen::VectorXd bound_;
   std::vector<Block> blocks_;
 };
 

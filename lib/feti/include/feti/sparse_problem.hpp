@@ -42,12 +42,12 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   ~SparseProblem() override;
 
   using Point = qp::ExplicitProgramme::Point;
-  /// The solution in `set`, over the unknowns of problem.set(), for the loads and bounds that the problem has when this is
-  /// called. Throws as qp::SparseNewton. Collective.
-  Point solve(const qp::FeasibleSet& set) const;
-  /// The same for another linear term d and another e, from the last solution on, whose lambda is given; nothing else is tried.
-  /// The first solution of all comes from anywhere. Collective.
-  Point go_on(const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set, const Vector& near) const;
+  /// The solution in `set`, over the unknowns of problem.set(), for f and c of `right`. Throws as qp::SparseNewton. Collective.
+  Point solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const;
+  /// The same for a linear term d and an e that differ from those of `right`, from the last solution on, whose lambda is given;
+  /// nothing else is tried. The first solution of all comes from anywhere. Collective.
+  Point go_on(const qp::RightHandSide& right, const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set,
+              const Vector& near) const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }

@@ -69,8 +69,6 @@ class Solver {
                std::optional<qp::Patience> patience = {});
   /// Products with F of all solves, also of one that threw.
   int applications() const { return hessian_.count(); }
-  /// Of the Tresca problem at work, or of the last one: as Result::slip_bounds.
-  std::vector<double> slip_bounds() const { return problem_.slip_bounds(set_); }
 
  private:
   struct Run;
@@ -84,7 +82,8 @@ class Solver {
   bool at_rest(const std::vector<double>& wanted, double tolerance, Run& run);
   double error_of_bounds(const std::vector<double>& wanted, const Run& run);
   void note_response(const std::vector<double>& wanted, Run& run) const;
-  double change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const;
+  double change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at,
+                          const Run& run) const;
   void admit(Run& run);
   void fixed_point(Run& run);
   void note(Run& run, const qp::Progress& progress);
@@ -97,9 +96,7 @@ class Solver {
   bool from_direct_;  // a direct solution is where all begins
   qp::Hessian hessian_;
   qp::Budget budget_;
-  Vector driven_;
-  qp::FeasibleSet set_;  // Omega with the radii of the Tresca problem at work
-  qp::Problem programme_;
+  const qp::FeasibleSet omega_;  // with the coefficients of the laws; radii are those of a run
   std::unique_ptr<qp::Solver> algorithm_;
 };
 

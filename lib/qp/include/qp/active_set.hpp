@@ -14,15 +14,15 @@ namespace mortise::qp {
 /// it.
 class ActiveSet {
  public:
-  /// The active set at `argument`, that of a projection by `projector`, after a gradient step of length `step`; `stiffness`, one
-  /// for each disc, is what curvatures are measured against. Distances from bounds below `active_set_tolerance` times the
-  /// largest one count as none: bodies that touch without force, like the idle rollers of a bearing, are projected to next to
-  /// nothing, and where that is free they could be given tension. `coupled`: radii follow the discs' normal unknowns; then what
-  /// moves is T x, and what is felt of a gradient is what x feels, so that the active set is not symmetric.
+  /// The active set at `argument`, that of a projection onto `set` by `projector`, after a gradient step of length `step`;
+  /// `stiffness`, one for each disc, is what curvatures are measured against. Distances from bounds below `active_set_tolerance`
+  /// times the largest one count as none: bodies that touch without force, like the idle rollers of a bearing, are projected to
+  /// next to nothing, and where that is free they could be given tension. `coupled`: radii follow the discs' normal unknowns;
+  /// then what moves is T x, and what is felt of a gradient is what x feels, so that the active set is not symmetric.
   ///
   /// Factorizes the coarse matrices of the projector: it is valid until the next projection or active set does so. Throws
   /// Error(not_converged) if they have no factor. Collective.
-  ActiveSet(Projector& projector, const Vector& argument, double step, std::span<const double> stiffness,
+  ActiveSet(Projector& projector, const FeasibleSet& set, const Vector& argument, double step, std::span<const double> stiffness,
             double active_set_tolerance, bool coupled = false);
 
   /// x becomes its free part Pi x: zero at constrained unknowns, along the tangent alone at discs that slip.

@@ -1,4 +1,4 @@
-// The equality constraint G x = e of the quadratic programme and the orthogonal projectors that belong to it:
+// G of the equality constraint G x = e of the quadratic programme and the orthogonal projectors that belong to it:
 //
 //     Q = G' (G G')^-1 G,   P = I - Q.
 //
@@ -17,14 +17,10 @@ namespace mortise::qp {
 /// Heavy: moves, does not copy.
 class EqualityConstraint {
  public:
-  /// `g`: size x entries of x on this rank; `e`: the whole right-hand side on every rank. Throws Error(no_equilibrium) if the
-  /// rows of G are linearly dependent. Collective.
-  EqualityConstraint(SparseMatrix g, Eigen::VectorXd e, const Communicator& comm);
+  /// `g`: size x entries of x on this rank. Throws Error(no_equilibrium) if the rows of G are linearly dependent. Collective.
+  EqualityConstraint(SparseMatrix g, const Communicator& comm);
 
-  int size() const { return static_cast<int>(e_.size()); }  ///< rows of G
-  const Eigen::VectorXd& right_side() const { return e_; }  ///< e, whole on every rank
-  /// A new e for the same G, the same on every rank.
-  void set_right_side(Eigen::VectorXd e) { e_ = std::move(e); }
+  int size() const { return static_cast<int>(g_.rows()); }  ///< rows of G
   /// The columns of G that belong to this rank's entries of x.
   const SparseMatrix& local() const { return g_; }
   const SparseMatrix& gram() const { return gram_; }  ///< lower triangle of G G', on every rank
@@ -45,7 +41,6 @@ class EqualityConstraint {
  private:
   Communicator comm_;
   SparseMatrix g_;
-  Eigen::VectorXd e_;
   SparseMatrix gram_;
   std::unique_ptr<Cholesky> factor_;
 };

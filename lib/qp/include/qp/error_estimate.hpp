@@ -18,8 +18,9 @@ double error_bound(const Problem& problem, const Vector& x, const Projection& na
 /// The same of a solution whose `gradient` and `hessian_norm` are set. Collective.
 double error_bound(const Problem& problem, const Solution& solution, ActiveSetPreconditioner* preconditioner);
 
-/// The square root of what rounding may make of energies, `norm` as above: errors below it are none. Collective.
-double rounding_of_error(const Problem& problem, double norm);
+/// The square root of what rounding may make of energies with the linear term b, `norm` as above: errors below it are none.
+/// Collective.
+double rounding_of_error(const Vector& b, double norm);
 
 /// Whether a small residual at the point x with the multipliers nu is to be believed beside this error: one below `rounding`, or
 /// below Goal::credible times the energy norm. `finest`: the residual itself is rounding. True where the goal has no energy norm,

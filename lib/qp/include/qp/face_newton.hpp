@@ -7,33 +7,24 @@
 
 #include "qp/active_set.hpp"
 #include "qp/problem.hpp"
+#include "qp/slip_law.hpp"
 #include "qp/solution.hpp"
 
 namespace mortise::qp {
 
-/// How slip bounds follow the solution, for friction whose bounds depend on it. Both are collective.
-struct SlipBoundUpdate {
-  /// If `apply`, gives the problem's set the radii that belong to the point `x`. Returns the norm of their change, made or not.
-  std::function<double(const Vector& x, bool apply)> update;
-  /// Goes half way back to earlier radii, because the updated ones leave no feasible point.
-  std::function<void()> retreat;
-  /// Whether steps are shortened that make the residual larger than it has been of late.
-  bool cautious = false;
-};
-
-/// A sequence of similar problems, one after the other: recycled directions stay. Refers to the problem and to the
-/// preconditioner, which outlive it.
+/// A sequence of problems of one programme, one after the other: recycled directions stay. Refers to the programme's parts and to
+/// the preconditioner, which outlive it.
 class FaceNewton {
  public:
   /// `preconditioner` may be null. Collective.
-  FaceNewton(const Problem& problem, ActiveSetPreconditioner* preconditioner);
+  FaceNewton(const Programme& programme, ActiveSetPreconditioner* preconditioner);
 
   /// Solves until the natural residual ||x - P_C(x - a g)|| / a, a = 1 / ||P A P||, is goal.residual ||P b||, or the error is
-  /// what the goal allows, from `start`, or from the feasible point nearest to 0. With `slip_bound_update` the radii change at
-  /// every active set, and what they would change counts as residual too. Not converged if the products run out, or if it makes
-  /// no more progress. Collective.
-  Solution solve(const std::optional<Solution>& start, const Goal& goal, const SlipBoundUpdate* slip_bound_update,
-                 const Observer& observer);
+  /// what the goal allows, from `start`, or from the feasible point nearest to 0. With a `law`, which may be null, `radii` are
+  /// those to begin with: they change at every active set, and what they would change counts as residual too. Not converged if
+  /// the products run out, or if it makes no more progress. Collective.
+  Solution solve(const RightHandSide& right, std::span<const double> radii, const SlipLaw* law,
+                 const std::optional<Solution>& start, const Goal& goal, const Observer& observer);
 
  private:
   struct Pair {
@@ -52,6 +43,10 @@ class FaceNewton {
   struct Run;    // one solve
   struct Trial;  // a point to go on from
   struct Judged;
+  Projection project(const Problem& problem, const Vector& to, const Eigen::VectorXd& nu = {})
+  {
+    return projector_(to, problem.right.e, problem.set, nu);
+  }
   // The steps of solve(), in their order.
   void find_norm(const std::optional<Solution>& start, const Observer& observer);
   Trial project_step(Run& run);
@@ -72,23 +67,22 @@ class FaceNewton {
   void minimise(Run& run, const Trial& trial);
   Solution solution_of(Run run) const;
 
-  void evaluate(const Vector& x, Vector& gradient) const;
-  void evaluate(Trial& trial) const;
-  double energy_of(const Vector& x, const Vector& gradient) const;
+  void evaluate(const Vector& b, const Vector& x, Vector& gradient) const;
+  void evaluate(const Vector& b, Trial& trial) const;
   double residual_to_reach(const Run& run) const;
   void report(const Run& run, const char* what, bool outer) const;
 
   void precondition(const ActiveSet& active_set, const Vector& residual, Vector& z) const;
   void measure_discs();
   bool soft_between(const Vector& a, const Vector& ga, const Vector& b, const Vector& gb) const;
-  bool improve_start(State& state, double energy);
+  bool improve_start(const Problem& problem, State& state, double energy);
   Vector long_gradient_step(const ActiveSet& active_set, const Vector& y, const Vector& gy) const;
   void recycle(const ActiveSet& active_set, Vector direction, Vector product, bool step);
   bool descend_alone(const ActiveSet& active_set, double goal, const std::function<void()>& report, State& state);
   bool descend(const ActiveSet& active_set, double goal, double weight, bool trusted, const std::function<void()>& report,
                State& state);
 
-  const Problem& problem_;
+  Programme programme_;
   ActiveSetPreconditioner* preconditioner_;
   Projector projector_;
   std::deque<Pair> recycled_directions_;

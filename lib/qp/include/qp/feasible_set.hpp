@@ -43,8 +43,11 @@ class FeasibleSet {
   std::span<const Disc> discs() const { return discs_; }
   bool empty() const { return bounds_.empty() && discs_.empty(); }
 
-  /// New radii, one for each disc.
+  /// Of the discs, one for each.
+  std::vector<double> radii() const;
   void set_radii(std::span<const double> radii);
+  /// The same set with other radii.
+  FeasibleSet with_radii(std::span<const double> radii) const;
   /// The coefficients of Coulomb friction, one for each disc; 0 where the radius is given.
   void set_coefficients(std::span<const double> coefficients);
 

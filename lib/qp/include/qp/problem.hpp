@@ -1,12 +1,16 @@
 // A quadratic programme is three things: a Hessian with a linear term, equality constraints, and a set that can be projected on.
 //
 //     minimise  1/2 x'A x - b'x   subject to  G x = e  and  x in Omega
+//
+// A, G and Omega, but for the radii of its discs, stay from load step to load step: the programme. b and e are new in each.
 #pragma once
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/tpetra.hpp"
 #include "qp/equality.hpp"
@@ -53,17 +57,39 @@ class ActiveSetPreconditioner : public Operator {
   }
 };
 
-/// Refers to its parts; they outlive it.
-struct Problem {
+/// What is new in a load step. A value: one that is shared is replaced, never written to.
+struct RightHandSide {
+  Vector b;                           ///< the linear term
+  Eigen::VectorXd e;                  ///< of G x = e, whole on every rank
+  std::optional<Vector> driven = {};  ///< A x of an x that e asks for apart from b: its size counts like that of b
+  /// Of A = B K^+ B' + S, see sparse_newton.hpp: the f, of each of this rank's blocks of K, and the c that b = B K^+ f - c and
+  /// e = R'f come from. Of others empty.
+  std::vector<Eigen::VectorXd> f = {};
+  Eigen::VectorXd c = {};
+};
+
+/// What all problems of a sequence have in common. Refers to its parts; they outlive it and do not change.
+struct Programme {
   Hessian& hessian;                    ///< A
-  const Vector& linear;                ///< b
-  const EqualityConstraint& equality;  ///< G x = e
-  const FeasibleSet& set;              ///< Omega
-  const Vector* driven = nullptr;      ///< A x of an x that e asks for apart from b: its size counts like that of b; null: none
+  const EqualityConstraint& equality;  ///< G
+  const FeasibleSet& set;              ///< Omega, whatever the radii of its discs
+};
+
+/// One of them. Refers to its parts for the time of a solve.
+struct Problem {
+  Problem(const Programme& programme, const RightHandSide& right_side, const FeasibleSet& omega)
+      : hessian(programme.hessian), equality(programme.equality), right(right_side), set(omega)
+  {
+  }
+
+  Hessian& hessian;                    ///< A
+  const EqualityConstraint& equality;  ///< G
+  const RightHandSide& right;          ///< b, e
+  const FeasibleSet& set;              ///< Omega, with the radii that its discs have
 };
 
 /// What tolerances are relative to: ||P b||, or the size beside which rounding of b stays below `tolerance`, if that is larger
-/// (where supports move bodies rigidly P b should be zero and b is not). The same of Problem::driven, if that is larger.
+/// (where supports move bodies rigidly P b should be zero and b is not). The same of RightHandSide::driven, if that is larger.
 /// Collective.
 double relative_size(const Problem& problem, double tolerance);
 
@@ -79,7 +105,8 @@ struct Progress {
   int preconditionings = 0;
   double energy = std::numeric_limits<double>::quiet_NaN();  ///< 1/2 x'A x - b'x of face Newton's point
   double error = std::numeric_limits<double>::quiet_NaN();   ///< the estimate of ||x - x*||_A there
-  const Vector* point = nullptr;                             ///< of outer steps: x in Omega
+  const Vector* point = nullptr;                             ///< of outer steps: x in Omega,
+  const FeasibleSet* set = nullptr;                          ///< and Omega
   /// What the error may be at the end; not a number while nobody has asked for it, or where a residual is the goal.
   double allowed_error = std::numeric_limits<double>::quiet_NaN();
 };

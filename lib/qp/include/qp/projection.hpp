@@ -27,38 +27,36 @@ struct Projection {
 /// touched between the first step and the last: on all others P_Omega is the identity, and G G' says what nu does there.
 class Projector {
  public:
-  /// Both outlive it. Radii of `set` may change from call to call, its unknowns may not. Collective.
+  /// `equality` outlives it. `set`: one over the unknowns of those that will be projected on. Collective.
   Projector(const EqualityConstraint& equality, const FeasibleSet& set);
 
   /// The point of C nearest to y = `from`, from the multiplier `start` (0 if empty). Collective.
-  Projection operator()(const Vector& from, const Eigen::VectorXd& start = {});
+  Projection operator()(const Vector& from, const Eigen::VectorXd& e, const FeasibleSet& set, const Eigen::VectorXd& start = {});
 
   /// Looks for a multiplier that proves that C is empty where the iteration ended without one, since little of e is out of reach:
   /// more than 1e-8 of it, along a direction that constraints do not feel but for rounding. Returns whether there is one;
   /// failed.nu is it then. Dear: for the last word on a programme. Collective.
-  bool prove_empty(Projection& failed);
+  bool prove_empty(const Eigen::VectorXd& e, const FeasibleSet& set, Projection& failed);
 
   /// The matrix G D G', which a caller may factorize for its own purposes between two projections.
   CoarseMatrix& matrix() { return matrix_; }
   /// A second one, in which discs are downdated together with their normal unknowns; made at the first call. Collective.
   CoarseMatrix& trial_matrix() { return trial_matrix_.get(); }
   const EqualityConstraint& equality() const { return equality_; }
-  const FeasibleSet& set() const { return set_; }
 
  private:
   struct Evaluation;
   struct Given;
-  Evaluation evaluate(const Eigen::VectorXd& y, const Eigen::VectorXd& gy, Eigen::VectorXd nu, const FeasibleSet& set) const;
-  double search(const Evaluation& now, const Evaluation& full, const Eigen::VectorXd& direction, const FeasibleSet& set) const;
+  Evaluation evaluate(const Given& y, Eigen::VectorXd nu) const;
+  double search(const Evaluation& now, const Evaluation& full, const Eigen::VectorXd& direction,
+                const FeasibleSet& compact) const;
   Evaluation minimise(const Given& y, Eigen::VectorXd nu);
   void repair(const Vector& from, const Given& y, Evaluation now, Projection& result);
-  std::vector<DowndateBlock> downdates(const Eigen::VectorXd& w) const;
-  double least_norm(const Eigen::VectorXd& nu, const Vector& like) const;
-  Eigen::VectorXd towards_least_residual();
-  std::pair<double, double> work_and_feeling(const Eigen::VectorXd& nu, const Vector& like) const;
+  Eigen::VectorXd towards_least_residual(const Eigen::VectorXd& e, const FeasibleSet& set);
+  std::pair<double, double> work_and_feeling(const Eigen::VectorXd& e, const FeasibleSet& set, const Eigen::VectorXd& nu,
+                                             const Vector& like) const;
 
   const EqualityConstraint& equality_;
-  const FeasibleSet& set_;
   std::vector<Local> constrained_;  // unknowns of this rank
   SparseMatrix columns_;            // G over them
   CoarseMatrix matrix_;
@@ -66,6 +64,6 @@ class Projector {
 };
 
 /// The point of C nearest to y, by a projector for this one use. Collective.
-Projection project(const Vector& y, const EqualityConstraint& equality, const FeasibleSet& set);
+Projection project(const Vector& y, const EqualityConstraint& equality, const Eigen::VectorXd& e, const FeasibleSet& set);
 
 }  // namespace mortise::qp

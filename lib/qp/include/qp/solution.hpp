@@ -83,6 +83,8 @@ struct Solution {
   double error = std::numeric_limits<double>::quiet_NaN();
   double equality = 0;  ///< relative, ||Q x - Q x_e|| / ||P b|| in the scaling ||P A P|| = 1
 
+  std::vector<double> radii = {};  ///< of the discs, those given or those that a law ended with
+
   double hessian_norm = 0;    ///< ||P A P||, kept from solve to solve
   double precision = 1;       ///< M of SMALSE-M, kept from solve to solve
   Eigen::VectorXd augmented;  ///< multipliers mu of the augmented Lagrangian of SMALSE-M, kept from solve to solve

@@ -13,22 +13,10 @@
 
 #include "qp/budget.hpp"
 #include "qp/options.hpp"
+#include "qp/slip_law.hpp"
 #include "qp/solution.hpp"
 
 namespace mortise::qp {
-
-/// Radii of discs that follow the solution, as those of Coulomb friction do.
-struct SlipLaw {
-  FeasibleSet& set;  ///< that of the problem
-  /// The radii that the law gives at x; without x those to begin with, before any force is known. One for each disc of `set`.
-  std::function<std::vector<double>(const Vector* x)> radii;
-  /// Whether steps that make the residual larger than it has been of late are shortened: more of them, for where nothing else
-  /// ends.
-  bool cautious = false;
-};
-
-/// Half way from `radii`, which leave no feasible point, back to those `before`: twice as large where these were infinite.
-std::vector<double> half_way_back(std::vector<double> radii, std::span<const double> before);
 
 /// A programme whose Hessian is at hand as a matrix.
 struct ExplicitProgramme {
@@ -42,12 +30,13 @@ struct ExplicitProgramme {
     bool slides = false;  ///< if it did not converge: see Solution::slides
   };
   std::shared_ptr<ActiveSetPreconditioner> inverse;  ///< A^-1
-  /// Solves with the linear term and right-hand side that the programme has by now, in a set over the same unknowns; radii of
-  /// discs with a coefficient follow their normal unknown. Collective.
-  std::function<Point(const FeasibleSet& set)> solve;
-  /// The same for any linear term and right-hand side, from the states of constraints at `near`, the solution of a problem
+  /// Solves in a set over the programme's unknowns; radii of discs with a coefficient follow their normal unknown. Collective.
+  std::function<Point(const RightHandSide& right, const FeasibleSet& set)> solve;
+  /// The same for b and e that differ from those of `right`, from the states of constraints at `near`, the solution of a problem
   /// before; nothing else is tried. Empty if it cannot. Collective.
-  std::function<Point(const Vector& b, const Eigen::VectorXd& e, const FeasibleSet& set, const Point& near)> go_on = {};
+  std::function<Point(const RightHandSide& right, const Vector& b, const Eigen::VectorXd& e, const FeasibleSet& set,
+                      const Point& near)>
+      go_on = {};
   bool differs = false;  ///< whether the matrix differs from A by a little, so that go_on() has to correct solutions
   /// Other matrices, for where a solution with these does not converge or settle. Else empty. Collective.
   std::function<ExplicitProgramme()> instead = {};
@@ -63,21 +52,26 @@ struct Means {
   std::function<ExplicitProgramme()> make_explicit = {};
 };
 
-/// Solves a sequence of similar problems, one after the other; recycled directions stay. Refers to the problem and its
-/// means, which outlive it. A solution tells why it ended: converged; not feasible, proven or not; else the products ran out, or
-/// nothing became better.
+/// Solves a sequence of problems of one programme, one after the other; recycled directions stay. Refers to the programme's parts
+/// and its means, which outlive it. A solution tells why it ended: converged; not feasible, proven or not; else the products ran
+/// out, or nothing became better. `radii`: one for each disc of Programme::set.
 class Solver {
  public:
   virtual ~Solver() = default;
 
   /// Before the first of several solves that belong together (a load step), the last of them to `goal`: if the solver knows a
   /// better start than `start` it replaces that, and tells the goal how exact it is. Collective.
-  virtual void begin(std::optional<Solution>& /*start*/, Goal& /*goal*/, const Observer& /*observer*/) {}
-  /// The solution to `goal` with the radii that discs have, from `start`, or from a point of its own choice. Collective.
-  virtual Solution solve(const std::optional<Solution>& start, const Goal& goal, const Observer& observer) = 0;
-  /// The solution that fulfils the law, with radii found together with it; the set then has those of the last step. Nothing
-  /// where the solver needs radii that are given. Collective.
-  virtual std::optional<Solution> solve(const SlipLaw& /*law*/, const std::optional<Solution>& /*start*/, const Goal& /*goal*/,
+  virtual void begin(const RightHandSide& /*right*/, std::span<const double> /*radii*/, std::optional<Solution>& /*start*/,
+                     Goal& /*goal*/, const Observer& /*observer*/)
+  {
+  }
+  /// The solution to `goal` with these radii, from `start`, or from a point of its own choice. Collective.
+  virtual Solution solve(const RightHandSide& right, std::span<const double> radii, const std::optional<Solution>& start,
+                         const Goal& goal, const Observer& observer) = 0;
+  /// The solution that fulfils the law, with radii found together with it: Solution::radii. Nothing where the solver needs radii
+  /// that are given. Collective.
+  virtual std::optional<Solution> solve(const RightHandSide& /*right*/, const SlipLaw& /*law*/,
+                                        const std::optional<Solution>& /*start*/, const Goal& /*goal*/,
                                         const Observer& /*observer*/)
   {
     return {};
@@ -91,8 +85,8 @@ struct SolverKind {
   std::string_view name;  ///< in the deck
   std::string_view help;
   bool steady;  ///< its residual may rise for long: see Budget
-  /// `problem` and what `means` refers to outlive the solver. Collective.
-  std::unique_ptr<Solver> (*make)(const Problem& problem, const Means& means);
+  /// What `programme` and `means` refer to outlives the solver. Collective.
+  std::unique_ptr<Solver> (*make)(const Programme& programme, const Means& means);
 };
 
 /// The table. To add a solver: a file with the function that makes it, and a row.
