@@ -16,7 +16,7 @@ class History {
   /// Refers to its arguments.
   History(const qp::Options& options, const Context& context) : options_(options), context_(context) {}
 
-  /// Adds a row, or moves the line, for what a solver reports: `step`, `change` as of friction::Observer. Throws
+  /// Adds a row, or moves the line, for what a solver reports: `step`, `change` as of analysis::Observer. Throws
   /// Error(interrupted) if a signal asked the run to end. Collective.
   void note(const model::LoadState& state, int step, double change, const qp::Progress& p);
   /// Takes over the text of the history of a run that is resumed: the rows of states before the first one that is solved here.

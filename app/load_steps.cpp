@@ -47,7 +47,7 @@ void Report::LoadSteps::begin(const model::LoadState& acts)
   ++index_;
 }
 
-friction::Observer Report::LoadSteps::observer()
+analysis::Observer Report::LoadSteps::observer()
 {
   return [this, acts = acts_](int step, double change, const qp::Progress& p) { run_.history_.note(acts, step, change, p); };
 }

@@ -22,7 +22,7 @@ class Report::LoadSteps {
   /// The next state is about to be solved.
   void begin(const model::LoadState& acts);
   /// Writes the solver's progress to the history and on the terminal.
-  friction::Observer observer();
+  analysis::Observer observer();
   /// The solver has come to an end with this state. True if it gave up.
   bool gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state);
   /// The files of a state, which has been evaluated, and its record.

@@ -94,7 +94,7 @@ std::vector<constraint::SlidingSurface> sliding_surfaces_of(const Rows& rows, co
 // Facets of the mesh stop what slides along itself once friction is used up: a solution, but no equilibrium of the bodies meant.
 // Throws Error(no_equilibrium). Collective.
 void refuse_support_of_facets(const feti::DualProblem& problem, const Assembly& assembly, const Rows& rows,
-                              const friction::Result& found, const std::vector<Eigen::VectorXd>& displacement)
+                              const feti::DualSolution& found, const std::vector<Eigen::VectorXd>& displacement)
 {
   constexpr double inexact = 2e-3;  // of what friction holds
   if (!found.converged) return;     // bounds of an unfinished solution may be much too small
@@ -229,7 +229,7 @@ LoadStepSolver::Norms LoadStepSolver::norms(std::span<const fem::Constitution> c
   return {error, std::max(strain, strained * whole), whole};
 }
 
-StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer)
+StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<StepState> before, const Observer& observer)
 {
   if (before) update(acts, *before);
   const auto scope = context_.timers.scope("solve");
@@ -241,26 +241,28 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   const auto allowed_error = [](const Norms& at) {
     return std::clamp(algebraic_part * at.error, smallest_part * at.whole, largest_part * at.size);
   };
-  const friction::Accuracy accuracy{
+  const qp::Goal accuracy{
       .allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) { return allowed_error(norms_at(lambda, nu)); },
       .expected_allowed_error =
           [&](const Vector& lambda, const Eigen::VectorXd& nu) {
             const auto estimating = context_.timers.scope("error estimate");
             return allowed_error(norms(constitution, lambda, problem_->displacement_of_product(lambda, nu)));
           },
-      .energy_norm = [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
       .incompatibility =
           [&](const Vector& lambda, const Eigen::VectorXd& nu) {
             return post::incompatibility(*problem_, assembly_.decomposition(), assembly_.interface(),
                                          problem_->displacement(lambda, nu), nu);
           },
+      .energy_norm = [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
       .negligible = negligible()};
   const auto count_on = [&](int step, double change, qp::Progress progress) {
     progress.applications += before_;
     observer(step, change, progress);
   };
   auto patience = before ? before->patience : approach_.patience;
-  auto found = solver_->solve(before ? &before->solved.solution : nullptr, accuracy, count_on, patience);
+  std::optional<qp::Solution> start;
+  if (before) start = before->solved.solution;
+  auto found = solver_->solve(start, accuracy, count_on, patience);
   if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}, patience};
   if (approach_.kind == Approach::Kind::direct_instead)
     patience.reset();  // what it has solved is not thrown away for a later state

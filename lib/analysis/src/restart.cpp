@@ -191,7 +191,7 @@ void Restart::remove() const
   for (std::size_t index = 1; fs::remove(path(index), ignored);) ++index;
 }
 
-friction::Result solution_of(const Record& record, const feti::DualProblem& problem)
+feti::DualSolution solution_of(const Record& record, const feti::DualProblem& problem)
 {
   const auto& comm = problem.communicator();
   const auto discs = static_cast<long long>(problem.set().discs().size());
@@ -231,7 +231,7 @@ friction::Result solution_of(const Record& record, const feti::DualProblem& prob
   solution.hessian_norm = record.counts[figure::hessian_norm];
   solution.precision = record.counts[figure::precision];
   solution.augmented = Eigen::Map<const Eigen::VectorXd>(augmented.data(), static_cast<Eigen::Index>(augmented.size()));
-  friction::Result result{std::move(solution), {own_bounds, own_bounds + static_cast<std::ptrdiff_t>(discs)}};
+  feti::DualSolution result{std::move(solution), {own_bounds, own_bounds + static_cast<std::ptrdiff_t>(discs)}};
   result.converged = true;
   result.steps = static_cast<int>(record.counts[figure::steps]);
   result.change = record.counts[figure::change];

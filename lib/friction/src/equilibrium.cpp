@@ -7,37 +7,6 @@
 
 namespace mortise::friction {
 
-bool fall_short(const qp::Projection& nearest)
-{
-  constexpr double rounding_of_balance = 1e-4;
-  return nearest.empty || nearest.residual > rounding_of_balance;
-}
-
-void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven)
-{
-  if (!proven)
-    throw Error(
-        ExitStatus::bad_input,
-        "no forces were found that balance the loads, though nothing proves that there are none: " +
-            problem.unbounded_rigid_mode(nu) +
-            " nearly freely. Support that body, or look at the direction of the loads, of which a small part may drive it, "
-            "and at the units of young_modulus and of sizes: stiffnesses that differ by 1e12 are too far apart for rounding");
-  throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.unbounded_rigid_mode(nu) +
-                                              "; contacts can only push and friction is limited, so nothing holds it against "
-                                              "the loads. Support it, or look at the direction of the loads and at the friction");
-}
-
-void nothing_found(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Eigen::VectorXd& escape, bool proven)
-{
-  if (proven) no_equilibrium(problem, escape, true);
-  const Vector nothing(problem.jump().rows());
-  const auto right = problem.right_hand_side();
-  qp::Projector projector(problem.equality(), set);
-  qp::Projection nearest = projector(nothing, right->e, set);
-  if (!nearest.empty) projector.prove_empty(right->e, set, nearest);
-  no_equilibrium(problem, nearest.empty ? nearest.nu : escape, fall_short(nearest));
-}
-
 namespace {
 
 // The forces nearest to x that balance the loads and lie in `set`.
@@ -55,7 +24,7 @@ void judge_by_law(const feti::DualProblem& problem, const qp::FeasibleSet& set, 
   if (nearest.empty) {  // with bounds that are given bodies slide; along the edge of a cone they would also lift
     const auto of_forces = set.with_radii(problem.radii(slip_bounds(problem, laws, &solution.x)));
     const qp::Projection given = nearest_in(of_forces, problem, solution.x);
-    no_equilibrium(problem, given.empty ? given.nu : nearest.nu, true);
+    feti::no_equilibrium(problem, given.empty ? given.nu : nearest.nu, true);
   }
   Vector beyond(solution.x, Teuchos::Copy), product(beyond.getMap());
   beyond.update(-1, nearest.point, 1);
@@ -80,7 +49,7 @@ void refuse_if_short(const feti::DualProblem& problem, const qp::FeasibleSet& se
   auto larger = problem.radii(slip_bounds(problem, laws, &x));
   for (auto& radius : larger) radius *= 1 + short_of;
   const qp::Projection nearest = nearest_in(set.with_radii(larger), problem, x);
-  if (nearest.empty) no_equilibrium(problem, nearest.nu, true);
+  if (nearest.empty) feti::no_equilibrium(problem, nearest.nu, true);
 }
 
 }  // namespace

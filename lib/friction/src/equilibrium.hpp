@@ -1,39 +1,27 @@
 // Whether forces within the law of friction balance the loads at all. Each `set` is Omega with the law's coefficients.
 #pragma once
 
+#include "feti/no_equilibrium.hpp"
 #include "friction/law.hpp"
 #include "qp/projection.hpp"
 #include "qp/solution.hpp"
 
 namespace mortise::friction {
 
-/// Whether the forces nearest to the loads fall short of them by more than a search that does not converge leaves: then there is
-/// no equilibrium, proven or not.
-bool fall_short(const qp::Projection& nearest);
-
-/// Throws that no forces balance the loads, and which body moves how along `nu`. `proven`: `nu` proves it, Error(no_equilibrium);
-/// else the search for such forces just did not converge, Error(bad_input). Collective.
-[[noreturn]] void no_equilibrium(const feti::DualProblem& problem, const Eigen::VectorXd& nu, bool proven);
-
-/// The same where a search in `set` that ended with `escape` found none: how much those nearest to the loads lack decides, unless
-/// `proven`. Collective.
-[[noreturn]] void nothing_found(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Eigen::VectorXd& escape,
-                                bool proven);
-
 /// Forces that bounds just allowed may be more than the law allows, by what bounds and normal forces still differ by. That counts
 /// as error; and where no forces within the law balance the loads there is no equilibrium, however little they lack. One product.
-/// Throws as no_equilibrium(). Collective.
+/// Throws as feti::no_equilibrium(). Collective.
 void judge_by_law(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws,
                   qp::Hessian& hessian, qp::Solution& solution);
 
 /// Where forces within the law balance the loads, but those that the bodies' stiffness asks for never do: throws as
-/// no_equilibrium() if those at x fall short by more than 5 %, or where the normal forces hardly answer to the bounds by more
-/// than 0.2 %: `response` is the part of a change of bounds that their answer changes by. Collective.
+/// feti::no_equilibrium() if those at x fall short by more than 5 %, or where the normal forces hardly answer to the bounds by
+/// more than 0.2 %: `response` is the part of a change of bounds that their answer changes by. Collective.
 void refuse_if_far(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws, const Vector& x,
                    double response);
 
-/// Throws as no_equilibrium() if bodies slide on for ever with the forces x (qp::Solution::slides), whose normal forces slip
-/// changes no more, and friction falls short by more than a ten-thousandth. Collective.
+/// Throws as feti::no_equilibrium() if bodies slide on for ever with the forces x (qp::Solution::slides), whose normal forces
+/// slip changes no more, and friction falls short by more than a ten-thousandth. Collective.
 void refuse_if_sliding(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws,
                        const Vector& x);
 

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "contact_converged.hpp"
 #include "equilibrium.hpp"
-#include "friction_run.hpp"
+#include "friction/coulomb.hpp"
 #include "qp/error_estimate.hpp"
+#include "qp/predicted_solution.hpp"
 #include "relaxation.hpp"
-#include "unresolved_nodes.hpp"
 
 namespace mortise::friction {
 
@@ -20,167 +19,178 @@ constexpr double worth_a_look = 0.05;  // change of the slip bounds at which the
 }  // namespace
 
 // One Tresca problem; false if it is infeasible.
-bool Solver::solve_tresca(const qp::Goal& goal, Run& run)
+bool CoulombSearch::solve_tresca(const qp::Goal& goal)
 {
-  run.at_work = run.radii;
-  auto next = algorithm_->solve(*run.right, run.radii, run.solution, goal, run.watch);
+  at_work_ = radii_;
+  auto next = means_.algorithm.solve(problem_.right, radii_, solution_, goal, watch_);
   if (!next.feasible) {
-    run.escape = next.nu;
-    run.proven = next.empty;
+    escape_ = next.nu;
+    proven_ = next.empty;
     return false;
   }
-  run.count(next);
-  run.solution = std::move(next);
+  count(next);
+  solution_ = std::move(next);
   return true;
 }
 
 // Whether no contact's forces change much any more, and displacements fit together: where the error of the whole is small, that
 // of a part that stores little may not be.
-bool Solver::contacts_at_rest(const Run& run)
+bool CoulombSearch::contacts_at_rest()
 {
-  const auto& solution = *run.solution;
-  const auto& goal = run.goal;
-  qp::ActiveSetPreconditioner* preconditioner = algorithm_->preconditioner();
+  const auto& goal = problem_.goal;
+  qp::ActiveSetPreconditioner* preconditioner = means_.algorithm.preconditioner();
   if (goal.contact_converged && preconditioner) {
-    const auto predicted = predict(problem_, omega_.with_radii(run.at_work), solution, *preconditioner);
-    if (predicted && !goal.contact_converged(solution.x, predicted->argument, predicted->change)) return false;
+    const auto set = problem_.omega.with_radii(at_work_);
+    const auto predicted =
+        qp::predict({{means_.hessian, problem_.dual.equality(), set}, problem_.right, set}, *solution_, *preconditioner);
+    if (predicted && !goal.contact_converged(solution_->x, predicted->argument, predicted->change)) return false;
   }
-  return !goal.incompatibility || goal.incompatibility(solution.x, solution.nu) <= qp::Goal::nearly_compatible;
+  return !goal.incompatibility || goal.incompatibility(solution_->x, solution_->nu) <= qp::Goal::nearly_compatible;
+}
+
+// Whether a small residual of the solution is to be believed.
+bool CoulombSearch::believable() const
+{
+  const double rounding = qp::rounding_of_error(problem_.right.b, solution_->hessian_norm);
+  return qp::believable(solution_->error, rounding, solution_->x, solution_->nu, problem_.goal);
 }
 
 // Whether the fixed point is at rest, with bounds `wanted` that the last Tresca problem asks for.
-bool Solver::at_rest(const std::vector<double>& wanted, double tolerance, Run& run)
+bool CoulombSearch::at_rest(const std::vector<double>& wanted, double tolerance)
 {
-  auto& solution = *run.solution;
-  if (!run.goal.allowed_error || !std::isfinite(solution.error))
-    return run.change <= options_.tolerance && tolerance <= run.goal.residual && solution.converged &&
-           qp::believable(solution.error, qp::rounding_of_error(run.right->b, solution.hessian_norm), solution.x, solution.nu,
-                          run.goal);
-  solution.error += error_of_bounds(wanted, run);
-  if (run.change <= worth_a_look && solution.error <= run.goal.allowed_error(solution.x, solution.nu) &&
-      qp::fits(solution, run.goal) && balances(problem_, omega_, wanted, solution.x) && contacts_at_rest(run))
+  auto& solution = *solution_;
+  const auto& goal = problem_.goal;
+  const bool bounds_rest = change_ <= problem_.options.tolerance;
+  if (!goal.allowed_error || !std::isfinite(solution.error))
+    return bounds_rest && tolerance <= goal.residual && solution.converged && believable();
+  solution.error += error_of_bounds(wanted);
+  if (change_ <= worth_a_look && solution.error <= goal.allowed_error(solution.x, solution.nu) && qp::fits(solution, goal) &&
+      balances(problem_.dual, problem_.omega, wanted, solution.x) && contacts_at_rest())
     return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
-  return run.change <= options_.tolerance && solution.converged && tolerance <= 1e-1 * options_.tolerance &&
-         qp::believable(solution.error, qp::rounding_of_error(run.right->b, solution.hessian_norm), solution.x, solution.nu,
-                        run.goal);
+  return bounds_rest && solution.converged && tolerance <= 1e-1 * problem_.options.tolerance && believable();
 }
 
 // Of the last step that changes the bounds by more than rounding. Collective.
-void Solver::note_response(const std::vector<double>& wanted, Run& run) const
+void CoulombSearch::note_response(const std::vector<double>& wanted)
 {
   constexpr double step = 1e-3;
-  if (run.any_answer) {
+  if (any_answer_) {
     std::array<double, 3> squares{0, 0, 0};  // of the changes of bounds and answers, of the answers
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      if (!std::isfinite(run.radii[i]) || !std::isfinite(run.answered[i])) continue;
-      squares[0] += std::pow(run.radii[i] - run.answered[i], 2);
-      squares[1] += std::pow(wanted[i] - run.answer[i], 2);
+      if (!std::isfinite(radii_[i]) || !std::isfinite(answered_[i])) continue;
+      squares[0] += std::pow(radii_[i] - answered_[i], 2);
+      squares[1] += std::pow(wanted[i] - answer_[i], 2);
       squares[2] += wanted[i] * wanted[i];
     }
-    problem_.communicator().sum_in_place(squares);
-    if (squares[0] > step * step * squares[2]) run.response = std::sqrt(squares[1] / squares[0]);
+    problem_.dual.communicator().sum_in_place(squares);
+    if (squares[0] > step * step * squares[2]) response_ = std::sqrt(squares[1] / squares[0]);
   }
-  run.any_answer = true;
-  run.answered = run.radii;
-  run.answer = wanted;
+  any_answer_ = true;
+  answered_ = radii_;
+  answer_ = wanted;
 }
 
 // ||.||_F of what multipliers on the edge of their discs would move by with the bounds `wanted`. One product.
-double Solver::error_of_bounds(const std::vector<double>& wanted, const Run& run)
+double CoulombSearch::error_of_bounds(const std::vector<double>& wanted)
 {
-  Vector moved(run.solution->x.getMap()), product(moved.getMap());
+  Vector moved(solution_->x.getMap()), product(moved.getMap());
   {
-    const auto x = view(std::as_const(run.solution->x));
+    const auto x = view(std::as_const(solution_->x));
     auto to = view(moved);
-    const auto discs = omega_.discs();
+    const auto discs = problem_.omega.discs();
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const Eigen::Vector2d at = qp::from_centre(discs[i], x);
-      if (!std::isfinite(wanted[i]) || !std::isfinite(run.radii[i]) || at.norm() < 0.99 * run.radii[i] || at.norm() == 0)
-        continue;
+      if (!std::isfinite(wanted[i]) || !std::isfinite(radii_[i]) || at.norm() < 0.99 * radii_[i] || at.norm() == 0) continue;
       for (int k = 0; k < discs[i].size(); ++k)
-        to[discs[i].index[static_cast<std::size_t>(k)]] = (wanted[i] - run.radii[i]) * at[k] / at.norm();
+        to[discs[i].index[static_cast<std::size_t>(k)]] = (wanted[i] - radii_[i]) * at[k] / at.norm();
     }
   }
   if (moved.norm2() == 0) return 0;
-  problem_.equality().project(moved);
-  hessian_.apply(moved, product);
+  problem_.dual.equality().project(moved);
+  means_.hessian.apply(moved, product);
   return std::sqrt(std::max(moved.dot(product), 0.0));
 }
 
 // Bounds that leave a feasible point: those of the forces within the cones of friction that balance the loads and are nearest to
 // the present ones. Where there are none, nothing obeys the law. In a set of given bounds they would be on the edge, so bounds
 // are a little larger.
-void Solver::admit(Run& run)
+void CoulombSearch::admit()
 {
   constexpr double room = 1 + 1e-6;
   constexpr double balanced = 1e-6;  // of all forces: what a search that does not converge may leave
-  const qp::FeasibleSet cones = omega_.with_radii(run.at_work).with_cones();
-  qp::Projector projector(problem_.equality(), cones);
-  qp::Projection nearest = projector(run.solution->x, run.right->e, cones);
+  const qp::FeasibleSet cones = problem_.omega.with_radii(at_work_).with_cones();
+  const auto& e = problem_.right.e;
+  qp::Projector projector(problem_.dual.equality(), cones);
+  qp::Projection nearest = projector(solution_->x, e, cones);
   if (!nearest.found && nearest.residual > balanced) {
-    if (!run.proven && !nearest.empty) projector.prove_empty(run.right->e, cones, nearest);
-    no_equilibrium(problem_, run.proven ? run.escape : nearest.nu, fall_short(nearest));
+    if (!proven_ && !nearest.empty) projector.prove_empty(e, cones, nearest);
+    feti::no_equilibrium(problem_.dual, proven_ ? escape_ : nearest.nu, feti::fall_short(nearest));
   }
-  run.radii = radii_at(&nearest.point);
-  for (auto& bound : run.radii) bound *= room;
+  radii_ = radii_at(&nearest.point);
+  for (auto& radius : radii_) radius *= room;
 }
 
-// Tresca problems until their bounds are at rest.
-void Solver::fixed_point(Run& run)
+// Bounds from inexact normal forces may fall short by as much: half way back, now and then to what surely is feasible.
+void CoulombSearch::step_back()
 {
   constexpr int retreats = 4;  // in a row
+  auto half_way = qp::half_way_back(radii_, previous_radii_);
+  admit();
+  if (++infeasible_ % retreats != 0) radii_ = std::move(half_way);
+}
+
+void CoulombSearch::fixed_point()
+{
   constexpr int most_failures = 15;
   constexpr int steps_of_fall = 2, most_falls = 2;
   constexpr int idle_steps = 3;  // without a smaller change, which is then what solutions leave of the light groups of bodies
-  Relaxation relaxation(problem_.communicator());
-  int infeasible = 0, failures = 0, falls = 0, idle = 0;
-  double strictness = 1;
-  const auto& groups = problem_.groups().of_body;
+  const auto& [dual, laws, omega, right, goal, options] = problem_;
+  Relaxation relaxation(dual.communicator());
+  int failures = 0, falls = 0, idle = 0;
+  double strictness = 1, least_change = 1;
+  const auto& groups = dual.groups().of_body;
   const bool apart = std::any_of(groups.begin(), groups.end(), [&](int g) { return g != groups.front(); });
-  if (!run.converged) budget_.change_algorithm();
-  while (!run.converged) {
-    ++run.step;
+  if (!converged_) means_.budget.change_algorithm();
+  while (!converged_) {
+    ++step_;
     // Looser again would bring swings of its own; and bounds that rest but for a loose tolerance would stay where they are.
     const double tightest =
-        std::max(qp::tolerances::rounding, strictness * (run.goal.allowed_error ? 0.1 * options_.tolerance : run.goal.residual));
-    const double tolerance = run.least_change <= options_.tolerance
+        std::max(qp::tolerances::rounding, strictness * (goal.allowed_error ? 0.1 * options.tolerance : goal.residual));
+    const double tolerance = least_change <= options.tolerance
                                  ? tightest
-                                 : std::max(tightest, std::min(qp::tolerances::loosest, 0.1 * strictness * run.least_change));
-    const bool first = !run.solved;
-    if (!solve_tresca({tolerance}, run)) {
-      if (!run.solved) nothing_found(problem_, omega_.with_radii(run.at_work).with_cones(), run.escape, run.proven);
+                                 : std::max(tightest, std::min(qp::tolerances::loosest, 0.1 * strictness * least_change));
+    const bool first = !solved_;
+    if (!solve_tresca({tolerance})) {
+      if (!solved_) feti::nothing_found(dual, omega.with_radii(at_work_).with_cones(), escape_, proven_);
       // Bounds fell ever faster until they were too small, and did so again from those that are surely enough.
-      if (infeasible == 0 && relaxation.growing() >= steps_of_fall && ++falls >= most_falls)
-        refuse_if_far(problem_, omega_, laws_, run.solution->x, run.response);
-      if (++failures > most_failures || run.step >= options_.max_steps) {
-        refuse_if_far(problem_, omega_, laws_, run.solution->x, run.response);
+      if (infeasible_ == 0 && relaxation.growing() >= steps_of_fall && ++falls >= most_falls)
+        refuse_if_far(dual, omega, laws, solution_->x, response_);
+      if (++failures > most_failures || step_ >= options.max_steps) {
+        refuse_if_far(dual, omega, laws, solution_->x, response_);
         return;
       }
-      // Bounds from inexact normal forces may fall short by as much: half way back, now and then to what surely is feasible.
-      auto half_way = qp::half_way_back(run.radii, run.previous_radii);
-      admit(run);
-      if (++infeasible % retreats != 0) run.radii = std::move(half_way);
+      step_back();
       continue;
     }
-    run.solved = true;
-    infeasible = 0;
-    auto wanted = radii_at(&run.solution->x);
-    run.change = first ? 1.0 : change_of_bounds(wanted, run.radii, *run.solution, run);
-    note_response(wanted, run);
-    run.converged = !first && at_rest(wanted, tolerance, run);
-    idle = first || !apart || run.change < run.least_change ? 0 : idle + 1;
+    solved_ = true;
+    infeasible_ = 0;
+    auto wanted = radii_at(&solution_->x);
+    change_ = first ? 1.0 : change_of_radii(wanted, radii_, *solution_);
+    note_response(wanted);
+    converged_ = !first && at_rest(wanted, tolerance);
+    idle = first || !apart || change_ < least_change ? 0 : idle + 1;
     // Bounds at rest beside an error that is too large.
-    if (!run.converged && ((run.change <= options_.tolerance && tolerance <= tightest) || idle >= idle_steps)) {
+    if (!converged_ && ((change_ <= options.tolerance && tolerance <= tightest) || idle >= idle_steps)) {
       strictness *= 0.1;
       idle = 0;
     }
-    if (run.converged || run.step >= options_.max_steps || hessian_.exhausted()) return;
-    run.least_change = first ? 1.0 : std::min(run.least_change, run.change);
-    const double part = relaxation(run.radii, wanted);
+    if (converged_ || step_ >= options.max_steps || means_.hessian.exhausted()) return;
+    least_change = first ? 1.0 : std::min(least_change, change_);
+    const double part = relaxation(radii_, wanted);
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      if (!std::isinf(run.radii[i])) wanted[i] = run.radii[i] + part * (wanted[i] - run.radii[i]);
-    run.previous_radii = std::exchange(run.radii, std::move(wanted));
+      if (!std::isinf(radii_[i])) wanted[i] = radii_[i] + part * (wanted[i] - radii_[i]);
+    previous_radii_ = std::exchange(radii_, std::move(wanted));
   }
 }
 

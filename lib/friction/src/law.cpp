@@ -29,14 +29,21 @@ std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vec
   return bounds;
 }
 
-std::vector<double> coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws)
+bool any_coulomb(const std::vector<Law>& laws)
 {
-  std::vector<double> result(problem.set().discs().size(), 0.0);
+  return std::any_of(laws.begin(), laws.end(), [](const Law& law) { return law.kind == Law::Kind::coulomb; });
+}
+
+qp::FeasibleSet with_coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws)
+{
+  std::vector<double> coefficients(problem.set().discs().size(), 0.0);
   const auto& points = problem.constraints().contacts.nodes;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (const Law& law = laws[static_cast<std::size_t>(points[i].contact)];
         law.kind == Law::Kind::coulomb && problem.node_rows()[i].disc >= 0)
-      result[static_cast<std::size_t>(problem.node_rows()[i].disc)] = law.value;
+      coefficients[static_cast<std::size_t>(problem.node_rows()[i].disc)] = law.value;
+  auto result = problem.set();
+  result.set_coefficients(coefficients);
   return result;
 }
 

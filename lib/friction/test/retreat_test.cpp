@@ -6,49 +6,13 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "friction/friction.hpp"
-#include "proximal_gradient.hpp"
-#include "testing/blocks.hpp"
+#include "testing/proximal_gradient.hpp"
+#include "wedge.hpp"
 
 namespace mortise::friction {
 namespace {
 
 constexpr double coefficient = 0.3;
-
-// A cube whose sides x = 0 and x = 1 are held by walls that lean by `slope` degrees against z; loaded by 1 along -z and by `push`
-// along y, all over.
-struct Wedge : feti::Blocks {
-  std::vector<Global> points;               // the nodes of both sides
-  std::vector<std::array<Point, 3>> frame;  // normal out of the wedge, and tangents
-
-  Wedge(double slope, double push, int pieces, MPI_Comm mpi = MPI_COMM_WORLD)
-      : Blocks(
-            {{"wedge", {{0, 0, 0}, {1, 1, 1}, {2, 3, 3}, "hex8"}}}, {{"wedge", {1, 1, pieces}}}, [](int) { return 100.0; }, mpi)
-  {
-    for (std::size_t s = 0; s < load.size(); ++s)
-      fem::add_acceleration(decomposition.subdomains[s].mesh, fem::Kinematics::solid, 1.0, Point(0, push, -1), load[s]);
-    for (const bool left : {true, false}) {
-      auto ids = comm.all_gather(side(left ? "wedge.xmin" : "wedge.xmax").node_id);
-      std::sort(ids.begin(), ids.end());
-      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-      points.insert(points.end(), ids.begin(), ids.end());
-      const double angle = slope * M_PI / 180, out = left ? -1 : 1;
-      frame.resize(points.size(), {Point(out * std::cos(angle), 0, -std::sin(angle)), Point(0, 1, 0),
-                                   Point(out * std::sin(angle), 0, std::cos(angle))});
-    }
-    auto& contacts = constraints.contacts;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (static_cast<int>(i) % comm.size() != comm.rank()) continue;
-      contacts.nodes.push_back({0, points[i], 1, frame[i][0], {frame[i][1], frame[i][2]}, contacts.rows.size()});
-      contacts.bonded.push_back(false);
-      for (const Point& axis : frame[i]) {
-        for (int c = 0; c < 3; ++c)
-          if (axis[c] != 0) contacts.rows.entries.push_back({points[i], c, axis[c]});
-        contacts.rows.close(0);
-      }
-    }
-  }
-};
 
 // By one rank; and the forces where all sticks. Collective.
 std::pair<Reference, Eigen::VectorXd> wedge_reference(double slope, double push)
@@ -127,26 +91,40 @@ TEST_P(Wedges, GoBackFromBoundsThatLeaveNothing)
     Wedge wedge(slope, push, slow ? 1 : 3);
     feti::DualProblem problem(wedge.decomposition, *wedge.directory, wedge.interface, wedge.constraints, wedge.system, wedge.load,
                               {}, wedge.context);
-    qp::Options options;
-    options.algorithm = algorithm;
-    const double tolerance = slow ? 1e-6 : 1e-8;
-    options.tolerance.value = tolerance;
-    Solver solver(problem, {{Law::Kind::coulomb, coefficient}}, {tolerance, 200}, options);
+    CoulombStep step(problem, coefficient, algorithm, slow ? 1e-6 : 1e-8);
     std::map<int, double> sums;  // of the bounds of each Tresca problem that has a feasible point
-    const Result result = solver.solve(nullptr, {}, [&](int step, double, const qp::Progress& progress) {
+    step.watch = [&](int number, const qp::Progress& progress) {
       if (!progress.set) return;
       double sum = 0;
       for (const double bound : problem.slip_bounds(*progress.set)) sum += bound;
-      sums.emplace(step, wedge.comm.sum(sum));
-    });
-    EXPECT_TRUE(result.converged) << algorithm;
-    const Eigen::VectorXd forces = forces_of(problem, result.solution.x, wedge.points.size());
+      sums.emplace(number, wedge.comm.sum(sum));
+    };
+    const auto found = step.solve();
+    EXPECT_TRUE(found->converged() && found->solution().converged) << algorithm;
+    const Eigen::VectorXd forces = forces_of(problem, found->solution().x, wedge.points.size());
     EXPECT_LT((forces - expected.forces).norm(), (slow ? 1e-5 : 1e-7) * size) << algorithm;
     if (!slow) continue;  // the others follow the law in one loop
     ASSERT_GE(sums.size(), 3U);
     const auto second = std::next(sums.begin());
     EXPECT_EQ(second->first, 2 + infeasible);
     EXPECT_NEAR(second->second, times > 0 ? times * first : expected.bounds.sum(), 0.02 * second->second);
+  }
+}
+
+// Twice as far as friction holds at most, 0.3 / sin 20.
+TEST(WedgePushedTooHard, IsNoEquilibrium)
+{
+  for (const char* algorithm : {"face_newton", "smalse"}) {
+    Wedge wedge(20, 1.75, 1);
+    feti::DualProblem problem(wedge.decomposition, *wedge.directory, wedge.interface, wedge.constraints, wedge.system, wedge.load,
+                              {}, wedge.context);
+    try {
+      CoulombStep(problem, coefficient, algorithm, 1e-6).solve();
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);
+      EXPECT_NE(std::string(error.what()).find("wedge"), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -11,9 +11,9 @@ namespace mortise::output {
 namespace {
 
 // What it leaves open; the summary's contacts stand there already.
-void add_unresolved_contact(const friction::Result& solved, const model::Contacts& contacts, io::StateSummary& summary)
+void add_unresolved_contact(const feti::DualSolution& solved, const model::Contacts& contacts, io::StateSummary& summary)
 {
-  const auto band = [](const friction::Undecided::Band& b) { return io::StateSummary::Contact::Band{b.points, b.cells}; };
+  const auto band = [](const feti::Undecided::Band& b) { return io::StateSummary::Contact::Band{b.points, b.cells}; };
   for (const auto& u : solved.undecided)
     summary.contacts[static_cast<std::size_t>(u.contact)].undecided = {band(u.rim), band(u.edge_of_stick)};
   for (const auto& s : solved.stuck)
@@ -25,7 +25,7 @@ void add_unresolved_contact(const friction::Result& solved, const model::Contact
                              s.of});
 }
 
-void add_work(const friction::Result& solved, io::StateSummary& summary)
+void add_work(const feti::DualSolution& solved, io::StateSummary& summary)
 {
   summary.friction_steps = solved.steps;
   summary.outer_iterations = solved.outer_iterations;

@@ -65,7 +65,7 @@ double nothing_of_errors(const Rounding& rounding, double error)
 }
 
 // Relative errors of the mesh and of the solver; `stored`: twice what springs store.
-void estimate_errors(const friction::Result& solved, const Rounding& rounding, double stored, const Communicator& comm,
+void estimate_errors(const feti::DualSolution& solved, const Rounding& rounding, double stored, const Communicator& comm,
                      Results& results)
 {
   const auto& stress = results.stress;

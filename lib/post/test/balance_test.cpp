@@ -55,7 +55,7 @@ TEST(Reactions, OfAnElasticFoundation)
   }
   column.add_traction("lower.zmax", Point(0, 0, -pressed));
   auto problem = column.problem();
-  const auto result = solved(problem, 0);
+  const auto result = solved(problem);
   const auto found = reactions(problem, result.solution.x, 3);
   expect_near(found[0].force, {0, 0, force});
   expect_near(found[0].moment, {1.5 * force, -1.5 * force, 0});
@@ -103,7 +103,7 @@ TEST(Reactions, OfTiltedSupports)
     }
   }
   auto problem = block.problem();
-  const auto result = solved(problem, 0);
+  const auto result = solved(problem);
   const auto u = problem.displacement(result.solution.x, result.solution.nu);
   const auto exact = block.displacement([&](const Point& x, int) { return Point(strain * x); });
   for (std::size_t s = 0; s < u.size(); ++s) EXPECT_LT((u[s] - exact[s]).norm(), 1e-9);
@@ -168,7 +168,7 @@ TEST(Couplings, RigidOnesHandOnWhatActsOnThem)
     auto& prescribed = block.constraints.prescribed;
     prescribed.insert(prescribed.end(), rows.begin(), rows.end());
     auto problem = block.problem();
-    const auto result = solved(problem, 0);
+    const auto result = solved(problem);
     const auto& lambda = result.solution.x;
     const auto states = coupling_states(problem, lambda);
     ASSERT_EQ(states.size(), 1U);
@@ -205,7 +205,7 @@ TEST(Couplings, DistributingOnesAreHeldInTheMean)
   }
   if (block.comm.root()) block.constraints.mean_motions = {along, about};
   auto problem = block.problem();
-  const auto lambda = solved(problem, 0).solution.x;
+  const auto lambda = solved(problem).solution.x;
   const auto states = coupling_states(problem, lambda);
   ASSERT_EQ(states.size(), 1U);
   const auto& [motion, action, reaction] = states[0];
@@ -236,7 +236,7 @@ TEST(Springs, PullWithWhatHangsOnThem)
   springs.stiffness.insert(2, 2) = soft;
   column.add_traction("upper.zmax", Point(0, 0, pull / Pieces::area));
   auto problem = column.problem();
-  const auto result = solved(problem, 0);
+  const auto result = solved(problem);
   const auto states = spring_states(problem, result.solution.x);
   ASSERT_EQ(states.size(), 2U);
   const double held = reactions(problem, result.solution.x, 5)[4].force[2];

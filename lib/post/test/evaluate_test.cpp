@@ -35,7 +35,7 @@ class PressedColumn {
     return evaluate({*problem_, column_.system, pairs_, *found, u, 5, 1e-8, 0, {}, 0}, bodies, column_.comm);
   }
 
-  std::optional<friction::Result> found;
+  std::optional<feti::DualSolution> found;
   std::vector<Eigen::VectorXd> u;
 
  private:

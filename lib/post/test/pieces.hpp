@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "contact/mortar.hpp"
+#include "feti/dual_solution.hpp"
+#include "feti/means.hpp"
 #include "feti/row_distribution.hpp"
-#include "friction/friction.hpp"
 #include "testing/blocks.hpp"
 
 namespace mortise::post {
@@ -100,13 +101,17 @@ struct Pieces : feti::Blocks {
 };
 
 // An equilibrium without friction, to rounding. Collective.
-inline friction::Result solved(feti::DualProblem& problem, std::size_t contacts = 1)
+inline feti::DualSolution solved(feti::DualProblem& problem)
 {
-  qp::Options options;
-  options.algorithm = "face_newton";
-  options.tolerance.value = 1e-12;
-  friction::Solver solver(problem, std::vector<friction::Law>(contacts), {}, options);
-  auto result = solver.solve(nullptr, {}, {});
+  qp::Hessian hessian(problem.hessian(), 0);
+  qp::Budget budget(hessian, {}, false);
+  const std::vector<double> radii(problem.set().discs().size(), 0.0);
+  const auto solver =
+      qp::solver_kind("face_newton").make({hessian, problem.equality(), problem.set()}, feti::means_of(problem, budget));
+  const auto right = problem.driven_right_hand_side(hessian);
+  feti::DualSolution result{solver->solve(*right, radii, {}, {1e-12}, {})};
+  result.slip_bounds = problem.slip_bounds(problem.set().with_radii(radii));
+  result.converged = result.solution.converged;
   EXPECT_TRUE(result.converged);
   return result;
 }

@@ -27,7 +27,7 @@ struct Approach {
     products_to_the_end  ///< face Newton without patience, after a direct solution that failed
   } kind = Kind::as_asked;
   std::string algorithm;                   ///< as solver.algorithm of the deck
-  std::optional<qp::Patience> patience{};  ///< when a load step gives up, see friction::Result::gave_up
+  std::optional<qp::Patience> patience{};  ///< when a load step gives up, see feti::DualSolution::gave_up
   int spent = 0;                           ///< products with F so far, those of earlier approaches included
   Kind next = Kind::direct_instead;        ///< what is tried after giving up
   bool smaller = false;                    ///< large subdomains have been cut into small pieces

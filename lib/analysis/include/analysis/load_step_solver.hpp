@@ -6,9 +6,9 @@
 
 #include "analysis/approach.hpp"
 #include "analysis/assembly.hpp"
+#include "analysis/dual_solver.hpp"
 #include "analysis/restart.hpp"
 #include "analysis/rows.hpp"
-#include "friction/friction.hpp"
 #include "post/results.hpp"
 
 namespace mortise::analysis {
@@ -20,7 +20,7 @@ using SymmetricNodes = std::vector<std::vector<post::SymmetricNode>>;
 struct StepState {
   std::shared_ptr<const Rows> rows;
   std::shared_ptr<const SymmetricNodes> symmetric;
-  friction::Result solved;
+  feti::DualSolution solved;
   std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
   std::vector<double> shortenings;            ///< of the preloaded contacts, lengths
   std::optional<qp::Patience> patience;       ///< when the next load step gives up
@@ -52,7 +52,7 @@ class LoadStepSolver {
   /// Finds the equilibrium of the state `acts`: first that of the constructor's problem, with nothing for `before`; then one
   /// state after the other, each with what the call before returned, from which friction counts slip. Throws
   /// Error(no_equilibrium). Collective.
-  StepState solve(const model::LoadState& acts, std::optional<StepState> before, const friction::Observer& observer);
+  StepState solve(const model::LoadState& acts, std::optional<StepState> before, const Observer& observer);
 
   /// The same without solving: takes the solution from the record of an earlier run. Throws as solution_of(). Collective.
   StepState take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record);
@@ -87,8 +87,8 @@ class LoadStepSolver {
   std::shared_ptr<const Rows> rows_;  // of the problem
   std::shared_ptr<const SymmetricNodes> symmetric_;
   std::unique_ptr<feti::DualProblem> problem_;
-  std::optional<friction::Solver> solver_;  // refers to the problem
-  int before_ = 0;                          // products of the solvers and approaches before this one
+  std::optional<DualSolver> solver_;  // refers to the problem
+  int before_ = 0;                    // products of the solvers and approaches before this one
   post::Rounding rounding_before_;
   double largest_force_ = 0;  // ||B'lambda||, likewise
   double largest_norm_ = 0;   // energy norm, springs included, of all states before

@@ -20,7 +20,7 @@ struct Record {
   double time = 0;             ///< of the state
   Approach approach;           ///< by which it was solved
   std::string file;            ///< holds the vectors
-  std::vector<double> counts;  ///< figures of friction::Result and qp::Solution, see restart.cpp
+  std::vector<double> counts;  ///< figures of feti::DualSolution and qp::Solution, see restart.cpp
 };
 
 /// The records in a directory, restart.1.h5 and so on: those that this run keeps, and those of an earlier one that it resumes.
@@ -49,6 +49,6 @@ class Restart {
 
 /// The solution that a record holds. Throws Error(bad_input) if the record is of another problem, as that of a mesh that has
 /// changed. Collective.
-friction::Result solution_of(const Record& record, const feti::DualProblem& problem);
+feti::DualSolution solution_of(const Record& record, const feti::DualProblem& problem);
 
 }  // namespace mortise::analysis

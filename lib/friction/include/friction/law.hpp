@@ -17,8 +17,11 @@ struct Law {
 /// with an infinite one. laws[c]: of contact c.
 std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vector<Law>& laws, const Vector* lambda);
 
-/// The coefficient of each disc of problem.set() under Coulomb's law, see qp::Disc; 0 under others.
-std::vector<double> coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws);
+/// Whether the slip bounds of any contact follow its forces.
+bool any_coulomb(const std::vector<Law>& laws);
+
+/// problem.set() with the coefficient of each disc under Coulomb's law, see qp::Disc; 0 under others. Slip bounds are to come.
+qp::FeasibleSet with_coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws);
 
 /// ||next - now|| / ||next|| of the radii of discs, the largest of any group of bodies (feti::BodyGroups), those that are
 /// infinite in either left out; `least` is the size below which radii are rounding. Collective.

@@ -8,7 +8,7 @@
 #include "contact/mortar.hpp"
 #include "fem/constitution.hpp"
 #include "feti/dual_problem.hpp"
-#include "friction/friction.hpp"
+#include "friction/law.hpp"
 #include "io/nodal_field.hpp"
 #include "model/deck.hpp"
 #include "model/face_action.hpp"

@@ -18,7 +18,7 @@ struct ContactResults {
   double work_of_gaps = 0;                        ///< sum of |gap * normal force|, which is zero in contact
 };
 
-/// At the multipliers lambda of rows and nu of kernels; `slip_bounds`: forces, see friction::Result; `displacement`: of each
+/// At the multipliers lambda of rows and nu of kernels; `slip_bounds`: forces, see feti::DualSolution; `displacement`: of each
 /// subdomain. A contact, bonded ones aside, whose
 /// forces are all below 1e-10 of the largest force of a row, or of `largest_force` of the states before, is open with forces of
 /// 0. Collective.

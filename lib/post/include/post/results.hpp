@@ -1,7 +1,7 @@
 // All that is known of an equilibrium once its multipliers are found.
 #pragma once
 
-#include "friction/friction.hpp"
+#include "feti/dual_solution.hpp"
 #include "post/balance.hpp"
 #include "post/contact_checks.hpp"
 #include "post/contact_results.hpp"
@@ -42,7 +42,7 @@ struct Equilibrium {
   const feti::DualProblem& problem;
   const feti::SubdomainSystem& system;
   std::span<const contact::Pair> pairs;
-  const friction::Result& solved;
+  const feti::DualSolution& solved;
   const std::vector<Eigen::VectorXd>& displacement;
   std::size_t supports = 0;
   double tolerance = 0;

@@ -1,6 +1,6 @@
 // The solvers of quadratic programmes: what they have in common, and the table of them.
 //
-// A row of the table is a name in the deck and how its solver is made. What drives solvers (lib/friction) asks for one by that
+// A row of the table is a name in the deck and how its solver is made. What drives solvers (lib/analysis) asks for one by that
 // name and knows no other difference between them than that some can follow a slip law by themselves.
 #pragma once
 

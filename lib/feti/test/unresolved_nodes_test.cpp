@@ -1,11 +1,11 @@
 // What a solve leaves open: the record of states, how wide a band of open points is.
-#include "../src/unresolved_nodes.hpp"
+#include "feti/unresolved_nodes.hpp"
 
 #include <gtest/gtest.h>
 
-#include "../src/state_record.hpp"
+#include "feti/state_record.hpp"
 
-namespace mortise::friction {
+namespace mortise::feti {
 namespace {
 
 using enum ContactStatus;
@@ -85,4 +85,4 @@ TEST(WidestBand, OfARingIsItsThicknessWhereverOneLooks)
 }
 
 }  // namespace
-}  // namespace mortise::friction
+}  // namespace mortise::feti

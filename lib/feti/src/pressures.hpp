@@ -6,17 +6,17 @@
 
 #include "feti/dual_problem.hpp"
 
-namespace mortise::friction {
+namespace mortise::feti {
 
 /// Cover of points below which they have a force but no pressure of their own.
 inline constexpr double narrow_cover = 0.35;
 
-/// What multipliers `x` press with. Points are taken together by contact and by group of bodies (feti::BodyGroups): the parts of
+/// What multipliers `x` press with. Points are taken together by contact and by group of bodies (BodyGroups): the parts of
 /// a contact, each with its largest pressure, the same on every rank.
 class Pressures {
  public:
   /// Collective. `problem` outlives it.
-  Pressures(const feti::DualProblem& problem, const Vector& x);
+  Pressures(const DualProblem& problem, const Vector& x);
 
   /// The pressure that a force makes at a point of this rank; 0 where a point has none of its own or is bonded.
   double of(std::size_t point, double force) const;
@@ -31,7 +31,7 @@ class Pressures {
  private:
   void find_parts();
 
-  const feti::DualProblem& problem_;
+  const DualProblem& problem_;
   std::vector<std::size_t> part_;        // of each point of this rank
   std::vector<std::size_t> group_;       // of each part
   std::vector<double> largest_, force_;  // of each part: pressure, sum of normal forces
@@ -39,4 +39,4 @@ class Pressures {
   std::vector<double> least_load_;       // and that of its bodies that are loaded; infinite if there are none
 };
 
-}  // namespace mortise::friction
+}  // namespace mortise::feti

@@ -1,4 +1,4 @@
-#include "unresolved_nodes.hpp"
+#include "feti/unresolved_nodes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "pressures.hpp"
-#include "qp/projection.hpp"
 
-namespace mortise::friction {
+namespace mortise::feti {
 
 namespace {
 
@@ -20,7 +19,7 @@ constexpr double across = 0.7;                 // cosine of the cone that one lo
 constexpr double beside = 0.3;                 // cosine up to which a direction leads to another side
 constexpr long probes = 64;
 
-int contact_count(const feti::DualProblem& problem)
+int contact_count(const DualProblem& problem)
 {
   int count = 0;
   for (const auto& point : problem.constraints().contacts.nodes) count = std::max(count, point.contact + 1);
@@ -28,13 +27,13 @@ int contact_count(const feti::DualProblem& problem)
 }
 
 // Length of the tangential part of a point.
-double tangential(const feti::NodeRows& rows, const Eigen::Ref<const Eigen::VectorXd>& values)
+double tangential(const NodeRows& rows, const Eigen::Ref<const Eigen::VectorXd>& values)
 {
   return rows.tangents > 0 ? values.segment(rows.normal + 1, rows.tangents).norm() : 0.0;
 }
 
 // Flags of this rank's points, as one place for each of its contacts.
-int band(const feti::DualProblem& problem, int contact, const std::vector<bool>& open)
+int band(const DualProblem& problem, int contact, const std::vector<bool>& open)
 {
   const auto& comm = problem.communicator();
   const auto& points = problem.constraints().contacts.nodes;
@@ -50,7 +49,7 @@ int band(const feti::DualProblem& problem, int contact, const std::vector<bool>&
   return static_cast<int>(comm.max(static_cast<long long>(comm.root() ? widest_band(places) : 0)));
 }
 
-std::vector<Undecided::Band> bands(const feti::DualProblem& problem, std::size_t contacts, const std::vector<bool>& open)
+std::vector<Undecided::Band> bands(const DualProblem& problem, std::size_t contacts, const std::vector<bool>& open)
 {
   const auto& comm = problem.communicator();
   const auto& points = problem.constraints().contacts.nodes;
@@ -64,7 +63,7 @@ std::vector<Undecided::Band> bands(const feti::DualProblem& problem, std::size_t
 }
 
 // The place of the point with the largest value on any rank; `value` < 0 where there is none.
-Point position_of_largest(const feti::DualProblem& problem, std::size_t point, double value)
+Point position_of_largest(const DualProblem& problem, std::size_t point, double value)
 {
   const auto& comm = problem.communicator();
   const double largest = comm.max(value);
@@ -79,7 +78,7 @@ Point position_of_largest(const feti::DualProblem& problem, std::size_t point, d
 }
 
 // Points of a contact with a value of at least `least`: their number, the largest value and where it is.
-std::optional<Stuck> worst_points(const feti::DualProblem& problem, int contact, const std::vector<double>& value, double least)
+std::optional<Stuck> worst_points(const DualProblem& problem, int contact, const std::vector<double>& value, double least)
 {
   const auto& comm = problem.communicator();
   const auto& points = problem.constraints().contacts.nodes;
@@ -106,7 +105,7 @@ std::optional<Stuck> worst_points(const feti::DualProblem& problem, int contact,
 
 }  // namespace
 
-std::vector<ContactStatus> states_at(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Vector& x)
+std::vector<ContactStatus> states_at(const DualProblem& problem, const qp::FeasibleSet& set, const Vector& x)
 {
   const double least = active_set_tolerance * x.normInf();
   const auto value = view(x);
@@ -129,24 +128,8 @@ std::vector<ContactStatus> states_at(const feti::DualProblem& problem, const qp:
   return states;
 }
 
-std::optional<PredictedSolution> predict(const feti::DualProblem& problem, const qp::FeasibleSet& set,
-                                         const qp::Solution& solution, qp::ActiveSetPreconditioner& preconditioner)
-{
-  const double norm = solution.hessian_norm;
-  if (!(norm > 0)) return {};
-  Vector gap(solution.x, Teuchos::Copy);
-  gap.update(-1 / norm, solution.gradient, 1);
-  const qp::Projection natural = qp::project(gap, problem.equality(), problem.right_hand_side()->e, set);
-  if (!natural.found) return {};
-  gap.update(norm, solution.x, -norm, natural.point, 0);
-  PredictedSolution result{natural.argument, Vector(gap.getMap())};
-  preconditioner.fix({});
-  preconditioner.apply(gap, result.change);
-  return result;
-}
-
-std::vector<Undecided> undecided(const feti::DualProblem& problem, const qp::FeasibleSet& set, const Vector& x,
-                                 const PredictedSolution& predicted)
+std::vector<Undecided> undecided(const DualProblem& problem, const qp::FeasibleSet& set, const Vector& x,
+                                 const qp::PredictedSolution& predicted)
 {
   const auto& points = problem.constraints().contacts.nodes;
   const Pressures pressures(problem, x);
@@ -173,8 +156,8 @@ std::vector<Undecided> undecided(const feti::DualProblem& problem, const qp::Fea
   return result;
 }
 
-std::vector<Stuck> stuck(const feti::DualProblem& problem, const StateRecord& record, const Vector& x,
-                         const PredictedSolution* predicted)
+std::vector<Stuck> stuck(const DualProblem& problem, const StateRecord& record, const Vector& x,
+                         const qp::PredictedSolution* predicted)
 {
   std::vector<Stuck> result;
   const int contacts = contact_count(problem);
@@ -305,4 +288,4 @@ int widest_band(std::span<const Place> points)
   return widest > 0 ? widest : static_cast<int>(open);  // nothing is decided anywhere near
 }
 
-}  // namespace mortise::friction
+}  // namespace mortise::feti

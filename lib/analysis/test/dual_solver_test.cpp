@@ -1,21 +1,25 @@
 // A block that stands free on another one, frictionless, with Tresca and with Coulomb friction: every solver of the table,
 // through the whole dual problem, against proximal gradient steps on the assembled matrix in displacements, which knows neither
 // multipliers nor subdomains.
+#include "analysis/dual_solver.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
 #include "base/error.hpp"
-#include "friction/friction.hpp"
-#include "proximal_gradient.hpp"
-#include "qp/error_estimate.hpp"
 #include "testing/blocks.hpp"
+#include "testing/proximal_gradient.hpp"
 
-namespace mortise::friction {
+namespace mortise::analysis {
 namespace {
 
-using Kind = Law::Kind;
+using friction::by_proximal_gradient;
+using friction::forces_of;
+using friction::Law;
+using friction::Reference;
+using LawKind = Law::Kind;
 
 constexpr std::size_t contact_points = 16;  // of Stack
 
@@ -105,7 +109,7 @@ class Displacements {
 // Once for all solvers, by one rank. Collective.
 const Reference& reference(const Law& law, double push)
 {
-  static std::map<Kind, Reference> known;
+  static std::map<LawKind, Reference> known;
   if (const auto found = known.find(law.kind); found != known.end()) return found->second;
   const Communicator comm;
   std::vector<double> forces, bounds;
@@ -137,9 +141,9 @@ std::vector<Case> cases()
 {
   std::vector<Case> all;
   for (const auto& [algorithm, most] : {std::pair("face_newton", 60), std::pair("smalse", 250), std::pair("direct", 10)}) {
-    all.push_back({algorithm, {Kind::frictionless, 0}, 0, most});
-    all.push_back({algorithm, {Kind::tresca, 0.12}, 0.1, most});
-    all.push_back({algorithm, {Kind::coulomb, 0.4}, 0.15, most});
+    all.push_back({algorithm, {LawKind::frictionless, 0}, 0, most});
+    all.push_back({algorithm, {LawKind::tresca, 0.12}, 0.1, most});
+    all.push_back({algorithm, {LawKind::coulomb, 0.4}, 0.15, most});
   }
   return all;
 }
@@ -165,7 +169,7 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
     (tangential >= expected.bounds[p] - 1e-9 ? slips : sticks) += expected.bounds[p] > 1e-6;
   }
   EXPECT_GE(open, 2);
-  if (law.kind != Kind::frictionless) {
+  if (law.kind != LawKind::frictionless) {
     EXPECT_GE(slips, 2);
     EXPECT_GE(sticks, 2);
   }
@@ -173,54 +177,26 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
   const bool slow = algorithm == std::string("smalse");
   const double tolerance = slow ? 1e-7 : 1e-9;
   for (const int pieces : {1, 3}) {
-    Stack stack(push, law.kind != Kind::frictionless, pieces);
+    Stack stack(push, law.kind != LawKind::frictionless, pieces);
     feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
                               {}, stack.context);
     qp::Options options;
     options.algorithm = algorithm;
     options.tolerance.value = tolerance;
-    Solver solver(problem, {law}, {tolerance, 200}, options);
-    const Result result = solver.solve(nullptr, {}, {});
+    DualSolver solver(problem, {law}, {tolerance, 200}, options);
+    const auto result = solver.solve({}, {}, {});
     EXPECT_TRUE(result.converged) << pieces;
     EXPECT_LE(result.applications, most) << pieces;
     const Eigen::VectorXd forces = forces_of(problem, result.solution.x, contact_points);
     EXPECT_LT((forces - expected.forces).norm(), (slow ? 1e-4 : 1e-6) * size) << pieces;
     // The bounds of the laws, at the solution.
-    const auto bounds = slip_bounds(problem, {law}, &result.solution.x);
+    const auto bounds = friction::slip_bounds(problem, {law}, &result.solution.x);
     for (std::size_t i = 0; i < problem.node_rows().size(); ++i) {
       const auto& rows = problem.node_rows()[i];
       if (rows.disc < 0) continue;
       const auto p = static_cast<Eigen::Index>(i) * stack.comm.size() + stack.comm.rank();
       EXPECT_NEAR(bounds[static_cast<std::size_t>(rows.disc)], expected.bounds[p], slow ? 1e-4 : 1e-6);
     }
-  }
-}
-
-// From the bounds of one load step to the next.
-TEST(SlipBounds, StickFirstAndFollowTheNormalForces)
-{
-  Stack stack(0, true, 1);
-  const feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system,
-                                  stack.load, {}, stack.context);
-  const auto count = problem.set().discs().size();
-  const double infinite = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(slip_bounds(problem, {{Kind::coulomb, 0.5}}, nullptr), std::vector<double>(count, infinite));
-  EXPECT_EQ(slip_bounds(problem, {{Kind::frictionless, 0}}, nullptr), std::vector<double>(count, 0.0));
-  EXPECT_EQ(coefficients(problem, {{Kind::coulomb, 0.5}}), std::vector<double>(count, 0.5));
-  EXPECT_EQ(coefficients(problem, {{Kind::tresca, 0.5}}), std::vector<double>(count, 0.0));
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(problem.jump().ranges().end);
-  for (std::size_t i = 0; i < problem.node_rows().size(); ++i) forces[problem.node_rows()[i].normal] = i % 2 == 0 ? 3.0 : -3.0;
-  const Vector x = problem.multipliers(forces);
-  const auto coulomb = slip_bounds(problem, {{Kind::coulomb, 0.5}}, &x), tresca = slip_bounds(problem, {{Kind::tresca, 7}}, &x);
-  for (std::size_t i = 0; i < problem.node_rows().size(); ++i) {
-    const auto& rows = problem.node_rows()[i];
-    const auto disc = static_cast<std::size_t>(rows.disc);
-    EXPECT_NEAR(coulomb[disc], i % 2 == 0 ? 1.5 : 0.0, 1e-12);
-    EXPECT_EQ(tresca[disc], 7);  // a force, on an area of 1
-    // The solver's radii stand for the same forces.
-    qp::FeasibleSet set = problem.set();
-    set.set_radii(problem.radii(coulomb));
-    EXPECT_NEAR(problem.slip_bounds(set)[disc], coulomb[disc], 1e-12);
   }
 }
 
@@ -234,9 +210,9 @@ TEST(TwoBlocksPushedTooHard, AreNoEquilibrium)
     qp::Options options;
     options.algorithm = algorithm;
     options.tolerance.value = 1e-6;
-    Solver solver(problem, {{Kind::coulomb, 0.3}}, {1e-4, 50}, options);
+    DualSolver solver(problem, {{LawKind::coulomb, 0.3}}, {1e-4, 50}, options);
     try {
-      solver.solve(nullptr, {}, {});
+      solver.solve({}, {}, {});
       FAIL() << "no error";
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);
@@ -248,7 +224,7 @@ TEST(TwoBlocksPushedTooHard, AreNoEquilibrium)
 // Who waits for a few products is told that it might go on; who gave their number is told the key.
 TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
 {
-  const Law law{Kind::coulomb, 0.4};
+  const Law law{LawKind::coulomb, 0.4};
   for (const bool waiting : {true, false}) {
     Stack stack(0.15, true, 3);
     feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
@@ -258,8 +234,8 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
     options.tolerance.value = 1e-10;
     constexpr int few = 15;
     if (!waiting) options.max_multiplications.value = few;
-    Solver solver(problem, {law}, {1e-9, 50}, options);
-    const Result result = solver.solve(nullptr, {}, {}, waiting ? std::optional<qp::Patience>(few) : std::nullopt);
+    DualSolver solver(problem, {law}, {1e-9, 50}, options);
+    const auto result = solver.solve({}, {}, {}, waiting ? std::optional<qp::Patience>(few) : std::nullopt);
     EXPECT_FALSE(result.converged);
     EXPECT_EQ(result.gave_up, waiting);
     EXPECT_LE(result.applications, few + 3);
@@ -276,10 +252,10 @@ TEST(TwoBlocksAgain, StartFromWhatIsKnown)
   qp::Options options;
   options.algorithm = "face_newton";
   options.tolerance.value = 1e-8;
-  Solver solver(problem, {{Kind::coulomb, 0.4}}, {1e-6, 50}, options);
-  const Result first = solver.solve(nullptr, {}, {});
+  DualSolver solver(problem, {{LawKind::coulomb, 0.4}}, {1e-6, 50}, options);
+  const auto first = solver.solve({}, {}, {});
   ASSERT_TRUE(first.converged);
-  const Result second = solver.solve(&first.solution, {}, {});
+  const auto second = solver.solve(first.solution, {}, {});
   EXPECT_TRUE(second.converged);
   EXPECT_LE(second.applications, std::min(first.applications / 2, 8));
   const Eigen::VectorXd a = forces_of(problem, first.solution.x, contact_points),
@@ -289,4 +265,4 @@ TEST(TwoBlocksAgain, StartFromWhatIsKnown)
 }
 
 }  // namespace
-}  // namespace mortise::friction
+}  // namespace mortise::analysis

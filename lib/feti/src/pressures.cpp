@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace mortise::friction {
+namespace mortise::feti {
 
 namespace {
 
@@ -12,7 +12,7 @@ constexpr double idle_part = 1e-3;   // of a pressure and of a load
 constexpr double none_part = 1e-10;  // of the largest load of a body, or pressure, below which there is none
 
 // The least load of the bodies of each group, infinite where none is loaded. Collective.
-std::vector<double> least_loads(const feti::DualProblem& problem)
+std::vector<double> least_loads(const DualProblem& problem)
 {
   const auto& groups = problem.groups();
   auto loads = problem.loads_of_bodies();
@@ -43,7 +43,7 @@ std::vector<double> least_loads(const feti::DualProblem& problem)
 
 }  // namespace
 
-Pressures::Pressures(const feti::DualProblem& problem, const Vector& x) : problem_(problem), least_load_(least_loads(problem))
+Pressures::Pressures(const DualProblem& problem, const Vector& x) : problem_(problem), least_load_(least_loads(problem))
 {
   const auto& comm = problem.communicator();
   const Eigen::VectorXd forces = problem.forces(x);
@@ -103,4 +103,4 @@ bool Pressures::idle(std::size_t part) const
   return largest_[part] < idle_part * all_[group_[part]] && force_[part] < idle_part * least_load_[group_[part]];
 }
 
-}  // namespace mortise::friction
+}  // namespace mortise::feti

@@ -1,8 +1,8 @@
-#include "state_record.hpp"
+#include "feti/state_record.hpp"
 
 #include <utility>
 
-namespace mortise::friction {
+namespace mortise::feti {
 
 long long StateRecord::note(std::vector<ContactStatus> states)
 {
@@ -27,4 +27,4 @@ std::vector<StateRecord::Changes> StateRecord::changes() const
   return result;
 }
 
-}  // namespace mortise::friction
+}  // namespace mortise::feti

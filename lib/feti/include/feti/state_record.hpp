@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-namespace mortise::friction {
+namespace mortise::feti {
 
 enum class ContactStatus : char { open, closed, sticks, slips };  ///< closed: of a point without friction
 
@@ -26,4 +26,4 @@ class StateRecord {
   std::deque<std::vector<ContactStatus>> steps_;
 };
 
-}  // namespace mortise::friction
+}  // namespace mortise::feti

@@ -1,13 +1,13 @@
-#include "contact_converged.hpp"
+#include "feti/contact_converged.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "feti/unresolved_nodes.hpp"
 #include "pressures.hpp"
-#include "unresolved_nodes.hpp"
 
-namespace mortise::friction {
+namespace mortise::feti {
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr double part_of_row = 0.1;  // that may be open: a tenth of a cell at t
 
 }  // namespace
 
-bool contact_converged(const feti::DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change)
+bool contact_converged(const DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change)
 {
   const auto& comm = problem.communicator();
   const auto& points = problem.constraints().contacts.nodes;
@@ -50,4 +50,4 @@ bool contact_converged(const feti::DualProblem& problem, const Vector& x, const 
   return true;
 }
 
-}  // namespace mortise::friction
+}  // namespace mortise::feti

@@ -3,12 +3,12 @@
 
 #include "feti/dual_problem.hpp"
 
-namespace mortise::friction {
+namespace mortise::feti {
 
 /// Whether contact has converged at the multipliers x, from which those of the solution differ by about `change`: pressures and
 /// tractions of every contact are known to 5 % of its largest pressure, and of its points at most a tenth of a row around what
 /// presses do not know whether they do: those whose `argument`, see Goal::contact_converged, is nearer to 0 than `change`.
 /// Collective.
-bool contact_converged(const feti::DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change);
+bool contact_converged(const DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change);
 
-}  // namespace mortise::friction
+}  // namespace mortise::feti

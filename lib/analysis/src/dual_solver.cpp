@@ -1,0 +1,127 @@
+#include "analysis/dual_solver.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "feti/contact_converged.hpp"
+#include "feti/means.hpp"
+#include "feti/no_equilibrium.hpp"
+#include "friction/coulomb.hpp"
+
+namespace mortise::analysis {
+
+// One load step on its way.
+struct DualSolver::Step {
+  const std::optional<qp::Solution>& before;  // of the load step before
+  std::optional<qp::Patience> patience;
+  std::shared_ptr<const qp::RightHandSide> right;
+  std::vector<double> radii;          // of discs: those to begin with, at the end those of the last problem
+  std::optional<qp::Solution> start;  // `before`, or what the algorithm knows better
+  qp::Goal goal;
+  const Observer& watch;
+};
+
+DualSolver::DualSolver(feti::DualProblem& problem, std::vector<friction::Law> laws, const friction::Options& loop,
+                       const qp::Options& solver)
+    : problem_(problem),
+      laws_(std::move(laws)),
+      loop_(loop),
+      tolerance_(solver.tolerance.value),
+      from_direct_(solver.algorithm == "direct"),
+      hessian_(problem.hessian(), 0),
+      budget_(hessian_, solver.max_multiplications.value, qp::solver_kind(solver.algorithm).steady),
+      omega_(friction::with_coefficients(problem, laws_)),
+      algorithm_(qp::solver_kind(solver.algorithm).make({hessian_, problem.equality(), omega_}, feti::means_of(problem, budget_)))
+{
+}
+
+// Of a residual, or of the error that is good enough, whose contacts must have converged as well.
+qp::Goal DualSolver::goal(const qp::Goal& accuracy) const
+{
+  if (tolerance_) return {.residual = *tolerance_, .energy_norm = accuracy.energy_norm};
+  qp::Goal goal = accuracy;
+  goal.contact_converged = [this](const Vector& x, const Vector& argument, const Vector& off) {
+    return feti::contact_converged(problem_, x, argument, off);
+  };
+  return goal;
+}
+
+feti::DualSolution DualSolver::solve(const std::optional<qp::Solution>& before, const qp::Goal& accuracy,
+                                     const Observer& observer, std::optional<qp::Patience> patience)
+{
+  const int spent = hessian_.count();
+  budget_.start(patience, tolerance_.value_or(qp::Goal{}.residual));
+  feti::StateRecord states;
+  const Observer watch = [&](int step, double change, const qp::Progress& progress) {
+    std::optional<long long> changes;
+    if (progress.point)
+      changes = problem_.communicator().sum(states.note(feti::states_at(problem_, *progress.set, *progress.point)));
+    budget_.note(progress, changes, change);
+    if (observer) observer(step, change, progress);
+  };
+  Step step{before, patience, problem_.driven_right_hand_side(hessian_), {}, before, goal(accuracy), watch};
+  step.radii = problem_.radii(friction::slip_bounds(problem_, laws_, nullptr));
+  algorithm_->begin(*step.right, step.radii, step.start, step.goal, [&](const qp::Progress& p) { watch(0, 1, p); });
+  auto result = friction::any_coulomb(laws_) ? solve_coulomb(step) : solve_tresca(step);
+  result.gave_up = patience && !result.converged && budget_.left();
+  if (!result.converged && hessian_.exhausted()) result.limit = budget_.reason();
+  if (result.converged) result.limit.clear();
+  result.applications = hessian_.count() - spent;
+  const auto set = omega_.with_radii(step.radii);
+  result.slip_bounds = problem_.slip_bounds(set);
+  if (!result.gave_up) tell_unresolved_nodes({{hessian_, problem_.equality(), omega_}, *step.right, set}, states, result);
+  return result;
+}
+
+// Slip bounds are given, or there are none.
+feti::DualSolution DualSolver::solve_tresca(Step& step)
+{
+  auto found =
+      algorithm_->solve(*step.right, step.radii, step.start, step.goal, [&](const qp::Progress& p) { step.watch(1, 1, p); });
+  if (!found.feasible) feti::nothing_found(problem_, omega_.with_radii(step.radii), found.nu, found.empty);
+  feti::DualSolution result{std::move(found)};
+  result.converged = result.solution.converged;
+  result.preconditionings = result.solution.preconditionings;
+  result.outer_iterations = result.solution.outer_iterations;
+  return result;
+}
+
+// Bounds and forces together; where that does not converge the fixed point goes on from there, and last comes the slower way of
+// the first. With patience other approaches come before these.
+feti::DualSolution DualSolver::solve_coulomb(Step& step)
+{
+  friction::CoulombSearch search({problem_, laws_, omega_, *step.right, step.goal, loop_}, {*algorithm_, hessian_, budget_},
+                                 step.start, step.watch);
+  search.follow_law();
+  if (!search.solved() || !step.patience || from_direct_)
+    search.fixed_point();  // a few products each, from what A^-1 leads on from
+  const std::string limit = hessian_.exhausted()                ? budget_.reason()
+                            : search.steps() >= loop_.max_steps ? "friction_loop.max_steps"
+                                                                : "";
+  const bool spent = hessian_.exhausted();
+  if (!step.patience) search.follow_cautiously(step.before);
+  if (search.solved() && (search.converged() || !(spent || hessian_.exhausted()))) search.judge();
+  step.radii = search.radii();
+  feti::DualSolution result{search.solution()};
+  result.steps = search.steps();
+  result.change = search.change();
+  result.converged = search.converged() && result.solution.converged;
+  result.limit = limit;
+  result.preconditionings = search.preconditionings();
+  result.outer_iterations = search.outer_iterations();
+  return result;
+}
+
+// What the last residual still changes, by the preconditioner. No product.
+void DualSolver::tell_unresolved_nodes(const qp::Problem& problem, const feti::StateRecord& states, feti::DualSolution& result)
+{
+  const auto& bonded = problem_.constraints().contacts.bonded;
+  const bool any = std::find(bonded.begin(), bonded.end(), false) != bonded.end();
+  if (!problem_.communicator().any(any)) return;
+  std::optional<qp::PredictedSolution> predicted;
+  if (auto* preconditioner = algorithm_->preconditioner()) predicted = qp::predict(problem, result.solution, *preconditioner);
+  if (predicted) result.undecided = feti::undecided(problem_, problem.set, result.solution.x, *predicted);
+  if (!result.converged) result.stuck = feti::stuck(problem_, states, result.solution.x, predicted ? &*predicted : nullptr);
+}
+
+}  // namespace mortise::analysis

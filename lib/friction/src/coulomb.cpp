@@ -1,0 +1,101 @@
+#include "friction/coulomb.hpp"
+
+#include <utility>
+
+#include "equilibrium.hpp"
+
+namespace mortise::friction {
+
+CoulombSearch::CoulombSearch(CoulombProblem problem, CoulombMeans means, std::optional<qp::Solution> start, Observer observer)
+    : problem_(std::move(problem)),
+      means_(means),
+      watch_([this, tell = std::move(observer)](const qp::Progress& progress) { tell(step_, change_, progress); }),
+      radii_(radii_at(nullptr)),
+      previous_radii_(radii_),
+      at_work_(radii_),
+      solution_(std::move(start))
+{
+}
+
+// The radii of discs by the law, with the forces of these multipliers or before any are known.
+std::vector<double> CoulombSearch::radii_at(const Vector* lambda) const
+{
+  return problem_.dual.radii(slip_bounds(problem_.dual, problem_.laws, lambda));
+}
+
+qp::SlipLaw CoulombSearch::slip_law(bool cautious) const
+{
+  return {[this](const Vector* x) { return radii_at(x); }, cautious};
+}
+
+void CoulombSearch::count(const qp::Solution& found)
+{
+  outer_ += found.outer_iterations;
+  preconditionings_ += found.preconditionings;
+}
+
+// ||wanted - now|| / ||wanted|| of slip bounds at a solution, but for what rounding makes of no force at all: of multipliers of
+// the size ||b|| / ||A||.
+double CoulombSearch::change_of_radii(const std::vector<double>& wanted, const std::vector<double>& now,
+                                      const qp::Solution& at) const
+{
+  constexpr double rounding = 1e-10;
+  const double least = at.hessian_norm > 0 ? rounding * problem_.right.b.norm2() / at.hessian_norm : 0;
+  return relative_change(problem_.dual, wanted, now, least);
+}
+
+// Of bounds and forces that were found together. Where the error decides, what the bounds would still change counts in it.
+bool CoulombSearch::obeys_law(const qp::Solution& found, const std::vector<double>& radii, double change) const
+{
+  return found.converged && (problem_.goal.allowed_error || change <= problem_.options.tolerance) &&
+         balances(problem_.dual, problem_.omega, radii, found.x);
+}
+
+void CoulombSearch::follow_law()
+{
+  const qp::SlipLaw law = slip_law(false);
+  const auto solve = [&] { return means_.algorithm.solve(problem_.right, law, solution_, problem_.goal, watch_); };
+  step_ = 1;
+  auto found = solve();
+  if (found && found->slides) {
+    refuse_if_sliding(problem_.dual, problem_.omega, problem_.laws, found->x);
+    found = solve();
+  }
+  if (!found) {
+    step_ = 0;
+    return;
+  }
+  count(*found);
+  at_work_ = found->radii;
+  if (!found->feasible) return;
+  radii_ = radii_at(&found->x);
+  change_ = change_of_radii(radii_, at_work_, *found);
+  converged_ = obeys_law(*found, radii_, change_);
+  solution_ = std::move(found);
+  solved_ = true;
+}
+
+void CoulombSearch::follow_cautiously(const std::optional<qp::Solution>& start)
+{
+  if (converged_ || !means_.budget.left()) return;
+  means_.budget.change_algorithm();
+  const auto found = means_.algorithm.solve(problem_.right, slip_law(true), start, problem_.goal, watch_);
+  if (!found) return;
+  count(*found);
+  if (!found->feasible) return;
+  auto radii = radii_at(&found->x);
+  const double change = change_of_radii(radii, found->radii, *found);
+  if (!obeys_law(*found, radii, change)) return;
+  at_work_ = found->radii;
+  radii_ = std::move(radii);
+  change_ = change;
+  solution_ = found;
+  solved_ = converged_ = true;
+}
+
+void CoulombSearch::judge()
+{
+  judge_by_law(problem_.dual, problem_.omega.with_radii(at_work_), problem_.laws, means_.hessian, *solution_);
+}
+
+}  // namespace mortise::friction
