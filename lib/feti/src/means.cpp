@@ -14,7 +14,7 @@ namespace {
 qp::ExplicitProgramme sparse_programme(const DualProblem& problem, bool slender)
 {
   using Point = qp::ExplicitProgramme::Point;
-  const auto matrices = std::make_shared<SparseProblem>(problem);
+  const auto matrices = std::make_shared<SparseProblem>(problem, slender);
   const auto solve = [matrices](const qp::RightHandSide& right, const qp::FeasibleSet& set) {
     return matrices->solve(right, set);
   };
@@ -22,6 +22,18 @@ qp::ExplicitProgramme sparse_programme(const DualProblem& problem, bool slender)
                                 const qp::FeasibleSet& set,
                                 const Point& near) { return matrices->go_on(right, d, e, set, near.x); };
   return {matrices, solve, go_on, true, {}, slender};
+}
+
+qp::ExplicitProgramme dense_programme(const DualProblem& problem)
+{
+  using Point = qp::ExplicitProgramme::Point;
+  const auto matrices = std::make_shared<ExplicitProblem>(problem);
+  const auto solve = [matrices](const qp::RightHandSide& right, const qp::FeasibleSet& set) {
+    return matrices->solve(right.b, right.e, set);
+  };
+  const auto go_on = [matrices](const qp::RightHandSide&, const Vector& d, const Eigen::VectorXd& e, const qp::FeasibleSet& set,
+                                const Point& near) { return matrices->solve(d, e, set, &near); };
+  return {matrices, solve, go_on, matrices->differs()};
 }
 
 // The largest of the subdomains. Collective.
@@ -39,19 +51,12 @@ qp::Means means_of(DualProblem& problem, qp::Budget& budget)
   const auto make_explicit = [&problem] {
     problem.be_exact();
     const auto turn = SparseProblem::turn(problem);
-    // F as a dense matrix is large in soft motions: little may be left in it of what thin cells do.
     const bool slender = inaccuracy(problem) > inaccurate;
-    if (turn == SparseProblem::Turn::first || (turn == SparseProblem::Turn::second && slender))
-      return sparse_programme(problem, slender);
-    const auto matrices = std::make_shared<ExplicitProblem>(problem);
-    using Point = qp::ExplicitProgramme::Point;
-    qp::ExplicitProgramme programme{matrices, [matrices](const qp::RightHandSide& right, const qp::FeasibleSet& set) {
-                                      return matrices->solve(right.b, right.e, set);
-                                    }};
-    programme.go_on = [matrices](const qp::RightHandSide&, const Vector& d, const Eigen::VectorXd& e, const qp::FeasibleSet& set,
-                                 const Point& near) { return matrices->solve(d, e, set, &near); };
-    programme.differs = matrices->differs();
-    if (turn == SparseProblem::Turn::second) programme.instead = [&problem] { return sparse_programme(problem, false); };
+    if (turn == SparseProblem::Turn::first) return sparse_programme(problem, slender);
+    if (turn == SparseProblem::Turn::never) return dense_programme(problem);
+    // F as a dense matrix is large in soft motions: little may be left in it of what thin cells do.
+    auto programme = slender ? sparse_programme(problem, true) : dense_programme(problem);
+    programme.instead = [&problem, slender] { return slender ? dense_programme(problem) : sparse_programme(problem, false); };
     return programme;
   };
   return {budget, problem.preconditioner(), make_explicit};

@@ -93,7 +93,7 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   return quick || work < some_seconds ? Turn::second : Turn::never;
 }
 
-SparseProblem::SparseProblem(const DualProblem& problem) : problem_(problem), inverse_([this] { return make_inverse(); })
+SparseProblem::SparseProblem(const DualProblem& problem, bool patient) : problem_(problem), inverse_([this] { return make_inverse(); })
 {
   const auto& comm = problem.communicator();
   const auto& jump = problem.jump();
@@ -123,7 +123,7 @@ SparseProblem::SparseProblem(const DualProblem& problem) : problem_(problem), in
     if (!comm.root()) return;
     elimination_ = std::make_unique<SupportElimination>(
         assembled<SupportElimination::Rows>(entries, problem.dual_unknowns(), unknowns_), as_vector(compliance), set);
-    whole_ = std::make_unique<WholeProblem>(std::move(stiffness), *elimination_);
+    whole_ = std::make_unique<WholeProblem>(std::move(stiffness), *elimination_, patient);
   });
 }
 

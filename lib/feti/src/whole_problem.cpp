@@ -74,8 +74,8 @@ VectorXd SupportElimination::complete(const VectorXd& multipliers, const VectorX
   return x;
 }
 
-WholeProblem::WholeProblem(SparseMatrix stiffness, const SupportElimination& elimination)
-    : stiffness_(std::move(stiffness)), elimination_(elimination), newton_(elimination.reduced(stiffness_))
+WholeProblem::WholeProblem(SparseMatrix stiffness, const SupportElimination& elimination, bool patient)
+    : stiffness_(std::move(stiffness)), elimination_(elimination), newton_(elimination.reduced(stiffness_), patient)
 {
 }
 

@@ -46,8 +46,8 @@ class SupportElimination {
 /// Over all rows of B and all unknowns, which are numbered as the matrices have them. Heavy: neither copies nor moves.
 class WholeProblem {
  public:
-  /// `stiffness`: K, lower triangle; `elimination` of the same unknowns outlives it.
-  WholeProblem(SparseMatrix stiffness, const SupportElimination& elimination);
+  /// `stiffness`: K, lower triangle; `elimination` of the same unknowns outlives it. `patient`: as of qp::SparseNewton.
+  WholeProblem(SparseMatrix stiffness, const SupportElimination& elimination, bool patient);
 
   struct Solution {
     Eigen::VectorXd x, u;

@@ -18,6 +18,7 @@ constexpr double better = 0.3;               // times the defect before,
 constexpr double of_goal = 0.1;              // and more than so much of the residual that is asked for, or of
 constexpr double asked_at_least = 1e-6;      // for what is left makes states turn,
 constexpr double of_energy = 3e-5;           // or of the energy norm
+constexpr double outside = 1e-6;             // of x: part of it that may lie outside of Omega, or not balance the loads
 
 class DirectSolver : public Solver {
  public:
@@ -122,10 +123,21 @@ class DirectSolver : public Solver {
       result.equality = equality.norm(problem.right.e - equality.apply(found.x)) / forces;
     result.outer_iterations = 1;
     result.converged = result.error <= rounding_of_direct * goal.energy_norm(found.x, found.nu) &&
-                       result.projected_gradient <= Goal::largest_residual &&
+                       result.projected_gradient <= Goal::largest_residual && obeys(problem, found.x) &&
                        (!goal.incompatibility || goal.incompatibility(found.x, found.nu) <= Goal::nearly_compatible);
     if (!result.converged) return {};
     return result;
+  }
+
+  // Whether x lies in Omega, with friction within its cones, and balances the loads.
+  static bool obeys(const Problem& problem, const Vector& x)
+  {
+    Vector beyond(x, Teuchos::Copy);
+    problem.set.with_cones().project(view(beyond));
+    beyond.update(-1, x, 1);
+    const auto& equality = problem.equality;
+    const double lacking = equality.size() > 0 ? equality.norm(problem.right.e - equality.apply(x)) : 0;
+    return std::hypot(beyond.norm2(), lacking) <= outside * x.norm2();
   }
 
   // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M)

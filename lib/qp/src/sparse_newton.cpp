@@ -29,7 +29,7 @@ FeasibleSet with_equations(const FeasibleSet& set, Eigen::Index rows)
 
 }  // namespace
 
-SparseNewton::SparseNewton(SparseMatrices matrices) : matrices_(std::move(matrices))
+SparseNewton::SparseNewton(SparseMatrices matrices, bool patient) : matrices_(std::move(matrices)), patient_(patient)
 {
 }
 
@@ -37,7 +37,7 @@ CondensedNewton::Point SparseNewton::solve(const VectorXd& f, const VectorXd& c,
                                            const CondensedNewton::Point* near) const
 {
   const FeasibleSet whole = with_equations(set, matrices_.b.rows());
-  StateSearch search({std::make_unique<SparseSystem>(matrices_, whole), whole, -c, -f});
+  StateSearch search({std::make_unique<SparseSystem>(matrices_, whole), whole, -c, -f}, patient_);
   bool converged = false;
   try {
     converged = near ? search.from(near->x, near->nu, near->reaction) : search.from_anywhere();

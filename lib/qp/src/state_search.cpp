@@ -44,7 +44,7 @@ constexpr double path_near = 1e-3;               // residual over x from which o
 constexpr double path_nearer = 0.1;              // and of what it was then, to try again
 constexpr Eigen::Index few_unknowns = 2000;      // up to which a factor of W takes a moment; beyond, as long as many guesses,
 constexpr int guesses_of_path = 60;              // and a path of them as long as so many
-constexpr Eigen::Index few_motions = 10000;      // up to which a sparse factor takes a moment
+constexpr Eigen::Index few_motions = 5000;       // up to which a sparse factor takes a moment
 constexpr double soft_for_large_ones = 1e4;      // beyond, these take fewer steps along a path than strides to hardness
 constexpr double most_operations = 3e12;         // of factors that a last search may take
 constexpr Eigen::Index very_few_unknowns = 800;  // up to which steps of other lengths are tried: hundreds of guesses
@@ -76,8 +76,11 @@ int compare(const ConstraintStates& before, ConstraintStates& now, std::vector<i
 
 }  // namespace
 
-StateSearch::StateSearch(CondensedProgramme programme)
-    : programme_(std::move(programme)), states_(programme_.all_closed()), sparing_(programme_.system().costly())
+StateSearch::StateSearch(CondensedProgramme programme, bool patient)
+    : programme_(std::move(programme)),
+      states_(programme_.all_closed()),
+      sparing_(programme_.system().costly()),
+      patient_(patient)
 {
   point_.x = VectorXd::Zero(programme_.unknowns());
   point_.nu = VectorXd::Zero(programme_.motions());
@@ -88,7 +91,7 @@ bool StateSearch::from_anywhere()
 {
   if (!sparing_) return find_patiently();
   const bool found = find_sparingly();
-  if (programme_.motions() > few_motions || (found && point_.settled)) return found;
+  if (!patient_ || programme_.motions() > few_motions || (found && point_.settled)) return found;
   // States that rounding decides, or none: as with small dense matrices.
   const auto point = point_;
   const auto states = states_;
@@ -110,10 +113,11 @@ bool StateSearch::find_patiently()
   if (programme_.unknowns() == 0 || slides()) return false;
   const bool small = programme_.unknowns() <= few_unknowns, very_small = programme_.unknowns() <= very_few_unknowns;
   const bool near_enough = small || softest_ <= soft_for_large_ones;
+  const bool costly = programme_.system().costly();
   if (near_enough && harden(small ? INT_MAX : guesses_of_path, 1)) return true;
   if (point_.slides) return false;
   if (follow_path() || (small && repeat_paths()) || (very_small && change_steps())) return true;
-  return harden(small && !programme_.system().costly() ? affordable_guesses() : guesses_of_path, INT_MAX);
+  return harden(small && !costly ? affordable_guesses() : guesses_of_path, INT_MAX);
 }
 
 // By few factors, or a singular one.

@@ -10,7 +10,8 @@ namespace mortise::qp {
 
 class StateSearch {
  public:
-  explicit StateSearch(CondensedProgramme programme);
+  /// `patient`: also with a costly system, if it is no large one, more is tried than takes few factors.
+  explicit StateSearch(CondensedProgramme programme, bool patient = false);
 
   /// From closed contact that sticks, by whatever leads to a solution.
   bool from_anywhere();
@@ -49,7 +50,8 @@ class StateSearch {
 
   CondensedProgramme programme_;
   ConstraintStates states_;
-  bool sparing_;  // with factors: what takes few is all that is tried
+  bool sparing_;  // with factors: what takes few is all that is tried,
+  bool patient_;  // at first
   CondensedNewton::Point point_;
   bool run_away_ = false;      // how the last guesses ended,
   Eigen::VectorXd last_step_;  // and their last step of nu

@@ -37,8 +37,8 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   /// than some times as long, or some seconds. The same on every rank. Collective.
   static Turn turn(const DualProblem& problem);
 
-  /// The problem outlives it. Throws Error(machine) if memory runs out. Collective.
-  explicit SparseProblem(const DualProblem& problem);
+  /// The problem outlives it. `patient`: as of qp::SparseNewton. Throws Error(machine) if memory runs out. Collective.
+  explicit SparseProblem(const DualProblem& problem, bool patient = false);
   ~SparseProblem() override;
 
   using Point = qp::ExplicitProgramme::Point;

@@ -26,7 +26,9 @@ struct SparseMatrices {
 /// On one rank alone. Heavy: neither copies nor moves.
 class SparseNewton {
  public:
-  explicit SparseNewton(SparseMatrices matrices);
+  /// `patient`: where states are not found at once, or rounding decides them, problems of some thousand unknowns are searched as
+  /// those of CondensedNewton are. Where nothing balances the loads that may end with what is no solution.
+  explicit SparseNewton(SparseMatrices matrices, bool patient = false);
 
   /// Point::nu is u, Point::reaction s, of all rows. `set` over the rows of B; rows that are in none of its factors are equations.
   /// Throws Error(interrupted) if the process is told to end, and Error(machine) if memory runs out.
@@ -36,6 +38,7 @@ class SparseNewton {
 
  private:
   SparseMatrices matrices_;
+  bool patient_;
 };
 
 /// (B K^-1 B' + S)^-1 for a positive definite K. Heavy: moves, does not copy.
