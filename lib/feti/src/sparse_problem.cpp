@@ -93,7 +93,8 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   return quick || work < some_seconds ? Turn::second : Turn::never;
 }
 
-SparseProblem::SparseProblem(const DualProblem& problem, bool patient) : problem_(problem), inverse_([this] { return make_inverse(); })
+SparseProblem::SparseProblem(const DualProblem& problem, bool patient)
+    : problem_(problem), inverse_([this] { return make_inverse(); })
 {
   const auto& comm = problem.communicator();
   const auto& jump = problem.jump();
