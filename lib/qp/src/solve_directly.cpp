@@ -36,10 +36,10 @@ class DirectSolver : public Solver {
     if (observer) observer({"direct", 0, programme_.hessian.count()});
     const FeasibleSet set = programme_.set.with_radii(radii);
     const Problem problem(programme_, right, set);
-    auto found = solve_with_matrices(problem, start);
-    faces_->begin(right, radii, start, goal, observer);
     sliding_.reset();
     accepted_.reset();
+    auto found = solve_with_matrices(problem, start, goal);
+    faces_->begin(right, radii, start, goal, observer);
     if (found.slides) {
       sliding_.emplace(found.x, found.x, found.nu);
       sliding_->feasible = false;
@@ -47,11 +47,11 @@ class DirectSolver : public Solver {
       sliding_->radii = set.radii();
     }
     if (!found.converged) return;  // a guess of states that are none leads faces astray
-    if (matrices_.differs) correct(problem, found, goal);
+    if (!accepted_) improve(problem, found, goal);
     if (goal.allowed_error) goal.exact = rounding_of_direct;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
-    if (matrices_.rough_products && goal.allowed_error) accepted_ = judged(problem, found, solution, goal);
+    if (accepted_) accepted_->hessian_norm = solution.hessian_norm;
     start = std::move(solution);
   }
   Solution solve(const RightHandSide& right, std::span<const double> radii, const std::optional<Solution>& start,
@@ -78,7 +78,7 @@ class DirectSolver : public Solver {
  private:
   // From the states of the problem before, if there was one; else from anywhere with the matrices that served last, or the other
   // ones, if there are any, where these do not tell the states of all constraints.
-  ExplicitProgramme::Point solve_with_matrices(const Problem& problem, const std::optional<Solution>& before)
+  ExplicitProgramme::Point solve_with_matrices(const Problem& problem, const std::optional<Solution>& before, const Goal& goal)
   {
     if (before && matrices_.go_on) {
       Vector reaction(before->gradient, Teuchos::Copy);
@@ -89,6 +89,10 @@ class DirectSolver : public Solver {
     }
     auto found = matrices_.solve(problem.right, problem.set);
     if ((found.converged && found.settled) || found.slides) return found;
+    if (found.converged && matrices_.rough_products) {
+      improve(problem, found, goal);
+      if (accepted_) return found;
+    }
     if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
     if (!others_) return found;
     auto next = others_->solve(problem.right, problem.set);
@@ -99,15 +103,21 @@ class DirectSolver : public Solver {
     return next;
   }
 
+  // Takes away what the matrices differ by, and accepts the solution if it can be judged and will do.
+  void improve(const Problem& problem, ExplicitProgramme::Point& found, const Goal& goal)
+  {
+    if (matrices_.differs) correct(problem, found, goal);
+    if (matrices_.rough_products && goal.allowed_error) accepted_ = judged(problem, found, goal);
+  }
+
   // A solution by the matrices, x with nu and s, solves the programme with b + d in place of b, d = A x - b + G'nu - s, and so is
   // off by no more than d in the norm of A^-1. Where that is nothing, it is the solution, though products with A may be too rough
   // for what states follow from: of a thin body they turn figures that x does not have into motions that open contact. One
   // product.
-  std::optional<Solution> judged(const Problem& problem, const ExplicitProgramme::Point& found, const Solution& start,
-                                 const Goal& goal)
+  std::optional<Solution> judged(const Problem& problem, const ExplicitProgramme::Point& found, const Goal& goal)
   {
     if (!found.reaction) return {};
-    Solution result = start;
+    Solution result(found.x, found.x, found.nu);
     problem.hessian.apply(found.x, result.gradient);
     result.gradient.update(-1, problem.right.b, 1);
     Vector defect(result.gradient, Teuchos::Copy), error(defect.getMap());
