@@ -43,6 +43,8 @@ struct Stack : feti::Blocks {
     dirichlet_rows({{"lower.zmin", {0, 0, 0}}});
     join("upper.zmin", "lower.zmax", false, tangents);
   }
+
+  feti::DualProblem problem() { return {decomposition, *directory, interface, constraints, system, load, {}, context}; }
 };
 
 class Displacements {
@@ -178,8 +180,7 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
   const double tolerance = slow ? 1e-7 : 1e-9;
   for (const int pieces : {1, 3}) {
     Stack stack(push, law.kind != LawKind::frictionless, pieces);
-    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
-                              {}, stack.context);
+    auto problem = stack.problem();
     qp::Options options;
     options.algorithm = algorithm;
     options.tolerance.value = tolerance;
@@ -205,8 +206,7 @@ TEST(TwoBlocksPushedTooHard, AreNoEquilibrium)
 {
   for (const char* algorithm : {"face_newton", "smalse"}) {
     Stack stack(0.5, true, 1);
-    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
-                              {}, stack.context);
+    auto problem = stack.problem();
     qp::Options options;
     options.algorithm = algorithm;
     options.tolerance.value = 1e-6;
@@ -227,8 +227,7 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
   const Law law{LawKind::coulomb, 0.4};
   for (const bool waiting : {true, false}) {
     Stack stack(0.15, true, 3);
-    feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
-                              {}, stack.context);
+    auto problem = stack.problem();
     qp::Options options;
     options.algorithm = "face_newton";
     options.tolerance.value = 1e-10;
@@ -247,8 +246,7 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
 TEST(TwoBlocksAgain, StartFromWhatIsKnown)
 {
   Stack stack(0.15, true, 3);
-  feti::DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
-                            {}, stack.context);
+  auto problem = stack.problem();
   qp::Options options;
   options.algorithm = "face_newton";
   options.tolerance.value = 1e-8;

@@ -321,6 +321,14 @@ std::vector<Patch> pressing_patches(std::span<const contact::Pair> pairs, const 
   return result;
 }
 
+// Whether it is round there, and as narrow as that somewhere.
+bool may_roll(const Patch& patch, const Facets& faces)
+{
+  constexpr double flat = 1e-3;
+  return faces.body >= 0 && faces.flattest > flat &&
+         std::ranges::any_of(patch.widths, [&](double width) { return width <= faces.size; });
+}
+
 // The part of a rotation by which one side rolls over the other where that is narrower than its faces.
 double rolls_by(const Patch& patch, const Facets& faces, const Point& rotation)
 {
@@ -337,11 +345,15 @@ std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const con
                                  fem::Kinematics kinematics, const std::vector<Eigen::VectorXd>& displacement,
                                  const Communicator& comm)
 {
-  constexpr double flat = 1e-3, part_of_angle = 0.005, rigid = 10;
+  constexpr double part_of_angle = 0.005, rigid = 10;
   if (kinematics == fem::Kinematics::axisymmetric) return {};
   const auto nodes = nodes_at_contact(pairs, contacts, points, decomposition, displacement, comm);
-  const auto motions = rigid_motions(decomposition, kinematics, displacement, comm);
   const auto patches = pressing_patches(pairs, contacts, points, nodes, decomposition.catalogue.dimension, comm);
+  const auto some_may = [](const Patch& patch) {
+    return std::ranges::any_of(patch.sides, [&](const Facets& side) { return may_roll(patch, side); });
+  };
+  if (std::ranges::none_of(patches, some_may)) return {};
+  const auto motions = rigid_motions(decomposition, kinematics, displacement, comm);
   const auto rotation = [&](const Facets& side) {
     return side.body < 0 ? Point(Point::Zero()) : motions[static_cast<std::size_t>(side.body)].rigid.rotation;
   };
@@ -350,7 +362,7 @@ std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const con
     const auto& patch = patches[c];
     const Point turn = rotation(patch.sides[0]) - rotation(patch.sides[1]);
     for (const auto& side : patch.sides) {
-      if (side.body < 0 || !(side.flattest > flat)) continue;
+      if (!may_roll(patch, side)) continue;
       const auto& motion = motions[static_cast<std::size_t>(side.body)];
       const double angle = rolls_by(patch, side, turn);
       if (!(angle > part_of_angle * side.flattest) || !(motion.turning > rigid * motion.rest)) continue;
