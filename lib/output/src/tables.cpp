@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
-#include <map>
 #include <utility>
 
+#include "base/places.hpp"
 #include "fem/quantity.hpp"
 
 namespace mortise::output {
@@ -120,26 +120,19 @@ std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition
   return tables;
 }
 
-// At a kink two points share a node.
 io::Table contact_table(const std::vector<contact::ContactNodeState>& nodes, const Communicator& comm)
 {
-  using Key = std::array<double, 5>;
-  std::vector<Key> own;
-  for (const auto& p : nodes)
-    own.push_back({static_cast<double>(p.contact), static_cast<double>(p.node), p.area, p.gap, static_cast<double>(comm.rank())});
-  auto all = comm.all_gather(own);
-  std::sort(all.begin(), all.end());
-  std::map<Key, Global> repeated;
+  // At a kink two points share a node.
+  std::vector<std::array<double, 4>> keys;
+  for (const auto& p : nodes) keys.push_back({static_cast<double>(p.contact), static_cast<double>(p.node), p.area, p.gap});
   io::Table table{
       "contact/points",
       "contact, node, area, normal force, force on the secondary side (3), gap, slip (3), status 0 open 1 stick 2 slip",
       12,
-      static_cast<Global>(all.size()),
-      {},
+      static_cast<Global>(comm.sum(static_cast<long long>(nodes.size()))),
+      places_among_all(keys, comm),
       {}};
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto& p = nodes[i];
-    table.row.push_back(std::lower_bound(all.begin(), all.end(), own[i]) - all.begin() + repeated[own[i]]++);
+  for (const auto& p : nodes) {
     append(std::initializer_list<double>{static_cast<double>(p.contact), static_cast<double>(p.node), p.area, p.force}, table);
     append(p.force_on_secondary, table);
     table.values.push_back(p.gap);

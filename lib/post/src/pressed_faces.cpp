@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
-#include <numeric>
 #include <optional>
+#include <utility>
+
+#include "patches.hpp"
 
 namespace mortise::post {
 
 namespace {
-
-// A node of a contact's secondary side.
-struct SideNode {
-  Global node;
-  long long contact;
-  auto operator<=>(const SideNode&) const = default;
-};
 
 std::span<const Local> corners_of(const mesh::Surface& side, std::size_t face)
 {
@@ -28,23 +22,13 @@ bool open(const contact::SurfaceState& state, Local n)
   return state.status[i] == 0 && state.near[i] && !state.without_rows[i];
 }
 
-std::vector<std::vector<SideNode>> to_their_ranks(std::vector<SideNode> nodes, const Communicator& comm)
-{
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  std::vector<std::vector<SideNode>> send(ranks);
-  for (const auto& n : nodes) send[static_cast<std::size_t>(n.node) % ranks].push_back(n);
-  return comm.exchange(send);
-}
-
 // Those of `asked` that some rank has among `nodes`, ascending. Collective.
 std::vector<SideNode> anywhere_among(std::vector<SideNode> asked, std::vector<SideNode> nodes, const Communicator& comm)
 {
   std::vector<SideNode> all;
-  for (const auto& part : to_their_ranks(std::move(nodes), comm)) all.insert(all.end(), part.begin(), part.end());
+  for (const auto& part : comm.exchange(by_their_ranks(std::move(nodes), comm))) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end());
-  auto wanted = to_their_ranks(std::move(asked), comm);
+  auto wanted = comm.exchange(by_their_ranks(std::move(asked), comm));
   for (auto& part : wanted)
     std::erase_if(part, [&](const SideNode& n) { return !std::binary_search(all.begin(), all.end(), n); });
   std::vector<SideNode> result;
@@ -69,79 +53,6 @@ std::pair<std::ptrdiff_t, std::ptrdiff_t> pressed_corners(const mesh::Surface& s
 
 namespace {
 
-// The patches that faces with pressed nodes make up, where they have nodes in common: one that is open among pressed ones, as
-// beside the corner of a punch, parts nothing. The same on every rank.
-class Patches {
- public:
-  // Collective.
-  Patches(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs, const Communicator& comm)
-  {
-    struct Link {
-      SideNode one, other;
-    };
-    std::vector<Link> links;
-    for (std::size_t c = 0; c < pairs.size(); ++c) {
-      if (pairs[c].options.law == contact::Law::bonded) continue;
-      const auto& side = pairs[c].secondary;
-      for (std::size_t f = 0; f < side.faces.size(); ++f) {
-        const auto nodes = side.faces[f];
-        if (std::ranges::none_of(nodes, [&](Local n) { return surfaces[c].status[static_cast<std::size_t>(n)] != 0; })) continue;
-        const auto node = [&](Local n) { return SideNode{side.node_id[static_cast<std::size_t>(n)], static_cast<long long>(c)}; };
-        for (const Local n : nodes) links.push_back({node(nodes.front()), node(n)});
-      }
-    }
-    links = comm.all_gather(links);
-    for (const auto& link : links) nodes_.push_back(link.one), nodes_.push_back(link.other);
-    std::sort(nodes_.begin(), nodes_.end());
-    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
-    std::vector<std::size_t> root(nodes_.size());
-    std::iota(root.begin(), root.end(), std::size_t{0});
-    const auto find = [&](std::size_t i) {
-      while (root[i] != i) i = root[i] = root[root[i]];
-      return i;
-    };
-    for (const auto& link : links) {
-      const auto a = find(*place(link.one)), b = find(*place(link.other));
-      root[std::max(a, b)] = std::min(a, b);
-    }
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      if (find(i) == i) {
-        patch_.push_back(contact_.size());
-        contact_.push_back(static_cast<int>(nodes_[i].contact));
-      } else {
-        patch_.push_back(patch_[find(i)]);
-      }
-    }
-    // By contact.
-    std::vector<std::size_t> order(contact_.size()), rank(contact_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return contact_[a] < contact_[b]; });
-    for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
-    for (auto& patch : patch_) patch = rank[patch];
-    std::sort(contact_.begin(), contact_.end());
-  }
-
-  const std::vector<int>& contacts() const { return contact_; }  // of each patch
-  // None of a node far from those that are pressed.
-  std::optional<std::size_t> of(Global node, int contact) const
-  {
-    const auto at = place({node, contact});
-    return at ? std::optional(patch_[*at]) : std::nullopt;
-  }
-
- private:
-  std::optional<std::size_t> place(const SideNode& node) const
-  {
-    const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), node);
-    if (at == nodes_.end() || *at != node) return {};
-    return static_cast<std::size_t>(at - nodes_.begin());
-  }
-
-  std::vector<SideNode> nodes_;
-  std::vector<std::size_t> patch_;
-  std::vector<int> contact_;
-};
-
 // Of each patch the largest pressures. Collective.
 void set_peaks(const Patches& patches, std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
                const Communicator& comm, std::vector<PressedPatch>& result)
@@ -150,7 +61,7 @@ void set_peaks(const Patches& patches, std::span<const contact::SurfaceState> su
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& side = pairs[c].secondary;
     for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i) {
-      const auto patch = patches.of(side.node_id[i], static_cast<int>(c));
+      const auto patch = patches.of({static_cast<long long>(c), side.node_id[i]});
       if (!patch) continue;
       peaks[2 * *patch].take(surfaces[c].pressure[i], side.points[i]);
       peaks[2 * *patch + 1].take(surfaces[c].recovered_pressure[i], side.points[i]);
@@ -169,14 +80,19 @@ std::vector<PressedPatch> pressed_patches(std::span<const contact::SurfaceState>
   struct Face {
     std::size_t contact, face;
   };
-  const Patches patches(surfaces, pairs, comm);
+  std::vector<SideNode> of_points;
+  for (const auto& p : points) {
+    of_points.push_back({p.contact, p.node});
+    for (const auto& part : p.parts) of_points.push_back({p.contact, part.node});
+  }
+  const Patches patches(surfaces, pairs, std::move(of_points), comm);
   std::vector<Face> whole;
   std::vector<SideNode> corners, outer;  // of whole faces; of those with an open corner
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& side = pairs[c].secondary;
     const auto add = [&](std::vector<SideNode>& to, std::size_t f) {
       for (const Local n : corners_of(side, f))
-        to.push_back({side.node_id[static_cast<std::size_t>(n)], static_cast<long long>(c)});
+        to.push_back({static_cast<long long>(c), side.node_id[static_cast<std::size_t>(n)]});
     };
     for (std::size_t f = 0; f < side.faces.size(); ++f) {
       const auto nodes = corners_of(side, f);
@@ -195,11 +111,11 @@ std::vector<PressedPatch> pressed_patches(std::span<const contact::SurfaceState>
     const auto& side = pairs[c].secondary;
     std::optional<std::size_t> patch;
     for (const Local n : side.faces[f])
-      if (!patch) patch = patches.of(side.node_id[static_cast<std::size_t>(n)], static_cast<int>(c));
+      if (!patch) patch = patches.of({static_cast<long long>(c), side.node_id[static_cast<std::size_t>(n)]});
     if (!patch) continue;
     const auto nodes = corners_of(side, f);
     const auto inside = std::count_if(nodes.begin(), nodes.end(), [&](Local n) {
-      const SideNode node{side.node_id[static_cast<std::size_t>(n)], static_cast<long long>(c)};
+      const SideNode node{static_cast<long long>(c), side.node_id[static_cast<std::size_t>(n)]};
       return !std::binary_search(at_border.begin(), at_border.end(), node);
     });
     double* sum = &sums[kinds * *patch];
@@ -209,9 +125,9 @@ std::vector<PressedPatch> pressed_patches(std::span<const contact::SurfaceState>
     sum[3] += inside == static_cast<std::ptrdiff_t>(nodes.size()) ? 1 : 0;
   }
   for (const auto& p : points) {
-    auto patch = patches.of(p.node, p.contact);
+    auto patch = patches.of({p.contact, p.node});
     for (const auto& part : p.parts)
-      if (!patch) patch = patches.of(part.node, p.contact);
+      if (!patch) patch = patches.of({p.contact, part.node});
     if (!patch) continue;
     sums[kinds * *patch + 4] += std::abs(p.force);
     if (!p.parts.empty()) sums[kinds * *patch + 5] += std::abs(p.force);
