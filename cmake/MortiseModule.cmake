@@ -1,7 +1,7 @@
 # mortise_module(NAME USES module... LINKS library... SOURCES file... [TESTS file...] [STUDY_TESTS pattern...] [PARALLEL_TESTS file...])
 #
-# One module of lib/: a static library whose public headers lie in include/NAME. It sees the headers of the modules it USES
-# and of those which these use, and no others: an arrow that is not declared here does not compile.
+# One module of lib/: a static library whose public headers lie in include/NAME, the others in src and its folders. It sees the
+# headers of the modules it USES and of those which these use, and no others: an arrow that is not declared here does not compile.
 # TESTS make one GoogleTest program, test_NAME, run on one rank; PARALLEL_TESTS make mpi_test_NAME, run on 1 and 3, and under the label
 # study on 2. STUDY_TESTS are patterns of GoogleTest: what costs most of test_NAME, and runs under the label study alone. What tests
 # of several modules stand on is in lib/testing: a header there compiles in tests of the modules that see all that it includes.
@@ -99,7 +99,7 @@ function(mortise_module name)
   list(TRANSFORM arg_SOURCES PREPEND src/)
   add_library(${name} STATIC ${arg_SOURCES})
   set_target_properties(${name} PROPERTIES OUTPUT_NAME mortise_${name})
-  target_include_directories(${name} PUBLIC include)
+  target_include_directories(${name} PUBLIC include PRIVATE src)
   target_link_libraries(${name} PUBLIC ${arg_USES} ${arg_LINKS} PRIVATE mortise_options)
   mortise_precompiled(${name} ${arg_USES})
   if(MORTISE_TESTS AND arg_TESTS)
@@ -134,7 +134,7 @@ function(mortise_test_program target module)
   list(TRANSFORM ARGN PREPEND test/ OUTPUT_VARIABLE sources)
   add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE mortise_test_main ${module} base mortise_test_options)
-  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/lib/testing/include)
+  target_include_directories(${target} PRIVATE src ${CMAKE_SOURCE_DIR}/lib/testing/include)
   mortise_precompiled(${target} ${module} OF_TESTS)
   target_compile_definitions(${target} PRIVATE MORTISE_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 endfunction()

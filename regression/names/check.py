@@ -71,7 +71,7 @@ def main():
         headers = [path for path in folder.rglob("*.hpp") if path.parent.name != "test"]
         own = folder if folder.name == "app" else folder / "src"
         for sources, further in ((own, []), (folder / "test", (folder / "test").glob("*.hpp"))):
-            of_folder = sorted(sources.glob("*.cpp"))
+            of_folder = sorted(sources.rglob("*.cpp"))
             files += len(of_folder)
             problems += check(of_folder, [*headers, *further], root)
     if files == 0:

@@ -51,31 +51,32 @@ std::vector<Global> nodes_of(const constraint::Contacts& contacts, const constra
 }
 
 // A node that supports hold along this normal.
-struct Held {
+struct PrescribedNormal {
   Global node;
   std::array<double, 3> normal;
 };
 
 // Those of one node.
-std::span<const Held> planes_at(std::span<const Held> held, Global node)
+std::span<const PrescribedNormal> planes_at(std::span<const PrescribedNormal> held, Global node)
 {
-  const auto [begin, end] = std::equal_range(held.begin(), held.end(), Held{node, {}},
-                                             [](const Held& a, const Held& b) { return a.node < b.node; });
+  const auto [begin, end] =
+      std::equal_range(held.begin(), held.end(), PrescribedNormal{node, {}},
+                       [](const PrescribedNormal& a, const PrescribedNormal& b) { return a.node < b.node; });
   return {begin, end};
 }
 
 // The planes of those of `nodes` that `actions`, on the ranks node % ranks, hold; ascending. Collective.
-std::vector<Held> held_nodes(std::span<const Global> nodes, const std::vector<model::FaceAction>& actions,
-                             const Communicator& comm)
+std::vector<PrescribedNormal> prescribed_normals(std::span<const Global> nodes, const std::vector<model::FaceAction>& actions,
+                                                 const Communicator& comm)
 {
-  const auto by_node = [](const Held& a, const Held& b) { return a.node < b.node; };
-  std::vector<Held> held;
+  const auto by_node = [](const PrescribedNormal& a, const PrescribedNormal& b) { return a.node < b.node; };
+  std::vector<PrescribedNormal> held;
   for (const auto& action : actions)
     if (action.kind == Kind::held) held.push_back({action.node, action.normal});
   std::sort(held.begin(), held.end(), by_node);
   std::vector<std::vector<Global>> asked(static_cast<std::size_t>(comm.size()));
   for (const Global node : nodes) asked[home(node, comm)].push_back(node);
-  std::vector<std::vector<Held>> answers;
+  std::vector<std::vector<PrescribedNormal>> answers;
   for (const auto& part : comm.exchange(asked)) {
     auto& answer = answers.emplace_back();
     for (const Global node : part) {
@@ -83,7 +84,7 @@ std::vector<Held> held_nodes(std::span<const Global> nodes, const std::vector<mo
       answer.insert(answer.end(), planes.begin(), planes.end());
     }
   }
-  std::vector<Held> result;
+  std::vector<PrescribedNormal> result;
   for (const auto& part : comm.exchange(answers)) result.insert(result.end(), part.begin(), part.end());
   std::sort(result.begin(), result.end(), by_node);
   return result;
@@ -98,7 +99,7 @@ void drop_curved(std::vector<model::FaceAction>& actions, const Communicator& co
     if (action.kind == Kind::held) nodes.push_back(action.node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto held = held_nodes(nodes, sent_home(actions, comm), comm);
+  const auto held = prescribed_normals(nodes, sent_home(actions, comm), comm);
   std::set<std::size_t> curved;
   for (const auto& action : actions) {
     if (action.kind != Kind::held) continue;
@@ -127,7 +128,7 @@ class ContactForces {
       }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    held_ = held_nodes(all, actions, comm);
+    held_ = prescribed_normals(all, actions, comm);
     for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
       const auto& node = contacts.nodes[i];
       for (std::size_t t = 0; t < node.tangents.size(); ++t) add_row(node, node.row + 1 + t, node.tangents[t]);
@@ -163,7 +164,7 @@ class ContactForces {
   }
 
   const constraint::Contacts& contacts_;
-  std::vector<Held> held_;
+  std::vector<PrescribedNormal> held_;
 };
 
 // What acts at one node.

@@ -78,7 +78,7 @@ std::optional<T> read_shape(const YAML::Node& node, const std::string& path, dec
 
 }  // namespace
 
-ClosestPoint closest_point(const Obstacle& obstacle, const Point& x)
+SignedDistance signed_distance(const Obstacle& obstacle, const Point& x)
 {
   if (obstacle.shape == Obstacle::Shape::plane) return {obstacle.direction.dot(x - obstacle.point), obstacle.direction};
   Point out = x - obstacle.point;

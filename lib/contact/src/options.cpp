@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "deck/cases.hpp"
-#include "discretization.hpp"
+#include "rows/discretization.hpp"
 
 namespace mortise::contact {
 

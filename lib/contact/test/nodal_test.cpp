@@ -50,15 +50,15 @@ TEST(Obstacles, SignedDistances)
 {
   using Shape = Obstacle::Shape;
   const Point x(3, 4, 7);
-  EXPECT_NEAR(closest_point({Shape::plane, Point(0, 0, 5), Point::UnitZ(), 0, false}, x).distance, 2, 1e-15);
-  EXPECT_NEAR(closest_point({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, false}, x).distance, 1, 1e-15);
-  EXPECT_NEAR(closest_point({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).distance, -1, 1e-15);
-  EXPECT_LT((closest_point({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).normal + Point(0.6, 0.8, 0)).norm(),
+  EXPECT_NEAR(signed_distance({Shape::plane, Point(0, 0, 5), Point::UnitZ(), 0, false}, x).distance, 2, 1e-15);
+  EXPECT_NEAR(signed_distance({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, false}, x).distance, 1, 1e-15);
+  EXPECT_NEAR(signed_distance({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).distance, -1, 1e-15);
+  EXPECT_LT((signed_distance({Shape::cylinder, Point::Zero(), Point::UnitZ(), 4, true}, x).normal + Point(0.6, 0.8, 0)).norm(),
             1e-15);
-  EXPECT_NEAR(closest_point({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, true}, x).distance, 1, 1e-15);
-  EXPECT_LT((closest_point({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, false}, x).normal - Point(0.6, 0.8, 0)).norm(),
+  EXPECT_NEAR(signed_distance({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, true}, x).distance, 1, 1e-15);
+  EXPECT_LT((signed_distance({Shape::sphere, Point(0, 0, 7), Point::UnitY(), 6, false}, x).normal - Point(0.6, 0.8, 0)).norm(),
             1e-15);
-  EXPECT_FALSE(std::isfinite(closest_point({Shape::sphere, x, Point::UnitY(), 6, false}, x).distance));
+  EXPECT_FALSE(std::isfinite(signed_distance({Shape::sphere, x, Point::UnitY(), 6, false}, x).distance));
   // Along a line: to a plane, into a cylinder and a sphere, out of a hollow one, past both.
   const Point down = Point(3, 0, -4) / 5;
   EXPECT_NEAR(distance_along({Shape::plane, Point(0, 0, 5), Point::UnitZ(), 0, false}, x, down), 2.5, 1e-14);

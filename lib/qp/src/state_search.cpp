@@ -179,7 +179,7 @@ void StateSearch::shorten(const VectorXd& x_before, const VectorXd& nu_before)
 }
 
 // Whether motions go on by the same step for ever while forces stay what they are, and friction resists that.
-bool StateSearch::runs_away(const VectorXd& step, const VectorXd& last_step) const
+bool StateSearch::is_unbounded(const VectorXd& step, const VectorXd& last_step) const
 {
   return last_step.size() == step.size() && (step - last_step).norm() <= same_step * step.norm() &&
          programme_.friction_power(point_.x, step) > 0;
@@ -198,7 +198,7 @@ bool StateSearch::guess(int look_back)
   int fewest = INT_MAX, fewest_at = 0;
   double before = 0, least = 0;
   VectorXd best_x, best_nu, last_step;
-  run_away_ = false;
+  unbounded_ = false;
   for (int step = 0; step < guesses; ++step) {
     stop_if_requested();
     const VectorXd x_before = point_.x, nu_before = point_.nu;
@@ -231,8 +231,8 @@ bool StateSearch::guess(int look_back)
     }
     if (changes == 0 && residual <= settled_residual * size) return true;
     VectorXd nu_step = point_.nu - nu_before;
-    if (changes == 0 && !small && runs_away(nu_step, last_step)) {
-      run_away_ = true;
+    if (changes == 0 && !small && is_unbounded(nu_step, last_step)) {
+      unbounded_ = true;
       last_step_ = std::move(nu_step);
       return false;
     }
@@ -251,7 +251,7 @@ bool StateSearch::guess(int look_back)
 bool StateSearch::slides()
 {
   point_.slides =
-      run_away_ && programme_.softness() == 0 && programme_.opening(last_step_) <= way_out * programme_.slip(last_step_);
+      unbounded_ && programme_.softness() == 0 && programme_.opening(last_step_) <= way_out * programme_.slip(last_step_);
   return point_.slides;
 }
 
@@ -275,7 +275,7 @@ bool StateSearch::harden(int guesses, int failures)
     programme_.soften(next);
     const bool converged = guess(to_the_end), slowest = part >= least_stride;
     const int taken = point_.steps - before;
-    if (run_away_) {  // nothing harder will converge from there, unless it is what stops them
+    if (unbounded_) {  // nothing harder will converge from there, unless it is what stops them
       programme_.soften(0);
       if (guess(to_the_end)) return true;
       if (slides()) return false;

@@ -38,7 +38,7 @@ class StateSearch {
   bool guess(int look_back);
   void shorten(const Eigen::VectorXd& x_before, const Eigen::VectorXd& nu_before);
   int affordable_guesses() const;
-  bool runs_away(const Eigen::VectorXd& step, const Eigen::VectorXd& last_step) const;
+  bool is_unbounded(const Eigen::VectorXd& step, const Eigen::VectorXd& last_step) const;
   bool slides();
   bool harden(int guesses, int failures);
   bool follow_path();
@@ -53,7 +53,7 @@ class StateSearch {
   bool sparing_;  // with factors: what takes few is all that is tried,
   bool patient_;  // at first
   CondensedNewton::Point point_;
-  bool run_away_ = false;      // how the last guesses ended,
+  bool unbounded_ = false;     // how the last guesses ended,
   Eigen::VectorXd last_step_;  // and their last step of nu
   double softest_ = 0;
   std::optional<Soft> soft_;

@@ -19,15 +19,15 @@ struct Obstacle {
   bool inside = false;  ///< bodies are inside a hollow cylinder or sphere
 };
 
-/// The point of the surface that is closest to a given one.
-struct ClosestPoint {
+/// How far a point is from the surface, and where it leads.
+struct SignedDistance {
   double distance = std::numeric_limits<double>::infinity();  ///< signed, negative inside the obstacle
   Point normal = Point::Zero();                               ///< of the obstacle, unit, towards the bodies
 };
 
 /// The signed distance phi(x) and its gradient; exact for every x but those of the axis or the centre, which have no closest
 /// point.
-ClosestPoint closest_point(const Obstacle& obstacle, const Point& x);
+SignedDistance signed_distance(const Obstacle& obstacle, const Point& x);
 
 /// How far the surface is from x along a unit vector that leads towards it, signed: positive outside of the obstacle; infinite if
 /// it leads past.

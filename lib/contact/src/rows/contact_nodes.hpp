@@ -1,0 +1,46 @@
+// Which surface nodes of a secondary side carry multipliers: those that are covered enough, and not left out of a bond.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "integrals/cut_faces.hpp"
+#include "rows/supported_nodes.hpp"
+
+namespace mortise::contact {
+
+/// A surface node covered by less than this part of its surroundings gets no multiplier.
+inline constexpr double least_cover = 0.01;
+
+/// Of each surface node.
+struct ContactNodes {
+  std::vector<Directions> directions;
+  std::vector<double> covered;  ///< the area
+  std::vector<double> cover;    ///< its part of all
+  std::vector<char> kept;       ///< carries a multiplier
+  std::vector<char> stranded;   ///< its faces have no surface node that supports and seams leave free
+  std::vector<char> shared;     ///< is covered, but leaves its multiplier to the others of its faces
+  std::vector<char> freed;      ///< its row keeps what supports hold of the secondary side
+};
+
+/// What a bond knows of each surface node besides.
+struct BondedNodes {
+  /// The seam ends there at a contact: both sides of the seam have rows of that contact, each of which says what the other and
+  /// the seam say: pressures that nothing shares out. As the mortar method does where multipliers meet, the seam has none there.
+  /// Not past the border of the primary side, where multipliers stand inside, at places that the contact knows nothing of.
+  std::vector<char> seam_ends;
+  /// The primary side lies opposite. Nodes past its border leave their multipliers to the others of their faces: with their own
+  /// the bond would hold whole faces, and be as wide as those. Unless what is left holds no whole face there, as on a strip with
+  /// a single row of nodes. Empty where sides end together, as cuts of sectors do.
+  std::vector<char> met;
+};
+
+/// `faces` in pieces, with their integrals. `one_node`: of each surface node whether it is a node of the primary side as well, as
+/// at the tip of a slit: it has no multiplier, since it cannot leave itself. `primary_held`: of each surface node whether
+/// supports hold the primary side along the normal where multipliers stand; all of cuts of sectors. `bond`: none of a contact.
+/// `dimension`: 2 or 3.
+ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
+                                  const SupportedNodes& supports, const std::vector<char>& one_node,
+                                  const std::vector<char>& primary_held, const std::optional<BondedNodes>& bond, int dimension);
+
+}  // namespace mortise::contact

@@ -1,0 +1,58 @@
+#include "rows/opposite_supports.hpp"
+
+#include <cmath>
+
+namespace mortise::contact {
+
+bool OppositeSupports::hold(const Opposite& opposite, const Point& direction) const
+{
+  constexpr double none = 1e-6;  // of shape functions
+  if (!std::isfinite(opposite.gap)) return true;
+  const auto nodes = primary_.facets[opposite.facet];
+  const Point there = turned_back(direction);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]) > none &&
+        !supports_.holds(primary_.node_id[static_cast<std::size_t>(nodes[k])], there, dimension_))
+      return false;
+  return true;
+}
+
+bool OppositeSupports::hold_all(const Opposite& opposite, const Point& direction) const
+{
+  constexpr double next_to_nothing = 0.1;
+  if (!std::isfinite(opposite.gap)) return true;
+  const auto nodes = primary_.facets[opposite.facet];
+  const Point there = turned_back(direction);
+  double free = 0, all = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
+    free += part * supports_.freedom(primary_.node_id[static_cast<std::size_t>(nodes[k])], there, dimension_);
+    all += part;
+  }
+  return free < next_to_nothing * all;
+}
+
+std::vector<char> OppositeSupports::hold_along_normals(CutFaces& faces,
+                                                       bool (OppositeSupports::*hold)(const Opposite&, const Point&) const) const
+{
+  std::vector<char> result;
+  for (std::size_t p = 0; p < nodes_.all.size(); ++p) result.push_back((this->*hold)(rays_.meet(p), nodes_.all[p].normal));
+  for (const std::size_t f : faces.round())
+    for (const std::size_t i : faces.pieces(f)) {
+      const auto piece = faces.piece(i);
+      if (piece.point_facet.empty()) continue;
+      for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
+        const Local facet = piece.point_facet[static_cast<std::size_t>(k)];
+        const auto p = faces.surface_node_of(f, piece, k);
+        if (facet < 0 || !(piece.covered[k] > 0) || !result[p] || std::isfinite(rays_.meet(p).gap)) continue;
+        const auto corners = secondary_.facets[static_cast<std::size_t>(facet)];
+        Point at = Point::Zero();
+        for (std::size_t c = 0; c < corners.size(); ++c)
+          at += piece.points(k, static_cast<Eigen::Index>(c)) * secondary_.points[static_cast<std::size_t>(corners[c])];
+        result[p] = (this->*hold)(rays_.met_from(p, at, nodes_.all[p].normal), nodes_.all[p].normal);
+      }
+    }
+  return result;
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,56 @@
+// What supports hold of the primary side, opposite the secondary one.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "integrals/cut_faces.hpp"
+#include "mesh/instances.hpp"
+#include "rows/supported_nodes.hpp"
+#include "search/opposite.hpp"
+
+namespace mortise::contact {
+
+class OppositeSupports {
+ public:
+  /// All of which must outlive it. `supports` at the nodes of the primary side. `dimension`: 2 or 3. `rotation`: the primary side
+  /// is turned before it meets the secondary one, and so is what supports hold of it.
+  OppositeSupports(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary, const SupportedNodes& supports,
+                   Rays& rays, int dimension, const std::optional<mesh::Motion>& rotation)
+      : secondary_(secondary),
+        nodes_(surface_nodes),
+        primary_(primary),
+        supports_(supports),
+        rays_(rays),
+        dimension_(dimension),
+        rotation_(rotation)
+  {
+  }
+
+  /// Whether supports hold what a line meets, along a direction; true where it meets nothing.
+  bool hold(const Opposite& opposite, const Point& direction) const;
+  /// Whether they leave next to nothing of the direction free.
+  bool hold_all(const Opposite& opposite, const Point& direction) const;
+
+  /// Of each surface node whether they do, by one of these, along its normal where its multipliers stand: at the node, or, past
+  /// the border of the primary side, at the points inside to which the functions of faces that it covers in part belong; of
+  /// several points all.
+  std::vector<char> hold_along_normals(CutFaces& faces,
+                                       bool (OppositeSupports::*hold)(const Opposite&, const Point&) const) const;
+
+ private:
+  Point turned_back(const Point& direction) const
+  {
+    return rotation_ ? Point(rotation_->rotation.transpose() * direction) : direction;
+  }
+
+  const Side& secondary_;
+  const SurfaceNodes& nodes_;
+  const Side& primary_;
+  const SupportedNodes& supports_;
+  Rays& rays_;
+  int dimension_;
+  std::optional<mesh::Motion> rotation_;
+};
+
+}  // namespace mortise::contact

@@ -1,0 +1,243 @@
+#include "rows/rows.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "base/dense.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+constexpr double negligible_coefficient = 1e-12;  // of a coefficient
+constexpr double held_but_for = 0.1;              // of what all terms together could move: that much is no slip
+constexpr double least_held = 0.1;                // of a side, to bear what rubs there
+
+}  // namespace
+
+const std::vector<RowWriter::Coefficient>& RowWriter::coefficients(std::span<const Term> terms, double d, const Point& axis)
+{
+  coefficients_.clear();
+  append_coefficients(terms, d, axis);
+  if (rotation_) merge();
+  return coefficients_;
+}
+
+void merge_terms(std::vector<Term>& terms)
+{
+  std::stable_sort(terms.begin(), terms.end(),
+                   [](const Term& a, const Term& b) { return std::tie(a.on_primary, a.node) < std::tie(b.on_primary, b.node); });
+  std::size_t end = 0;
+  for (const auto& term : terms) {
+    if (end > 0 && terms[end - 1].on_primary == term.on_primary && terms[end - 1].node == term.node)
+      terms[end - 1].value += term.value;
+    else
+      terms[end++] = term;
+  }
+  terms.resize(end);
+}
+
+void RowWriter::append_coefficients(std::span<const Term> terms, double d, const Point& axis)
+{
+  for (const auto& term : terms) {
+    if (!(std::abs(term.value) > negligible_coefficient * d)) continue;
+    const Global node = node_of(term);
+    const auto& supports = term.on_primary ? primary_supports_ : supports_;
+    Point rest = axis_of(term, axis);
+    // What skew supports leave of the axis; parts that are rounding are 0.
+    if (const auto skew_supports = supports.skew_supports(node); !skew_supports.empty()) {
+      const Point whole = rest;
+      for (const auto& i : skew_supports) rest -= whole.dot(along(i)) * along(i);
+      rest = (rest.array().abs() < 1e-9).select(0.0, rest);
+    }
+    for (int c = 0; c < dimension_; ++c)
+      if (std::abs(rest[c]) > 1e-14) coefficients_.push_back({node, c, term.value / d * rest[c], supports.find(node, c)});
+  }
+}
+
+// Nodes on the axis of a cyclic pair are on both of its sides; those of a couple have coefficients already.
+void RowWriter::merge()
+{
+  std::stable_sort(coefficients_.begin(), coefficients_.end(), [](const Coefficient& a, const Coefficient& b) {
+    return std::tie(a.node, a.component) < std::tie(b.node, b.component);
+  });
+  std::size_t end = 0;
+  for (const auto& c : coefficients_) {
+    if (end > 0 && coefficients_[end - 1].node == c.node && coefficients_[end - 1].component == c.component)
+      coefficients_[end - 1].value += c.value;
+    else
+      coefficients_[end++] = c;
+  }
+  coefficients_.resize(end);
+  std::erase_if(coefficients_, [](const Coefficient& c) { return std::abs(c.value) < negligible_coefficient; });
+}
+
+bool RowWriter::moves(std::span<const Term> terms, double d, const Point& axis)
+{
+  if (!terms.empty() && !rotation_) {  // mostly the first term says it
+    if (const auto& first = coefficients(terms.first(1), d, axis); !first.empty() && !first[0].prescribed) return true;
+  }
+  const auto& all = coefficients(terms, d, axis);
+  return std::any_of(all.begin(), all.end(), [](const Coefficient& c) { return !c.prescribed; });
+}
+
+double RowWriter::part_that_moves(std::span<const Term> terms, double d, const Point& axis)
+{
+  double all = 0, free = 0;
+  for (const auto& term : terms) all += term.value / d * (term.value / d);
+  for (const auto& c : coefficients(terms, d, axis))
+    if (!c.prescribed) free += c.value * c.value;
+  return std::sqrt(free / all);
+}
+
+double RowWriter::freedom(std::span<const Term> terms, bool on_primary, const Point& axis) const
+{
+  double free = 0, all = 0;
+  for (const auto& term : terms) {
+    if (term.on_primary != on_primary) continue;
+    const auto& supports = on_primary ? primary_supports_ : supports_;
+    if (!one_node(term)) free += term.value * supports.freedom(node_of(term), axis_of(term, axis), dimension_);
+    all += term.value;
+  }
+  return all != 0 ? free / all : 1;
+}
+
+Eigen::Matrix3d RowWriter::free_part(const Term& term) const
+{
+  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
+  for (const auto& i : skew_supports_of(term)) result -= along(i) * along(i).transpose();
+  const auto& supports = term.on_primary ? primary_supports_ : supports_;
+  for (int c = 0; c < 3; ++c)
+    if (c >= dimension_ || supports.find(node_of(term), c)) result.row(c).setZero(), result.col(c).setZero();
+  if (rotation_ && term.on_primary) result = (rotation_->rotation * result * rotation_->rotation.transpose()).eval();
+  return result;
+}
+
+Few<Point, 2> RowWriter::across_axis(Local node, const Point& normal, std::span<const Point> tangents) const
+{
+  constexpr double along_it = 1 - 1e-6;  // cosine
+  Few<Point, 2> result;
+  const bool on_axis = rotation_ && dimension_ == 3 && on_both_sides(node);
+  const Point axis = on_axis ? Point(Eigen::AngleAxisd(rotation_->rotation).axis()) : Point::Zero();
+  if (on_axis && tangents.size() == 2) return {normal.cross(axis).normalized()};
+  for (const auto& tangent : tangents)
+    if (std::abs(tangent.dot(axis)) < along_it) result.push_back(tangent);
+  return result;
+}
+
+void RowWriter::leave_what_moves(std::span<const Term> terms, double d, const Point& normal, std::vector<Point>& tangents)
+{
+  if (tangents.empty()) return;
+  Eigen::Matrix3d mobility = Eigen::Matrix3d::Zero();  // the scalar product of the rows along two directions
+  double all = 0;
+  for (const auto& term : terms) {
+    const double square = term.value / d * (term.value / d);
+    mobility += square * free_part(term);
+    all += square;
+  }
+  const Point felt = mobility * normal;
+  mobility -= felt * felt.transpose() / felt.dot(normal);
+  const double least = held_but_for * held_but_for * all;
+  if (tangents.size() == 1) {
+    if (tangents[0].dot(mobility * tangents[0]) < least) tangents.clear();
+    return;
+  }
+  Eigen::Matrix<double, 3, 2> plane;
+  plane << tangents[0], tangents[1];
+  const auto moves = dense::plane_eigenpairs(plane.transpose() * mobility * plane);
+  if (moves.values[0] >= least) return;
+  tangents.clear();
+  if (moves.values[1] >= least) tangents.emplace_back(plane * moves.vectors.col(1));
+}
+
+double RowWriter::part_at_holding(std::span<const Term> terms, bool on_primary, const Point& axis) const
+{
+  constexpr double nothing = 1e-6;
+  double holding = 0, all = 0;
+  for (const auto& term : terms) {
+    if (term.on_primary != on_primary) continue;
+    const auto& supports = on_primary ? primary_supports_ : supports_;
+    if (supports.freedom(node_of(term), axis_of(term, axis), dimension_) < 1 - nothing) holding += term.value;
+    all += term.value;
+  }
+  return all != 0 ? holding / all : 1;
+}
+
+bool RowWriter::held_on_both_sides(std::span<const Term> terms, const Point& axis) const
+{
+  return std::min(part_at_holding(terms, false, axis), part_at_holding(terms, true, axis)) > least_held;
+}
+
+double RowWriter::prescribed_part(std::span<const Term> terms, double d, const Point& axis)
+{
+  double sum = 0;
+  for (const auto& term : terms)
+    for (const auto& i : skew_supports_of(term)) sum += term.value / d * axis_of(term, axis).dot(along(i)) * i.value;
+  for (const auto& c : coefficients(terms, d, axis))
+    if (c.prescribed) sum += c.value * c.prescribed->value;
+  return sum;
+}
+
+void RowWriter::take_skew_supports(std::span<const Term> terms, double d, const Point& axis, double& bound,
+                                   constraint::Contacts& contacts)
+{
+  const auto row = contacts.rows.size();
+  for (const auto& term : terms)
+    for (const auto& i : skew_supports_of(term)) {
+      const double coefficient = term.value / d * axis_of(term, axis).dot(along(i));
+      bound -= coefficient * i.value;
+      for (const auto& share : std::span(i.shares).first(static_cast<std::size_t>(i.share_count)))
+        for (int c = 0; c < dimension_; ++c)
+          if (const double part = coefficient * share.part[static_cast<std::size_t>(c)]; part != 0)
+            contacts.prescribed.push_back({row, c, share.support, part, i.at});
+    }
+}
+
+constraint::PrescribedEntry RowWriter::entry_of(std::size_t row, const Coefficient& c)
+{
+  const auto& held = *c.prescribed;
+  return {row, c.component, held.support, c.value, held.at, held.coupling, held.arm};
+}
+
+void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
+                    std::span<const Term> couple, const Point& couple_axis)
+{
+  const auto row = contacts.rows.size();
+  take_skew_supports(terms, d, axis, bound, contacts);
+  take_skew_supports(couple, 1, couple_axis, bound, contacts);
+  coefficients(terms, d, axis);
+  if (!couple.empty()) {
+    append_coefficients(couple, 1, couple_axis);
+    merge();
+  }
+  for (const auto& c : coefficients_) {
+    if (c.prescribed) {
+      bound -= c.value * c.prescribed->value;
+      contacts.prescribed.push_back(entry_of(row, c));
+    } else {
+      contacts.rows.entries.push_back({c.node, c.component, c.value});
+    }
+  }
+  contacts.rows.close(bound);
+}
+
+void RowWriter::add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts)
+{
+  const auto row = contacts.rows.size();
+  double bound = 0;
+  const std::array<double, 2> part{part_at_holding(terms, false, axis), part_at_holding(terms, true, axis)};
+  std::vector<Term> all(terms.begin(), terms.end());
+  for (auto& term : all) term.value /= part[term.on_primary ? 1 : 0];
+  take_skew_supports(all, d, axis, bound, contacts);
+  for (const auto& c : coefficients(all, d, axis)) {
+    if (!c.prescribed) continue;
+    bound -= c.value * c.prescribed->value;
+    contacts.prescribed.push_back(entry_of(row, c));
+  }
+  contacts.rows.close(bound);
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,112 @@
+// From the terms of a surface node to rows in mesh numbering: components that supports hold stand in the bounds.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "integrals/face_integrals.hpp"
+#include "mesh/instances.hpp"
+#include "rows/supported_nodes.hpp"
+#include "search/small.hpp"
+
+namespace mortise::contact {
+
+/// One term a node, summed in the order that they come in.
+void merge_terms(std::vector<Term>& terms);
+
+/// The rows sum_k value_k / d axis . u(node_k) of a contact.
+class RowWriter {
+ public:
+  /// All of which must outlive it. `rotation`: the primary side is turned before it meets the secondary one, and so are its
+  /// displacements.
+  RowWriter(const Side& secondary, const Side& primary, const SupportedNodes& prescribed, const SupportedNodes& primary_supports,
+            int dimension, const std::optional<mesh::Motion>& rotation)
+      : secondary_(secondary),
+        primary_(primary),
+        supports_(prescribed),
+        primary_supports_(primary_supports),
+        dimension_(dimension),
+        rotation_(rotation)
+  {
+  }
+
+  /// Whether supports leave anything of the row.
+  bool moves(std::span<const Term> terms, double d, const Point& axis);
+  /// What supports leave of the row, as part of it, in the norms of the coefficients.
+  double part_that_moves(std::span<const Term> terms, double d, const Point& axis);
+  /// Whether a secondary node is a node of the primary side as well: on the axis of a sector its own image, else, as at the tip
+  /// of a slit, a place that nothing opens or closes.
+  bool on_both_sides(Local node) const
+  {
+    return std::ranges::binary_search(primary_.node_id, secondary_.node_id[static_cast<std::size_t>(node)]);
+  }
+  /// What they leave free of an axis, as part of it: the mean over the nodes of one side, weighted with what the row takes of
+  /// them. Nothing at places that nothing opens or closes.
+  double freedom(std::span<const Term> terms, bool on_primary, const Point& axis) const;
+  /// Of the tangents of `normal` at a secondary node those along which it has a row. A node on the axis of a sector, on both of
+  /// its cuts, is its own image: along the axis it goes with itself, and stresses that are alike in all sectors pass nothing on
+  /// there; a row along it would feel what the meshes of the cuts differ by alone.
+  Few<Point, 2> across_axis(Local node, const Point& normal, std::span<const Point> tangents) const;
+  /// Leaves those of the tangents of `normal` (or the one direction between two) along which more than `held_but_for` of the
+  /// terms can move, what the row along the normal feels aside. A point near a plane of symmetry that both sides have has a row
+  /// across it that is nearly a combination of its others: no friction acts there.
+  void leave_what_moves(std::span<const Term> terms, double d, const Point& normal, std::vector<Point>& tangents);
+  /// What supports contribute to the row.
+  double prescribed_part(std::span<const Term> terms, double d, const Point& axis);
+  /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
+  void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
+           std::span<const Term> couple = {}, const Point& couple_axis = Point::Zero());
+  /// Whether supports hold more than a tenth of each side along an axis: enough to bear what rubs there.
+  bool held_on_both_sides(std::span<const Term> terms, const Point& axis) const;
+  /// Appends a row along which nothing moves but supports, so that what they make of it stands in its bound, or hardly anything:
+  /// nodes that supports leave free leave their part to the others of their side, lest forces are lost. For those of
+  /// held_on_both_sides().
+  void add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts);
+
+ private:
+  // Whether the other side has the node as well, and nothing turns it.
+  bool one_node(const Term& term) const
+  {
+    return !rotation_ && std::ranges::binary_search((term.on_primary ? secondary_ : primary_).node_id, node_of(term));
+  }
+  struct Coefficient {
+    Global node;
+    int component;
+    double value;
+    const constraint::PrescribedDof* prescribed;
+  };
+  static constraint::PrescribedEntry entry_of(std::size_t row, const Coefficient& c);
+  // Of the row, but for what skew supports hold.
+  const std::vector<Coefficient>& coefficients(std::span<const Term> terms, double d, const Point& axis);
+  void append_coefficients(std::span<const Term> terms, double d, const Point& axis);
+  // What skew supports hold of the row goes to them and out of its bound.
+  void take_skew_supports(std::span<const Term> terms, double d, const Point& axis, double& bound,
+                          constraint::Contacts& contacts);
+  Point axis_of(const Term& term, const Point& axis) const
+  {
+    return rotation_ && term.on_primary ? Point(rotation_->rotation.transpose() * axis) : axis;
+  }
+  Global node_of(const Term& term) const
+  {
+    return (term.on_primary ? primary_ : secondary_).node_id[static_cast<std::size_t>(term.node)];
+  }
+  std::span<const constraint::SkewSupport> skew_supports_of(const Term& term) const
+  {
+    return (term.on_primary ? primary_supports_ : supports_).skew_supports(node_of(term));
+  }
+  // The part of one side at nodes that supports hold somewhat along an axis; 1 of nothing.
+  double part_at_holding(std::span<const Term> terms, bool on_primary, const Point& axis) const;
+  void merge();
+  // Of a term's node: the projector onto what supports leave free, turned as the node is.
+  Eigen::Matrix3d free_part(const Term& term) const;
+
+  const Side &secondary_, &primary_;
+  const SupportedNodes &supports_, &primary_supports_;
+  int dimension_;
+  std::optional<mesh::Motion> rotation_;
+  std::vector<Coefficient> coefficients_;
+};
+
+}  // namespace mortise::contact

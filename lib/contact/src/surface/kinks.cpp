@@ -1,0 +1,226 @@
+#include "surface/kinks.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "surface/face_edges.hpp"
+#include "surface/tangent_edges.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+class Kinks {
+ public:
+  explicit Kinks(const FaceEdges& all) : all_(all), faces_(all.faces()), edges_(all.edges()), parted_(edges_.size(), false)
+  {
+    // Faces behind a kink say nothing of this side of it, and make kinks of what is none: so the sharpest first.
+    for (int pass = 0; pass < passes; ++pass)
+      if (!part_sharpest()) break;
+  }
+
+  // Of each edge.
+  const std::vector<bool>& parted() const { return parted_; }
+
+ private:
+  using Edge = FaceEdges::Edge;
+  using Face = FaceEdges::Face;
+  using Place = FaceEdges::Place;
+
+  // Slopes of two faces that differ by less than 2 degrees leave too little between the surface through them and the faces.
+  static constexpr double least_turn = 0.035;
+  // The part of it that the surfaces on both sides alone differ by: these are nearly plane. Coarse waves and bumps turn by as
+  // much as kinks between curved parts do, but from face to face.
+  static constexpr double of_a_kink = 0.85;
+  // Faces reach so far from an edge, over what the one at the edge does, where there are two rows of them.
+  static constexpr double two_rows = 1.5;
+  // Of the least squares: a curvature that the nodes do not determine is 0.
+  static constexpr double held = 1e-8;
+  static constexpr int steps = 4;
+  static constexpr std::size_t usual_round = 12;  // faces, to make room for
+  static constexpr int passes = 4;
+  static constexpr double equal = 1 + 1e-9;
+
+  // The surface on one side of an edge: with x along it and y > 0 away from it into that side,
+  // z - bend z^2 / 2 = slope y + across y^2 / 2 + twist x y + along (x^2 - half^2) / 2.
+  struct Surface {
+    Point away;
+    double depth = 0;  // of the face at the edge
+    // The faces on this side that share nodes with the one at the edge, and hang together with it.
+    std::vector<std::size_t> round;
+    bool known = false;  // there are two rows of faces; else the rest is not
+    double slope = 0, across = 0, twist = 0, along = 0, bend = 0;
+    std::array<double, 2> next{0, 0};  // slopes of the faces of the second row and of the third, less that of the first,
+    std::array<int, 2> faces{0, 0};    // and how many these are
+  };
+
+  // Of the edges that seem to be kinks, those that are sharper than all others which lie between the faces that say so. Whether
+  // there are more of them now.
+  bool part_sharpest()
+  {
+    std::vector<double> turn(edges_.size());
+    for (std::size_t e = 0; e < edges_.size(); ++e) turn[e] = parted_[e] ? 0 : turn_at(edges_[e]);
+    std::vector<std::size_t> sharpest, crossed;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (turn[e] == 0) continue;
+      crossed.clear();
+      turn_at(edges_[e], &crossed);
+      if (std::all_of(crossed.begin(), crossed.end(), [&](std::size_t c) { return turn[c] <= equal * turn[e]; }))
+        sharpest.push_back(e);
+    }
+    for (const std::size_t e : sharpest) parted_[e] = true;
+    return !sharpest.empty();
+  }
+
+  // The angle of a kink, as a difference of slopes; 0: there is none. `crossed`: gets the edges between the faces that tell.
+  double turn_at(const Edge& edge, std::vector<std::size_t>* crossed = nullptr) const
+  {
+    const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
+    if ((first.normal - last.normal).squaredNorm() < least_turn * least_turn) return 0;
+    const Place place = all_.place_of(edge);
+    const Point& away = place.away;
+    const double faces = std::abs(slope_of(last, place, away) - slope_of(first, place, away));
+    Surface back = rows_beside(edge, 0, place, -away, crossed), forth = rows_beside(edge, 1, place, away, crossed);
+    if (!back.known && !forth.known) return 0;
+    const bool both = back.known && forth.known;
+    Surface &known = back.known ? back : forth, &other = back.known ? forth : back;
+    if (!both && known.faces[1] == 0) return 0;  // two rows of a curve may turn by nothing
+    // Of slopes: from each face to the next one beyond. Where that is as much as between the two, as on smooth curves, no fit is
+    // needed.
+    const double beside = both ? (std::abs(back.next[0]) + std::abs(forth.next[0])) / 2
+                               : std::max(std::abs(known.next[0]), std::abs(known.next[1]));
+    if (!(faces - beside > of_a_kink * faces)) return 0;
+    // At the edge itself, and from the middle of one face to that of the other.
+    fit(edge, place, known);
+    double turn = 0, smooth = 0;
+    if (both) {
+      fit(edge, place, other);
+      turn = back.slope + forth.slope;
+      smooth = (std::abs(back.across) * back.depth + std::abs(forth.across) * forth.depth) / 2;
+    } else {
+      turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], place);
+      smooth = std::abs(known.across) * (known.depth + other.depth) / 2;
+    }
+    turn = std::abs(turn);
+    return turn > least_turn && turn > of_a_kink * (turn + smooth) ? turn : 0;
+  }
+
+  // The faces on one side of an edge, and how much they turn from row to row.
+  Surface rows_beside(const Edge& edge, int which, const Place& place, const Point& away, std::vector<std::size_t>* crossed) const
+  {
+    const std::size_t own = edge.faces[static_cast<std::size_t>(which)];
+    Surface result;
+    result.away = away;
+    result.depth = all_.depth(own, place, away);
+    auto& round = result.round;
+    round.reserve(usual_round);
+    round.push_back(own);
+    double farthest = 0;
+    for (std::size_t i = 0; i < round.size(); ++i) {
+      const Face& face = faces_[round[i]];
+      farthest = std::max(farthest, all_.depth(round[i], place, away));
+      for (const auto& [f, e] : face.beside) {
+        const Face& next = faces_[f];
+        const auto touches = [&](Local n) {
+          return std::find(faces_[own].nodes.begin(), faces_[own].nodes.end(), n) != faces_[own].nodes.end();
+        };
+        if (parted_[e] || (next.centre - place.middle).dot(away) <= 0) continue;
+        if (std::none_of(next.nodes.begin(), next.nodes.end(), touches)) continue;
+        if (crossed) crossed->push_back(e);
+        if (std::find(round.begin(), round.end(), f) == round.end()) round.push_back(f);
+      }
+    }
+    result.known = farthest > two_rows * result.depth;
+    if (!result.known) return result;
+    const double slope = slope_of(faces_[own], place, away);
+    const auto note = [&](std::size_t row, const Face& face) {
+      result.next[row] += slope_of(face, place, away) - slope;
+      ++result.faces[row];
+    };
+    for (const std::size_t f : round) {
+      const Face& face = faces_[f];
+      const auto has = [&](Local n) { return std::find(face.nodes.begin(), face.nodes.end(), n) != face.nodes.end(); };
+      if (has(edge.a) || has(edge.b)) continue;
+      note(0, face);
+      for (const auto& [g, e] : face.beside)
+        if (!parted_[e] && std::find(round.begin(), round.end(), g) == round.end() &&
+            (faces_[g].centre - face.centre).dot(away) > std::abs((faces_[g].centre - face.centre).dot(place.along)))
+          note(1, faces_[g]);
+    }
+    for (const std::size_t row : {0U, 1U}) result.next[row] /= std::max(result.faces[row], 1);
+    return result;
+  }
+
+  static double slope_of(const Face& face, const Place& place, const Point& away)
+  {
+    return -face.normal.dot(away) / face.normal.dot(place.normal);
+  }
+
+  // With the larger curvature for the bend, in the least squares of both sides over the squared distance: exact on spheres and
+  // cylinders.
+  void fit(const Edge& edge, const Place& place, Surface& surface) const
+  {
+    std::vector<Local> nodes;
+    for (const std::size_t f : surface.round)
+      for (const Local n : faces_[f].nodes)
+        if (n != edge.a && n != edge.b && std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
+    const double unit = surface.depth, half = place.half / unit;
+    Eigen::Vector4d found = Eigen::Vector4d::Zero();
+    double bend = 0;
+    for (int step = 0; step < steps; ++step) {
+      bend = std::abs(found[1]) > std::abs(found[3]) ? found[1] : found[3];
+      Eigen::Matrix4d matrix = Eigen::Vector4d(0, held, held, held).asDiagonal();
+      Eigen::Vector4d right = Eigen::Vector4d::Zero();
+      for (const Local n : nodes) {
+        const Point d = (all_.at(n) - place.middle) / unit;
+        const double x = d.dot(place.along), y = d.dot(surface.away), z = d.dot(place.normal), weight = 1 / d.squaredNorm();
+        const Eigen::Vector4d row = weight * Eigen::Vector4d(y, y * y / 2, x * y, (x * x - half * half) / 2);
+        matrix += row * row.transpose();
+        right += weight * (z - bend * z * z / 2) * row;
+      }
+      found = matrix.ldlt().solve(right);
+    }
+    surface.slope = found[0];
+    surface.across = found[1] / unit, surface.twist = found[2] / unit, surface.along = found[3] / unit;
+    surface.bend = bend / unit;
+  }
+
+  // How much steeper than the surface of the other side, continued, the nodes of a face lie.
+  double turn_beyond(const Surface& known, const Edge& edge, const Face& face, const Place& place) const
+  {
+    double sum = 0;
+    int count = 0;
+    for (const Local n : face.nodes) {
+      if (n == edge.a || n == edge.b) continue;
+      const Point d = all_.at(n) - place.middle;
+      const double x = d.dot(place.along), y = d.dot(known.away), z = d.dot(place.normal);
+      const double continued =
+          known.slope * y + known.across * y * y / 2 + known.twist * x * y + known.along * (x * x - place.half * place.half) / 2;
+      sum += (z - known.bend * z * z / 2 - continued) / -y;
+      ++count;
+    }
+    return sum / count;
+  }
+
+  const FaceEdges& all_;
+  const std::vector<Face>& faces_;
+  const std::vector<Edge>& edges_;
+  std::vector<bool> parted_;  // of each edge: a kink that was found before
+};
+
+}  // namespace
+
+void find_kinks(Side& side)
+{
+  const FaceEdges edges(side);
+  const Kinks kinks(edges);
+  side.kinks.clear();
+  for (std::size_t e = 0; e < edges.edges().size(); ++e)
+    if (kinks.parted()[e])
+      for (const FacetEdge& edge : edges.facet_edges(edges.edges()[e])) side.kinks.push_back(edge);
+  std::sort(side.kinks.begin(), side.kinks.end());
+  side.tangent_edges = find_tangent_edges(edges, kinks.parted());
+}
+
+}  // namespace mortise::contact

@@ -1,0 +1,358 @@
+#include "surface/surface_nodes.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "pairing/skin.hpp"
+#include "surface/arc_normals.hpp"
+#include "surface/fitted_normals.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+// Nelson Max's weight times normal at corner k of a face.
+Point corner_normal(const FaceGeometry& face, std::size_t k)
+{
+  const auto n = face.nodes.size();
+  if (face.type == mesh::CellType::line2) return face.normal() / face.area();
+  const Point next = face.nodes[(k + 1) % n] - face.nodes[k], last = face.nodes[(k + n - 1) % n] - face.nodes[k];
+  return next.cross(last) / (next.squaredNorm() * last.squaredNorm());
+}
+
+// An edge from surface node to surface node and how many faces have it. Every edge stands there both ways.
+struct Edge {
+  Local from, to;
+  int count;
+};
+
+// Ascending.
+std::vector<Edge> edges_of(const Side& side, const SurfaceNodes& surface_nodes)
+{
+  std::vector<std::pair<Local, Local>> all;
+  all.reserve(2 * side.facets.nodes.size());
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto begin = static_cast<std::size_t>(side.facets.offset[f]), n = side.facets[f].size();
+    for (std::size_t k = 0; k < n; ++k) {
+      if (n == 2 && k == 1) continue;
+      const Local a = surface_nodes.of_corner[begin + k], b = surface_nodes.of_corner[begin + (k + 1) % n];
+      all.emplace_back(a, b);
+      all.emplace_back(b, a);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<Edge> edges;
+  for (const auto& [from, to] : all) {
+    if (edges.empty() || edges.back().from != from || edges.back().to != to) edges.push_back({from, to, 0});
+    ++edges.back().count;
+  }
+  return edges;
+}
+
+// Whether each surface node is on a border. Where a kink ends inside a surface its two sides are none: they lead to one node.
+std::vector<bool> nodes_on_border(const SurfaceNodes& surface_nodes, const std::vector<Edge>& edges)
+{
+  std::vector<bool> border(surface_nodes.all.size(), false);
+  const auto end = [&](const Edge& edge) { return surface_nodes.all[static_cast<std::size_t>(edge.to)].node; };
+  std::vector<Local> ends;
+  for (std::size_t first = 0, last = 0; first < edges.size(); first = last) {
+    ends.clear();
+    for (; last < edges.size() && edges[last].from == edges[first].from; ++last)
+      if (edges[last].count == 1) ends.push_back(end(edges[last]));
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+      const bool twice = (e > 0 && ends[e - 1] == ends[e]) || (e + 1 < ends.size() && ends[e + 1] == ends[e]);
+      if (!twice) border[static_cast<std::size_t>(edges[first].from)] = true;
+    }
+  }
+  return border;
+}
+
+// Where the border goes on nearly straight, its two edges turning by less than 45 degrees, its direction; 0 elsewhere.
+std::vector<Point> directions_of_border(const Side& side, const SurfaceNodes& surface_nodes, const std::vector<Edge>& edges)
+{
+  std::vector<Few<Point, 2>> along(surface_nodes.all.size());
+  std::vector<int> ends(surface_nodes.all.size(), 0);
+  const auto at = [&](Local surface_node) -> const Point& {
+    return side.points[static_cast<std::size_t>(surface_nodes.all[static_cast<std::size_t>(surface_node)].node)];
+  };
+  for (const auto& [from, to, count] : edges)
+    if (count == 1 && ++ends[static_cast<std::size_t>(from)] <= 2)
+      along[static_cast<std::size_t>(from)].push_back((at(to) - at(from)).normalized());
+  std::vector<Point> result(surface_nodes.all.size(), Point::Zero());
+  for (std::size_t p = 0; p < ends.size(); ++p)
+    if (ends[p] == 2 && along[p][0].dot(along[p][1]) < -0.7) result[p] = (along[p][0] - along[p][1]).normalized();
+  return result;
+}
+
+// Corrects the normals of surface nodes on a border, see find_surface_nodes(), and tells which these are.
+std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nodes)
+{
+  const auto edges = edges_of(side, surface_nodes);
+  const bool plane = side.facets.size() > 0 && side.facets.type[0] == mesh::CellType::line2;
+  std::vector<bool> border(surface_nodes.all.size(), false);
+  if (plane) {
+    std::vector<int> degree(border.size(), 0);
+    for (const auto& edge : edges) ++degree[static_cast<std::size_t>(edge.from)];
+    for (std::size_t p = 0; p < border.size(); ++p) border[p] = degree[p] < 2;
+  } else {
+    border = nodes_on_border(surface_nodes, edges);
+  }
+
+  // First from edges that lead inside; then corners, whose normal is wrong both ways, from all their neighbours; last those that
+  // have corners alone round them, as the tips of a border of teeth. On a surface one cell wide all surface nodes are on the
+  // border: there those between two faces have the normal that the ends continue.
+  const auto direction =
+      plane ? std::vector<Point>(border.size(), Point::Zero()) : directions_of_border(side, surface_nodes, edges);
+  const auto smooth = [&](std::size_t p) { return !direction[p].isZero(0); };
+  std::vector<bool> known(border.size());
+  for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];
+  std::vector<Edge> outer;  // those that start on a border
+  std::copy_if(edges.begin(), edges.end(), std::back_inserter(outer), [&](const Edge& edge) {
+    const bool along_kink = !plane && edge.count == 1 && !border[static_cast<std::size_t>(edge.to)];  // to where it ends
+    return border[static_cast<std::size_t>(edge.from)] && !along_kink;
+  });
+  for (int pass = 0; pass < 3; ++pass) {
+    std::vector<bool> reached = known;
+    const auto leads = [&](std::size_t b, std::size_t a) {
+      if (pass == 1) return known[b] || (smooth(b) && !smooth(a));
+      return known[b] && (pass == 0 ? plane || smooth(a) : !smooth(a));
+    };
+    for (int sweep = 0; sweep < 10; ++sweep)
+      for (const auto& edge : outer) {
+        const auto a = static_cast<std::size_t>(edge.from), b = static_cast<std::size_t>(edge.to);
+        if (known[a] || !leads(b, a)) continue;
+        auto& surface_node = surface_nodes.all[a];
+        const SurfaceNode& inner = surface_nodes.all[b];
+        const Point along =
+            (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(surface_node.node)])
+                .normalized();
+        // Across the border: along it the faces on both sides have said what there is to say.
+        const Point across = (along - along.dot(direction[a]) * direction[a]).normalized();
+        const double part = across.dot(along);
+        if (part < 0.1) continue;
+        surface_node.normal =
+            (surface_node.normal - (surface_node.normal.dot(along) + inner.normal.dot(along)) / part * across).normalized();
+        reached[a] = true;
+      }
+    known = reached;
+  }
+  return border;
+}
+
+// Where a plane runs into an arc, the normal is the plane's, and where straight lines do, it is normal to them: a surface over
+// both would be tilted by up to half of the angle between the faces. Where two planes do, or lines that differ, it is left.
+void take_normals_of_straight(const Side& side, SurfaceNodes& surface_nodes)
+{
+  if (side.tangent_edges.empty()) return;
+  auto tangent = side.tangent_edges;
+  std::sort(tangent.begin(), tangent.end());
+  const auto at = [&](Local n) -> const Point& { return side.points[static_cast<std::size_t>(n)]; };
+  struct Straight {
+    Local surface_node;
+    bool line;
+    Point direction;  // of the line, or the normal of the plane
+  };
+  std::vector<Straight> found;
+  const auto add = [&](std::size_t corner, Local node, const TangentEdge& edge) {
+    const auto& [first, last] = edge.beyond;
+    const auto along = [&](const std::array<Local, 2>& line) { return Point((at(line[1]) - at(line[0])).normalized()); };
+    Point direction = node == first[0] ? along(first) : node == last[0] ? along(last) : Point(along(first) + along(last));
+    if (edge.plane) {
+      const auto [a, b] = edge.edge;
+      direction = (a == b ? Point(Point::UnitZ()) : Point(at(b) - at(a))).cross(along(first));
+    }
+    const Local p = surface_nodes.of_corner[corner];
+    const bool turned = edge.plane && direction.dot(surface_nodes.all[static_cast<std::size_t>(p)].normal) < 0;
+    found.push_back({p, !edge.plane, (turned ? -1 : 1) * direction.normalized()});
+  };
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto nodes = side.facets[f];
+    const auto begin = static_cast<std::size_t>(side.facets.offset[f]), n = nodes.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t next = n == 2 ? k : (k + 1) % n;
+      const FacetEdge edge{std::min(nodes[k], nodes[next]), std::max(nodes[k], nodes[next])};
+      const auto [first, last] = std::ranges::equal_range(tangent, edge, {}, &TangentEdge::edge);
+      for (auto e = first; e != last; ++e) {
+        add(begin + k, nodes[k], *e);
+        if (next != k) add(begin + next, nodes[next], *e);
+      }
+    }
+  }
+  // Planes before lines.
+  std::ranges::stable_sort(found, {}, [](const Straight& s) { return std::pair(s.surface_node, s.line); });
+  for (auto first = found.begin(), last = first; first != found.end(); first = last) {
+    last = std::find_if(first, found.end(), [&](const auto& other) { return other.surface_node != first->surface_node; });
+    const auto end = std::find_if(first, last, [&](const auto& other) { return other.line != first->line; });
+    const Point& direction = first->direction;
+    if (!std::all_of(first, end, [&](const auto& other) { return (other.direction - direction).norm() < rounding; })) continue;
+    Point& normal = surface_nodes.all[static_cast<std::size_t>(first->surface_node)].normal;
+    normal = first->line ? Point((normal - normal.dot(direction) * direction).normalized()) : direction;
+  }
+}
+
+// Of each node the other ends of the kinks there; of a plane model the node itself.
+std::vector<std::pair<Local, Local>> both_ways(const std::vector<FacetEdge>& kinks)
+{
+  std::vector<std::pair<Local, Local>> result;
+  for (const auto& [a, b] : kinks) {
+    result.emplace_back(a, b);
+    if (a != b) result.emplace_back(b, a);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+// Whether two facets have an edge at a node, given as their corners there, that is none of `kinks`, as of both_ways().
+bool share_edge(std::span<const Local> facet, std::size_t k, std::span<const Local> other, std::size_t l,
+                std::span<const std::pair<Local, Local>> kinks)
+{
+  const auto ends = [](std::span<const Local> nodes, std::size_t at) {
+    const std::size_t n = nodes.size();
+    return n == 2 ? std::array{nodes[at], nodes[at]} : std::array{nodes[(at + 1) % n], nodes[(at + n - 1) % n]};
+  };
+  const auto is_kink = [&](Local end) {
+    return std::any_of(kinks.begin(), kinks.end(), [&](const auto& edge) { return edge.second == end; });
+  };
+  for (const Local a : ends(facet, k))
+    for (const Local b : ends(other, l))
+      if (a == b && !is_kink(a)) return true;
+  return false;
+}
+
+// The normals of the surface nodes at the corners of a facet.
+Few<Point, 4> corner_normals(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
+{
+  Few<Point, 4> normals;
+  for (std::size_t k = 0; k < side.facets[facet].size(); ++k) normals.push_back(surface_nodes.normal(side, facet, k));
+  return normals;
+}
+
+}  // namespace
+
+Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals) : n_(face.nodes.size())
+{
+  for (std::size_t i = 0; i < n_; ++i) {
+    const std::size_t j = (i + 1) % n_;
+    rise_[i] = (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8;
+    normal_[i] = normals[i];
+  }
+}
+
+Bulge::Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
+    : Bulge(side.geometry(facet), corner_normals(side, surface_nodes, facet))
+{
+}
+
+double Bulge::operator()(const Eigen::Vector4d& shape) const
+{
+  const double rise = quadratic(shape);
+  if (rise == 0) return 0;
+  Point mean = Point::Zero();
+  for (std::size_t i = 0; i < n_; ++i) mean += shape[static_cast<Eigen::Index>(i)] * normal_[i];
+  return 2 * rise / (1 + mean.norm());
+}
+
+double Bulge::quadratic(const Eigen::Vector4d& shape) const
+{
+  if (n_ == 2) return 4 * shape[0] * shape[1] * rise_[0];
+  double result = 0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>((i + 1) % n_);
+    if (n_ == 3) {
+      result += 4 * shape[a] * shape[b] * rise_[i];
+    } else {  // on a quad N_i N_j = (1 - t^2)(1 + s)^2 / 16 along edge ij, whose own function is (1 - t^2)(1 + s) / 2
+      const double across = shape[a] + shape[b];
+      if (across > 1e-12) result += 4 * shape[a] * shape[b] / across * rise_[i];
+    }
+  }
+  return result;
+}
+
+SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted)
+{
+  // The corners of facets round each node, in the order of the facets, and the normal and its weight there.
+  const std::size_t nodes = side.points.size(), count = side.facets.nodes.size();
+  std::vector<std::size_t> offset(nodes + 1, 0), round(count);
+  std::vector<Point> normals(side.facets.size()), weighted(count);
+  std::vector<Local> facet_of(count);
+  for (const Local n : side.facets.nodes) ++offset[static_cast<std::size_t>(n) + 1];
+  for (std::size_t n = 0; n < nodes; ++n) offset[n + 1] += offset[n];
+  auto next = offset;
+  for (std::size_t f = 0; f < side.facets.size(); ++f) {
+    const auto face = side.geometry(f);
+    normals[f] = face.normal();
+    for (std::size_t k = 0; k < face.nodes.size(); ++k) {
+      const auto corner = static_cast<std::size_t>(side.facets.offset[f]) + k;
+      weighted[corner] = corner_normal(face, k);
+      facet_of[corner] = static_cast<Local>(f);
+      round[next[static_cast<std::size_t>(side.facets.nodes[corner])]++] = corner;
+    }
+  }
+
+  const auto kinks_of_nodes = both_ways(side.kinks);
+  SurfaceNodes surface_nodes;
+  surface_nodes.of_corner.resize(count);
+  std::vector<std::size_t> group;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const std::span corners(round.data() + offset[n], offset[n + 1] - offset[n]);
+    const auto normal_at = [&](std::size_t a) -> const Point& { return normals[static_cast<std::size_t>(facet_of[corners[a]])]; };
+    const std::span kinks = std::ranges::equal_range(kinks_of_nodes, static_cast<Local>(n), {}, &std::pair<Local, Local>::first);
+    const auto together = [&](std::size_t a, std::size_t b) {
+      if (normal_at(a).dot(normal_at(b)) <= kink) return false;
+      if (kinks.empty()) return true;
+      const auto f = static_cast<std::size_t>(facet_of[corners[a]]), g = static_cast<std::size_t>(facet_of[corners[b]]);
+      return share_edge(side.facets[f], corners[a] - static_cast<std::size_t>(side.facets.offset[f]), side.facets[g],
+                        corners[b] - static_cast<std::size_t>(side.facets.offset[g]), kinks);
+    };
+    group.resize(corners.size());
+    std::iota(group.begin(), group.end(), 0U);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t a = 0; a < corners.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+          if (group[a] != group[b] && together(a, b)) {
+            group[a] = group[b] = std::min(group[a], group[b]);
+            changed = true;
+          }
+    }
+    for (std::size_t g = 0; g < corners.size(); ++g) {
+      Point normal = Point::Zero();
+      for (std::size_t a = 0; a < corners.size(); ++a) {
+        if (group[a] != g) continue;
+        normal += weighted[corners[a]];
+        surface_nodes.of_corner[corners[a]] = static_cast<Local>(surface_nodes.all.size());
+      }
+      if (normal.squaredNorm() > 0) surface_nodes.all.push_back({static_cast<Local>(n), normal.normalized()});
+    }
+  }
+  const SurfaceNodes means = surface_nodes;
+  take_normals_between_arcs(side, surface_nodes);
+  take_normals_of_straight(side, surface_nodes);
+  const auto border = continue_curvature(side, surface_nodes);
+  if (fitted && side.kinematics == fem::Kinematics::solid) fit_normals(side, means, border, surface_nodes);
+  take_normals_of_straight(side, surface_nodes);
+  return surface_nodes;
+}
+
+void number_nodes_of_faces(const Side& side, SurfaceNodes& surface_nodes)
+{
+  surface_nodes.of_node.resize(side.faces.nodes.size());
+  for (std::size_t f = 0; f < side.facets.size(); ++f)
+    for (std::size_t k = 0; k < side.facets[f].size(); ++k)
+      surface_nodes
+          .of_node[static_cast<std::size_t>(side.faces.offset[static_cast<std::size_t>(side.face_of[f])] + side.corners[f][k])] =
+          surface_nodes.of_corner[static_cast<std::size_t>(side.facets.offset[f]) + k];
+}
+
+SurfaceNodes find_surface_nodes(const Side& side)
+{
+  auto surface_nodes = surface_nodes_of_facets(side);
+  number_nodes_of_faces(side, surface_nodes);
+  return surface_nodes;
+}
+
+}  // namespace mortise::contact

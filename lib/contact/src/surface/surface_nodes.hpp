@@ -1,0 +1,57 @@
+// Where multipliers may sit, the normals there, and the smooth surface behind facets.
+#pragma once
+
+#include "surface/side.hpp"
+
+namespace mortise::contact {
+
+/// A surface node that may carry a multiplier: a node and the faces on one side of a kink there.
+struct SurfaceNode {
+  Local node;
+  Point normal;  ///< unit; exact where the faces inscribe a sphere or cylinder [weights of Max, J. Graph. Tools 4 (1999)], and
+                 ///< where a plane runs into one
+  bool continued = false;  ///< on a border beyond which the side goes on: in its image, or across a bond
+};
+
+/// The surface nodes of a side, and the surface node that each corner of a facet (at facets.offset[f] + corner) and each node of
+/// a face (at faces.offset[f] + node) belongs to. Facets round a node belong together if a chain of them turns by less than about
+/// 40 degrees from one to the next; where kinks end at the node, if such a chain crosses none.
+struct SurfaceNodes {
+  std::vector<SurfaceNode> all;
+  std::vector<Local> of_corner, of_node;
+
+  /// At a corner of a facet.
+  const Point& normal(const Side& side, std::size_t facet, std::size_t corner) const
+  {
+    return all[static_cast<std::size_t>(of_corner[static_cast<std::size_t>(side.facets.offset[facet]) + corner])].normal;
+  }
+};
+
+/// At the border of a surface, where faces lie on one side only, normals continue the curvature of the edges that lead inside: an
+/// arc has opposite slopes at its ends.
+SurfaceNodes find_surface_nodes(const Side& side);
+/// The same from the points and facets of a side alone, without `of_node`, and that; `fitted`: with the normals of surfaces of
+/// second order through the nodes round each, if those determine one, and not only the means of the faces' normals.
+SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted = true);
+void number_nodes_of_faces(const Side& side, SurfaceNodes& surface_nodes);
+
+/// How far the smooth surface through the nodes stands out of a face (positive outwards) at reference shape values `shape`, along
+/// the mean of the normals there: the quadratic that bulges by (x_j - x_i).(n_j - n_i) / 8 at the middle of edge ij, times
+/// 2 / (1 + q) with q = |sum N_i n_i|. On a sphere or a cylinder of radius r the place x = sum N_i x_i lies r q from the centre
+/// and the quadratic is r (1 - q^2) / 2: what stands out is r (1 - q), exactly, while the facets alone are wrong by their
+/// sagitta.
+class Bulge {
+ public:
+  Bulge(const FaceGeometry& face, std::span<const Point> normals);
+  Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet);
+  double operator()(const Eigen::Vector4d& shape) const;
+
+ private:
+  double quadratic(const Eigen::Vector4d& shape) const;
+
+  std::size_t n_;
+  std::array<double, 4> rise_{};  // at the middle of each edge
+  std::array<Point, 4> normal_;   // at each corner
+};
+
+}  // namespace mortise::contact
