@@ -111,7 +111,8 @@ TEST_P(Places, BothSidesArePushedAtOnePlaceThatBothCover)
   for (int i = 0; i < 12; ++i) {
     const double turned = i % 4 == 3 ? random() : 0, over = i % 3 == 2 ? 2.9 : 0;
     const Eigen::Matrix3d rotation = Eigen::AngleAxisd(turned, Point(0, 0, 1)).toRotationMatrix();
-    const Point origin(1 + over + (i == 5 ? 0.2 : random()), 1 + (i % 2 == 1 ? over : 0) + random(), 0);
+    const double x = i == 5 ? 0.2 : random(), y = random();
+    const Point origin(1 + over + x, 1 + (i % 2 == 1 ? over : 0) + y, 0);
     const bool plate_first = i % 2 == 0;
     const auto triangles = [](CellType t) { return mesh::corner_count(t) == 3; };
     const Grid plate{6, 5, 0, 6, 0, 5, plate_first, triangles(plate_first ? own : other), plate_first ? 0 : primary_ids};
@@ -120,9 +121,9 @@ TEST_P(Places, BothSidesArePushedAtOnePlaceThatBothCover)
     const auto upper = side(block, plate_first ? other : own, rotation, origin, comm);
     Corners common{{0, 0}, {6, 0}, {6, 5}, {0, 5}};
     for (const int k : {0, 1, 2, 3}) {
-      const double x = k == 1 || k == 2 ? 3 : 0, y = k > 1 ? 3 : 0;
+      const Point corner(k == 1 || k == 2 ? 3 : 0, k > 1 ? 3 : 0, 0);
       const Point inward(k == 3 ? 1 : k == 1 ? -1 : 0, k == 0 ? 1 : k == 2 ? -1 : 0, 0);
-      common = clip(common, Point(rotation * Point(x, y, 0) + origin).head<2>(), Point(rotation * inward).head<2>());
+      common = clip(common, Point(rotation * corner + origin).head<2>(), Point(rotation * inward).head<2>());
     }
     const auto pair = plate_first ? make_pair(lower, upper, Law::frictionless) : make_pair(upper, lower, Law::frictionless);
     const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows;
@@ -139,7 +140,7 @@ TEST_P(Places, BothSidesArePushedAtOnePlaceThatBothCover)
       moment += row.area * push * at;
     }
     EXPECT_NEAR(force, area_of(common), 1e-9) << "place " << i;  // of a pressure of 1
-    EXPECT_GT(independence(rows, nodes), 1e-3) << "place " << i;
+    EXPECT_GT(independence(rows, nodes), 5e-4) << "place " << i;
     EXPECT_LT((moment.head<2>() / force - centre_of(common)).norm(), 1e-9) << "place " << i;
   }
 }
