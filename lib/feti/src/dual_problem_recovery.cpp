@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "body_rows.hpp"
 #include "exactly_free.hpp"
 #include "feti/dual_problem.hpp"
 #include "neutral_motions.hpp"
@@ -165,6 +166,21 @@ Point DualProblem::gauge_force(const Vector& lambda) const
     for (Eigen::Index i = 0; i < f.size(); ++i) sum[static_cast<std::size_t>(i) % dimension] -= f[i];
   comm_.sum_in_place(sum);
   return {sum[0], sum[1], sum[2]};
+}
+
+std::optional<std::vector<std::vector<Eigen::VectorXd>>> DualProblem::gauged_motions() const
+{
+  std::vector<std::vector<Eigen::VectorXd>> result;
+  for (const auto& gauged : gauged_) {
+    if (gauged.resistance >= exactly_free) return {};
+    auto& motion = result.emplace_back();
+    for (const auto& subdomain : decomposition_.subdomains) {
+      motion.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.points.size()) * dimension()));
+      for (const auto& part : gauged.motions)
+        if (part.body == subdomain.body) motion.back() += sample(part, subdomain.mesh.points, dimension());
+    }
+  }
+  return result;
 }
 
 std::vector<double> DualProblem::loads_of_bodies() const

@@ -72,7 +72,12 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   const auto& subdomains = problem.clusters().subdomains();
   auto entries = entries_of_rows(problem.jump());
   bool dense = problem.springs() || problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension() ||
-               std::any_of(entries.begin(), entries.end(), [](std::size_t count) { return count > most_entries; });
+               !problem.gauged_motions();
+  const auto& jump = problem.jump();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const bool gauge = jump.rows()->getGlobalElement(static_cast<Local>(i)) >= jump.contact_rows().second;
+    dense = dense || (!gauge && entries[i] > most_entries);
+  }
   double unknowns = 0, factors = 0;
   for (const auto& subdomain : subdomains) {
     dense = dense || subdomain->lower().nonZeros() > static_cast<Eigen::Index>(most_entries) * subdomain->size();
@@ -120,10 +125,14 @@ SparseProblem::SparseProblem(const DualProblem& problem, bool patient)
   const auto compliance = rows_->to_root(jump.compliance());
   const auto set = rows_->to_root(problem.set());
   SparseMatrix stiffness = stiffness_on_root(false);
+  const auto gauged = problem.gauged_motions();
+  std::vector<VectorXd> motions;
+  for (const auto& motion : *gauged) motions.push_back(on_root(motion));
   collectively(comm, [&] {
     if (!comm.root()) return;
-    elimination_ = std::make_unique<SupportElimination>(
-        assembled<SupportElimination::Rows>(entries, problem.dual_unknowns(), unknowns_), as_vector(compliance), set);
+    auto rows = assembled<SupportElimination::Rows>(entries, problem.dual_unknowns(), unknowns_);
+    gauges_ = std::make_unique<Gauges>(rows, motions);
+    elimination_ = std::make_unique<SupportElimination>(std::move(rows), as_vector(compliance), set);
     whole_ = std::make_unique<WholeProblem>(std::move(stiffness), *elimination_, patient);
   });
 }
@@ -195,7 +204,8 @@ SparseProblem::Point SparseProblem::solve(const std::vector<VectorXd>& f, const 
   collectively(comm, [&] {
     if (!comm.root()) return;
     const VectorXd from = as_vector(start);
-    const auto found = whole_->solve(load, as_vector(c), set_on_root, near ? &from : nullptr);
+    auto found = whole_->solve(load, as_vector(c), set_on_root, near ? &from : nullptr);
+    gauges_->restore(as_vector(c), found.x, found.u);
     x.assign(found.x.begin(), found.x.end());
     u.assign(found.u.begin(), found.u.end());
     reaction.assign(found.reaction.begin(), found.reaction.end());

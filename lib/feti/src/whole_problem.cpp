@@ -1,5 +1,7 @@
 #include "whole_problem.hpp"
 
+#include <Eigen/LU>
+
 #include "base/submatrix.hpp"
 
 namespace mortise::feti {
@@ -72,6 +74,35 @@ VectorXd SupportElimination::complete(const VectorXd& multipliers, const VectorX
   const VectorXd left = forces - rows_.transpose() * x;
   for (const auto& support : supports_) x[support.row] = left[support.unknown] / support.coefficient;
   return x;
+}
+
+Gauges::Gauges(SupportElimination::Rows& rows, const std::vector<VectorXd>& motions)
+    : motions_(rows.cols(), static_cast<Index>(motions.size())), gauges_(motions_.cols(), rows.cols())
+{
+  const Index count = motions_.cols(), first = rows.rows() - count;
+  for (Index k = 0; k < count; ++k) motions_.col(k) = motions[static_cast<std::size_t>(k)];
+  gauges_ = rows.bottomRows(count);
+  work_ = gauges_ * motions_;
+  pinned_work_.resize(count, count);
+  rows.prune([&](Index row, Index, double) { return row < first; });
+  Eigen::MatrixXd left = motions_;
+  for (Index k = 0; k < count; ++k) {
+    Index pin = 0;
+    left.col(k).cwiseAbs().maxCoeff(&pin);
+    const double entry = work_(k, k) / motions_(pin, k);
+    rows.coeffRef(static_cast<int>(first + k), static_cast<int>(pin)) = entry;
+    pinned_work_.row(k) = entry * motions_.row(pin);
+    for (Index other = k + 1; other < count; ++other) left.col(other) -= left(pin, other) / left(pin, k) * left.col(k);
+  }
+  rows.makeCompressed();
+}
+
+void Gauges::restore(const VectorXd& c, VectorXd& x, VectorXd& u) const
+{
+  const Index count = motions_.cols();
+  if (count == 0) return;
+  u += motions_ * work_.partialPivLu().solve(c.tail(count) - gauges_ * u);
+  x.tail(count) = work_.transpose().partialPivLu().solve(pinned_work_.transpose() * x.tail(count));
 }
 
 WholeProblem::WholeProblem(SparseMatrix stiffness, const SupportElimination& elimination, bool patient)

@@ -43,6 +43,22 @@ class SupportElimination {
   std::vector<Local> number_;
 };
 
+/// Gauges of motions v that nothing resists, K v = 0 and B v = 0 but for the gauges m themselves. A row over a whole body would
+/// make the matrices full. What it prevents, holding one unknown prevents as well, at first; then u is moved along v to where the
+/// gauge wants it. Forces of gauges are rounding.
+class Gauges {
+ public:
+  /// `motions`: of the last so many of `rows` (B), each over all unknowns. These rows are replaced by ones with a single entry,
+  /// that do the same work on v: the unknowns are found by elimination, so that they are as independent as the motions.
+  Gauges(SupportElimination::Rows& rows, const std::vector<Eigen::VectorXd>& motions);
+  /// Of a solution with the other rows: x and u of the gauges, whose bounds stand in c.
+  void restore(const Eigen::VectorXd& c, Eigen::VectorXd& x, Eigen::VectorXd& u) const;
+
+ private:
+  Eigen::MatrixXd motions_, gauges_;    // v and m, as columns and rows
+  Eigen::MatrixXd work_, pinned_work_;  // of each gauge on each motion, and of what replaces it
+};
+
 /// Over all rows of B and all unknowns, which are numbered as the matrices have them. Heavy: neither copies nor moves.
 class WholeProblem {
  public:

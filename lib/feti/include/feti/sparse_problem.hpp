@@ -21,6 +21,7 @@ constexpr double worth_of_sparse = 3;
 double work_of_dense_solution(double free, double closing);
 double work_of_sparse_solution(double entries, double unknowns);
 
+class Gauges;
 class RowsOnRoot;
 class SupportElimination;
 class WholeInverse;
@@ -32,9 +33,9 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
  public:
   /// When a direct solution should take these: never, first, or after dense matrices have failed.
   enum class Turn { never, first, second };
-  /// Possible for bodies whose stiffness is sparse, with nothing but rigid motions in G, without springs and without rows over
-  /// whole bodies (gauges). First where there are many rows and sparse matrices take less time; second where they take no more
-  /// than some times as long, or some seconds. The same on every rank. Collective.
+  /// Possible for bodies whose stiffness is sparse, with nothing but rigid motions in G, without springs and without rows
+  /// over whole bodies but gauges of motions that nothing resists. First where there are many rows and sparse matrices take less
+  /// time; second where they take no more than some times as long, or some seconds. The same on every rank. Collective.
   static Turn turn(const DualProblem& problem);
 
   /// The problem outlives it. `patient`: as of qp::SparseNewton. Throws Error(machine) if memory runs out. Collective.
@@ -67,6 +68,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   std::vector<int> offset_;  // of the unknowns of this rank's subdomains among all; one past the last
   int unknowns_ = 0;         // of all ranks
   // On rank 0:
+  std::unique_ptr<const Gauges> gauges_;
   std::unique_ptr<const SupportElimination> elimination_;
   std::unique_ptr<WholeProblem> whole_;
   Lazy<std::unique_ptr<const WholeInverse>> inverse_;  // a factor as large as K's, for those who go on from a solution
