@@ -36,18 +36,6 @@ bool has_large_subdomains(const Assembly& assembly, const Communicator& comm)
   return comm.max(largest) > large * usual_unknowns(assembly.deck());
 }
 
-// A body of several skins, which cannot be made whole for a direct solution; empty if there is none. Collective.
-std::string cut_skin(const partition::Decomposition& decomposition, const Communicator& comm)
-{
-  std::vector<double> skins(decomposition.catalogue.bodies.size(), 0.0);
-  for (const auto& subdomain : decomposition.subdomains)
-    if (subdomain.skin) skins[static_cast<std::size_t>(subdomain.body)] += 1;
-  comm.sum_in_place(skins);
-  for (std::size_t b = 0; b < skins.size(); ++b)
-    if (skins[b] > 1) return decomposition.catalogue.bodies[b].name;
-  return {};
-}
-
 }  // namespace
 
 Outcome failed(const Approach& approach, int spent, const Communicator& comm)
@@ -70,13 +58,6 @@ Outcome failed(const Approach& approach, int spent, const Communicator& comm)
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
                        const Communicator& comm)
 {
-  const auto cut = cut_skin(assembly.decomposition(), comm);
-  if (!cut.empty() && approach.algorithm == "direct")
-    throw Error(ExitStatus::bad_input,
-                "body \"" + cut +
-                    "\" is made of boundary elements and cut into several subdomains: `solver.algorithm: direct` wants " +
-                    "it whole (decomposition.subdomains), `auto` and `face_newton` do not");
-  if (!cut.empty()) return approach;
   const auto effort = [&] { return effort_of_direct(assembly, constraints, comm); };
   if (approach.kind == Approach::Kind::direct_instead)
     approach.patience = products_of_check;

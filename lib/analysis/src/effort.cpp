@@ -29,6 +29,21 @@ constexpr double most_of_rest = 40;                       // products at most,
 constexpr double at_once = 0.1;                           // if it takes so many seconds
 constexpr double part_of_memory = 0.5;                    // of what is available
 
+// The rows between subdomains of boundary elements, which stay as they are cut. On this rank, those of a node shared out over its
+// copies.
+double rows_between_skins(const partition::Decomposition& decomposition, const partition::Interface& interface)
+{
+  double rows = 0;
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    if (!decomposition.subdomains[s].skin) continue;
+    for (std::size_t i = 0; i < interface.nodes[s].size(); ++i) {
+      const auto copies = static_cast<double>(interface.copies[s][i].size());
+      rows += decomposition.catalogue.dimension * (copies - 1) / copies;
+    }
+  }
+  return rows;
+}
+
 // Of a body with n unknowns whose subdomains have factors of `inside` entries: their factors and that of the interface, or what
 // the law of nested dissection makes of them where that is less. Each column of a factor has the average height, twice over.
 partition::FactorSize whole_factor(double n, double inside, double by_law, const partition::FactorSize& interface)
@@ -70,7 +85,8 @@ DirectEffort effort_of_direct(const Assembly& assembly, const constraint::Constr
                                                           constraints.springs.own.size()) +
                                    coupled) +
                           (eliminated ? 0 : along_axes));
-  const double all = prescribed + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size())));
+  const double all = prescribed + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size()))) +
+                     comm.sum(rows_between_skins(decomposition, assembly.interface()));
   const double free = all - closing;
 
   const auto interfaces = partition::interface_elimination(decomposition, assembly.interface(), comm);

@@ -23,7 +23,7 @@ struct Approach {
   enum class Kind {
     as_asked,            ///< what the deck says
     smaller_subdomains,  ///< the same with large subdomains cut into small pieces
-    direct_instead,      ///< every body whole, and F as a matrix
+    direct_instead,      ///< every body whole but those of boundary elements, and F as a matrix
     products_to_the_end  ///< face Newton without patience, after a direct solution that failed
   } kind = Kind::as_asked;
   std::string algorithm;                   ///< as solver.algorithm of the deck
@@ -35,8 +35,7 @@ struct Approach {
 
 /// The approach with its patience: with `auto` as many products as a direct solution costs, or few where subdomains are several
 /// times as large as usual and smaller ones are to be tried next. Throws Error(machine) if the deck asks for a direct solution
-/// and there is no room for it, Error(bad_input) if a body of boundary elements is cut, which a direct solution wants whole.
-/// Collective.
+/// and there is no room for it. Collective.
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
                        const Communicator& comm);
 
