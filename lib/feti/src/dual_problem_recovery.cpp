@@ -168,17 +168,20 @@ Point DualProblem::gauge_force(const Vector& lambda) const
   return {sum[0], sum[1], sum[2]};
 }
 
-std::optional<std::vector<std::vector<Eigen::VectorXd>>> DualProblem::gauged_motions() const
+bool DualProblem::gauges_hold_free_motions() const
+{
+  return std::all_of(gauged_.begin(), gauged_.end(), [](const FreeMotion& motion) { return motion.resistance < exactly_free; });
+}
+
+std::vector<std::vector<Eigen::VectorXd>> DualProblem::gauged_motions() const
 {
   std::vector<std::vector<Eigen::VectorXd>> result;
   for (const auto& gauged : gauged_) {
-    if (gauged.resistance >= exactly_free) return {};
-    auto& motion = result.emplace_back();
-    for (const auto& subdomain : decomposition_.subdomains) {
-      motion.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(subdomain.mesh.points.size()) * dimension()));
+    auto& motion = result.emplace_back(decomposition_.subdomains.size());
+    for (std::size_t s = 0; s < motion.size(); ++s)
       for (const auto& part : gauged.motions)
-        if (part.body == subdomain.body) motion.back() += sample(part, subdomain.mesh.points, dimension());
-    }
+        if (part.body == decomposition_.subdomains[s].body)
+          motion[s] = sample(part, decomposition_.subdomains[s].mesh.points, dimension());
   }
   return result;
 }

@@ -71,13 +71,11 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   const auto& comm = problem.communicator();
   const auto& subdomains = problem.clusters().subdomains();
   auto entries = entries_of_rows(problem.jump());
-  bool dense = problem.springs() || problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension() ||
-               !problem.gauged_motions();
+  bool dense = problem.springs() || problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension();
   const auto& jump = problem.jump();
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const bool gauge = jump.rows()->getGlobalElement(static_cast<Local>(i)) >= jump.contact_rows().second;
-    dense = dense || (!gauge && entries[i] > most_entries);
-  }
+  const Global end = problem.gauges_hold_free_motions() ? jump.contact_rows().second : problem.dual_unknowns();
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    dense = dense || (entries[i] > most_entries && jump.rows()->getGlobalElement(static_cast<Local>(i)) < end);
   double unknowns = 0, factors = 0;
   for (const auto& subdomain : subdomains) {
     dense = dense || subdomain->lower().nonZeros() > static_cast<Eigen::Index>(most_entries) * subdomain->size();
@@ -125,9 +123,7 @@ SparseProblem::SparseProblem(const DualProblem& problem, bool patient)
   const auto compliance = rows_->to_root(jump.compliance());
   const auto set = rows_->to_root(problem.set());
   SparseMatrix stiffness = stiffness_on_root(false);
-  const auto gauged = problem.gauged_motions();
-  std::vector<VectorXd> motions;
-  for (const auto& motion : *gauged) motions.push_back(on_root(motion));
+  const auto motions = motions_on_root();
   collectively(comm, [&] {
     if (!comm.root()) return;
     auto rows = assembled<SupportElimination::Rows>(entries, problem.dual_unknowns(), unknowns_);
@@ -160,6 +156,22 @@ SparseMatrix SparseProblem::stiffness_on_root(bool regularised) const
     if (comm.root()) result = assembled<SparseMatrix>(entries, unknowns_, unknowns_);
   });
   return result;
+}
+
+// The motions that gauges hold and nothing resists, as columns; none if facets resist any. Nothing elsewhere. Collective.
+Eigen::SparseMatrix<double> SparseProblem::motions_on_root() const
+{
+  const auto& comm = problem_.communicator();
+  if (!problem_.gauges_hold_free_motions()) return Eigen::SparseMatrix<double>(unknowns_, 0);
+  const auto motions = problem_.gauged_motions();
+  std::vector<double> entries;
+  for (std::size_t k = 0; k < motions.size(); ++k)
+    for (std::size_t s = 0; s < motions[k].size(); ++s)
+      for (Eigen::Index i = 0; i < motions[k][s].size(); ++i)
+        if (motions[k][s][i] != 0)
+          entries.insert(entries.end(), {static_cast<double>(offset_[s] + i), static_cast<double>(k), motions[k][s][i]});
+  entries = feti::on_root(std::move(entries), comm);
+  return assembled<Eigen::SparseMatrix<double>>(entries, unknowns_, static_cast<Eigen::Index>(motions.size()));
 }
 
 // What the subdomains of all ranks have, one after the other. Collective.

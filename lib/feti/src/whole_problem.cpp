@@ -1,6 +1,8 @@
 #include "whole_problem.hpp"
 
 #include <Eigen/LU>
+#include <cmath>
+#include <utility>
 
 #include "base/submatrix.hpp"
 
@@ -76,23 +78,26 @@ VectorXd SupportElimination::complete(const VectorXd& multipliers, const VectorX
   return x;
 }
 
-Gauges::Gauges(SupportElimination::Rows& rows, const std::vector<VectorXd>& motions)
-    : motions_(rows.cols(), static_cast<Index>(motions.size())), gauges_(motions_.cols(), rows.cols())
+Gauges::Gauges(SupportElimination::Rows& rows, Motions motions) : motions_(std::move(motions))
 {
   const Index count = motions_.cols(), first = rows.rows() - count;
-  for (Index k = 0; k < count; ++k) motions_.col(k) = motions[static_cast<std::size_t>(k)];
   gauges_ = rows.bottomRows(count);
-  work_ = gauges_ * motions_;
+  work_ = Eigen::MatrixXd(gauges_ * motions_);
   pinned_work_.resize(count, count);
   rows.prune([&](Index row, Index, double) { return row < first; });
-  Eigen::MatrixXd left = motions_;
+  std::vector<std::pair<int, Eigen::SparseVector<double>>> eliminated;  // with the unknown that is held
   for (Index k = 0; k < count; ++k) {
-    Index pin = 0;
-    left.col(k).cwiseAbs().maxCoeff(&pin);
-    const double entry = work_(k, k) / motions_(pin, k);
-    rows.coeffRef(static_cast<int>(first + k), static_cast<int>(pin)) = entry;
-    pinned_work_.row(k) = entry * motions_.row(pin);
-    for (Index other = k + 1; other < count; ++other) left.col(other) -= left(pin, other) / left(pin, k) * left.col(k);
+    Eigen::SparseVector<double> left = motions_.col(k);
+    for (const auto& [pin, before] : eliminated)
+      if (const double part = left.coeff(pin); part != 0) left -= part / before.coeff(pin) * before;
+    int pin = 0;
+    double largest = 0;
+    for (Eigen::SparseVector<double>::InnerIterator it(left); it; ++it)
+      if (std::abs(it.value()) > largest) largest = std::abs(it.value()), pin = static_cast<int>(it.index());
+    const double entry = work_(k, k) / motions_.coeff(pin, static_cast<int>(k));
+    rows.coeffRef(static_cast<int>(first + k), pin) = entry;
+    for (Index j = 0; j < count; ++j) pinned_work_(k, j) = entry * motions_.coeff(pin, static_cast<int>(j));
+    eliminated.emplace_back(pin, std::move(left));
   }
   rows.makeCompressed();
 }
@@ -101,7 +106,8 @@ void Gauges::restore(const VectorXd& c, VectorXd& x, VectorXd& u) const
 {
   const Index count = motions_.cols();
   if (count == 0) return;
-  u += motions_ * work_.partialPivLu().solve(c.tail(count) - gauges_ * u);
+  const VectorXd lacking = c.tail(count) - gauges_ * u;
+  u += motions_ * work_.partialPivLu().solve(lacking);
   x.tail(count) = work_.transpose().partialPivLu().solve(pinned_work_.transpose() * x.tail(count));
 }
 

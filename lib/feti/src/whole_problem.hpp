@@ -48,14 +48,16 @@ class SupportElimination {
 /// gauge wants it. Forces of gauges are rounding.
 class Gauges {
  public:
-  /// `motions`: of the last so many of `rows` (B), each over all unknowns. These rows are replaced by ones with a single entry,
-  /// that do the same work on v: the unknowns are found by elimination, so that they are as independent as the motions.
-  Gauges(SupportElimination::Rows& rows, const std::vector<Eigen::VectorXd>& motions);
+  using Motions = Eigen::SparseMatrix<double>;
+  /// `motions`: v of the last so many of `rows` (B), as columns over all unknowns. These rows are replaced by ones with a single
+  /// entry that do the same work on v: the unknowns are found by elimination, so that they are as independent as the motions.
+  Gauges(SupportElimination::Rows& rows, Motions motions);
   /// Of a solution with the other rows: x and u of the gauges, whose bounds stand in c.
   void restore(const Eigen::VectorXd& c, Eigen::VectorXd& x, Eigen::VectorXd& u) const;
 
  private:
-  Eigen::MatrixXd motions_, gauges_;    // v and m, as columns and rows
+  Motions motions_;
+  SupportElimination::Rows gauges_;     // m, as rows
   Eigen::MatrixXd work_, pinned_work_;  // of each gauge on each motion, and of what replaces it
 };
 

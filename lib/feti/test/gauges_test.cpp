@@ -50,7 +50,7 @@ TEST(Gauges, ArePinsUntilTheSolutionIsThere)
 {
   const FreeBody body;
   SupportElimination::Rows rows = body.b.sparseView();
-  const Gauges gauges(rows, {body.v.col(0), body.v.col(1)});
+  const Gauges gauges(rows, body.v.sparseView());
   for (Eigen::Index k = joints; k < rows.rows(); ++k) EXPECT_EQ(rows.row(static_cast<int>(k)).nonZeros(), 1);
   EXPECT_LT((MatrixXd(rows.topRows(joints)) - body.b.topRows(joints)).norm(), 1e-15);
 
@@ -72,7 +72,7 @@ TEST(Gauges, BearWhatDrivesTheirMotions)
   FreeBody body;
   body.load += 1e-3 * body.v.col(0) - 2e-3 * body.v.col(1);
   SupportElimination::Rows rows = body.b.sparseView();
-  const Gauges gauges(rows, {body.v.col(0), body.v.col(1)});
+  const Gauges gauges(rows, body.v.sparseView());
   const SupportElimination elimination(rows, VectorXd::Zero(rows.rows()), {{}, {}});
   WholeProblem whole(MatrixXd(body.k.triangularView<Eigen::Lower>()).sparseView(), elimination, false);
   auto found = whole.solve(body.load, body.bounds, {{}, {}});

@@ -130,9 +130,11 @@ class DualProblem {
   std::string unbounded_rigid_mode(const Eigen::VectorXd& nu) const;
   /// The sum of the forces of gauges on the bodies, where a gauge holds a free motion against the push of facets. Collective.
   Point gauge_force(const Vector& lambda) const;
-  /// The free motions that gauges hold, over the unknowns of this rank's subdomains, in the order of the gauges' rows, which are
-  /// the last ones, from jump().contact_rows().second on. Nothing if facets resist any of them.
-  std::optional<std::vector<std::vector<Eigen::VectorXd>>> gauged_motions() const;
+  /// Whether nothing resists any of the motions that gauges hold, no facets either.
+  bool gauges_hold_free_motions() const;
+  /// These motions, in the order of the gauges' rows, which are the last ones, from jump().contact_rows().second on: of each
+  /// subdomain of this rank the unknowns, or none where another body moves.
+  std::vector<std::vector<Eigen::VectorXd>> gauged_motions() const;
   /// The loads on motions that gauges hold, where they are more than rounding and facets make of others.
   std::vector<UnresistedLoad> unresisted_loads() const;
   /// ||K u + B'lambda + B0'mu - f|| over all subdomains, B0'mu the forces inside clusters, relative to

@@ -33,9 +33,9 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
  public:
   /// When a direct solution should take these: never, first, or after dense matrices have failed.
   enum class Turn { never, first, second };
-  /// Possible for bodies whose stiffness is sparse, with nothing but rigid motions in G, without springs and without rows
-  /// over whole bodies but gauges of motions that nothing resists. First where there are many rows and sparse matrices take less
-  /// time; second where they take no more than some times as long, or some seconds. The same on every rank. Collective.
+  /// Possible for bodies whose stiffness is sparse, with nothing but rigid motions in G, without springs and without long
+  /// rows over whole bodies but gauges of motions that nothing resists. First where there are many rows and sparse matrices take
+  /// less time; second where they take no more than some times as long, or some seconds. The same on every rank. Collective.
   static Turn turn(const DualProblem& problem);
 
   /// The problem outlives it. `patient`: as of qp::SparseNewton. Throws Error(machine) if memory runs out. Collective.
@@ -58,6 +58,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
 
  private:
   SparseMatrix stiffness_on_root(bool regularised) const;
+  Eigen::SparseMatrix<double> motions_on_root() const;
   std::unique_ptr<const WholeInverse> make_inverse() const;
   Eigen::VectorXd on_root(const std::vector<Eigen::VectorXd>& parts) const;
   Point solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const qp::FeasibleSet& set,
