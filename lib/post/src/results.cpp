@@ -70,14 +70,18 @@ void estimate_errors(const feti::DualSolution& solved, const Rounding& rounding,
 {
   const auto& stress = results.stress;
   results.algebraic_error = solved.solution.error;
+  double squared_error = stress.squared_error;
+  for (const auto& contact : results.contact_errors) squared_error += contact.squared;
   const double squared_norm =
-      std::max(2 * stress.strain_energy + stress.squared_error, nothing_of_errors(rounding, solved.solution.error));
+      std::max(2 * stress.strain_energy + squared_error, nothing_of_errors(rounding, solved.solution.error));
   if (!(squared_norm > 0)) return;  // a state at rest is exact
   results.algebraic_error /= std::sqrt(std::max(squared_norm, strained * stored));
-  results.mesh_error = {std::sqrt(stress.squared_error / squared_norm), largest_of_ranks(stress.worst_cell, comm),
-                        stress.body_error};
+  results.mesh_error = {
+      std::sqrt(squared_error / squared_norm), largest_of_ranks(stress.worst_cell, comm), stress.body_error, {}};
   comm.sum_in_place(results.mesh_error.part);
-  for (auto& part : results.mesh_error.part) part /= std::max(stress.squared_error, 1e-300);
+  for (auto& part : results.mesh_error.part) part /= std::max(squared_error, 1e-300);
+  for (const auto& contact : results.contact_errors)
+    results.mesh_error.of_contact.push_back(std::sqrt(contact.squared / squared_norm));
 }
 
 }  // namespace
@@ -101,8 +105,9 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   Results results;
   results.max_displacement = largest_displacement(displacement, dimension, comm);
   results.stress = recover_stress(bodies, displacement, comm);
-  estimate_errors(solved, rounding, stored, comm, results);
   results.contact = contact_results(problem, lambda, nu, solved.slip_bounds, displacement, pairs, largest_force);
+  results.contact_errors = contact_errors(bodies, displacement, pairs, results.contact.surfaces, comm);
+  estimate_errors(solved, rounding, stored, comm, results);
   if (bodies.kinematics != fem::Kinematics::axisymmetric)
     results.moments = contact_moments(problem, lambda, bodies.decomposition, bodies.kinematics, pairs, results.contact.points);
   results.reactions = reactions(problem, lambda, supports);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "post/nonconformity.hpp"
 #include "post/strength.hpp"
 
 namespace mortise::post {
@@ -152,6 +153,32 @@ TEST(CoarseMesh, says_where_and_how_much_of_it)
   EXPECT_NE(found[0].text.find("80 % of its square"), std::string::npos);
   error.relative = 0.25;
   EXPECT_TRUE(coarse_mesh(error, {"left", "right"}).empty());
+}
+
+TEST(CoarseSecondary, from_half_of_the_error)
+{
+  std::vector<contact::Pair> pairs(2);
+  pairs[0].options.name = "left";
+  pairs[1].options.name = "right";
+  const std::vector<ContactError> errors{{}, {0, 0.25, Point(1, 2, 0)}};
+  MeshError error;
+  error.relative = 0.1;
+  error.of_contact = {0.049, 0.051};
+  const auto found = coarse_secondaries(errors, error, pairs);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, "coarse_secondary");
+  EXPECT_EQ(found[0].contact, "right");
+  EXPECT_EQ(found[0].value, 0.051);
+  EXPECT_NE(found[0].text.find("0.25"), std::string::npos);
+  EXPECT_EQ(*found[0].at, Point(1, 2, 0));
+  error.of_contact = {0.049, 0.049};
+  EXPECT_TRUE(coarse_secondaries(errors, error, pairs).empty());
+  // Little of the solution, however large beside the rest.
+  error.relative = 0.02;
+  error.of_contact = {0, 0.0199};
+  EXPECT_TRUE(coarse_secondaries(errors, error, pairs).empty());
+  error.of_contact = {0, 0.0201};
+  EXPECT_EQ(coarse_secondaries(errors, error, pairs).size(), 1U);
 }
 
 TEST(FacetPush, from_a_thousandth_of_the_largest_force)

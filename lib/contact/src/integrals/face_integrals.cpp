@@ -42,9 +42,7 @@ Integrator::Integrator(const Side& secondary, const SurfaceNodes& secondary_node
       secondary_nodes_(secondary_nodes),
       primary_(primary),
       primary_nodes_(primary_nodes),
-      tree_(tree),
-      sight_(sight),
-      reach_(reach),
+      common_parts_(secondary, primary, tree, sight, reach),
       nearest_(nearest),
       slot_(primary.points.size(), -1),
       covered_face_(secondary, primary, corners),
@@ -172,28 +170,6 @@ void Integrator::add_points(std::size_t facet, std::size_t other, const Bulge& o
   }
 }
 
-// Calls use(primary facet) for all that a facet looks at, with what they have in common in overlap_.
-template <class Use>
-void Integrator::each_common(std::size_t facet, const Use& use)
-{
-  const bool second_order = secondary_.second_order(static_cast<std::size_t>(secondary_.face_of[facet]));
-  const FaceGeometry own = secondary_.geometry(facet);
-  Box box;
-  for (const auto& p : own.nodes) box.extend(p);
-  const Point margin = Point::Constant(1e-6 * own.size());
-  box.min() -= margin;
-  box.max() += margin;
-  tree_.swept(box, reach_ * own.normal(), met_);
-  for (const int met : met_) {
-    const auto other = static_cast<std::size_t>(met);
-    // Functions of points of its own are linear on triangles, which may be small.
-    const bool high = second_order || basis_ || primary_.second_order(static_cast<std::size_t>(primary_.face_of[other]));
-    const auto geometry = primary_.geometry(other);
-    if (!overlap(own, geometry, reach_, high, overlap_)) continue;
-    if (!sight_.hidden(overlap_.middle, overlap_.frame.normal, overlap_.distance, own.size())) use(other);
-  }
-}
-
 void Integrator::add_pair(std::size_t facet, std::size_t other, const Bulge& own_bulge)
 {
   const bool second_order = secondary_.second_order(static_cast<std::size_t>(secondary_.face_of[facet]));
@@ -217,7 +193,7 @@ void Integrator::integrate_facet(std::size_t facet)
 {
   add_whole(facet);
   const Bulge own_bulge(secondary_, secondary_nodes_, facet);
-  each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
+  common_parts_.each(facet, false, overlap_, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
 }
 
 // All of a face in one piece.
@@ -307,7 +283,8 @@ void Integrator::move_points(std::size_t face)
     for (std::size_t c = 0; c < secondary_.facets[facet].size(); ++c)
       piece_->whole[nodes[c]] += whole[static_cast<Eigen::Index>(c)];
     const Bulge own_bulge(secondary_, secondary_nodes_, facet);
-    each_common(facet, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
+    // Functions of points of its own are linear on triangles, which may be small.
+    common_parts_.each(facet, true, overlap_, [&](std::size_t other) { add_pair(facet, other, own_bulge); });
   }
   basis_.reset();
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "integrals/common_parts.hpp"
 #include "integrals/covered_basis.hpp"
 #include "integrals/covered_face.hpp"
 #include "integrals/pieces.hpp"
@@ -36,8 +37,6 @@ class Integrator {
   void begin(std::size_t face);
   void start(std::size_t face, Local facet, std::size_t functions = 0);
   void forget_nodes();
-  template <class Use>
-  void each_common(std::size_t facet, const Use& use);
   void integrate_face(std::size_t face);
   void integrate_facet(std::size_t facet);
   void cut(std::size_t face, bool in_facets);
@@ -58,9 +57,7 @@ class Integrator {
   const SurfaceNodes& secondary_nodes_;
   const Side& primary_;
   const SurfaceNodes& primary_nodes_;
-  const Tree& tree_;
-  const LineOfSight& sight_;
-  double reach_;
+  CommonParts common_parts_;
   const std::vector<NearestPoint>& nearest_;  // of each surface node of the secondary side, or none
   std::vector<PieceIntegrals> pieces_;
   PieceIntegrals* piece_ = nullptr;  // at work: the last of pieces_, if there is one
@@ -69,7 +66,6 @@ class Integrator {
   std::vector<Polygon> common_;        // what the facet at work has in common with the primary facets
   CoveredFace covered_face_;           // at work, if it is cut
   std::optional<CoveredBasis> basis_;  // if it has points of its own
-  std::vector<int> met_;
   std::span<const std::vector<Local>> bonded_;
   std::vector<Local> body_of_;  // of each primary node, once it is asked for
 };

@@ -7,6 +7,7 @@
 #include "post/contact_results.hpp"
 #include "post/extremes.hpp"
 #include "post/interior.hpp"
+#include "post/nonconformity.hpp"
 #include "post/strength.hpp"
 #include "post/stress_recovery.hpp"
 #include "post/verdict.hpp"
@@ -25,9 +26,10 @@ struct Results {
   std::vector<SpringState> springs;      ///< of each spring between points, by name
   Balance balance;
   std::vector<feti::UnresistedLoad> unresisted;  ///< see DualProblem::unresisted_loads()
-  std::vector<double> shortenings;  ///< of each pretension section, given or found
+  std::vector<double> shortenings;               ///< of each pretension section, given or found
   Residuals residuals;
-  double algebraic_error = 0;  ///< of the solver, relative, in the energy norm; NaN: not estimated
+  double algebraic_error = 0;                ///< of the solver, relative, in the energy norm; NaN: not estimated
+  std::vector<ContactError> contact_errors;  ///< the part of the mesh's error that contacts have
   MeshError mesh_error;
   Verdict verdict;
 };

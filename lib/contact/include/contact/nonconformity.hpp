@@ -1,0 +1,37 @@
+// What the multipliers of a contact do not see of how its sides move against each other.
+//
+// Weak contact asks for jumps that fit in the mean over each multiplier's function. What is left of the jump on a face of the
+// secondary side, once the polynomials of the multipliers are taken out, no multiplier sees: there a primary side of smaller
+// faces passes through, or stands off, with nothing to stop it. It is the consistency error of mortar methods as it is found in a
+// solution [Wohlmuth, SIAM J. Numer. Anal. 38 (2000), bounds it from the start].
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "contact/mortar.hpp"
+#include "contact/state.hpp"
+
+namespace mortise::contact {
+
+/// The displacement of a node, as plain bytes.
+struct NodalDisplacement {
+  Global node;
+  std::array<double, 3> u;
+};
+
+/// Of one contact, over all its faces that press.
+struct Nonconformity {
+  double squared = 0;        ///< integral w^2 / size of the face, w being what is left of the normal jump; areas as in the model
+  double deepest = 0;        ///< the largest w of sides that pass through each other, a length
+  Point at = Point::Zero();  ///< where that is, on the undeformed secondary side
+};
+
+/// One for each pair, the same on every rank; 0 of obstacles, pretension sections and cuts of sectors. `surfaces` as of
+/// surface_states(); `displacements`: those of this rank's nodes of both sides at least, copies being the same. Collective.
+std::vector<Nonconformity> nonconformities(std::span<const Pair> pairs, std::span<const SurfaceState> surfaces,
+                                           std::span<const NodalDisplacement> displacements, fem::Kinematics kinematics,
+                                           const Communicator& comm);
+
+}  // namespace mortise::contact

@@ -1,0 +1,200 @@
+#include "contact/nonconformity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/dense.hpp"
+#include "integrals/common_parts.hpp"
+#include "integrals/pieces.hpp"
+#include "rows/by_node.hpp"
+#include "search/share.hpp"
+
+namespace mortise::contact {
+
+namespace {
+
+// A node of a secondary side that presses.
+struct PressedNode {
+  Global node;
+};
+
+bool counts(const Pair& pair)
+{
+  return pair.primary && !pair.options.obstacle && !pair.options.preload && !pair.options.cyclic;
+}
+
+// Of a side's nodes, with zeros where nothing is known. Collective.
+std::vector<Point> displacements_of(const Side& side, const std::vector<NodalDisplacement>& known, const Communicator& comm)
+{
+  std::vector<Point> result(side.node_id.size(), Point::Zero());
+  for (const auto& found : answer(known, ask(side.node_id, comm), comm)) {
+    const auto at = std::lower_bound(side.node_id.begin(), side.node_id.end(), found.node);
+    result[static_cast<std::size_t>(at - side.node_id.begin())] = unpacked(found.u);
+  }
+  return result;
+}
+
+// Of a side's nodes whether they press. `mine`: nodes of this rank's faces. Collective.
+std::vector<char> pressed_of(const Side& side, const std::vector<PressedNode>& mine, const Communicator& comm)
+{
+  std::vector<char> result(side.node_id.size(), 0);
+  for (const auto& found : answer(by_node<PressedNode>(mine, comm), ask(side.node_id, comm), comm)) {
+    const auto at = std::lower_bound(side.node_id.begin(), side.node_id.end(), found.node);
+    result[static_cast<std::size_t>(at - side.node_id.begin())] = 1;
+  }
+  return result;
+}
+
+// One side of a contact on this rank, with what its nodes do.
+struct MovedSide {
+  const Side& side;
+  std::vector<Point> u;
+
+  Point at(std::size_t face, const FaceShape& phi) const
+  {
+    Point sum = Point::Zero();
+    const auto nodes = side.faces[face];
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      sum += phi[static_cast<Eigen::Index>(k)] * u[static_cast<std::size_t>(nodes[k])];
+    return sum;
+  }
+};
+
+// The faces of the secondary side, one after the other.
+class Faces {
+ public:
+  Faces(const Share& share, double reach, MovedSide secondary, MovedSide primary, std::vector<char> pressed)
+      : secondary_(std::move(secondary)),
+        primary_(std::move(primary)),
+        pressed_(std::move(pressed)),
+        tree_(tree_of_facets(share.primary)),
+        sight_(share.secondary, share.primary, tree_),
+        common_parts_(share.secondary, share.primary, tree_, sight_, reach)
+  {
+  }
+
+  bool presses(std::size_t face) const
+  {
+    return std::ranges::any_of(side().faces[face], [&](Local n) { return pressed_[static_cast<std::size_t>(n)] != 0; });
+  }
+
+  void add(std::size_t face, Nonconformity& sum)
+  {
+    sample(face);
+    if (samples_.empty()) return;
+    const Eigen::VectorXd seen = dense::minimum_norm(gram_, moments_);
+    const auto nodes = side().faces[face];
+    for (const auto& s : samples_) {
+      const double left = s.jump - s.theta.dot(seen);
+      double part = 0;  // that presses, about
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        if (pressed_[static_cast<std::size_t>(nodes[k])]) part += s.theta[static_cast<Eigen::Index>(k)];
+      part = std::clamp(part, 0.0, 1.0);
+      sum.squared += s.weight * part * left * left / size_;
+      if (part * left > sum.deepest) sum.deepest = part * left, sum.at = s.at;
+    }
+  }
+
+ private:
+  struct Sample {
+    double weight, jump;
+    Point at;
+    FaceShape theta;
+  };
+
+  const Side& side() const { return secondary_.side; }
+
+  // The mean normal of a face, and its size.
+  Point measure(std::size_t face)
+  {
+    Point sum = Point::Zero();
+    double area = 0;
+    for (auto facet = side().first_facet[face]; facet < side().first_facet[face + 1]; ++facet) {
+      const FaceGeometry geometry = side().geometry(static_cast<std::size_t>(facet));
+      const double part = geometry.type == mesh::CellType::line2 ? geometry.size() : geometry.area();
+      sum += part * geometry.normal();
+      area += part;
+    }
+    size_ = mesh::corner_count(side().faces.type[face]) == 2 ? area : std::sqrt(area);
+    return sum.normalized();
+  }
+
+  void sample(std::size_t face)
+  {
+    const Point normal = measure(face);
+    const auto& basis = multiplier_basis(side().faces.type[face]);
+    const auto n = basis.rows();
+    samples_.clear();
+    gram_.setZero(n, n);
+    moments_.setZero(n);
+    for (auto f = side().first_facet[face]; f < side().first_facet[face + 1]; ++f) {
+      const auto facet = static_cast<std::size_t>(f);
+      const FaceGeometry geometry = side().geometry(facet);
+      common_parts_.each(facet, false, common_, [&](std::size_t other) {
+        const auto other_face = static_cast<std::size_t>(primary_.side.face_of[other]);
+        for (const auto& point : common_.points) {
+          const FaceShape phi = side().shape_in_face(facet, point.secondary, common_.frame, point.at);
+          const FaceShape opposite = primary_.side.shape_in_face(other, point.primary, common_.frame, point.at);
+          const double jump = normal.dot(secondary_.at(face, phi) - primary_.at(other_face, opposite));
+          Point at = Point::Zero();
+          for (std::size_t k = 0; k < geometry.nodes.size(); ++k)
+            at += point.secondary[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
+          samples_.push_back({point.weight * side().thickness(facet, point.secondary), jump, at, basis * phi});
+          const auto& s = samples_.back();
+          gram_ += s.weight * s.theta * s.theta.transpose();
+          moments_ += s.weight * jump * s.theta;
+        }
+      });
+    }
+  }
+
+  MovedSide secondary_, primary_;
+  std::vector<char> pressed_;  // of each secondary node
+  Tree tree_;
+  LineOfSight sight_;
+  CommonParts common_parts_;
+  Overlap common_;  // of the facet at work; what follows is of its face
+  double size_ = 0;
+  std::vector<Sample> samples_;
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd moments_;
+};
+
+// Of all ranks. Collective.
+Nonconformity over_ranks(const Nonconformity& mine, const Communicator& comm)
+{
+  Nonconformity result{comm.sum(mine.squared), 0, Point::Zero()};
+  for (const auto& other : comm.all_gather(std::vector{std::array{mine.deepest, mine.at[0], mine.at[1], mine.at[2]}}))
+    if (other[0] > result.deepest) result.deepest = other[0], result.at = Point(other[1], other[2], other[3]);
+  return result;
+}
+
+}  // namespace
+
+std::vector<Nonconformity> nonconformities(std::span<const Pair> pairs, std::span<const SurfaceState> surfaces,
+                                           std::span<const NodalDisplacement> displacements, fem::Kinematics kinematics,
+                                           const Communicator& comm)
+{
+  std::vector<Nonconformity> result(pairs.size());
+  auto known = by_node(displacements, comm);
+  const auto same = [](const NodalDisplacement& a, const NodalDisplacement& b) { return a.node == b.node; };
+  known.erase(std::unique(known.begin(), known.end(), same), known.end());
+  const auto sizes = measure(pairs, comm);
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (!counts(pairs[c])) continue;
+    std::vector<PressedNode> pressed;
+    for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i)
+      if (surfaces[c].status[i] != static_cast<int>(Status::open)) pressed.push_back({pairs[c].secondary.node_id[i]});
+    if (!comm.any(!pressed.empty())) continue;
+    const Share share = share_out(pairs[c], sizes[c], kinematics, comm);
+    Faces faces(share, sizes[c].reach, {share.secondary, displacements_of(share.secondary, known, comm)},
+                {share.primary, displacements_of(share.primary, known, comm)}, pressed_of(share.secondary, pressed, comm));
+    Nonconformity mine;
+    for (std::size_t f = 0; f < share.secondary.faces.size(); ++f)
+      if (share.own[static_cast<std::size_t>(share.secondary.faces[f][0])] && faces.presses(f)) faces.add(f, mine);
+    result[c] = over_ranks(mine, comm);
+  }
+  return result;
+}
+
+}  // namespace mortise::contact
