@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "surface/surface_nodes.hpp"
 #include "surfaces.hpp"
 
 namespace mortise::contact {
@@ -32,6 +33,34 @@ Errors errors(const Below& below, const Above& above, const Normal& normal, doub
     worst.gap = std::max(worst.gap, std::abs(row.bound / row.weight - apart));
   }
   return worst;
+}
+
+// Corners between which a cylinder turns by half a face and a whole one, as those of the facet in the middle of an eight-node
+// face; others lie anyhow.
+TEST(Bulge, IsExactOnCylindersHoweverFacetsLie)
+{
+  constexpr double radius = 10, turn = 0.2;
+  const auto normal = [](double angle) { return Point(std::cos(angle), std::sin(angle), 0); };
+  const auto corner = [&](double angle, double z) { return Point(radius * normal(angle) + z * Point::UnitZ()); };
+  using Places = std::vector<std::pair<double, double>>;
+  for (const auto& places :
+       {Places{{0, 0}, {turn, 1}, {0, 2}, {-turn, 1}}, Places{{0, 0}, {turn, 0.3}, {0.7 * turn, 2}, {-0.4 * turn, 1.5}},
+        Places{{0, 0}, {turn, 0}, {turn, 1}, {0, 1}}}) {
+    FaceGeometry facet{mesh::CellType::quad4, {}};
+    std::vector<Point> normals;
+    for (const auto& [angle, z] : places) {
+      facet.nodes.push_back(corner(angle, z));
+      normals.push_back(normal(angle));
+    }
+    const Bulge bulge(facet, normals);
+    for (const double a : {0.5, 0.1, 0.9})
+      for (const double b : {0.5, 0.7}) {
+        const Eigen::Vector4d shape((1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b);
+        Point at = Point::Zero();
+        for (std::size_t k = 0; k < 4; ++k) at += shape[static_cast<Eigen::Index>(k)] * facet.nodes[k];
+        EXPECT_NEAR(bulge(shape), radius - at.head<2>().norm(), 1e-13) << a << " " << b;
+      }
+  }
 }
 
 TEST(SmoothNormals, AreExactOnCylindersAndSpheresWhateverTheFaces)
@@ -141,9 +170,8 @@ double apart_from_whole(const Gathered& part, const std::map<Global, Point>& par
   for (const auto& row : part.rows) {
     if (!row.is_normal || !part_nodes.contains(row.node)) continue;
     const Point& x = part_nodes.at(row.node);
-    const auto same = std::ranges::find_if(whole.rows, [&](const auto& other) {
-      return other.is_normal && (whole_nodes.at(other.node) - x).norm() < 1e-9;
-    });
+    const auto same = std::ranges::find_if(
+        whole.rows, [&](const auto& other) { return other.is_normal && (whole_nodes.at(other.node) - x).norm() < 1e-9; });
     most = std::max(most, same == whole.rows.end() ? 1.0 : (row.normal - same->normal).norm());
   }
   return most;
@@ -156,7 +184,7 @@ TEST(SmoothNormals, InPlanesOfSymmetryAreThoseOfTheWhole)
   const auto hollow = [](double x, double y) { return Point(x, y, -0.3 * std::cos(1.3 * x) * std::cos(1.5 * y)); };
   const auto lid = [&](double x, double y) { return Point(x, y, hollow(x, y)[2] + 0.1); };
   auto whole = make_pair(surface({8, 10, -1.2, 1.2, -1, 1, true}, hollow, comm),
-                               surface({7, 7, -1.4, 1.4, -1.4, 1.4, false, false, primary_ids}, lid, comm), Law::frictionless);
+                         surface({7, 7, -1.4, 1.4, -1.4, 1.4, false, false, primary_ids}, lid, comm), Law::frictionless);
   whole.options.search_distance = 2;
   const auto of_whole = gather_rows(discretize(std::vector<Pair>{whole}, {}, fem::Kinematics::solid, comm), comm);
   for (const bool quarter : {false, true}) {
@@ -206,7 +234,7 @@ TEST(SmoothNormals, AtTheCutsOfASectorAreThoseOfTheWhole)
   };
   const auto lid = [&](double x, double y) { return Point(x, y, shape(x, y)[2] + 0.1); };
   auto whole = make_pair(surface({10, 10, -1, 1, -1, 1, true}, shape, comm),
-                               surface({56, 56, -1.4, 1.4, -1.4, 1.4, false, false, primary_ids}, lid, comm), Law::frictionless);
+                         surface({56, 56, -1.4, 1.4, -1.4, 1.4, false, false, primary_ids}, lid, comm), Law::frictionless);
   whole.options.search_distance = 2;
   const auto of_whole = gather_rows(discretize(std::vector<Pair>{whole}, {}, fem::Kinematics::solid, comm), comm);
   auto sector = whole;
@@ -275,8 +303,9 @@ TEST(SmoothNormals, OfArcsBesideARidgeAreTheirOwn)
     for (const double slope : {-0.3, -0.2, 0.2, 0.3}) {
       const double away = radius * slope / std::hypot(slope, 1);  // of the arcs' axes
       const auto arcs = [&](double x, double y) {
-        return Point(x, y, std::sqrt(radius * radius - (std::abs(x) + away) * (std::abs(x) + away)) -
-                         std::sqrt(radius * radius - away * away));
+        return Point(
+            x, y,
+            std::sqrt(radius * radius - (std::abs(x) + away) * (std::abs(x) + away)) - std::sqrt(radius * radius - away * away));
       };
       const auto pair = make_pair(surface({6, 4, -3, 3, 0, 4, true, triangles}, arcs, comm),
                                   surface({6, 4, -3, 3, 0, 4, false, triangles, primary_ids}, arcs, comm), Law::frictionless);
@@ -299,7 +328,8 @@ TEST(SmoothNormals, WhereAKinkBeginsLieBetweenThoseOfItsFaces)
   for (const bool triangles : {false, true})
     for (const int n : {8, 10, 12}) {
       const auto mitre = [&](double x, double y) { return Point(x, y, -std::max(fillet(x), fillet(y))); };
-      const Grid lower{n, n, -1.6, 1.6, -1.6, 1.6, true, triangles}, upper{n, n, -1.6, 1.6, -1.6, 1.6, false, triangles, primary_ids};
+      const Grid lower{n, n, -1.6, 1.6, -1.6, 1.6, true, triangles},
+          upper{n, n, -1.6, 1.6, -1.6, 1.6, false, triangles, primary_ids};
       const auto pair = make_pair(surface(lower, mitre, comm), surface(upper, mitre, comm), Law::frictionless);
       const auto nodes = nodes_of(pair, comm);
       for (const auto& row : gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm).rows) {

@@ -236,8 +236,7 @@ Few<Point, 4> corner_normals(const Side& side, const SurfaceNodes& surface_nodes
 Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals) : n_(face.nodes.size())
 {
   for (std::size_t i = 0; i < n_; ++i) {
-    const std::size_t j = (i + 1) % n_;
-    rise_[i] = (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 8;
+    for (std::size_t j = 0; j < i; ++j) rise_[i][j] = (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 2;
     normal_[i] = normals[i];
   }
 }
@@ -256,19 +255,13 @@ double Bulge::operator()(const Eigen::Vector4d& shape) const
   return 2 * rise / (1 + mean.norm());
 }
 
+// sum N_i f(x_i) - f(sum N_i x_i) of a quadratic f.
 double Bulge::quadratic(const Eigen::Vector4d& shape) const
 {
-  if (n_ == 2) return 4 * shape[0] * shape[1] * rise_[0];
   double result = 0;
-  for (std::size_t i = 0; i < n_; ++i) {
-    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>((i + 1) % n_);
-    if (n_ == 3) {
-      result += 4 * shape[a] * shape[b] * rise_[i];
-    } else {  // on a quad N_i N_j = (1 - t^2)(1 + s)^2 / 16 along edge ij, whose own function is (1 - t^2)(1 + s) / 2
-      const double across = shape[a] + shape[b];
-      if (across > 1e-12) result += 4 * shape[a] * shape[b] / across * rise_[i];
-    }
-  }
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      result += shape[static_cast<Eigen::Index>(i)] * shape[static_cast<Eigen::Index>(j)] * rise_[i][j];
   return result;
 }
 

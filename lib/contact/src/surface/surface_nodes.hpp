@@ -50,8 +50,8 @@ class Bulge {
   double quadratic(const Eigen::Vector4d& shape) const;
 
   std::size_t n_;
-  std::array<double, 4> rise_{};  // at the middle of each edge
-  std::array<Point, 4> normal_;   // at each corner
+  std::array<std::array<double, 4>, 4> rise_{};  // of each two corners four times that of their middle
+  std::array<Point, 4> normal_;                  // at each corner
 };
 
 }  // namespace mortise::contact
