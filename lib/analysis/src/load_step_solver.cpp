@@ -27,11 +27,12 @@ constexpr double strained = 1e-3;
 // least.
 constexpr double unfelt_force = 1e-8, part_to_balance = 1e-3;
 
-// Multipliers of one problem as a start for another one of the same assembly, where other components are prescribed.
-qp::Solution carry_multipliers(const feti::DualProblem& from, const qp::Solution& solution, const feti::DualProblem& to)
+// The solution of one problem as a start for another one of the same assembly, where other components are prescribed.
+qp::Solution carry_solution(const feti::DualProblem& from, const qp::Solution& solution, const feti::DualProblem& to)
 {
-  const Eigen::VectorXd before = from.forces(solution.x);
+  const Eigen::VectorXd before = from.forces(solution.x), gaps_before = from.gaps(solution.gradient, solution.nu);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(to.jump().rows()->getNodeNumElements()));
+  Eigen::VectorXd gaps = forces;
   const auto &old_ranges = from.jump().ranges(), &ranges = to.jump().ranges();
   const auto &old = from.constraints(), &now = to.constraints();
   forces.head(ranges.dirichlet) = before.head(old_ranges.dirichlet);
@@ -46,14 +47,20 @@ qp::Solution carry_multipliers(const feti::DualProblem& from, const qp::Solution
     const auto found = points.find(key);
     if (found == points.end()) continue;
     const Local first = from.node_rows()[found->second].normal, row = to.node_rows()[i].normal;
-    forces[row] = before[first];
-    change_tangents(
-        old.contacts.nodes[found->second], now.contacts.nodes[i],
-        [&](std::size_t t) { return before[first + 1 + static_cast<Local>(t)]; },
-        [&](std::size_t t, double f) { forces[row + 1 + static_cast<Local>(t)] = f; });
+    const auto carry = [&](const Eigen::VectorXd& values_before, Eigen::VectorXd& values) {
+      values[row] = values_before[first];
+      change_tangents(
+          old.contacts.nodes[found->second], now.contacts.nodes[i],
+          [&](std::size_t t) { return values_before[first + 1 + static_cast<Local>(t)]; },
+          [&](std::size_t t, double value) { values[row + 1 + static_cast<Local>(t)] = value; });
+    };
+    carry(before, forces);
+    carry(gaps_before, gaps);
   }
-  const Vector x = to.multipliers(forces);
-  qp::Solution start(x, x, solution.nu);
+  Eigen::VectorXd nu = Eigen::VectorXd::Zero(to.equality().size());
+  const auto common = std::min<Eigen::Index>({nu.size(), solution.nu.size(), from.kernel_dimension(), to.kernel_dimension()});
+  nu.head(common) = solution.nu.head(common);
+  qp::Solution start(to.multipliers(forces), to.gradient(gaps, nu), nu);
   start.hessian_norm = solution.hessian_norm;
   start.precision = solution.precision;
   start.augmented = solution.augmented;
@@ -214,7 +221,7 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   before_ = applications();
   solver_.reset();
   auto next = make_problem(assembly_, *rows_, std::move(load), context_);
-  from.solved.solution = carry_multipliers(*problem_, from.solved.solution, *next);
+  from.solved.solution = carry_solution(*problem_, from.solved.solution, *next);
   problem_ = std::move(next);
   make_solver();
 }

@@ -25,6 +25,21 @@ Vector DualProblem::multipliers(const Eigen::VectorXd& forces) const
   return lambda;
 }
 
+Eigen::VectorXd DualProblem::gaps(const Vector& gradient, const Eigen::VectorXd& nu) const
+{
+  Vector reaction(gradient, Teuchos::Copy);
+  equality_->add_transpose(1, nu, reaction);
+  return view(reaction).cwiseQuotient(jump_->scaling().factor);
+}
+
+Vector DualProblem::gradient(const Eigen::VectorXd& gaps, const Eigen::VectorXd& nu) const
+{
+  Vector result(jump_->rows());
+  view(result) = gaps.cwiseProduct(jump_->scaling().factor);
+  equality_->add_transpose(-1, nu, result);
+  return result;
+}
+
 Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
 {
   const Vector scaled = jump_->apply(u);

@@ -20,7 +20,7 @@ qp::ExplicitProgramme sparse_programme(const DualProblem& problem, bool slender)
   };
   const auto go_on = [matrices](const qp::RightHandSide& right, const Vector& d, const Eigen::VectorXd& e,
                                 const qp::FeasibleSet& set,
-                                const Point& near) { return matrices->go_on(right, d, e, set, near.x); };
+                                const Point& near) { return matrices->go_on(right, d, e, set, near); };
   return {matrices, solve, go_on, true, {}, slender};
 }
 

@@ -189,7 +189,7 @@ SparseProblem::Point SparseProblem::solve(const qp::RightHandSide& right, const 
 
 // Forces R de move bodies and nothing else: c' = c + d - d' + B K^+ R de.
 SparseProblem::Point SparseProblem::go_on(const qp::RightHandSide& right, const Vector& linear, const VectorXd& e,
-                                          const qp::FeasibleSet& set, const Vector& near) const
+                                          const qp::FeasibleSet& set, const Point& near) const
 {
   const auto& clusters = problem_.clusters();
   const VectorXd more = e - right.e;
@@ -205,18 +205,20 @@ SparseProblem::Point SparseProblem::go_on(const qp::RightHandSide& right, const 
 }
 
 SparseProblem::Point SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const qp::FeasibleSet& set,
-                                          const Vector* near) const
+                                          const Point* near) const
 {
   const auto& comm = problem_.communicator();
   const VectorXd load = on_root(f);
-  const auto c = rows_->to_root(bound), start = near ? rows_->to_root(view(*near)) : std::vector<double>();
+  const bool known = near && near->reaction;
+  const auto c = rows_->to_root(bound), start = known ? rows_->to_root(view(near->x)) : std::vector<double>(),
+             felt = known ? rows_->to_root(view(*near->reaction)) : std::vector<double>();
   const auto set_on_root = rows_->to_root(set);
   std::vector<double> x, u, reaction;
   std::vector<long long> outcome;
   collectively(comm, [&] {
     if (!comm.root()) return;
-    const VectorXd from = as_vector(start);
-    auto found = whole_->solve(load, as_vector(c), set_on_root, near ? &from : nullptr);
+    const WholeProblem::Start from{as_vector(start), as_vector(felt)};
+    auto found = whole_->solve(load, as_vector(c), set_on_root, known ? &from : nullptr);
     gauges_->restore(as_vector(c), found.x, found.u);
     x.assign(found.x.begin(), found.x.end());
     u.assign(found.u.begin(), found.u.end());

@@ -116,7 +116,7 @@ WholeProblem::WholeProblem(SparseMatrix stiffness, const SupportElimination& eli
 {
 }
 
-WholeProblem::Solution WholeProblem::solve(const VectorXd& f, const VectorXd& c, const qp::FeasibleSet& set, const VectorXd* near)
+WholeProblem::Solution WholeProblem::solve(const VectorXd& f, const VectorXd& c, const qp::FeasibleSet& set, const Start* near)
 {
   const auto &kept = elimination_.kept(), &free = elimination_.free();
   VectorXd u = elimination_.held(c);
@@ -124,8 +124,10 @@ WholeProblem::Solution WholeProblem::solve(const VectorXd& f, const VectorXd& c,
   load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
   const VectorXd gap = c - elimination_.rows() * u;
   qp::CondensedNewton::Point from;
-  if (last_.size() == 0) near = nullptr;
-  if (near) from = {(*near)(kept), last_(free), true, 0, last_reaction_};
+  if (near && last_.size() == 0)
+    from = {near->x(kept), u(free), true, 0, near->reaction(kept)};
+  else if (near)
+    from = {near->x(kept), last_(free), true, 0, last_reaction_};
   const auto found = newton_.solve(load(free), gap(kept), elimination_.reduced(set), near ? &from : nullptr);
   u(free) = found.nu;
   load = f;

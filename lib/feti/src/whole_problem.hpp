@@ -74,9 +74,13 @@ class WholeProblem {
     int steps = 0;             ///< linear problems solved
     bool settled = true;       ///< if it converged: no state of a constraint rests on rounding
   };
-  /// For the load f, the bounds c and the set; `near`: x of the last solution, to go on from. Throws as qp::SparseNewton.
-  Solution solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const qp::FeasibleSet& set,
-                 const Eigen::VectorXd* near = nullptr);
+  /// A solution of a problem before.
+  struct Start {
+    Eigen::VectorXd x, reaction;
+  };
+  /// For the load f, the bounds c and the set; `near`: to go on from, where x alone counts if this solved a problem before.
+  /// Throws as qp::SparseNewton.
+  Solution solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const qp::FeasibleSet& set, const Start* near = nullptr);
 
  private:
   SparseMatrix stiffness_;

@@ -224,9 +224,18 @@ TEST_P(Varied, SolvesAsWithSparseMatrices)
   Vector linear(right->b, Teuchos::Copy);
   linear.update(1e-3, in, 1);
   const Eigen::VectorXd e = right->e.array() + 1e-3;
-  const auto next = sparse.go_on(*right, linear, e, set, found.x);
+  const auto changed = direct.solve(linear, e, set);
+  const auto next = sparse.go_on(*right, linear, e, set, found);
   EXPECT_TRUE(next.converged);
-  expect_near(next.x, direct.solve(linear, e, set).x);
+  expect_near(next.x, changed.x);
+  // Matrices that have solved nothing go on from what others found, and know its states.
+  const auto other_next = SparseProblem(problem).go_on(*right, linear, e, set, expected);
+  EXPECT_TRUE(other_next.converged);
+  expect_near(other_next.x, changed.x);
+
+  // Gaps and nu are a gradient.
+  const Eigen::VectorXd gaps = problem.gaps(in, found.nu);
+  expect_near(problem.gradient(gaps, found.nu), in);
 }
 
 class Directly : public testing::TestWithParam<std::pair<double, int>> {};

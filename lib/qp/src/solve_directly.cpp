@@ -38,6 +38,7 @@ class DirectSolver : public Solver {
     const Problem problem(programme_, right, set);
     sliding_.reset();
     accepted_.reset();
+    found_.reset();
     auto found = solve_with_matrices(problem, start, goal);
     faces_->begin(right, radii, start, goal, observer);
     if (found.slides) {
@@ -49,6 +50,7 @@ class DirectSolver : public Solver {
     if (!found.converged) return;  // a guess of states that are none leads faces astray
     if (!accepted_) improve(problem, found, goal);
     if (goal.allowed_error) goal.exact = rounding_of_direct;
+    if (found.reaction) found_ = found;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
     if (accepted_) accepted_->hessian_norm = solution.hessian_norm;
@@ -61,7 +63,9 @@ class DirectSolver : public Solver {
       accepted_->radii.assign(radii.begin(), radii.end());
       return *std::exchange(accepted_, {});
     }
-    return faces_->solve(right, radii, start, goal, observer);
+    auto solution = faces_->solve(right, radii, start, goal, observer);
+    if (!solution.converged) take_judged(right, radii, goal, solution);
+    return solution;
   }
   std::optional<Solution> solve(const RightHandSide& right, const SlipLaw& law, const std::optional<Solution>& start,
                                 const Goal& goal, const Observer& observer) override
@@ -71,7 +75,9 @@ class DirectSolver : public Solver {
       accepted_->radii = law.radii(&accepted_->x);
       return std::exchange(accepted_, {});
     }
-    return faces_->solve(right, law, start, goal, observer);
+    auto solution = faces_->solve(right, law, start, goal, observer);
+    if (solution && !solution->converged && found_) take_judged(right, law.radii(&found_->x), goal, *solution);
+    return solution;
   }
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
@@ -110,6 +116,18 @@ class DirectSolver : public Solver {
     if (matrices_.rough_products && goal.allowed_error) accepted_ = judged(problem, found, goal);
   }
 
+  // Where products are too rough to show what the matrices found, it is judged in place of `solution`.
+  void take_judged(const RightHandSide& right, std::span<const double> radii, const Goal& goal, Solution& solution)
+  {
+    if (!found_) return;
+    const FeasibleSet set = programme_.set.with_radii(radii);
+    auto other = judged(Problem(programme_, right, set), *found_, goal);
+    if (!other) return;
+    other->hessian_norm = solution.hessian_norm;
+    other->radii.assign(radii.begin(), radii.end());
+    solution = std::move(*other);
+  }
+
   // A solution by the matrices, x with nu and s, solves the programme with b + d in place of b, d = A x - b + G'nu - s, and so is
   // off by no more than d in the norm of A^-1. Where that is nothing, it is the solution, though products with A may be too rough
   // for what states follow from: of a thin body they turn figures that x does not have into motions that open contact. One
@@ -133,7 +151,8 @@ class DirectSolver : public Solver {
       result.equality = equality.norm(problem.right.e - equality.apply(found.x)) / forces;
     result.outer_iterations = 1;
     result.converged = result.error <= rounding_of_direct * goal.energy_norm(found.x, found.nu) &&
-                       result.projected_gradient <= Goal::largest_residual && obeys(problem, found.x) &&
+                       result.projected_gradient <= (goal.allowed_error ? Goal::largest_residual : goal.residual) &&
+                       obeys(problem, found.x) &&
                        (!goal.incompatibility || goal.incompatibility(found.x, found.nu) <= Goal::nearly_compatible);
     if (!result.converged) return {};
     return result;
@@ -198,7 +217,8 @@ class DirectSolver : public Solver {
   Means means_;
   ExplicitProgramme matrices_;
   std::optional<ExplicitProgramme> others_;
-  std::optional<Solution> sliding_, accepted_;  // told once
+  std::optional<Solution> sliding_, accepted_;     // told once
+  std::optional<ExplicitProgramme::Point> found_;  // by the matrices, if it can be judged
   std::unique_ptr<Solver> faces_;
 };
 

@@ -131,11 +131,19 @@ bool StateSearch::find_sparingly()
   }
 }
 
-bool StateSearch::from(VectorXd x, VectorXd nu, const VectorXd& reaction)
+// With loads that turn, slip turns, and all sticks first.
+bool StateSearch::from(const VectorXd& x, const VectorXd& nu, const VectorXd& reaction)
 {
-  point_.x = std::move(x);
-  point_.nu = std::move(nu);
-  states_ = programme_.states_at(point_.x, reaction);
+  const auto begin = [&] {
+    point_.x = x;
+    point_.nu = nu;
+    states_ = programme_.states_at(x, reaction);
+  };
+  begin();
+  if (guess(look_back_at_first)) return true;
+  begin();
+  for (auto& kind : states_.kind)
+    if (kind == ConstraintStates::Kind::slips) kind = ConstraintStates::Kind::sticks;
   return guess(look_back_at_first);
 }
 

@@ -16,7 +16,7 @@ class StateSearch {
   /// From closed contact that sticks, by whatever leads to a solution.
   bool from_anywhere();
   /// From the states of the problem that x, nu and the reaction s solve.
-  bool from(Eigen::VectorXd x, Eigen::VectorXd nu, const Eigen::VectorXd& reaction);
+  bool from(const Eigen::VectorXd& x, const Eigen::VectorXd& nu, const Eigen::VectorXd& reaction);
   /// Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
   void polish();
 

@@ -107,6 +107,10 @@ class DualProblem {
   Eigen::VectorXd forces(const Vector& lambda) const;
   /// The other way.
   Vector multipliers(const Eigen::VectorXd& forces) const;
+  /// What is left between row . u and the bound of each row, a length, where the programme has this gradient and nu.
+  Eigen::VectorXd gaps(const Vector& gradient, const Eigen::VectorXd& nu) const;
+  /// The other way.
+  Vector gradient(const Eigen::VectorXd& gaps, const Eigen::VectorXd& nu) const;
   /// row . u of each row, a length. Collective.
   Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
   /// How far each row gives way by itself under these multipliers, a length: see JumpOperator::compliance().

@@ -14,7 +14,7 @@ namespace mortise::feti {
 /// Rows of B, less supports that are eliminated, from which on a direct solution may take sparse matrices; below, dense ones take
 /// a moment. And how many times the time of dense ones these are worth, which often need more guesses than are foreseen.
 constexpr Global many_rows = 2500;
-constexpr double worth_of_sparse = 3;
+constexpr double worth_of_sparse = 2;
 
 /// Operations of a direct solution with dense matrices, over `free` rows without a constraint and `closing` others; and with
 /// sparse ones, for bodies of so many unknowns, whose factors together have so many entries.
@@ -45,10 +45,10 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   using Point = qp::ExplicitProgramme::Point;
   /// The solution in `set`, over the unknowns of problem.set(), for f and c of `right`. Throws as qp::SparseNewton. Collective.
   Point solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const;
-  /// The same for a linear term d and an e that differ from those of `right`, from the last solution on, whose lambda is given;
-  /// nothing else is tried. The first solution of all comes from anywhere. Collective.
+  /// The same for a linear term d and an e that differ from those of `right`, from a solution of a problem before on: its
+  /// lambda, and its reaction, unless this problem was solved before. Nothing else is tried. Collective.
   Point go_on(const qp::RightHandSide& right, const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set,
-              const Vector& near) const;
+              const Point& near) const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
@@ -62,7 +62,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   std::unique_ptr<const WholeInverse> make_inverse() const;
   Eigen::VectorXd on_root(const std::vector<Eigen::VectorXd>& parts) const;
   Point solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const qp::FeasibleSet& set,
-              const Vector* near) const;
+              const Point* near) const;
 
   const DualProblem& problem_;
   std::unique_ptr<const RowsOnRoot> rows_;
