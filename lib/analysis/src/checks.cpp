@@ -378,7 +378,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   append(result, post::strained_supports(support_loads(model, results, comm), results.balance.acting));
   append(result, post::point_forces(point_forces(model, state.rows->acts, results), results.balance.acting));
   append(result, post::coarse_mesh(results.mesh_error, names));
-  append(result, post::coarse_secondaries(results.contact_errors, results.mesh_error, pairs));
+  append(result, post::coarse_secondaries(results.contact_errors, results.mesh_error.squared_norm, pairs));
   append(result, post::facet_push(results.balance.push_of_facets, results.balance.gauges));
   append(result, post::unresisted_loads(results.unresisted, names));
   append(result, post::weak_stresses(applied_stresses(model, at_most(model), comm), results.stress.largest_von_mises,

@@ -12,8 +12,10 @@ namespace mortise::post {
 
 namespace {
 
-// Of the solution, and of the mesh's whole error, in the energy norm.
-constexpr double large_part = 0.02, large_share = 0.5;
+constexpr double least_part = 1e-3;   // of the whole solution, in the energy norm,
+constexpr double large_part = 0.05;   // of the solution in the softer bodies,
+constexpr double large_share = 0.55;  // and of what stresses show there
+constexpr double about_as_soft = 4;   // times the modulus of the softest body of a contact, or less
 
 // Of each body the least Young's modulus. Collective.
 std::vector<double> least_moduli(const ElasticBodies& bodies, const Communicator& comm)
@@ -28,20 +30,28 @@ std::vector<double> least_moduli(const ElasticBodies& bodies, const Communicator
   return result;
 }
 
-// Of each contact the least Young's modulus of its bodies. Collective.
-std::vector<double> softer_bodies(std::span<const contact::Pair> pairs, const std::vector<double>& of_body,
-                                  const Communicator& comm)
+// Of each contact the bodies on its sides. Collective.
+std::vector<std::vector<int>> bodies_of(std::span<const contact::Pair> pairs, const Communicator& comm)
 {
-  std::vector<double> result;
-  for (const auto& pair : pairs) {
-    double least = std::numeric_limits<double>::infinity();
-    const auto take = [&](const mesh::Surface& side) {
-      for (const int b : side.body) least = std::min(least, of_body[static_cast<std::size_t>(b)]);
-    };
-    take(pair.secondary);
-    if (pair.primary) take(*pair.primary);
-    result.push_back(-comm.max(-least));
+  struct Side {
+    int contact, body;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  const auto make_unique = [&] {
+    std::ranges::sort(sides);
+    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  };
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    for (const int body : pairs[c].secondary.body) sides.push_back({static_cast<int>(c), body});
+    if (pairs[c].primary)
+      for (const int body : pairs[c].primary->body) sides.push_back({static_cast<int>(c), body});
   }
+  make_unique();
+  sides = comm.all_gather(sides);
+  make_unique();
+  std::vector<std::vector<int>> result(pairs.size());
+  for (const auto& side : sides) result[static_cast<std::size_t>(side.contact)].push_back(side.body);
   return result;
 }
 
@@ -72,39 +82,56 @@ std::vector<contact::NodalDisplacement> displacements_of_sides(const ElasticBodi
 }  // namespace
 
 std::vector<ContactError> contact_errors(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
-                                         std::span<const contact::Pair> pairs, std::span<const contact::SurfaceState> surfaces,
+                                         const StressField& stress, std::span<const contact::Pair> pairs,
+                                         std::span<const contact::SurfaceState> surfaces, std::span<const char> gapless,
                                          const Communicator& comm)
 {
-  const auto found =
-      contact::nonconformities(pairs, surfaces, displacements_of_sides(bodies, displacement, pairs), bodies.kinematics, comm);
-  const auto modulus = softer_bodies(pairs, least_moduli(bodies, comm), comm);
+  const auto found = contact::nonconformities(pairs, surfaces, displacements_of_sides(bodies, displacement, pairs), gapless,
+                                              bodies.kinematics, comm);
+  const auto modulus = least_moduli(bodies, comm);
+  auto energy = stress.body_energy, error = stress.body_error;
+  comm.sum_in_place(energy);
+  comm.sum_in_place(error);
+  const auto bodies_of_contact = bodies_of(pairs, comm);
   std::vector<ContactError> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const double squared = found[c].squared > 0 ? std::numbers::pi * modulus[c] * found[c].squared : 0;
-    result.push_back({squared, found[c].deepest, found[c].at});
+    auto& contact = result.emplace_back(ContactError{0, 0, 0, found[c].largest, found[c].at});
+    double softest = std::numeric_limits<double>::infinity();
+    for (const int body : bodies_of_contact[c]) softest = std::min(softest, modulus[static_cast<std::size_t>(body)]);
+    if (found[c].squared > 0) contact.squared = std::numbers::pi * softest * found[c].squared;
+    for (const int body : bodies_of_contact[c]) {
+      const auto b = static_cast<std::size_t>(body);
+      if (modulus[b] > about_as_soft * softest) continue;
+      contact.squared_beside += error[b];
+      contact.squared_norm += 2 * energy[b];
+    }
+    contact.squared_norm += contact.squared_beside + contact.squared;
   }
   return result;
 }
 
-std::vector<Warning> coarse_secondaries(std::span<const ContactError> errors, const MeshError& error,
+std::vector<Warning> coarse_secondaries(std::span<const ContactError> errors, double squared_norm,
                                         std::span<const contact::Pair> pairs)
 {
   std::vector<Warning> result;
-  for (std::size_t c = 0; c < error.of_contact.size(); ++c) {
-    const double part = error.of_contact[c], limit = std::max(large_part, large_share * error.relative);
-    if (!(part > limit)) continue;
+  for (std::size_t c = 0; c < errors.size(); ++c) {
+    const auto& [squared, beside, norm, largest, at] = errors[c];
+    const double limit = std::max(large_part * std::sqrt(norm), large_share * std::sqrt(beside));
+    if (!(squared > std::max(limit * limit, least_part * least_part * squared_norm))) continue;
+    const double part = std::sqrt(squared / norm);
     const auto& options = pairs[c].options;
-    Warning w{"coarse_secondary",
-              fmt::format("the sides of contact {} pass through each other between its points by up to {:.3g} at {}: some {:.2g} "
-                          "% in the energy norm of the mesh's {:.2g} %, and what lies loose there may be off by far more",
-                          options.name, errors[c].deepest, spell(errors[c].at), 100 * part, 100 * error.relative),
-              "let the side with the smaller faces or the softer body be the secondary one, or make the secondary side's faces "
-              "smaller"};
-    w.at = errors[c].at;
+    Warning w{
+        "coarse_secondary",
+        fmt::format("the sides of contact {} pass through or along each other between its points by up to {:.3g} at {}: some "
+                    "{:.2g} % in the energy norm of the softer body, and what lies loose there may be off by far more",
+                    options.name, largest, spell(at), 100 * part),
+        "let the side with the smaller faces or the softer body be the secondary one, or make the secondary side's faces "
+        "smaller"};
+    w.at = at;
     w.contact = options.name;
     w.boundary = options.secondary;
     w.value = part;
-    w.limit = limit;
+    w.limit = limit / std::sqrt(norm);
     result.push_back(std::move(w));
   }
   return worst(std::move(result), "contacts");

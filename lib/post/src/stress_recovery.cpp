@@ -23,7 +23,7 @@ struct Recovered {
   double squared_error = 0;  // of all ranks
   double strain_energy = 0;  // of all ranks
   std::vector<Found> worst_cell;
-  std::vector<double> body_error;
+  std::vector<double> body_error, body_energy;
 };
 
 Point centre(const mesh::Mesh& mesh, std::size_t cell)
@@ -121,11 +121,16 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
   Recovered result;
   result.worst_cell.resize(body_count);
   result.body_error.resize(body_count, 0.0);
+  result.body_energy.resize(body_count, 0.0);
+  const auto add_energy = [&](std::size_t s, double energy) {
+    result.strain_energy += energy;
+    result.body_energy[static_cast<std::size_t>(subdomains[s].body)] += energy;
+  };
   auto boundary = boundary_stresses(bodies, displacement);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& own = bodies.constitution[s];
     if (subdomains[s].skin) {
-      result.strain_energy += boundary_energy(bodies, s, displacement[s]);
+      add_energy(s, boundary_energy(bodies, s, displacement[s]));
       result.nodal.push_back(boundary[s].nodal_sums);
       auto& von_mises = result.cell_von_mises.emplace_back(boundary[s].stress.rows());
       for (Eigen::Index p = 0; p < von_mises.size(); ++p) von_mises[p] = fem::von_mises(boundary[s].stress.row(p).transpose());
@@ -133,7 +138,7 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
     }
     auto field = fem::stresses(subdomains[s].mesh, own.materials, bodies.kinematics, displacement[s], own.formulation,
                                own.temperature_change, blocks);
-    result.strain_energy += field.strain_energy;
+    add_energy(s, field.strain_energy);
     result.nodal.push_back(std::move(field.nodal_sums));
     result.cell_von_mises.push_back(std::move(field.cell_von_mises));
   }
@@ -210,6 +215,7 @@ StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen:
   field.squared_error = recovered.squared_error;
   field.worst_cell = std::move(recovered.worst_cell);
   field.body_error = std::move(recovered.body_error);
+  field.body_energy = std::move(recovered.body_energy);
   return field;
 }
 

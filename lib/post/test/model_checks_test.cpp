@@ -155,30 +155,28 @@ TEST(CoarseMesh, says_where_and_how_much_of_it)
   EXPECT_TRUE(coarse_mesh(error, {"left", "right"}).empty());
 }
 
-TEST(CoarseSecondary, from_half_of_the_error)
+TEST(CoarseSecondary, beside_what_stresses_show_and_of_the_solution)
 {
   std::vector<contact::Pair> pairs(2);
   pairs[0].options.name = "left";
   pairs[1].options.name = "right";
-  const std::vector<ContactError> errors{{}, {0, 0.25, Point(1, 2, 0)}};
-  MeshError error;
-  error.relative = 0.1;
-  error.of_contact = {0.049, 0.051};
-  const auto found = coarse_secondaries(errors, error, pairs);
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].kind, "coarse_secondary");
-  EXPECT_EQ(found[0].contact, "right");
-  EXPECT_EQ(found[0].value, 0.051);
-  EXPECT_NE(found[0].text.find("0.25"), std::string::npos);
-  EXPECT_EQ(*found[0].at, Point(1, 2, 0));
-  error.of_contact = {0.049, 0.049};
-  EXPECT_TRUE(coarse_secondaries(errors, error, pairs).empty());
-  // Little of the solution, however large beside the rest.
-  error.relative = 0.02;
-  error.of_contact = {0, 0.0199};
-  EXPECT_TRUE(coarse_secondaries(errors, error, pairs).empty());
-  error.of_contact = {0, 0.0201};
-  EXPECT_EQ(coarse_secondaries(errors, error, pairs).size(), 1U);
+  const auto found = [&](double own, double beside, double norm, double whole) {
+    const ContactError error{own * own, beside * beside, norm * norm, 0.25, Point(1, 2, 0)};
+    return coarse_secondaries(std::vector<ContactError>{{}, error}, whole * whole, pairs);
+  };
+  const auto one = found(0.056, 0.1, 1, 1);
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].kind, "coarse_secondary");
+  EXPECT_EQ(one[0].contact, "right");
+  EXPECT_NEAR(one[0].value, 0.056, 1e-12);
+  EXPECT_NEAR(one[0].limit, 0.055, 1e-12);
+  EXPECT_NE(one[0].text.find("0.25"), std::string::npos);
+  EXPECT_EQ(*one[0].at, Point(1, 2, 0));
+  EXPECT_TRUE(found(0.054, 0.1, 1, 1).empty());
+  EXPECT_TRUE(found(0.049, 0.01, 1, 1).empty());
+  EXPECT_EQ(found(0.051, 0.01, 1, 1).size(), 1U);
+  EXPECT_EQ(found(0.051, 0.01, 1, 50).size(), 1U);
+  EXPECT_TRUE(found(0.051, 0.01, 1, 52).empty());
 }
 
 TEST(FacetPush, from_a_thousandth_of_the_largest_force)

@@ -1,9 +1,10 @@
 // What the multipliers of a contact do not see of how its sides move against each other.
 //
-// Weak contact asks for jumps that fit in the mean over each multiplier's function. What is left of the jump on a face of the
-// secondary side, once the polynomials of the multipliers are taken out, no multiplier sees: there a primary side of smaller
-// faces passes through, or stands off, with nothing to stop it. It is the consistency error of mortar methods as it is found in a
-// solution [Wohlmuth, SIAM J. Numer. Anal. 38 (2000), bounds it from the start].
+// Weak contact asks for jumps that fit in the mean over each multiplier's function. Between, sides pass through each other, or
+// stand off, with nothing to stop it, a primary side of smaller faces most of all. In a bond that is the jump itself; in a
+// contact what is left of it on a secondary face once the polynomials of the multipliers are taken out, which gaps and slopes
+// between faces are not. It is the consistency error of mortar methods as it is found in a solution [Wohlmuth, SIAM J. Numer.
+// Anal. 38 (2000), bounds it from the start].
 #pragma once
 
 #include <array>
@@ -23,15 +24,18 @@ struct NodalDisplacement {
 
 /// Of one contact, over all its faces that press.
 struct Nonconformity {
-  double squared = 0;        ///< integral w^2 / size of the face, w being what is left of the normal jump; areas as in the model
-  double deepest = 0;        ///< the largest w of sides that pass through each other, a length
+  /// integral w^2 / size of the face, w being the jump or what is left of it: across the face where it presses, along it where it
+  /// sticks; areas as in the model.
+  double squared = 0;
+  double largest = 0;        ///< the largest w of sides that pass through each other, or along each other, a length
   Point at = Point::Zero();  ///< where that is, on the undeformed secondary side
 };
 
 /// One for each pair, the same on every rank; 0 of obstacles, pretension sections and cuts of sectors. `surfaces` as of
-/// surface_states(); `displacements`: those of this rank's nodes of both sides at least, copies being the same. Collective.
+/// surface_states(); `displacements`: those of this rank's nodes of both sides at least, copies being the same; `gapless`: of
+/// each pair, whether it starts without a gap. Collective.
 std::vector<Nonconformity> nonconformities(std::span<const Pair> pairs, std::span<const SurfaceState> surfaces,
-                                           std::span<const NodalDisplacement> displacements, fem::Kinematics kinematics,
-                                           const Communicator& comm);
+                                           std::span<const NodalDisplacement> displacements, std::span<const char> gapless,
+                                           fem::Kinematics kinematics, const Communicator& comm);
 
 }  // namespace mortise::contact

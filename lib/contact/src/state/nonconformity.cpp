@@ -13,9 +13,10 @@ namespace mortise::contact {
 
 namespace {
 
-// A node of a secondary side that presses.
+// A node of a secondary side that presses, and whether it sticks.
 struct PressedNode {
   Global node;
+  bool sticks;
 };
 
 bool counts(const Pair& pair)
@@ -34,13 +35,13 @@ std::vector<Point> displacements_of(const Side& side, const std::vector<NodalDis
   return result;
 }
 
-// Of a side's nodes whether they press. `mine`: nodes of this rank's faces. Collective.
-std::vector<char> pressed_of(const Side& side, const std::vector<PressedNode>& mine, const Communicator& comm)
+// Of each node of a side what it does. `mine`: nodes of this rank's faces. Collective.
+std::vector<Status> statuses_of(const Side& side, const std::vector<PressedNode>& mine, const Communicator& comm)
 {
-  std::vector<char> result(side.node_id.size(), 0);
+  std::vector<Status> result(side.node_id.size(), Status::open);
   for (const auto& found : answer(by_node<PressedNode>(mine, comm), ask(side.node_id, comm), comm)) {
     const auto at = std::lower_bound(side.node_id.begin(), side.node_id.end(), found.node);
-    result[static_cast<std::size_t>(at - side.node_id.begin())] = 1;
+    result[static_cast<std::size_t>(at - side.node_id.begin())] = found.sticks ? Status::stick : Status::slip;
   }
   return result;
 }
@@ -63,10 +64,10 @@ struct MovedSide {
 // The faces of the secondary side, one after the other.
 class Faces {
  public:
-  Faces(const Share& share, double reach, MovedSide secondary, MovedSide primary, std::vector<char> pressed)
+  Faces(const Share& share, double reach, MovedSide secondary, MovedSide primary, std::vector<Status> status)
       : secondary_(std::move(secondary)),
         primary_(std::move(primary)),
-        pressed_(std::move(pressed)),
+        status_(std::move(status)),
         tree_(tree_of_facets(share.primary)),
         sight_(share.secondary, share.primary, tree_),
         common_parts_(share.secondary, share.primary, tree_, sight_, reach)
@@ -75,37 +76,48 @@ class Faces {
 
   bool presses(std::size_t face) const
   {
-    return std::ranges::any_of(side().faces[face], [&](Local n) { return pressed_[static_cast<std::size_t>(n)] != 0; });
+    return std::ranges::any_of(side().faces[face], [&](Local n) { return status_at(n) != Status::open; });
   }
 
-  void add(std::size_t face, Nonconformity& sum)
+  // `bonded`: no jump is allowed at all; `gapless`: none across the face, where it is not open.
+  void add(std::size_t face, bool bonded, bool gapless, Nonconformity& sum)
   {
     sample(face);
     if (samples_.empty()) return;
-    const Eigen::VectorXd seen = dense::minimum_norm(gram_, moments_);
+    const Eigen::MatrixXd seen = dense::minimum_norm(gram_, moments_);
     const auto nodes = side().faces[face];
+    const auto all = [&](const auto& is) { return std::ranges::all_of(nodes, [&](Local n) { return is(status_at(n)); }); };
+    const bool closed = all([](Status s) { return s != Status::open; }), held = all([](Status s) { return s == Status::stick; });
     for (const auto& s : samples_) {
-      const double left = s.jump - s.theta.dot(seen);
-      double part = 0;  // that presses, about
-      for (std::size_t k = 0; k < nodes.size(); ++k)
-        if (pressed_[static_cast<std::size_t>(nodes[k])]) part += s.theta[static_cast<Eigen::Index>(k)];
-      part = std::clamp(part, 0.0, 1.0);
-      sum.squared += s.weight * part * left * left / size_;
-      if (part * left > sum.deepest) sum.deepest = part * left, sum.at = s.at;
+      const Point left = s.jump - seen.transpose() * s.theta;
+      double pressed = 0, stuck = 0;  // parts of the face, about
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const double part = s.theta[static_cast<Eigen::Index>(k)];
+        if (status_at(nodes[k]) != Status::open) pressed += part;
+        if (status_at(nodes[k]) == Status::stick) stuck += part;
+      }
+      double across = std::clamp(pressed, 0.0, 1.0) * left.dot(normal_);
+      if (!closed && (across < 0 || (gapless && s.jump.dot(normal_) <= 0))) across = 0;  // stands off
+      Point tangential = std::clamp(stuck, 0.0, 1.0) * left;
+      if (bonded && held) across = s.jump.dot(normal_), tangential = s.jump;
+      const double along = (tangential - tangential.dot(normal_) * normal_).norm();
+      sum.squared += s.weight * (across * across + along * along) / size_;
+      if (std::max(across, along) > sum.largest) sum.largest = std::max(across, along), sum.at = s.at;
     }
   }
 
  private:
   struct Sample {
-    double weight, jump;
-    Point at;
+    double weight;
+    Point jump, at;
     FaceShape theta;
   };
 
   const Side& side() const { return secondary_.side; }
+  Status status_at(Local node) const { return status_[static_cast<std::size_t>(node)]; }
 
   // The mean normal of a face, and its size.
-  Point measure(std::size_t face)
+  void measure(std::size_t face)
   {
     Point sum = Point::Zero();
     double area = 0;
@@ -116,17 +128,17 @@ class Faces {
       area += part;
     }
     size_ = mesh::corner_count(side().faces.type[face]) == 2 ? area : std::sqrt(area);
-    return sum.normalized();
+    normal_ = sum.normalized();
   }
 
   void sample(std::size_t face)
   {
-    const Point normal = measure(face);
+    measure(face);
     const auto& basis = multiplier_basis(side().faces.type[face]);
     const auto n = basis.rows();
     samples_.clear();
     gram_.setZero(n, n);
-    moments_.setZero(n);
+    moments_.setZero(n, 3);
     for (auto f = side().first_facet[face]; f < side().first_facet[face + 1]; ++f) {
       const auto facet = static_cast<std::size_t>(f);
       const FaceGeometry geometry = side().geometry(facet);
@@ -135,45 +147,45 @@ class Faces {
         for (const auto& point : common_.points) {
           const FaceShape phi = side().shape_in_face(facet, point.secondary, common_.frame, point.at);
           const FaceShape opposite = primary_.side.shape_in_face(other, point.primary, common_.frame, point.at);
-          const double jump = normal.dot(secondary_.at(face, phi) - primary_.at(other_face, opposite));
           Point at = Point::Zero();
           for (std::size_t k = 0; k < geometry.nodes.size(); ++k)
             at += point.secondary[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
-          samples_.push_back({point.weight * side().thickness(facet, point.secondary), jump, at, basis * phi});
+          samples_.push_back({point.weight * side().thickness(facet, point.secondary),
+                              secondary_.at(face, phi) - primary_.at(other_face, opposite), at, basis * phi});
           const auto& s = samples_.back();
           gram_ += s.weight * s.theta * s.theta.transpose();
-          moments_ += s.weight * jump * s.theta;
+          moments_ += s.weight * s.theta * s.jump.transpose();
         }
       });
     }
   }
 
   MovedSide secondary_, primary_;
-  std::vector<char> pressed_;  // of each secondary node
+  std::vector<Status> status_;  // of each secondary node
   Tree tree_;
   LineOfSight sight_;
   CommonParts common_parts_;
   Overlap common_;  // of the facet at work; what follows is of its face
   double size_ = 0;
   std::vector<Sample> samples_;
-  Eigen::MatrixXd gram_;
-  Eigen::VectorXd moments_;
+  Point normal_ = Point::Zero();
+  Eigen::MatrixXd gram_, moments_;
 };
 
 // Of all ranks. Collective.
 Nonconformity over_ranks(const Nonconformity& mine, const Communicator& comm)
 {
   Nonconformity result{comm.sum(mine.squared), 0, Point::Zero()};
-  for (const auto& other : comm.all_gather(std::vector{std::array{mine.deepest, mine.at[0], mine.at[1], mine.at[2]}}))
-    if (other[0] > result.deepest) result.deepest = other[0], result.at = Point(other[1], other[2], other[3]);
+  for (const auto& other : comm.all_gather(std::vector{std::array{mine.largest, mine.at[0], mine.at[1], mine.at[2]}}))
+    if (other[0] > result.largest) result.largest = other[0], result.at = Point(other[1], other[2], other[3]);
   return result;
 }
 
 }  // namespace
 
 std::vector<Nonconformity> nonconformities(std::span<const Pair> pairs, std::span<const SurfaceState> surfaces,
-                                           std::span<const NodalDisplacement> displacements, fem::Kinematics kinematics,
-                                           const Communicator& comm)
+                                           std::span<const NodalDisplacement> displacements, std::span<const char> gapless,
+                                           fem::Kinematics kinematics, const Communicator& comm)
 {
   std::vector<Nonconformity> result(pairs.size());
   auto known = by_node(displacements, comm);
@@ -184,14 +196,16 @@ std::vector<Nonconformity> nonconformities(std::span<const Pair> pairs, std::spa
     if (!counts(pairs[c])) continue;
     std::vector<PressedNode> pressed;
     for (std::size_t i = 0; i < surfaces[c].pressure.size(); ++i)
-      if (surfaces[c].status[i] != static_cast<int>(Status::open)) pressed.push_back({pairs[c].secondary.node_id[i]});
+      if (surfaces[c].status[i] != static_cast<int>(Status::open))
+        pressed.push_back({pairs[c].secondary.node_id[i], surfaces[c].status[i] == static_cast<int>(Status::stick)});
     if (!comm.any(!pressed.empty())) continue;
     const Share share = share_out(pairs[c], sizes[c], kinematics, comm);
     Faces faces(share, sizes[c].reach, {share.secondary, displacements_of(share.secondary, known, comm)},
-                {share.primary, displacements_of(share.primary, known, comm)}, pressed_of(share.secondary, pressed, comm));
+                {share.primary, displacements_of(share.primary, known, comm)}, statuses_of(share.secondary, pressed, comm));
     Nonconformity mine;
     for (std::size_t f = 0; f < share.secondary.faces.size(); ++f)
-      if (share.own[static_cast<std::size_t>(share.secondary.faces[f][0])] && faces.presses(f)) faces.add(f, mine);
+      if (share.own[static_cast<std::size_t>(share.secondary.faces[f][0])] && faces.presses(f))
+        faces.add(f, pairs[c].options.law == Law::bonded, gapless[c] != 0, mine);
     result[c] = over_ranks(mine, comm);
   }
   return result;

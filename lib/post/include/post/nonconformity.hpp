@@ -7,28 +7,31 @@
 
 #include "base/warning.hpp"
 #include "contact/nonconformity.hpp"
-#include "post/strength.hpp"
 #include "post/stress_recovery.hpp"
 
 namespace mortise::post {
 
-/// Of one contact.
+/// Of one contact, squares in the energy norm over all ranks.
 struct ContactError {
-  double squared = 0;  ///< in the energy norm, over all ranks
-  double deepest = 0;  ///< how far its sides pass through each other, a length
+  double squared = 0;         ///< that of the contact,
+  double squared_beside = 0;  ///< that which stresses show in its softer bodies,
+  double squared_norm = 0;    ///< and of the solution there
+  double largest = 0;         ///< how far its sides pass through or along each other, a length
   Point at = Point::Zero();
 };
 
-/// Of each contact. What the rows leave of the normal jump, w of contact::nonconformities(), is taken for a wave of the length of
-/// the face on a half space of the softer body: its square in the energy norm is 2 pi / size E / 2 integral w^2. `surfaces` as of
-/// contact::surface_states(). Collective.
+/// Of each contact. What the rows leave of the jump, w of contact::nonconformities(), is taken for a wave of the length of the
+/// face on a half space of the softer body: its square in the energy norm is 2 pi / size E / 2 integral w^2. `surfaces` and
+/// `gapless` as of contact::nonconformities(). Collective.
 std::vector<ContactError> contact_errors(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
-                                         std::span<const contact::Pair> pairs, std::span<const contact::SurfaceState> surfaces,
+                                         const StressField& stress, std::span<const contact::Pair> pairs,
+                                         std::span<const contact::SurfaceState> surfaces, std::span<const char> gapless,
                                          const Communicator& comm);
 
-/// "coarse_secondary": a contact's part of the mesh's error exceeds half of it, and 2 % of the solution, in the energy norm: the
-/// faces of its secondary side are too large for what the primary one does between them. `errors` as of contact_errors().
-std::vector<Warning> coarse_secondaries(std::span<const ContactError> errors, const MeshError& error,
+/// "coarse_secondary": a contact's error exceeds 0.55 times what stresses show in its softer bodies, 5 % of the solution there,
+/// and 0.1 % of all of it, `squared_norm`, in the energy norm: the faces of its secondary side are too large for what the primary
+/// one does between them.
+std::vector<Warning> coarse_secondaries(std::span<const ContactError> errors, double squared_norm,
                                         std::span<const contact::Pair> pairs);
 
 }  // namespace mortise::post

@@ -68,7 +68,7 @@ struct MeshError {
   double relative = 0;             ///< of all, in the energy norm
   std::vector<Found> cells;        ///< of each body: the largest squared error of a cell, at the cell's centre
   std::vector<double> part;        ///< of each body: its part of the squared error
-  std::vector<double> of_contact;  ///< relative as well, see contact_errors()
+  double squared_norm = 0;   ///< what `relative` is measured by
 };
 
 /// "coarse_mesh": the relative error exceeds 25 %.

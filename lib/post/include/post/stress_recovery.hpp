@@ -68,6 +68,7 @@ struct StressField {
   double squared_error = 0;           ///< estimated, in the energy norm
   std::vector<Found> worst_cell;      ///< of each body: the largest squared error of a cell of this rank, at the cell's centre
   std::vector<double> body_error;     ///< of each body: its part of the squared error on this rank
+  std::vector<double> body_energy;    ///< and of the strain energy
 };
 
 /// The stresses of displacements of each subdomain. Collective.
