@@ -65,9 +65,9 @@ std::vector<Warning> point_forces(const std::vector<PointForce>& found, double f
 
 /// Where the estimated error of the mesh is.
 struct MeshError {
-  double relative = 0;             ///< of all, in the energy norm
-  std::vector<Found> cells;        ///< of each body: the largest squared error of a cell, at the cell's centre
-  std::vector<double> part;        ///< of each body: its part of the squared error
+  double relative = 0;       ///< of all, in the energy norm
+  std::vector<Found> cells;  ///< of each body: the largest squared error of a cell, at the cell's centre
+  std::vector<double> part;  ///< of each body: its part of the squared error
   double squared_norm = 0;   ///< what `relative` is measured by
 };
 
