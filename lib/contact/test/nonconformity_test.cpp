@@ -14,7 +14,6 @@ namespace {
 struct Sides {
   Communicator comm;
   std::vector<Pair> pairs;
-  char gapless = 0;
 
   explicit Sides(int n, Law law = Law::frictionless)
   {
@@ -43,7 +42,7 @@ struct Sides {
       state.pressure.push_back(presses(x) ? 1 : 0);
       state.status.push_back(static_cast<int>(presses(x) ? status : Status::open));
     }
-    return nonconformities(pairs, std::vector{state}, u, std::vector<char>{gapless}, fem::Kinematics::solid, comm).front();
+    return nonconformities(pairs, std::vector{state}, u, fem::Kinematics::solid, comm).front();
   }
 };
 
@@ -77,10 +76,8 @@ TEST(Nonconformity, CountsWhereTheContactPresses)
 {
   const Sides sides(4);
   EXPECT_EQ(sides.found(teeth, [](const Point&) { return false; }).squared, 0);
-  // Of the second face the nodes at one end, and so about a half; there what stands off does not count.
-  const auto some = sides.found(teeth, [](const Point& x) { return x[0] < 1.5; }).squared;
-  EXPECT_GT(some, 1.01 / 12);
-  EXPECT_LT(some, 1.3 / 12);
+  // Of the second face the nodes at one end: the part that presses falls from 1 to 0, and with its square the mean is 7/240.
+  EXPECT_NEAR(sides.found(teeth, [](const Point& x) { return x[0] < 1.5; }).squared, 1.0 / 12 + 7.0 / 240, 1e-12);
 }
 
 TEST(Nonconformity, AlongFacesWhereTheyStick)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double least_part = 1e-3;   // of the whole solution, in the energy norm,
 constexpr double large_part = 0.05;   // of the solution in the softer bodies,
-constexpr double large_share = 0.55;  // and of what stresses show there
+constexpr double large_share = 0.65;  // and of what stresses show there
 constexpr double about_as_soft = 4;   // times the modulus of the softest body of a contact, or less
 
 // Of each body the least Young's modulus. Collective.
@@ -83,11 +83,10 @@ std::vector<contact::NodalDisplacement> displacements_of_sides(const ElasticBodi
 
 std::vector<ContactError> contact_errors(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
                                          const StressField& stress, std::span<const contact::Pair> pairs,
-                                         std::span<const contact::SurfaceState> surfaces, std::span<const char> gapless,
-                                         const Communicator& comm)
+                                         std::span<const contact::SurfaceState> surfaces, const Communicator& comm)
 {
-  const auto found = contact::nonconformities(pairs, surfaces, displacements_of_sides(bodies, displacement, pairs), gapless,
-                                              bodies.kinematics, comm);
+  const auto found =
+      contact::nonconformities(pairs, surfaces, displacements_of_sides(bodies, displacement, pairs), bodies.kinematics, comm);
   const auto modulus = least_moduli(bodies, comm);
   auto energy = stress.body_energy, error = stress.body_error;
   comm.sum_in_place(energy);

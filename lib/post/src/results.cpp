@@ -54,19 +54,6 @@ double free_expansion(const ElasticBodies& bodies, std::span<const double> sizes
   return comm.max(longest);
 }
 
-// Of each contact whether it starts without gaps that count beside displacements. Collective.
-std::vector<char> gapless(const constraint::Contacts& contacts, std::size_t count, double displacement, const Communicator& comm)
-{
-  constexpr double nothing = 1e-6;  // of the largest displacement
-  std::vector<double> open(count, 0.0);
-  for (const auto& point : contacts.nodes)
-    if (std::abs(point.gap) > nothing * displacement) open[static_cast<std::size_t>(point.contact)] += 1;
-  comm.sum_in_place(open);
-  std::vector<char> result;
-  for (const double points : open) result.push_back(points == 0);
-  return result;
-}
-
 // Twice an energy below which nothing is strained: rounding is not the error of anything. Where bodies moved the solver's error
 // says what is nothing: they may be strained by next to nothing of the way that supports take them, and that well.
 double nothing_of_errors(const Rounding& rounding, double error)
@@ -117,9 +104,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   results.max_displacement = largest_displacement(displacement, dimension, comm);
   results.stress = recover_stress(bodies, displacement, comm);
   results.contact = contact_results(problem, lambda, nu, solved.slip_bounds, displacement, pairs, largest_force);
-  results.contact_errors =
-      contact_errors(bodies, displacement, results.stress, pairs, results.contact.surfaces,
-                     gapless(problem.constraints().contacts, pairs.size(), results.max_displacement, comm), comm);
+  results.contact_errors = contact_errors(bodies, displacement, results.stress, pairs, results.contact.surfaces, comm);
   estimate_errors(solved, rounding, stored, comm, results);
   if (bodies.kinematics != fem::Kinematics::axisymmetric)
     results.moments = contact_moments(problem, lambda, bodies.decomposition, bodies.kinematics, pairs, results.contact.points);

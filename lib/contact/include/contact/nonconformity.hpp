@@ -32,10 +32,9 @@ struct Nonconformity {
 };
 
 /// One for each pair, the same on every rank; 0 of obstacles, pretension sections and cuts of sectors. `surfaces` as of
-/// surface_states(); `displacements`: those of this rank's nodes of both sides at least, copies being the same; `gapless`: of
-/// each pair, whether it starts without a gap. Collective.
+/// surface_states(); `displacements`: those of this rank's nodes of both sides at least, copies being the same. Collective.
 std::vector<Nonconformity> nonconformities(std::span<const Pair> pairs, std::span<const SurfaceState> surfaces,
-                                           std::span<const NodalDisplacement> displacements, std::span<const char> gapless,
-                                           fem::Kinematics kinematics, const Communicator& comm);
+                                           std::span<const NodalDisplacement> displacements, fem::Kinematics kinematics,
+                                           const Communicator& comm);
 
 }  // namespace mortise::contact

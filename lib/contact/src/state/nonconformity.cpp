@@ -79,15 +79,14 @@ class Faces {
     return std::ranges::any_of(side().faces[face], [&](Local n) { return status_at(n) != Status::open; });
   }
 
-  // `bonded`: no jump is allowed at all; `gapless`: none across the face, where it is not open.
-  void add(std::size_t face, bool bonded, bool gapless, Nonconformity& sum)
+  // `bonded`: no jump is allowed at all.
+  void add(std::size_t face, bool bonded, Nonconformity& sum)
   {
     sample(face);
     if (samples_.empty()) return;
     const Eigen::MatrixXd seen = dense::minimum_norm(gram_, moments_);
     const auto nodes = side().faces[face];
-    const auto all = [&](const auto& is) { return std::ranges::all_of(nodes, [&](Local n) { return is(status_at(n)); }); };
-    const bool closed = all([](Status s) { return s != Status::open; }), held = all([](Status s) { return s == Status::stick; });
+    const bool held = std::ranges::all_of(nodes, [&](Local n) { return status_at(n) == Status::stick; });
     for (const auto& s : samples_) {
       const Point left = s.jump - seen.transpose() * s.theta;
       double pressed = 0, stuck = 0;  // parts of the face, about
@@ -97,7 +96,6 @@ class Faces {
         if (status_at(nodes[k]) == Status::stick) stuck += part;
       }
       double across = std::clamp(pressed, 0.0, 1.0) * left.dot(normal_);
-      if (!closed && (across < 0 || (gapless && s.jump.dot(normal_) <= 0))) across = 0;  // stands off
       Point tangential = std::clamp(stuck, 0.0, 1.0) * left;
       if (bonded && held) across = s.jump.dot(normal_), tangential = s.jump;
       const double along = (tangential - tangential.dot(normal_) * normal_).norm();
@@ -184,8 +182,8 @@ Nonconformity over_ranks(const Nonconformity& mine, const Communicator& comm)
 }  // namespace
 
 std::vector<Nonconformity> nonconformities(std::span<const Pair> pairs, std::span<const SurfaceState> surfaces,
-                                           std::span<const NodalDisplacement> displacements, std::span<const char> gapless,
-                                           fem::Kinematics kinematics, const Communicator& comm)
+                                           std::span<const NodalDisplacement> displacements, fem::Kinematics kinematics,
+                                           const Communicator& comm)
 {
   std::vector<Nonconformity> result(pairs.size());
   auto known = by_node(displacements, comm);
@@ -205,7 +203,7 @@ std::vector<Nonconformity> nonconformities(std::span<const Pair> pairs, std::spa
     Nonconformity mine;
     for (std::size_t f = 0; f < share.secondary.faces.size(); ++f)
       if (share.own[static_cast<std::size_t>(share.secondary.faces[f][0])] && faces.presses(f))
-        faces.add(f, pairs[c].options.law == Law::bonded, gapless[c] != 0, mine);
+        faces.add(f, pairs[c].options.law == Law::bonded, mine);
     result[c] = over_ranks(mine, comm);
   }
   return result;

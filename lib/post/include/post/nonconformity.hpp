@@ -21,14 +21,13 @@ struct ContactError {
 };
 
 /// Of each contact. What the rows leave of the jump, w of contact::nonconformities(), is taken for a wave of the length of the
-/// face on a half space of the softer body: its square in the energy norm is 2 pi / size E / 2 integral w^2. `surfaces` and
-/// `gapless` as of contact::nonconformities(). Collective.
+/// face on a half space of the softer body: its square in the energy norm is 2 pi / size E / 2 integral w^2. `surfaces` as of
+/// contact::surface_states(). Collective.
 std::vector<ContactError> contact_errors(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
                                          const StressField& stress, std::span<const contact::Pair> pairs,
-                                         std::span<const contact::SurfaceState> surfaces, std::span<const char> gapless,
-                                         const Communicator& comm);
+                                         std::span<const contact::SurfaceState> surfaces, const Communicator& comm);
 
-/// "coarse_secondary": a contact's error exceeds 0.55 times what stresses show in its softer bodies, 5 % of the solution there,
+/// "coarse_secondary": a contact's error exceeds 0.65 times what stresses show in its softer bodies, 5 % of the solution there,
 /// and 0.1 % of all of it, `squared_norm`, in the energy norm: the faces of its secondary side are too large for what the primary
 /// one does between them.
 std::vector<Warning> coarse_secondaries(std::span<const ContactError> errors, double squared_norm,
