@@ -1,5 +1,6 @@
 #include "post/bodies.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mortise::post {
@@ -40,6 +41,30 @@ std::vector<double> body_sizes(const partition::Decomposition& decomposition, fe
     for (std::size_t c = 0; c < 3; ++c) square += std::pow(ends[6 * b + c].value + ends[6 * b + 3 + c].value, 2);
     result.push_back(std::sqrt(square));
   }
+  return result;
+}
+
+std::vector<std::vector<int>> bodies_of_contacts(std::span<const contact::Pair> pairs, const Communicator& comm)
+{
+  struct Side {
+    int contact, body;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  const auto make_unique = [&] {
+    std::ranges::sort(sides);
+    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  };
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    for (const int body : pairs[c].secondary.body) sides.push_back({static_cast<int>(c), body});
+    if (pairs[c].primary)
+      for (const int body : pairs[c].primary->body) sides.push_back({static_cast<int>(c), body});
+  }
+  make_unique();
+  sides = comm.all_gather(sides);
+  make_unique();
+  std::vector<std::vector<int>> result(pairs.size());
+  for (const auto& side : sides) result[static_cast<std::size_t>(side.contact)].push_back(side.body);
   return result;
 }
 

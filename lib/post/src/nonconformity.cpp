@@ -30,31 +30,6 @@ std::vector<double> least_moduli(const ElasticBodies& bodies, const Communicator
   return result;
 }
 
-// Of each contact the bodies on its sides. Collective.
-std::vector<std::vector<int>> bodies_of(std::span<const contact::Pair> pairs, const Communicator& comm)
-{
-  struct Side {
-    int contact, body;
-    auto operator<=>(const Side&) const = default;
-  };
-  std::vector<Side> sides;
-  const auto make_unique = [&] {
-    std::ranges::sort(sides);
-    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
-  };
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    for (const int body : pairs[c].secondary.body) sides.push_back({static_cast<int>(c), body});
-    if (pairs[c].primary)
-      for (const int body : pairs[c].primary->body) sides.push_back({static_cast<int>(c), body});
-  }
-  make_unique();
-  sides = comm.all_gather(sides);
-  make_unique();
-  std::vector<std::vector<int>> result(pairs.size());
-  for (const auto& side : sides) result[static_cast<std::size_t>(side.contact)].push_back(side.body);
-  return result;
-}
-
 std::vector<contact::NodalDisplacement> displacements_of_sides(const ElasticBodies& bodies,
                                                                const std::vector<Eigen::VectorXd>& displacement,
                                                                std::span<const contact::Pair> pairs)
@@ -91,7 +66,7 @@ std::vector<ContactError> contact_errors(const ElasticBodies& bodies, const std:
   auto energy = stress.body_energy, error = stress.body_error;
   comm.sum_in_place(energy);
   comm.sum_in_place(error);
-  const auto bodies_of_contact = bodies_of(pairs, comm);
+  const auto bodies_of_contact = bodies_of_contacts(pairs, comm);
   std::vector<ContactError> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     auto& contact = result.emplace_back(ContactError{0, 0, 0, found[c].largest, found[c].at});
@@ -119,13 +94,13 @@ std::vector<Warning> coarse_secondaries(std::span<const ContactError> errors, do
     if (!(squared > std::max(limit * limit, least_part * least_part * squared_norm))) continue;
     const double part = std::sqrt(squared / norm);
     const auto& options = pairs[c].options;
-    Warning w{
-        "coarse_secondary",
-        fmt::format("the sides of contact {} pass through or along each other between its points by up to {:.3g} at {}: some "
-                    "{:.2g} % in the energy norm of the softer body, and what lies loose there may be off by far more",
-                    options.name, largest, spell(at), 100 * part),
-        "let the side with the smaller faces or the softer body be the secondary one, or make the secondary side's faces "
-        "smaller"};
+    Warning w{"coarse_secondary",
+              fmt::format(
+                  "between its points the sides of contact {} miss each other by up to {:.3g} at {}: some {:.2g} % in the energy "
+                  "norm of the softer body, and forces, and what lies loose there, may be off by far more",
+                  options.name, largest, spell(at), 100 * part),
+              "let the side with the smaller faces or the softer body be the secondary one, or make the secondary side's faces "
+              "smaller"};
     w.at = at;
     w.contact = options.name;
     w.boundary = options.secondary;

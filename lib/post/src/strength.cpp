@@ -22,30 +22,12 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
                                      const std::vector<double>& softest, const std::vector<std::string>& bodies,
                                      const Communicator& comm)
 {
-  // Of each contact the bodies on its sides, on every rank.
-  std::vector<std::pair<int, int>> sides;
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    for (const int b : pairs[c].secondary.body) sides.emplace_back(static_cast<int>(c), b);
-    if (pairs[c].primary)
-      for (const int b : pairs[c].primary->body) sides.emplace_back(static_cast<int>(c), b);
-  }
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
-  struct Side {
-    int contact, body;
-  };
-  std::vector<Side> mine;
-  for (const auto& [contact, body] : sides) mine.push_back({contact, body});
   std::vector<double> modulus(pairs.size(), std::numeric_limits<double>::infinity());
   std::vector<int> soft(pairs.size(), -1);
-  for (const auto& side : comm.all_gather(mine)) {
-    const double e = softest[static_cast<std::size_t>(side.body)];
-    auto& least = modulus[static_cast<std::size_t>(side.contact)];
-    auto& which = soft[static_cast<std::size_t>(side.contact)];
-    if (e > least || (e == least && which >= 0 && which <= side.body)) continue;
-    least = e;
-    which = side.body;
-  }
+  const auto sides = bodies_of_contacts(pairs, comm);
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    for (const int body : sides[c])
+      if (const double e = softest[static_cast<std::size_t>(body)]; e < modulus[c]) modulus[c] = e, soft[c] = body;
   std::vector<Found> peaks(pairs.size());
   for (std::size_t c = 0; c < pairs.size(); ++c)
     for (std::size_t i = 0; i < surfaces[c].recovered_pressure.size(); ++i)

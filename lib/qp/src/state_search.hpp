@@ -15,7 +15,8 @@ class StateSearch {
 
   /// From closed contact that sticks, by whatever leads to a solution.
   bool from_anywhere();
-  /// From the states of the problem that x, nu and the reaction s solve.
+  /// From the states of the problem that x, nu and the reaction s solve; where guesses from there lead nowhere, all that slips
+  /// sticks first.
   bool from(const Eigen::VectorXd& x, const Eigen::VectorXd& nu, const Eigen::VectorXd& reaction);
   /// Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
   void polish();

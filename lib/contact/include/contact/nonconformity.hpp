@@ -27,7 +27,7 @@ struct Nonconformity {
   /// integral w^2 / size of the face, w being the jump or what is left of it: across the face where it presses, along it where it
   /// sticks; areas as in the model.
   double squared = 0;
-  double largest = 0;        ///< the largest w of sides that pass through each other, or along each other, a length
+  double largest = 0;        ///< the largest |w|, across or along the face, a length
   Point at = Point::Zero();  ///< where that is, on the undeformed secondary side
 };
 

@@ -100,7 +100,7 @@ class Faces {
       if (bonded && held) across = s.jump.dot(normal_), tangential = s.jump;
       const double along = (tangential - tangential.dot(normal_) * normal_).norm();
       sum.squared += s.weight * (across * across + along * along) / size_;
-      if (std::max(across, along) > sum.largest) sum.largest = std::max(across, along), sum.at = s.at;
+      if (const double off = std::max(std::abs(across), along); off > sum.largest) sum.largest = off, sum.at = s.at;
     }
   }
 

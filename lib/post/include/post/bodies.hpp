@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "contact/mortar.hpp"
 #include "fem/options.hpp"
 #include "partition/decomposition.hpp"
 
@@ -30,5 +31,8 @@ std::vector<Found> largest_of_ranks(const std::vector<Found>& mine, const Commun
 /// The size of each body: the diagonal of the box round it, in axisymmetry round the whole turn. Collective.
 std::vector<double> body_sizes(const partition::Decomposition& decomposition, fem::Kinematics kinematics,
                                const Communicator& comm);
+
+/// Of each contact the bodies on its sides, ascending. Collective.
+std::vector<std::vector<int>> bodies_of_contacts(std::span<const contact::Pair> pairs, const Communicator& comm);
 
 }  // namespace mortise::post

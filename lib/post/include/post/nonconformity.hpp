@@ -16,7 +16,7 @@ struct ContactError {
   double squared = 0;         ///< that of the contact,
   double squared_beside = 0;  ///< that which stresses show in its softer bodies,
   double squared_norm = 0;    ///< and of the solution there
-  double largest = 0;         ///< how far its sides pass through or along each other, a length
+  double largest = 0;         ///< how far its sides miss each other, a length
   Point at = Point::Zero();
 };
 
