@@ -13,7 +13,7 @@
 #include "search/line_of_sight.hpp"
 #include "search/nearest_points.hpp"
 #include "search/tree.hpp"
-#include "surface/surface_nodes.hpp"
+#include "surface/bulge.hpp"
 
 namespace mortise::contact {
 

@@ -9,6 +9,7 @@
 #include "contact/obstacle.hpp"
 #include "search/line_of_sight.hpp"
 #include "search/tree.hpp"
+#include "surface/bulge.hpp"
 #include "surface/edges.hpp"
 #include "surface/surface_nodes.hpp"
 

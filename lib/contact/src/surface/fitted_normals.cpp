@@ -1,36 +1,28 @@
 #include "surface/fitted_normals.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <span>
 #include <utility>
 
-#include "base/dense.hpp"
+#include "surface/fitted_surface.hpp"
 
 namespace mortise::contact {
 
 namespace {
 
-// Nodes round one that determine a surface of second order, with one to spare.
-constexpr std::size_t enough = 6;
+// Nodes round one that determine a surface of second order, with one to spare, and one of third order.
+constexpr std::size_t enough = 6, enough_for_third = 12;
 // Heights below this part of the distances are rounding.
 constexpr double plane_surface = 1e-10;
-// How far what the nodes do not determine is held: a slope where it is, a curvature at 0. What they determine is found all the
-// same, step by step. Both are the same in all directions: nothing that is found along one leaks into another that is not
-// determined.
-constexpr double held_slope = 0.01, held_curvature = 1e-6;
-constexpr int steps = 8;
-constexpr double settled = 1e-13;
-// What a surface of second order may leave of the heights: more is an edge, or scatter.
-constexpr double most_left = 0.2;
+// What a surface of second order may leave of the heights for nothing of third order to be looked for.
+constexpr double nothing_left = 1e-4;
 
-// Where it leaves more than that of the nodes round these, too, it may be two surfaces, and is if they leave as little as this,
-// and so much less: in the line in which a cylinder runs into a fillet 0.01 to 0.04, in a row of nodes beside it 0.12 to 0.16.
-constexpr double of_two = 0.05, explained = 0.2;
+// Where it leaves more than this of the nodes round and of those round these, it may be two surfaces, and is if they leave as
+// little as `of_two`, and so much less: in the line in which a cylinder runs into a fillet 0.01 to 0.04, in a row of nodes beside
+// it 0.12 to 0.16.
+constexpr double of_one = 0.2, of_two = 0.05, explained = 0.2;
 // Cosine: lines from node to node go on as straight as this.
 constexpr double straight = -0.9;
 constexpr std::size_t enough_for_two = 9;
@@ -76,101 +68,6 @@ class Neighbours {
   std::vector<Local> to_;
 };
 
-// The tangents along which the distances are longest and shortest: nodes may lie far closer one way than the other.
-std::pair<Point, Point> principal_tangents(const std::vector<Point>& d, const Point& normal)
-{
-  const Point any = normal.unitOrthogonal(), other = normal.cross(any);
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (const auto& v : d) {
-    const Eigen::Vector2d at(v.dot(any), v.dot(other));
-    spread += at * at.transpose() / v.squaredNorm();
-  }
-  const Eigen::Vector2d axis = dense::plane_eigenpairs(spread).vectors.col(1);
-  return {axis[0] * any + axis[1] * other, axis[0] * other - axis[1] * any};
-}
-
-// Along a line and across.
-std::pair<Point, Point> tangents_of_line(const Point& line, const Point& normal)
-{
-  const Point along = (line - line.dot(normal) * normal).normalized();
-  return {along, normal.cross(along)};
-}
-
-// A surface of second order through the origin.
-struct Fitted {
-  Point normal;
-  double left;  // of the heights of the points
-  Point s, t;   // 2 z = across s^2 + 2 twist s t + along t^2 + curvature z^2
-  double across, twist, along, curvature;
-
-  // The same of other points.
-  double left_of(std::span<const Point> points) const
-  {
-    double sum = 0, all = 0;
-    for (const Point& v : points) {
-      const double x = v.dot(s), y = v.dot(t), z = v.dot(normal), weight = 1 / std::pow(v.squaredNorm(), 2);
-      sum += weight * std::pow(z - (across * x * x + 2 * twist * x * y + along * y * y + curvature * z * z) / 2, 2);
-      all += weight * z * z;
-    }
-    return all > 0 ? std::sqrt(sum / all) : 0;
-  }
-};
-
-// The one next to points d, with a normal next to `start`; `start` and all of the heights if there is none. With a `line`: two
-// surfaces which meet in it and have one tangent plane there, with curvatures across that differ.
-Fitted fitted(const std::vector<Point>& d, const Point& start, const Point* line = nullptr)
-{
-  const auto count = static_cast<Eigen::Index>(d.size());
-  const Fitted none{start, 1, Point::Zero(), Point::Zero(), 0, 0, 0, 0};
-  double length = 0, height = 0;
-  for (const auto& v : d) {
-    length = std::max(length, v.norm());
-    height = std::max(height, std::abs(v.dot(start)) / v.norm());
-  }
-  const Eigen::Index columns = line ? 6 : 5;
-  Eigen::MatrixXd rows(count + columns, columns);
-  Eigen::VectorXd heights(count + columns);
-  Fitted result = none;
-  Point& normal = result.normal;
-  std::array<double, 2> curvature{0, 0};  // the larger one, on each side of the line
-  for (int step = 0; step < steps; ++step) {
-    const auto [s, t] = line ? tangents_of_line(*line, normal) : principal_tangents(d, normal);
-    rows.setZero();
-    heights.setZero();
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Point& v = d[static_cast<std::size_t>(i)];
-      const double x = v.dot(s), y = v.dot(t), z = v.dot(normal), square = v.squaredNorm();
-      const int beyond = line && y > 0 ? 1 : 0;
-      rows.row(i).head(4) << x * length, y * length, x * x / 2, x * y;
-      rows(i, 4 + beyond) = y * y / 2;
-      rows.row(i) /= square;
-      heights[i] = (z - curvature[static_cast<std::size_t>(beyond)] * z * z / 2) / square;
-    }
-    Eigen::VectorXd scale(columns);
-    for (Eigen::Index c = 0; c < columns; ++c) {
-      scale[c] = std::max(rows.col(c).norm(), 1e-30 / length);
-      rows.col(c) /= scale[c];
-      rows(count + c, c) = (c < 2 ? held_slope : c == 3 ? std::sqrt(2.0) * held_curvature : held_curvature) / scale[c];
-    }
-    const Eigen::VectorXd found = dense::least_squares(rows, heights);
-    const Eigen::VectorXd left = rows.topRows(count) * found - heights.head(count);
-    result.left = left.norm() / std::max(heights.head(count).norm(), std::numeric_limits<double>::min());
-    if (!(result.left <= most_left)) return none;
-    const Eigen::VectorXd c = found.cwiseQuotient(scale);
-    const Eigen::Vector2d slope(c[0] * length, c[1] * length);
-    for (Eigen::Index beyond = 0; beyond + 4 < columns; ++beyond) {
-      const double mean = (c[2] + c[4 + beyond]) / 2, spread = std::hypot((c[2] - c[4 + beyond]) / 2, c[3]);
-      curvature[static_cast<std::size_t>(beyond)] = mean > 0 ? mean + spread : mean - spread;
-    }
-    result.s = s, result.t = t;
-    result.across = c[2], result.twist = c[3], result.along = c[4], result.curvature = curvature[0];
-    normal = (normal - slope[0] * s - slope[1] * t).normalized();
-    if (slope.norm() > 2 * height) return none;
-    if (slope.norm() < settled) break;
-  }
-  return (normal - start).norm() > height ? none : result;
-}
-
 // Two surfaces that meet in a line through a surface node.
 struct TwoSurfaces {
   std::size_t at;
@@ -194,9 +91,15 @@ class Fits {
     if (d_.empty()) return start;
     if (std::all_of(d_.begin(), d_.end(), [&](const Point& v) { return std::abs(v.dot(mean)) < plane_surface * v.norm(); }))
       return mean;
-    const Fitted one = fitted(d_, start);
+    const FittedSurface one = fit_second_order(d_, start);
     gather(p, true);
-    if (one.left == 1 || one.left_of(d_) > most_left) attempt_two(p, border, start);
+    const double left = one.left == 1 ? 1 : one.left_of(d_);
+    if (left > of_one) {
+      attempt_two(p, border, start);
+    } else if (left > nothing_left) {
+      const bool few = border || d_.size() < enough_for_third;
+      if (const auto third = few ? normal_of_cone(d_, one) : normal_of_third_order(d_, one)) return *third;
+    }
     return one.normal;
   }
 
@@ -234,9 +137,9 @@ class Fits {
   {
     if (d_.size() < enough_for_two) return;
     TwoSurfaces best{p, {}, start};
-    double least = std::min(explained * fitted(d_, start).left, of_two);
+    double least = std::min(explained * fit_second_order(d_, start).left, of_two);
     const auto attempt = [&](const Point& line, const Few<Local, 2>& ends) {
-      if (const Fitted two = fitted(d_, start, &line); two.left < least) {
+      if (const FittedSurface two = fit_second_order(d_, start, &line); two.left < least) {
         least = two.left;
         best.ends = ends;
         best.normal = two.normal;

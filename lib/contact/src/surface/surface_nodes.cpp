@@ -223,47 +223,7 @@ bool share_edge(std::span<const Local> facet, std::size_t k, std::span<const Loc
   return false;
 }
 
-// The normals of the surface nodes at the corners of a facet.
-Few<Point, 4> corner_normals(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
-{
-  Few<Point, 4> normals;
-  for (std::size_t k = 0; k < side.facets[facet].size(); ++k) normals.push_back(surface_nodes.normal(side, facet, k));
-  return normals;
-}
-
 }  // namespace
-
-Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals) : n_(face.nodes.size())
-{
-  for (std::size_t i = 0; i < n_; ++i) {
-    for (std::size_t j = 0; j < i; ++j) rise_[i][j] = (face.nodes[j] - face.nodes[i]).dot(normals[j] - normals[i]) / 2;
-    normal_[i] = normals[i];
-  }
-}
-
-Bulge::Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
-    : Bulge(side.geometry(facet), corner_normals(side, surface_nodes, facet))
-{
-}
-
-double Bulge::operator()(const Eigen::Vector4d& shape) const
-{
-  const double rise = quadratic(shape);
-  if (rise == 0) return 0;
-  Point mean = Point::Zero();
-  for (std::size_t i = 0; i < n_; ++i) mean += shape[static_cast<Eigen::Index>(i)] * normal_[i];
-  return 2 * rise / (1 + mean.norm());
-}
-
-// sum N_i f(x_i) - f(sum N_i x_i) of a quadratic f.
-double Bulge::quadratic(const Eigen::Vector4d& shape) const
-{
-  double result = 0;
-  for (std::size_t i = 0; i < n_; ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      result += shape[static_cast<Eigen::Index>(i)] * shape[static_cast<Eigen::Index>(j)] * rise_[i][j];
-  return result;
-}
 
 SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted)
 {

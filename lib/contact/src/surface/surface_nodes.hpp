@@ -1,4 +1,4 @@
-// Where multipliers may sit, the normals there, and the smooth surface behind facets.
+// Where multipliers may sit, and the normals there.
 #pragma once
 
 #include "surface/side.hpp"
@@ -34,24 +34,5 @@ SurfaceNodes find_surface_nodes(const Side& side);
 /// second order through the nodes round each, if those determine one, and not only the means of the faces' normals.
 SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted = true);
 void number_nodes_of_faces(const Side& side, SurfaceNodes& surface_nodes);
-
-/// How far the smooth surface through the nodes stands out of a face (positive outwards) at reference shape values `shape`, along
-/// the mean of the normals there: the quadratic that bulges by (x_j - x_i).(n_j - n_i) / 8 at the middle of edge ij, times
-/// 2 / (1 + q) with q = |sum N_i n_i|. On a sphere or a cylinder of radius r the place x = sum N_i x_i lies r q from the centre
-/// and the quadratic is r (1 - q^2) / 2: what stands out is r (1 - q), exactly, while the facets alone are wrong by their
-/// sagitta.
-class Bulge {
- public:
-  Bulge(const FaceGeometry& face, std::span<const Point> normals);
-  Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet);
-  double operator()(const Eigen::Vector4d& shape) const;
-
- private:
-  double quadratic(const Eigen::Vector4d& shape) const;
-
-  std::size_t n_;
-  std::array<std::array<double, 4>, 4> rise_{};  // of each two corners four times that of their middle
-  std::array<Point, 4> normal_;                  // at each corner
-};
 
 }  // namespace mortise::contact
