@@ -60,6 +60,12 @@ TEST(Bulge, IsExactOnCylindersHoweverFacetsLie)
         Point at = Point::Zero();
         for (std::size_t k = 0; k < 4; ++k) at += shape[static_cast<Eigen::Index>(k)] * facet.nodes[k];
         EXPECT_NEAR(bulge(shape), radius - at.head<2>().norm(), 1e-13) << a << " " << b;
+        for (const double tilt : {0.0, 0.1, -0.2}) {  // |at + distance line| = radius in the plane across the axis
+          const Point line = Eigen::AngleAxisd(tilt, Point::UnitZ()) * Point(at[0], at[1], 0).normalized();
+          const double half = at.dot(line),
+                       distance = std::sqrt(half * half + radius * radius - at.head<2>().squaredNorm()) - half;
+          EXPECT_NEAR(bulge.along(-line, shape), distance, 1e-3 * distance) << a << " " << b;
+        }
       }
   }
 }

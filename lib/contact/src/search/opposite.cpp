@@ -103,7 +103,7 @@ Opposite Rays::shoot(const Point& from, const Point& direction, double length, c
     const auto geometry = primary_.geometry(facet);
     const auto hit = contact::shoot(from, direction, geometry);
     if (!hit.found || (counts && !counts(facet))) continue;
-    const double gap = hit.distance - Bulge(primary_, primary_nodes_, facet)(hit.shape);
+    const double gap = hit.distance - Bulge(primary_, primary_nodes_, facet).along(direction, hit.shape);
     if (std::abs(gap) > length) continue;
     const std::size_t way = gap < 0 ? 1 : 0;
     // In a concave edge of the primary side two faces are equally near.
@@ -134,7 +134,7 @@ Opposite Rays::shoot_past(const Point& from, const Point& direction, double leng
     const auto hit = contact::shoot(from, direction, geometry, beyond_border);
     if (!hit.found || (counts && !counts(facet))) continue;
     const double by = -hit.shape.head(static_cast<Eigen::Index>(geometry.nodes.size())).minCoeff() * geometry.size();
-    const double gap = hit.distance - Bulge(primary_, primary_nodes_, facet)(hit.shape);
+    const double gap = hit.distance - Bulge(primary_, primary_nodes_, facet).along(direction, hit.shape);
     if (std::abs(gap) > length || by > least) continue;
     least = by;
     best = {gap, facet, hit};
@@ -337,7 +337,7 @@ double Rays::gap(std::size_t p, const FacetPoint& point, const Point& direction,
   for (std::size_t k = 0; k < geometry.nodes.size(); ++k) at += point.shape[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
   auto opposite = obstacle_ ? Opposite{distance_to_obstacle(at, direction), 0, {}}
                             : shoot_past(p, at, direction, 2 * reach_, part_past * geometry.size());
-  opposite.gap -= own_bulge(point.facet)(point.shape);
+  opposite.gap -= own_bulge(point.facet).along(direction, point.shape);
   return gap_of && std::isfinite(opposite.gap) ? gap_of(p, opposite) : opposite.gap;
 }
 

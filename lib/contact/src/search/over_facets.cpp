@@ -63,7 +63,7 @@ const std::vector<OverFacets::NodeOver>& OverFacets::nodes_over(std::size_t face
       if (!(shape.head(static_cast<Eigen::Index>(corners)).minCoeff() >= -outside_facet)) continue;
       Point at = Point::Zero();
       for (std::size_t c = 0; c < corners; ++c) at += shape[static_cast<Eigen::Index>(c)] * own.nodes[c];
-      const double distance = (x - at).dot(normal), gap = distance - bulge(shape);
+      const double distance = (x - at).dot(normal), gap = distance - bulge.along(normal, shape);
       if (!(std::abs(gap) > reach_)) found.push_back({nodes[k], shape, at, distance, gap, primary_.geometry(other).size()});
     }
   }
@@ -151,7 +151,7 @@ std::optional<OverFacets::OnRidge> OverFacets::nearest_on_ridge(std::size_t face
     const auto facet_there = static_cast<std::size_t>(other);
     const double turn = curvature_of(primary_, primary_nodes_, facet_there) * primary_.geometry(facet_there).size();
     if (ridge.border ? !(before < -parallel_over(turn)) : !(before < -parallel_slopes && behind > parallel_slopes)) continue;
-    const double gap = below.distance - rays_.own_bulge(facet)(below.shape), distance = (at - from).norm();
+    const double gap = below.distance - rays_.own_bulge(facet).along(along, below.shape), distance = (at - from).norm();
     if (std::abs(gap) > reach_ || (best && distance >= best->distance)) continue;
     if (sight_.hidden(at, along, below.distance, own.size())) continue;
     if (ridge.border && !is_covered(facet, at + beyond * own.size() * ridge.across)) continue;

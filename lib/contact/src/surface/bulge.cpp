@@ -1,8 +1,14 @@
 #include "surface/bulge.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace mortise::contact {
 
 namespace {
+
+// Lines that are flatter than this to a face are taken to be as flat as this.
+constexpr double least_cosine = 0.3;
 
 // The normals of the surface nodes at the corners of a facet.
 Few<Point, 4> corner_normals(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
@@ -58,10 +64,24 @@ Bulge::Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t fa
 double Bulge::operator()(const Eigen::Vector4d& shape) const
 {
   const double h = height(shape);
+  return h == 0 ? 0 : 2 * h / (1 + mean_normal(shape).norm());
+}
+
+// Over so little the smooth surface is its tangent plane.
+double Bulge::along(const Point& line, const Eigen::Vector4d& shape) const
+{
+  const double h = height(shape);
   if (h == 0) return 0;
+  const Point mean = mean_normal(shape);
+  const double size = mean.norm();
+  return 2 * h / (1 + size) / std::max(std::abs(line.dot(mean)) / size, least_cosine);
+}
+
+Point Bulge::mean_normal(const Eigen::Vector4d& shape) const
+{
   Point mean = Point::Zero();
   for (std::size_t i = 0; i < n_; ++i) mean += shape[static_cast<Eigen::Index>(i)] * normal_[i];
-  return 2 * h / (1 + mean.norm());
+  return mean;
 }
 
 double Bulge::height(const Eigen::Vector4d& shape) const

@@ -20,9 +20,12 @@ class Bulge {
   Bulge(const FaceGeometry& face, std::span<const Point> normals);
   Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet);
   double operator()(const Eigen::Vector4d& shape) const;
+  /// The same along a line with a unit vector, whatever its sense, that need not be the normal.
+  double along(const Point& line, const Eigen::Vector4d& shape) const;
 
  private:
   double height(const Eigen::Vector4d& shape) const;
+  Point mean_normal(const Eigen::Vector4d& shape) const;
 
   std::size_t n_;
   std::array<std::array<double, 4>, 4> mean_{};  // of the slopes at two corners
