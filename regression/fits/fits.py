@@ -132,9 +132,9 @@ def main():
         summary, output = solve(arguments, text, ranks)
         contact = summary["contacts"][0]
         stress = summary["max_von_mises"] / YOUNG
-        good = stress <= 1e-6 if fits else stress > 1e-4
+        good = stress <= 1e-6 if fits else stress > 1e-6
         overlap = contact["initial_gap"]["largest_overlap"]
-        good = good and shown in output and (overlap == 0 if fits else overlap > 1e-3) and ("overlap by" in output) != fits
+        good = good and shown in output and (overlap == 0 if fits else overlap > 1e-5) and ("overlap by" in output) != fits
         whole = 2 * math.pi * 10 * (10 if "ball" in text else 12 if "dimension: 3" in text else 1)
         good = good and (not fits or 0.8 * whole < contact["initial_gap"]["touching_area"] < 1.01 * whole)
         print(f"{name:<28} von Mises / E {stress:8.1e}, overlap {overlap:8.1e}, {contact['initial_gap']['touching_area']:.5g} touches"

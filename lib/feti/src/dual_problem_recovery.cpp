@@ -101,6 +101,8 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   // Of that on the lighter body, for what turns, as in drives.cpp: so much loads typed with six digits turn it by, and nodes
   // beside their arc. What a small load lets travel until it meets something stays there.
   constexpr double no_moment = 1e-6;
+  // Of the largest jump: beside a gap like this so small a force is an error of the solution.
+  constexpr double gap_beside_force = 0.01;
   constexpr Eigen::Index most = 600;  // amplitudes: more would take seconds
   const auto& contacts = constraints_.contacts;
   const bool unbonded = std::find(contacts.bonded.begin(), contacts.bonded.end(), false) != contacts.bonded.end();
@@ -119,6 +121,9 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   Eigen::VectorXd normal_force = Eigen::VectorXd::Zero(count);
   for (const auto& rows : node_rows_) normal_force[rows.normal - first] = std::abs(force[rows.normal]);
   const double largest = comm_.max(count > 0 ? normal_force.maxCoeff() : 0.0);
+  double largest_jump = 0;
+  for (const auto& rows : node_rows_) largest_jump = std::max(largest_jump, std::abs(jump[rows.normal]));
+  largest_jump = comm_.max(largest_jump);
   const Eigen::VectorXd now = mean_amplitudes(decomposition_, bodies, u, comm_);
   // The way back if what turns counts forces as none that travellers do not.
   const auto way_back = [&](const std::vector<bool>& travel) {
@@ -128,11 +133,13 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
     for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
       const auto& rows = node_rows_[i];
       const Local row = rows.normal - first;
+      const double gap = contacts.rows.bound[contacts.nodes[i].row] - jump[rows.normal];
+      const bool stands_off = gap > gap_beside_force * largest_jump && force[rows.normal] < no_moment * largest;
       if (contacts.bonded[i] ||
-          force[rows.normal] > std::max({no_force * largest, no_moment * on_lighter[row], negligible_force}))
+          (!stands_off && force[rows.normal] > std::max({no_force * largest, no_moment * on_lighter[row], negligible_force})))
         continue;
       felt.closed.segment(row, 1 + rows.tangents).setZero();
-      felt.gap[row] = contacts.rows.bound[contacts.nodes[i].row] - jump[rows.normal];
+      felt.gap[row] = gap;
     }
     return towards_rest(felt, now, comm_);
   };
