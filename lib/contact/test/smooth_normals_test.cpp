@@ -53,7 +53,7 @@ TEST(Bulge, IsExactOnCylindersHoweverFacetsLie)
       facet.nodes.push_back(corner(angle, z));
       normals.push_back(normal(angle));
     }
-    const Bulge bulge(facet, normals);
+    const Bulge bulge(facet, normals, true);
     for (const double a : {0.5, 0.1, 0.9})
       for (const double b : {0.5, 0.7}) {
         const Eigen::Vector4d shape((1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b);
@@ -93,7 +93,7 @@ TEST(Bulge, IsOfThirdOrderWhereCurvaturesChange)
       facet.nodes.push_back(surface.at(a * x, 1 + c * y));
       normals.push_back(surface.normal(a * x, 1 + c * y));
     }
-    const Bulge bulge(facet, normals);
+    const Bulge bulge(facet, normals, true);
     double error = 0, sagitta = 0;
     for (double u = 0.1; u < 1; u += 0.2)
       for (double v = 0.1; v < (places.size() == 4 ? 1 : 0.95 - u); v += 0.2) {
@@ -193,6 +193,28 @@ TEST(SmoothNormals, OfASideOneCellLongDoNotTiltAlongIt)
         EXPECT_LT(std::abs(row.normal[2]), 1e-4) << n << " faces, length " << length << ", at " << x.transpose();
       }
     }
+}
+
+// Two rows of nodes do not tell how a curvature changes: along an ellipse one cell wide normals are those of second order.
+TEST(SmoothNormals, OfAStripOneCellWideAreNotOfThirdOrder)
+{
+  const Communicator comm;
+  const auto ellipse = [](double apart) {
+    return [apart](double x, double y) { return Point((10 + apart) * std::cos(x), (7 + apart) * std::sin(x), y); };
+  };
+  for (const bool triangles : {true, false}) {
+    const Grid grid{8, 1, 0, std::numbers::pi / 2, 0, 5, true, triangles};
+    const Grid other{11, 1, 0, std::numbers::pi / 2, 0, 5, false, triangles, primary_ids};
+    const auto pair = make_pair(surface(grid, ellipse(0), comm), surface(other, ellipse(0.01), comm), Law::frictionless);
+    const auto nodes = nodes_of(pair, comm);
+    const auto rows = gather_rows(discretize(std::vector<Pair>{pair}, {}, fem::Kinematics::solid, comm), comm);
+    EXPECT_EQ(rows.rows.size(), 18U);
+    for (const auto& row : rows.rows) {
+      const Point& x = nodes.at(row.node);
+      EXPECT_LT((row.normal - Point(x[0] / 100, x[1] / 49, 0).normalized()).norm(), 0.12) << x.transpose();
+      EXPECT_NEAR(row.bound / row.weight, 0.01, 0.02) << x.transpose();
+    }
+  }
 }
 
 // As where faces with a node that a support holds are not part of the boundary: tips have corners of the border alone round them.

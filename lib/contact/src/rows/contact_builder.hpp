@@ -184,7 +184,8 @@ class ContactBuilder {
 
   void note_conflict_where_held(std::size_t p)
   {
-    const auto& [node, normal, continued] = nodes_.all[p];
+    const Local node = nodes_.all[p].node;
+    const Point& normal = nodes_.all[p].normal;
     if (bonded())
       conflicts_.note_held_tear(node, normal, rays_.meet(p));
     else if (!chosen_.directions[p].free_normal)

@@ -274,9 +274,7 @@ Rays::Tilt Rays::tilt_to(std::size_t p, const Point& own, const Opposite& opposi
 
 Bulge Rays::own_bulge(std::size_t facet) const
 {
-  Few<Point, 4> normals;
-  for (std::size_t k = 0; k < secondary_.facets[facet].size(); ++k) normals.push_back(own_normal(facet, k));
-  return {secondary_.geometry(facet), {normals.begin(), normals.size()}};
+  return {secondary_, nodes_, facet, own_normal_};
 }
 
 std::optional<Rays::Tilt> Rays::tilt(std::size_t p)

@@ -10,14 +10,6 @@ namespace {
 // Lines that are flatter than this to a face are taken to be as flat as this.
 constexpr double least_cosine = 0.3;
 
-// The normals of the surface nodes at the corners of a facet.
-Few<Point, 4> corner_normals(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
-{
-  Few<Point, 4> normals;
-  for (std::size_t k = 0; k < side.facets[facet].size(); ++k) normals.push_back(surface_nodes.normal(side, facet, k));
-  return normals;
-}
-
 // The permanent of a 3 x 3 matrix with these rows.
 double permanent(const Eigen::Vector3d& u, const Eigen::Vector3d& v, const Eigen::Vector3d& w)
 {
@@ -44,21 +36,36 @@ double bubble_on(const FaceGeometry& face, const std::array<double, 4>& odd)
 
 }  // namespace
 
-Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals) : n_(face.nodes.size())
+Bulge::Bulge(const FaceGeometry& face, std::span<const Point> normals, bool cubic) : n_(face.nodes.size())
 {
   const auto slope = [&](std::size_t i, std::size_t j) { return (face.nodes[i] - face.nodes[j]).dot(normals[i]); };
   for (std::size_t i = 0; i < n_; ++i) {
     const std::size_t next = (i + 1) % n_;
     for (std::size_t j = 0; j < i; ++j) mean_[i][j] = (slope(i, j) + slope(j, i)) / 2;
-    odd_[i] = n_ == 2 && i == 1 ? 0 : (slope(i, next) - slope(next, i)) / 2;
+    odd_[i] = !cubic || (n_ == 2 && i == 1) ? 0 : (slope(i, next) - slope(next, i)) / 2;
     normal_[i] = normals[i];
   }
   if (n_ == 3) bubble_ = bubble_on(face, odd_);
 }
 
-Bulge::Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
-    : Bulge(side.geometry(facet), corner_normals(side, surface_nodes, facet))
+Bulge::Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet, std::span<const Point> normals)
+    : Bulge(side.geometry(facet), corners(side, surface_nodes, facet, normals))
 {
+}
+
+Bulge::Corners Bulge::corners(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet,
+                              std::span<const Point> normals)
+{
+  const auto begin = static_cast<std::size_t>(side.facets.offset[facet]);
+  const auto at = [&](std::size_t k) { return static_cast<std::size_t>(surface_nodes.of_corner[begin + k]); };
+  Corners result{{}, true};
+  for (std::size_t k = 0; k < side.facets[facet].size(); ++k) result.cubic = result.cubic && surface_nodes.all[at(k)].third_order;
+  for (std::size_t k = 0; k < side.facets[facet].size(); ++k) {
+    const auto& node = surface_nodes.all[at(k)];
+    const Point normal = normals.empty() ? node.normal : normals[at(k)];
+    result.normals.push_back(result.cubic ? normal : Point(normal + node.lean));
+  }
+  return result;
 }
 
 double Bulge::operator()(const Eigen::Vector4d& shape) const

@@ -17,13 +17,26 @@ namespace mortise::contact {
 /// 2: the result R (1 - q) is exact, while the facets alone are wrong by their sagitta.
 class Bulge {
  public:
-  Bulge(const FaceGeometry& face, std::span<const Point> normals);
-  Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet);
+  /// `cubic`: the normals are of third order, or exact. Else the second sum is left out: where normals of second order lean, they
+  /// do so alike at both ends of an edge, and the first sum is of third order.
+  Bulge(const FaceGeometry& face, std::span<const Point> normals, bool cubic);
+  /// Cubic if all normals of a facet are of third order; else with those of second order. `normals`: of the surface nodes, if not
+  /// their own.
+  Bulge(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet, std::span<const Point> normals = {});
   double operator()(const Eigen::Vector4d& shape) const;
   /// The same along a line with a unit vector, whatever its sense, that need not be the normal.
   double along(const Point& line, const Eigen::Vector4d& shape) const;
 
  private:
+  struct Corners {
+    Few<Point, 4> normals;
+    bool cubic;
+  };
+  static Corners corners(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet, std::span<const Point> normals);
+  Bulge(const FaceGeometry& face, const Corners& corners)
+      : Bulge(face, {corners.normals.begin(), corners.normals.size()}, corners.cubic)
+  {
+  }
   double height(const Eigen::Vector4d& shape) const;
   Point mean_normal(const Eigen::Vector4d& shape) const;
 

@@ -84,23 +84,32 @@ class Fits {
   {
   }
 
-  // The normal of the surface through the nodes round one, from `start`; where they lie in its plane, that of the `mean`.
-  Point normal(std::size_t p, bool border, const Point& mean, const Point& start)
+  // Turns the normal to that of the surface through the nodes round one; where they lie in its plane, to that of the `mean`.
+  void turn(std::size_t p, bool border, const Point& mean, SurfaceNode& node)
   {
+    const Point start = node.normal;
     gather(p, border || neighbours_[p].size() < enough);
-    if (d_.empty()) return start;
-    if (std::all_of(d_.begin(), d_.end(), [&](const Point& v) { return std::abs(v.dot(mean)) < plane_surface * v.norm(); }))
-      return mean;
+    if (d_.empty()) return;
+    if (std::all_of(d_.begin(), d_.end(), [&](const Point& v) { return std::abs(v.dot(mean)) < plane_surface * v.norm(); })) {
+      node.normal = mean;
+      return;
+    }
     const FittedSurface one = fit_second_order(d_, start);
+    node.normal = one.normal;
     gather(p, true);
     const double left = one.left == 1 ? 1 : one.left_of(d_);
     if (left > of_one) {
       attempt_two(p, border, start);
     } else if (left > nothing_left) {
       const bool few = border || d_.size() < enough_for_third;
-      if (const auto third = few ? normal_of_cone(d_, one) : normal_of_third_order(d_, one)) return *third;
+      if (const auto third = few ? normal_of_cone(d_, one) : normal_of_third_order(d_, one)) {
+        node.normal = *third;
+        node.lean = one.normal - *third;
+        node.third_order = true;
+      }
+    } else {
+      node.third_order = true;
     }
-    return one.normal;
   }
 
   // Those that explain the nodes, where the next node of the line says the same: by chance a single node may look like it.
@@ -168,10 +177,7 @@ class Fits {
 void fit_normals(const Side& side, const SurfaceNodes& means, const std::vector<bool>& border, SurfaceNodes& surface_nodes)
 {
   Fits fits(side, surface_nodes);
-  for (std::size_t p = 0; p < surface_nodes.all.size(); ++p) {
-    auto& normal = surface_nodes.all[p].normal;
-    normal = fits.normal(p, border[p], means.all[p].normal, normal);
-  }
+  for (std::size_t p = 0; p < surface_nodes.all.size(); ++p) fits.turn(p, border[p], means.all[p].normal, surface_nodes.all[p]);
   for (const auto& two : fits.two_surfaces()) surface_nodes.all[two.at].normal = two.normal;
 }
 

@@ -26,6 +26,11 @@ constexpr double settled = 1e-13, settled_third = 1e-10;
 constexpr double most_left = 0.2, most_left_of_third = 0.05;
 // What a cone leaves of what a surface of second order leaves.
 constexpr double cone_leaves = 0.2;
+// The least eigenvalue of the normal equations, their diagonal being 1, at which nodes determine a surface of third order, and a
+// cone: nodes in two rows do not.
+constexpr double determines_third = 5e-4, determines_cone = 5e-3;
+// How far the normal turns at most, over the steepest line to a node.
+constexpr double most_turn = 0.25;
 
 using Tangents = std::pair<Point, Point>;
 
@@ -65,25 +70,16 @@ double larger_curvature(double across, double twist, double along)
   return mean > 0 ? mean + spread : mean - spread;
 }
 
-// Scales the columns of the first `count` rows to 1 and adds those that hold the unknowns: two slopes, three curvatures or four,
-// and from `first_change` on what changes them. Returns the scales.
-Eigen::VectorXd scale_and_hold(Eigen::MatrixXd& rows, Eigen::Index count, Eigen::Index first_change, double length)
+// How far an unknown is held: two slopes, then curvatures, of which the third counts twice in the matrix.
+double held_back(Eigen::Index c)
 {
-  Eigen::VectorXd scale(rows.cols());
-  for (Eigen::Index c = 0; c < rows.cols(); ++c) {
-    const bool change = c >= first_change;
-    scale[c] = std::max(rows.col(c).head(count).norm(), change ? 1e-8 : 1e-30 / length);
-    rows.col(c) /= scale[c];
-    const double held = c < 2 ? held_slope : c == 3 ? std::sqrt(2.0) * held_curvature : held_curvature;
-    rows(count + c, c) = change ? held_change : held / scale[c];
-  }
-  return scale;
+  return c < 2 ? held_slope : c == 3 ? std::sqrt(2.0) * held_curvature : held_curvature;
 }
 
-double part_left(const Eigen::MatrixXd& rows, const Eigen::VectorXd& found, const Eigen::VectorXd& heights, Eigen::Index count)
+// What a column that is nothing is scaled by.
+double smallest(bool change, double length)
 {
-  return (rows.topRows(count) * found - heights.head(count)).norm() /
-         std::max(heights.head(count).norm(), std::numeric_limits<double>::min());
+  return change ? 1e-8 : 1e-30 / length;
 }
 
 double longest(const std::vector<Point>& d)
@@ -93,17 +89,27 @@ double longest(const std::vector<Point>& d)
   return length;
 }
 
-// The normal of a surface of third order, and what it leaves.
+// The steepest line to a node.
+double steepest(const std::vector<Point>& d, const Point& normal)
+{
+  double height = 0;
+  for (const auto& v : d) height = std::max(height, std::abs(v.dot(normal)) / v.norm());
+  return height;
+}
+
+constexpr int most_unknowns = 9;
+using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_unknowns, 1>;
+using Gram = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_unknowns, most_unknowns>;
+
+// The normal of a surface of third order, and what it leaves: all where the nodes do not determine one.
 std::pair<Point, double> fit_third_order(const std::vector<Point>& d, const FittedSurface& second, bool cone)
 {
-  const auto count = static_cast<Eigen::Index>(d.size());
   const Eigen::Index changes = cone ? 1 : 4, columns = 5 + changes;
   const double length = longest(d);
   FittedSurface surface = second;
   std::tie(surface.s, surface.t) = tangents_of_curvature(surface);
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(changes);
-  Eigen::MatrixXd rows(count + columns, columns);
-  Eigen::VectorXd heights(count + columns);
+  Unknowns change = Unknowns::Zero(changes);
+  Gram gram;
   for (int step = 0; step < steps_of_third; ++step) {
     if (cone && step > 0) {
       const Point before = surface.t;
@@ -113,23 +119,34 @@ std::pair<Point, double> fit_third_order(const std::vector<Point>& d, const Fitt
       std::tie(surface.s, surface.t) = tangents_of_line(surface.s, surface.normal);
     }
     const Point s = surface.s, t = surface.t;
-    rows.setZero();
-    heights.setZero();
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Point& v = d[static_cast<std::size_t>(i)];
-      const double x = v.dot(s), y = v.dot(t), z = v.dot(surface.normal);
-      rows.row(i).head(5) << x * length, y * length, x * x / 2, x * y, y * y / 2;
+    gram.setZero(columns, columns);
+    Unknowns right = Unknowns::Zero(columns), row(columns);
+    double heights = 0;  // squared
+    for (const Point& v : d) {
+      const double x = v.dot(s), y = v.dot(t), z = v.dot(surface.normal), square = v.squaredNorm();
+      row.head(5) << x * length, y * length, x * x / 2, x * y, y * y / 2;
       if (cone)
-        rows(i, 5) = y * (z - surface.along * y * y / 2);
+        row[5] = y * (z - surface.along * y * y / 2);
       else
-        rows.row(i).tail(4) << x * z, y * z, x * (x * x - 3 * y * y) / length, y * (y * y - 3 * x * x) / length;
-      heights[i] = z - surface.curvature * z * z / 2 - rows.row(i).tail(changes).dot(change);
-      rows.row(i) /= v.squaredNorm();
-      heights[i] /= v.squaredNorm();
+        row.tail(4) << x * z, y * z, x * (x * x - 3 * y * y) / length, y * (y * y - 3 * x * x) / length;
+      const double height = (z - surface.curvature * z * z / 2 - row.tail(changes).dot(change)) / square;
+      row /= square;
+      gram.noalias() += row * row.transpose();
+      right += height * row;
+      heights += height * height;
     }
-    const Eigen::VectorXd scale = scale_and_hold(rows, count, 5, length);
-    const Eigen::VectorXd found = dense::least_squares(rows, heights), c = found.cwiseQuotient(scale);
-    surface.left = part_left(rows, found, heights, count);
+    Unknowns scale(columns), held(columns);
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      scale[c] = std::max(std::sqrt(gram(c, c)), smallest(c >= 5, length));
+      held[c] = c < 5 ? held_back(c) / scale[c] : held_change;
+    }
+    gram = scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
+    right = right.cwiseQuotient(scale);
+    Gram all = gram;
+    all.diagonal() += held.cwiseAbs2();
+    const Unknowns found = all.ldlt().solve(right), c = found.cwiseQuotient(scale);
+    surface.left = std::sqrt(std::max(heights - 2 * found.dot(right) + found.dot(gram * found), 0.0) /
+                             std::max(heights, std::numeric_limits<double>::min()));
     change += c.tail(changes);
     surface.across = c[2], surface.twist = c[3], surface.along = c[4];
     const double larger = larger_curvature(c[2], c[3], c[4]), square = change.head(cone ? 1 : 2).squaredNorm();
@@ -138,7 +155,9 @@ std::pair<Point, double> fit_third_order(const std::vector<Point>& d, const Fitt
     surface.normal = (surface.normal - slope[0] * s - slope[1] * t).normalized();
     if (slope.norm() < settled_third) break;
   }
-  return {surface.normal, surface.left};
+  const bool determined = dense::symmetric_eigenpairs(gram).values[0] > (cone ? determines_cone : determines_third);
+  const bool near = (surface.normal - second.normal).norm() < most_turn * steepest(d, second.normal);
+  return {surface.normal, determined && near ? surface.left : 1.0};
 }
 
 }  // namespace
@@ -159,8 +178,7 @@ FittedSurface fit_second_order(const std::vector<Point>& d, const Point& start, 
   const auto count = static_cast<Eigen::Index>(d.size());
   const FittedSurface none{start, 1, Point::Zero(), Point::Zero(), 0, 0, 0, 0};
   const double length = longest(d);
-  double height = 0;
-  for (const auto& v : d) height = std::max(height, std::abs(v.dot(start)) / v.norm());
+  const double height = steepest(d, start);
   const Eigen::Index columns = line ? 6 : 5;
   Eigen::MatrixXd rows(count + columns, columns);
   Eigen::VectorXd heights(count + columns);
@@ -180,9 +198,15 @@ FittedSurface fit_second_order(const std::vector<Point>& d, const Point& start, 
       rows.row(i) /= square;
       heights[i] = (z - curvature[static_cast<std::size_t>(beyond)] * z * z / 2) / square;
     }
-    const Eigen::VectorXd scale = scale_and_hold(rows, count, columns, length);
+    Eigen::VectorXd scale(columns);
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      scale[c] = std::max(rows.col(c).norm(), smallest(false, length));
+      rows.col(c) /= scale[c];
+      rows(count + c, c) = held_back(c) / scale[c];
+    }
     const Eigen::VectorXd found = dense::least_squares(rows, heights);
-    result.left = part_left(rows, found, heights, count);
+    const Eigen::VectorXd left = rows.topRows(count) * found - heights.head(count);
+    result.left = left.norm() / std::max(heights.head(count).norm(), std::numeric_limits<double>::min());
     if (!(result.left <= most_left)) return none;
     const Eigen::VectorXd c = found.cwiseQuotient(scale);
     const Eigen::Vector2d slope(c[0] * length, c[1] * length);

@@ -189,8 +189,9 @@ void take_normals_of_straight(const Side& side, SurfaceNodes& surface_nodes)
     const auto end = std::find_if(first, last, [&](const auto& other) { return other.line != first->line; });
     const Point& direction = first->direction;
     if (!std::all_of(first, end, [&](const auto& other) { return (other.direction - direction).norm() < rounding; })) continue;
-    Point& normal = surface_nodes.all[static_cast<std::size_t>(first->surface_node)].normal;
-    normal = first->line ? Point((normal - normal.dot(direction) * direction).normalized()) : direction;
+    auto& node = surface_nodes.all[static_cast<std::size_t>(first->surface_node)];
+    const Point straight = first->line ? Point((node.normal - node.normal.dot(direction) * direction).normalized()) : direction;
+    node = {node.node, straight};
   }
 }
 

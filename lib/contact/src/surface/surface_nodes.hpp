@@ -10,7 +10,9 @@ struct SurfaceNode {
   Local node;
   Point normal;  ///< unit; exact where the faces inscribe a sphere or cylinder [weights of Max, J. Graph. Tools 4 (1999)], and
                  ///< where a plane runs into one
-  bool continued = false;  ///< on a border beyond which the side goes on: in its image, or across a bond
+  bool third_order = false;    ///< the normal is one of third order, see fit_normals()
+  Point lean = Point::Zero();  ///< by how much that of second order differs from it then
+  bool continued = false;      ///< on a border beyond which the side goes on: in its image, or across a bond
 };
 
 /// The surface nodes of a side, and the surface node that each corner of a facet (at facets.offset[f] + corner) and each node of
