@@ -57,6 +57,12 @@ double teeth(const Point& x)
   return static_cast<int>(std::lround(2 * x[0])) % 2 == 0 ? 0.0 : 1.0;
 }
 
+// What is counted of a face where it exceeds the mean square of w.
+double product(double square, double square_of_slope)
+{
+  return std::sqrt(square * square_of_slope) / (2 * std::numbers::pi);
+}
+
 TEST(Nonconformity, NothingIsLeftOfWhatMultipliersSee)
 {
   for (const int n : {1, 2, 5}) EXPECT_LT(Sides(n).found(linear).squared, 1e-24) << n;
@@ -65,8 +71,8 @@ TEST(Nonconformity, NothingIsLeftOfWhatMultipliersSee)
 TEST(Nonconformity, OfTeethTheirMeanIsSeen)
 {
   const auto found = Sides(4).found(teeth);
-  // A tooth less its mean of 1/2 has the mean square 1/12; two faces of area and size 1.
-  EXPECT_NEAR(found.squared, 2.0 / 12, 1e-12);
+  // A tooth less its mean of 1/2 has the mean square 1/12, and its slope the mean square 4; two faces of area and size 1.
+  EXPECT_NEAR(found.squared, 2 * product(1.0 / 12, 4), 1e-12);
   EXPECT_GT(found.largest, 0.4);
   EXPECT_LE(found.largest, 0.5);
   EXPECT_NEAR(std::abs(found.at[0] - 1), 0.5, 0.05);
@@ -76,15 +82,17 @@ TEST(Nonconformity, CountsWhereTheContactPresses)
 {
   const Sides sides(4);
   EXPECT_EQ(sides.found(teeth, [](const Point&) { return false; }).squared, 0);
-  // Of the second face the nodes at one end: the part that presses falls from 1 to 0, and with its square the mean is 7/240.
-  EXPECT_NEAR(sides.found(teeth, [](const Point& x) { return x[0] < 1.5; }).squared, 1.0 / 12 + 7.0 / 240, 1e-12);
+  // Of the second face the nodes at one end: the part that presses falls from 1 to 0, and with its square the mean is 7/240; in
+  // the middles of its halves the product has the slopes 3/2 and -1/2.
+  EXPECT_NEAR(sides.found(teeth, [](const Point& x) { return x[0] < 1.5; }).squared,
+              product(1.0 / 12, 4) + product(7.0 / 240, (2.25 + 0.25) / 2), 1e-12);
 }
 
 TEST(Nonconformity, AlongFacesWhereTheyStick)
 {
   const Sides sides(4);
   const auto everywhere = [](const Point&) { return true; };
-  EXPECT_NEAR(sides.found(teeth, everywhere, Status::stick, 0).squared, 2.0 / 12, 1e-12);
+  EXPECT_NEAR(sides.found(teeth, everywhere, Status::stick, 0).squared, 2 * product(1.0 / 12, 4), 1e-12);
   EXPECT_LT(sides.found(teeth, everywhere, Status::slip, 0).squared, 1e-24);
 }
 
@@ -93,7 +101,7 @@ TEST(Nonconformity, InBondsEveryJumpCountsButWhereTheyAreDrawnTogether)
   Sides sides(4, Law::bonded);
   const auto everywhere = [](const Point&) { return true; };
   for (const std::size_t axis : {0, 1, 2})  // the mean square of a tooth is 1/3
-    EXPECT_NEAR(sides.found(teeth, everywhere, Status::stick, axis).squared, 2.0 / 3, 1e-12);
+    EXPECT_NEAR(sides.found(teeth, everywhere, Status::stick, axis).squared, 2.0 / 3, 1e-12);  // more than product(1.0 / 3, 4)
   sides.pairs[0].options.preload.emplace();
   EXPECT_EQ(sides.found(teeth).squared, 0);
 }

@@ -24,8 +24,9 @@ struct NodalDisplacement {
 
 /// Of one contact, over all its faces that press.
 struct Nonconformity {
-  /// integral w^2 / size of the face, w being the jump or what is left of it: across the face where it presses, along it where it
-  /// sticks; areas as in the model.
+  /// sum over faces of max(|w|^2 / size, |w| |grad w| / (2 pi)), the norms being those of the integrals over a face of squares,
+  /// and w the jump or what is left of it: across the face where it presses, along it where it sticks; areas as in the model. E
+  /// pi of it is about the square of the energy norm of a half-space that follows w, which is E |w| |grad w| / 2 for waves.
   double squared = 0;
   double largest = 0;        ///< the largest |w|, across or along the face, a length
   Point at = Point::Zero();  ///< where that is, on the undeformed secondary side

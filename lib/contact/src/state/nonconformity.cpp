@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <span>
 
 #include "base/dense.hpp"
 #include "integrals/common_parts.hpp"
@@ -12,6 +14,9 @@
 namespace mortise::contact {
 
 namespace {
+
+// Of a face's size, squared: parts thinner than this say nothing of derivatives.
+constexpr double least_spread = 1e-6;
 
 // A node of a secondary side that presses, and whether it sticks.
 struct PressedNode {
@@ -87,21 +92,30 @@ class Faces {
     const Eigen::MatrixXd seen = dense::minimum_norm(gram_, moments_);
     const auto nodes = side().faces[face];
     const bool held = std::ranges::all_of(nodes, [&](Local n) { return status_at(n) == Status::stick; });
-    for (const auto& s : samples_) {
-      const Point left = s.jump - seen.transpose() * s.theta;
-      double pressed = 0, stuck = 0;  // parts of the face, about
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const double part = s.theta[static_cast<Eigen::Index>(k)];
-        if (status_at(nodes[k]) != Status::open) pressed += part;
-        if (status_at(nodes[k]) == Status::stick) stuck += part;
+    double squared = 0, gradient = 0;  // integrals of w^2 and of its derivatives' squares
+    for (std::size_t first = 0, end; first < samples_.size(); first = end) {
+      end = first;
+      while (end < samples_.size() && samples_[end].part == samples_[first].part) ++end;
+      for (std::size_t i = first; i < end; ++i) {
+        auto& s = samples_[i];
+        const Point left = s.jump - seen.transpose() * s.theta;
+        double pressed = 0, stuck = 0;  // parts of the face, about
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+          const double part = s.theta[static_cast<Eigen::Index>(k)];
+          if (status_at(nodes[k]) != Status::open) pressed += part;
+          if (status_at(nodes[k]) == Status::stick) stuck += part;
+        }
+        double across = std::clamp(pressed, 0.0, 1.0) * left.dot(normal_);
+        Point tangential = std::clamp(stuck, 0.0, 1.0) * left;
+        if (bonded && held) across = s.jump.dot(normal_), tangential = s.jump;
+        tangential -= tangential.dot(normal_) * normal_;
+        s.w = across * normal_ + tangential;
+        squared += s.weight * s.w.squaredNorm();
+        if (const double off = std::max(std::abs(across), tangential.norm()); off > sum.largest) sum.largest = off, sum.at = s.at;
       }
-      double across = std::clamp(pressed, 0.0, 1.0) * left.dot(normal_);
-      Point tangential = std::clamp(stuck, 0.0, 1.0) * left;
-      if (bonded && held) across = s.jump.dot(normal_), tangential = s.jump;
-      const double along = (tangential - tangential.dot(normal_) * normal_).norm();
-      sum.squared += s.weight * (across * across + along * along) / size_;
-      if (const double off = std::max(std::abs(across), along); off > sum.largest) sum.largest = off, sum.at = s.at;
+      gradient += squared_gradient(std::span(samples_).subspan(first, end - first));
     }
+    sum.squared += std::max(squared / size_, std::sqrt(squared * gradient) / (2 * std::numbers::pi));
   }
 
  private:
@@ -109,7 +123,34 @@ class Faces {
     double weight;
     Point jump, at;
     FaceShape theta;
+    std::size_t part;  // which part in common
+    Plane place;       // in its plane
+    Point w = Point::Zero();
   };
+
+  // The integral over a part in common, w being about linear there.
+  double squared_gradient(std::span<const Sample> samples) const
+  {
+    double area = 0;
+    Plane middle = Plane::Zero();
+    Point mean = Point::Zero();
+    for (const auto& s : samples) area += s.weight, middle += s.weight * s.place, mean += s.weight * s.w;
+    if (!(area > 0)) return 0;
+    middle /= area, mean /= area;
+    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+    Eigen::Matrix<double, 2, 3> moments = Eigen::Matrix<double, 2, 3>::Zero();
+    for (const auto& s : samples) {
+      const Plane off = s.place - middle;
+      spread += s.weight / area * off * off.transpose();
+      moments += s.weight / area * off * (s.w - mean).transpose();
+    }
+    const auto [values, axes] = dense::plane_eigenpairs(spread);
+    double result = 0;
+    for (int i = 0; i < 2; ++i)
+      if (values[i] > least_spread * size_ * size_)
+        result += (axes.col(i).transpose() * moments).squaredNorm() / (values[i] * values[i]);
+    return area * result;
+  }
 
   const Side& side() const { return secondary_.side; }
   Status status_at(Local node) const { return status_[static_cast<std::size_t>(node)]; }
@@ -137,6 +178,7 @@ class Faces {
     samples_.clear();
     gram_.setZero(n, n);
     moments_.setZero(n, 3);
+    std::size_t parts = 0;
     for (auto f = side().first_facet[face]; f < side().first_facet[face + 1]; ++f) {
       const auto facet = static_cast<std::size_t>(f);
       const FaceGeometry geometry = side().geometry(facet);
@@ -149,11 +191,12 @@ class Faces {
           for (std::size_t k = 0; k < geometry.nodes.size(); ++k)
             at += point.secondary[static_cast<Eigen::Index>(k)] * geometry.nodes[k];
           samples_.push_back({point.weight * side().thickness(facet, point.secondary),
-                              secondary_.at(face, phi) - primary_.at(other_face, opposite), at, basis * phi});
+                              secondary_.at(face, phi) - primary_.at(other_face, opposite), at, basis * phi, parts, point.at});
           const auto& s = samples_.back();
           gram_ += s.weight * s.theta * s.theta.transpose();
           moments_ += s.weight * s.theta * s.jump.transpose();
         }
+        ++parts;
       });
     }
   }

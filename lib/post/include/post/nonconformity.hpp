@@ -20,9 +20,9 @@ struct ContactError {
   Point at = Point::Zero();
 };
 
-/// Of each contact. What the rows leave of the jump, w of contact::nonconformities(), is taken for a wave of the length of the
-/// face on a half space of the softer body: its square in the energy norm is 2 pi / size E / 2 integral w^2. `surfaces` as of
-/// contact::surface_states(). Collective.
+/// Of each contact. What the rows leave of the jump, w of contact::nonconformities(), is taken for a wave on a half
+/// space of the softer body, of the length of the face or a shorter one: its square in the energy norm is k E / 2 integral w^2
+/// with the wave number k. `surfaces` as of contact::surface_states(). Collective.
 std::vector<ContactError> contact_errors(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
                                          const StressField& stress, std::span<const contact::Pair> pairs,
                                          std::span<const contact::SurfaceState> surfaces, const Communicator& comm);
