@@ -78,10 +78,11 @@ void RowWriter::merge()
 bool RowWriter::moves(std::span<const Term> terms, double d, const Point& axis)
 {
   if (!terms.empty() && !rotation_) {  // mostly the first term says it
-    if (const auto& first = coefficients(terms.first(1), d, axis); !first.empty() && !first[0].prescribed) return true;
+    if (const auto& first = coefficients(terms.first(1), d, axis);
+        !first.empty() && !first[0].prescribed && std::abs(first[0].value) > nothing_moves)
+      return true;
   }
-  const auto& all = coefficients(terms, d, axis);
-  return std::any_of(all.begin(), all.end(), [](const Coefficient& c) { return !c.prescribed; });
+  return part_that_moves(terms, d, axis) > nothing_moves;
 }
 
 double RowWriter::part_that_moves(std::span<const Term> terms, double d, const Point& axis)

@@ -10,6 +10,10 @@
 
 namespace mortise::contact {
 
+/// Part of a direction, or of a row: what supports leave less of they hold, their directions at two nodes being known no better.
+/// A row of what is left would tear the sides apart.
+inline constexpr double nothing_moves = 1e-5;
+
 /// The supports of all ranks, those of a node on rank node % ranks.
 class SupportDirectory {
  public:
