@@ -16,7 +16,7 @@ namespace mortise::contact {
 namespace {
 
 // Of a face's size, squared: parts thinner than this say nothing of derivatives.
-constexpr double least_spread = 1e-6;
+constexpr double thinnest_part = 1e-6;
 
 // A node of a secondary side that presses, and whether it sticks.
 struct PressedNode {
@@ -147,7 +147,7 @@ class Faces {
     const auto [values, axes] = dense::plane_eigenpairs(spread);
     double result = 0;
     for (int i = 0; i < 2; ++i)
-      if (values[i] > least_spread * size_ * size_)
+      if (values[i] > thinnest_part * size_ * size_)
         result += (axes.col(i).transpose() * moments).squaredNorm() / (values[i] * values[i]);
     return area * result;
   }
