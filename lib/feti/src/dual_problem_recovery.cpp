@@ -97,7 +97,7 @@ std::vector<Eigen::VectorXd> DualProblem::less_motion(std::vector<Eigen::VectorX
 
 Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double negligible_force) const
 {
-  constexpr double no_force = 1e-8;  // of the largest contact force: nodes of arcs are off by so much of a radius, which drives
+  constexpr double no_force = 1e-9;  // of the largest contact force: the next node may just touch
   // Of that on the lighter body, for what turns, as in drives.cpp: so much loads typed with six digits turn it by, and nodes
   // beside their arc. What a small load lets travel until it meets something stays there.
   constexpr double no_moment = 1e-6;

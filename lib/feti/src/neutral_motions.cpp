@@ -73,14 +73,20 @@ Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now
 std::vector<bool> travellers(const Eigen::VectorXd& change, const Bodies& bodies)
 {
   constexpr double moves = 1e-6, turns = 1;  // over the largest change; radius times angle, over the way of the centre
+  constexpr double no_work = 1e-6;           // over the forces on a body times its way
   std::vector<bool> result;
+  bool driven = false;
   for (std::size_t b = 0; b < bodies.frames.size(); ++b) {
     const auto& frame = bodies.frames[b];
-    const auto own = change.segment(static_cast<Eigen::Index>(b) * bodies.modes, bodies.modes);
+    const auto first = static_cast<Eigen::Index>(b) * bodies.modes;
+    const auto own = change.segment(first, bodies.modes);
     const auto motion = combine(static_cast<int>(b), frame, own, bodies.kinematics);
-    result.push_back(own.norm() > moves * change.lpNorm<Eigen::Infinity>() &&
-                     motion.rotation.norm() * frame.radius <= turns * motion.at(frame.centre).norm());
+    const bool on_its_way = own.norm() > moves * change.lpNorm<Eigen::Infinity>();
+    const double work = std::abs(own.dot(bodies.generalised.segment(first, bodies.modes)));
+    driven = driven || (on_its_way && work > no_work * bodies.force[static_cast<Eigen::Index>(b)] * own.norm());
+    result.push_back(on_its_way && motion.rotation.norm() * frame.radius <= turns * motion.at(frame.centre).norm());
   }
+  if (!driven) result.assign(result.size(), false);
   return result;
 }
 

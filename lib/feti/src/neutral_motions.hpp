@@ -22,7 +22,8 @@ Eigen::VectorXd largest_on_bodies(const SparseMatrix& rows, const Eigen::VectorX
 /// where there is no such motion. The same on every rank. Collective.
 Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now, const Communicator& comm);
 
-/// Of each body whether `change`, amplitudes of all, takes it somewhere else rather than turns it where it is.
+/// Of each body whether `change`, amplitudes of all, takes it somewhere else rather than turns it where it is. None do if loads
+/// work on none: what contact forces alone push along, rounding does.
 std::vector<bool> travellers(const Eigen::VectorXd& change, const Bodies& bodies);
 
 /// The mean amplitudes of each body's motions in `u`, over its nodes. Collective.

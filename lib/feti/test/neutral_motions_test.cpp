@@ -46,7 +46,7 @@ TEST(NeutralMotions, NothingMovesThroughAGapThatIsClosed)
   EXPECT_NEAR(way.norm(), 0, 1e-12);
 }
 
-TEST(NeutralMotions, WhatTurnsWhereItIsDoesNotTravel)
+TEST(NeutralMotions, WhatTurnsWhereItIsDoesNotTravelNorWhatNoLoadDrives)
 {
   Bodies bodies;
   bodies.kinematics = fem::Kinematics::plane_strain;
@@ -54,7 +54,12 @@ TEST(NeutralMotions, WhatTurnsWhereItIsDoesNotTravel)
   bodies.frames.resize(3);
   VectorXd change(9);
   change << 0.02, 0, 0.5, 0, -0.3, 0.01, 1e-8, 0, 0;  // the last is rounding
+  bodies.force = Eigen::Vector3d(0, 2, 100);
+  bodies.generalised = VectorXd::Unit(9, 4);  // half of the force on the second body drives it
   EXPECT_EQ(travellers(change, bodies), (std::vector<bool>{false, true, false}));
+  bodies.generalised =
+      VectorXd::Unit(9, 3) + 1e-9 * VectorXd::Unit(9, 4) + VectorXd::Unit(9, 6);  // across its way, but for rounding
+  EXPECT_EQ(travellers(change, bodies), (std::vector<bool>{false, false, false}));
 }
 
 TEST(NeutralMotions, AForceIsLittleBesideThoseOnTheLighterBody)

@@ -10,7 +10,7 @@ struct SurfaceNode {
   Local node;
   Point normal;  ///< unit; exact where the faces inscribe a sphere or cylinder [weights of Max, J. Graph. Tools 4 (1999)], and
                  ///< where a plane runs into one
-  bool third_order = false;    ///< the normal is one of third order, see fit_normals()
+  bool third_order = false;    ///< the normal is one of third order, or exact, see fit_normals()
   Point lean = Point::Zero();  ///< by how much that of second order differs from it then
   bool continued = false;      ///< on a border beyond which the side goes on: in its image, or across a bond
 };
