@@ -4,44 +4,52 @@
 #include <cmath>
 
 #include "pairing/skin.hpp"
+#include "search/tree.hpp"
+#include "surface/kinks.hpp"
 
 namespace mortise::contact {
 
 namespace {
 
-// A plane of symmetry, and which points of a side lie in it.
+// A plane that may be one of symmetry, and which points of a side lie in it.
 struct SymmetryPlane {
   Point normal;
   double offset;
   std::vector<char> has;
+  std::vector<std::size_t> images;  // facets of the whole
 
   double height(const Point& x) const { return normal.dot(x) - offset; }
 };
 
-// The planes of symmetry that a side ends in.
+// The planes that a side ends in, and that supports hold it in.
 class SymmetryPlanes {
  public:
-  SymmetryPlanes(const Side& side, std::span<const SurfaceNodes> alone, const SupportedNodes& supports)
-      : side_(side), alone_(alone), supports_(supports), corners_(corners_of_nodes(side))
+  SymmetryPlanes(const Side& side, const SupportedNodes& supports)
+      : side_(side), supports_(supports), corners_(corners_of_nodes(side))
   {
     for (std::size_t f = 0; f < side.facets.size(); ++f) add_border_of(f);
   }
 
   std::vector<SymmetryPlane>& all() { return planes_; }
 
-  // Normals lie in the plane; of nodes there that the side does not meet it at a right angle at, they are what they were.
-  void settle(const SymmetryPlane& plane, SurfaceNodes& of_whole) const
+  // Normals lie in a plane where the side goes on in its image; at a kink there they are those of the side alone.
+  void settle(const SymmetryPlane& plane, const SurfaceNodes& alone, const mesh::Cells& facets, SurfaceNodes& of_whole) const
   {
+    std::vector<char> goes_on(of_whole.all.size(), 0);
+    for (const std::size_t f : plane.images)
+      for (std::size_t k = 0; k < facets[f].size(); ++k)
+        goes_on[static_cast<std::size_t>(of_whole.of_corner[static_cast<std::size_t>(facets.offset[f]) + k])] = 1;
     for (std::size_t f = 0; f < side_.facets.size(); ++f)
       for (std::size_t k = 0; k < side_.facets[f].size(); ++k) {
         const Local n = side_.facets[f][k];
-        auto& normal =
-            of_whole.all[static_cast<std::size_t>(of_whole.of_corner[static_cast<std::size_t>(side_.facets.offset[f]) + k])]
-                .normal;
-        if (plane.has[static_cast<std::size_t>(n)])
-          normal = (normal - normal.dot(plane.normal) * plane.normal).normalized();
-        else if (std::abs(plane.height(at(n))) < rounding * side_.geometry(f).size())
-          normal = alone_[0].normal(side_, f, k);
+        const auto p = static_cast<std::size_t>(of_whole.of_corner[static_cast<std::size_t>(side_.facets.offset[f]) + k]);
+        auto& node = of_whole.all[p];
+        if (plane.has[static_cast<std::size_t>(n)] && goes_on[p]) {
+          node.normal = (node.normal - node.normal.dot(plane.normal) * plane.normal).normalized();
+        } else if (std::abs(plane.height(at(n))) < rounding * side_.geometry(f).size()) {
+          const SurfaceNode& of_side = alone.at(side_, f, k);
+          node.normal = of_side.normal, node.third_order = of_side.third_order, node.lean = of_side.lean;
+        }
       }
   }
 
@@ -73,6 +81,7 @@ class SymmetryPlanes {
 
   const Point& at(Local n) const { return side_.points[static_cast<std::size_t>(n)]; }
 
+  // Directions that supports hold a node in.
   std::vector<Point> held(Local n) const
   {
     const Global node = side_.node_id[static_cast<std::size_t>(n)];
@@ -83,15 +92,24 @@ class SymmetryPlanes {
     return result;
   }
 
-  bool is_symmetric(Local n, const Point& direction) const
+  // Also by supports that hold a node in several directions, of which it is none.
+  bool is_held(Local n, const Point& direction) const
   {
-    const auto image = [&](const Point& x) { return Point(x - 2 * x.dot(direction) * direction); };
+    Few<Point, 3> basis;
+    const auto part_left = [&](Point m) {
+      for (const Point& b : basis) m -= m.dot(b) * b;
+      return m;
+    };
+    for (const Point& m : held(n))
+      if (const Point left = part_left(m); basis.size() < 3 && left.norm() > rounding) basis.push_back(left.normalized());
+    return part_left(direction).norm() < rounding;
+  }
+
+  // Whether no face at a node makes a kink with its image that needs no further look (skin.hpp).
+  bool may_go_on(Local n, const Point& direction) const
+  {
     return std::ranges::all_of(corners_[static_cast<std::size_t>(n)], [&](const auto& corner) {
-      const Point face = side_.geometry(corner.first).normal();
-      return std::abs(face.dot(direction)) < 0.5 && std::ranges::any_of(alone_, [&](const SurfaceNodes& alone) {
-               const Point& normal = alone.normal(side_, corner.first, corner.second);
-               return goes_on(face, normal, image(face), image(normal));
-             });
+      return 1 - 2 * std::pow(side_.geometry(corner.first).normal().dot(direction), 2) > kink;
     });
   }
 
@@ -99,13 +117,12 @@ class SymmetryPlanes {
   void add(Local a, Local b)
   {
     const double length = (at(a) - at(b)).norm();
-    for (const Point& m : held(a)) {
-      if (std::abs(m.dot(at(b) - at(a))) > rounding * length) continue;
-      const auto of_b = held(b);
-      if (std::ranges::none_of(of_b, [&](const Point& o) { return std::abs(o.dot(m)) > 1 - rounding; })) continue;
-      for (const Local n : {a, b})
-        if (is_symmetric(n, m)) plane_of(m, n).has[static_cast<std::size_t>(n)] = 1;
-    }
+    for (const Local one : {a, b})
+      for (const Point& m : held(one)) {
+        if (std::abs(m.dot(at(b) - at(a))) > rounding * length || !is_held(one == a ? b : a, m)) continue;
+        for (const Local n : {a, b})
+          if (may_go_on(n, m)) plane_of(m, n).has[static_cast<std::size_t>(n)] = 1;
+      }
   }
 
   SymmetryPlane& plane_of(const Point& m, Local n)
@@ -118,7 +135,6 @@ class SymmetryPlanes {
   }
 
   const Side& side_;
-  std::span<const SurfaceNodes> alone_;  // see alone_of()
   const SupportedNodes& supports_;
   std::vector<NodeCorners> corners_;
   std::vector<SymmetryPlane> planes_;
@@ -132,34 +148,90 @@ void find_appended(const Side& side, SymmetryPlane& plane)
     plane.has.push_back(std::abs(plane.height(side.points[n])) < rounding * edges[n] ? 1 : 0);
 }
 
-void append_image(Side& side, const SymmetryPlane& plane)
+std::vector<Local> in_order(std::span<const Local> nodes)
 {
-  const auto near = facets_round(side.facets, plane.has);
-  std::vector<Local> image(side.points.size(), -1), reversed;
-  const std::size_t count = side.facets.size();
-  for (std::size_t f = 0; f < count; ++f) {
-    if (!near[f]) continue;
-    reversed.assign(side.facets[f].rbegin(), side.facets[f].rend());
-    for (Local& n : reversed) {
-      const auto of = static_cast<std::size_t>(n);
-      if (plane.has[of]) continue;
-      if (image[of] < 0) {
-        image[of] = static_cast<Local>(side.points.size());
-        const Point x = side.points[of];
-        side.points.push_back(x - 2 * plane.height(x) * plane.normal);
-      }
-      n = image[of];
-    }
-    side.facets.add(mesh::CellType(side.facets.type[f]), reversed);
+  std::vector<Local> result(nodes.begin(), nodes.end());
+  std::ranges::sort(result);
+  return result;
+}
+
+// A face with its corners the other way round.
+std::vector<Local> turned_over(mesh::CellType type, std::span<const Local> nodes)
+{
+  const int corners = mesh::corner_count(type);
+  std::vector<Local> result;
+  for (int k = corners; k-- > 0;) result.push_back(nodes[static_cast<std::size_t>(k)]);
+  for (auto amid : mesh::middles(type)) {
+    for (int& corner : amid) corner = corners - 1 - corner;
+    std::ranges::sort(amid);
+    result.push_back(nodes[static_cast<std::size_t>(mesh::node_amid(type, amid))]);
   }
-  append_kinks(side, side, [&](Local n) {
-    const auto node = static_cast<std::size_t>(n);
-    return plane.has[node] ? n : image[node];
+  return result;
+}
+
+// Of facets and faces near the plane, those that are not there yet.
+void append_image(Side& side, SymmetryPlane& plane)
+{
+  const auto edges = shortest_edges(side);
+  std::vector<Box> boxes;
+  for (const auto& x : side.points) boxes.emplace_back(x, x);
+  const Tree tree(std::move(boxes));
+  std::vector<Local> image(side.points.size(), -1);
+  const auto image_of = [&](Local n) {
+    const auto of = static_cast<std::size_t>(n);
+    if (plane.has[of]) return n;
+    if (image[of] >= 0) return image[of];
+    const Point x = side.points[of], y = x - 2 * plane.height(x) * plane.normal;
+    const double near = rounding * edges[of];
+    for (const int other : tree.candidates(grown(Box(y, y), near)))
+      if ((side.points[static_cast<std::size_t>(other)] - y).norm() < near) return image[of] = static_cast<Local>(other);
+    side.points.push_back(y);
+    return image[of] = static_cast<Local>(side.points.size() - 1);
+  };
+  const auto append = [&](mesh::Cells& cells, std::vector<std::size_t>* appended) {
+    const auto near = facets_round(cells, plane.has);
+    std::vector<std::vector<Local>> known;
+    for (std::size_t f = 0; f < cells.size(); ++f) known.push_back(in_order(cells[f]));
+    std::ranges::sort(known);
+    for (std::size_t f = 0; f < near.size(); ++f) {
+      if (!near[f]) continue;
+      auto nodes = turned_over(cells.type[f], cells[f]);
+      std::ranges::transform(nodes, nodes.begin(), image_of);
+      if (std::ranges::binary_search(known, in_order(nodes))) continue;
+      if (appended) appended->push_back(cells.size());
+      cells.add(mesh::CellType(cells.type[f]), nodes);
+    }
+  };
+  append(side.facets, &plane.images);
+  append(side.faces, nullptr);
+}
+
+// The edges of the first facets, `count` of them, that others have as well and that lie on one surface with these.
+std::vector<FacetEdge> edges_in_common(const mesh::Cells& facets, std::size_t count, const SurfaceNodes& surface_nodes)
+{
+  const auto each = [&](std::size_t first, std::size_t last, const auto& use) {
+    for (std::size_t f = first; f < last; ++f)
+      for (std::size_t k = 0; k < facets[f].size(); ++k) {
+        const std::size_t n = facets[f].size(), l = n == 2 ? k : (k + 1) % n;
+        const auto at = [&](std::size_t corner) {
+          return std::pair(facets[f][corner], surface_nodes.of_corner[static_cast<std::size_t>(facets.offset[f]) + corner]);
+        };
+        use(std::minmax({at(k), at(l)}));
+      }
+  };
+  std::vector<std::pair<std::pair<Local, Local>, std::pair<Local, Local>>> others;
+  each(count, facets.size(), [&](const auto& edge) { others.push_back(edge); });
+  std::ranges::sort(others);
+  std::vector<FacetEdge> result;
+  each(0, count, [&](const auto& edge) {
+    if (std::ranges::binary_search(others, std::pair(edge))) result.push_back({edge.first.first, edge.second.first});
   });
+  std::ranges::sort(result);
+  return result;
 }
 
 // The surface nodes of `whole`, whose first points and facets are those of `side`, without what belongs to others alone.
-SurfaceNodes of_first(const Side& side, const SurfaceNodes& whole)
+SurfaceNodes of_first(const Side& side, const mesh::Cells& facets, const SurfaceNodes& whole)
 {
   SurfaceNodes result;
   std::vector<Local> kept(whole.all.size(), -1);
@@ -169,11 +241,9 @@ SurfaceNodes of_first(const Side& side, const SurfaceNodes& whole)
     kept[p] = static_cast<Local>(result.all.size());
     result.all.push_back(whole.all[p]);
   }
-  for (std::size_t c = side.facets.nodes.size(); c < whole.of_corner.size(); ++c)
-    if (const Local p = kept[static_cast<std::size_t>(whole.of_corner[c])]; p >= 0)
-      result.all[static_cast<std::size_t>(p)].continued = true;
   for (std::size_t c = 0; c < side.facets.nodes.size(); ++c)
     result.of_corner.push_back(kept[static_cast<std::size_t>(whole.of_corner[c])]);
+  result.continued = edges_in_common(facets, side.facets.size(), whole);
   number_nodes_of_faces(side, result);
   return result;
 }
@@ -185,22 +255,20 @@ SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports
 {
   if (supports.empty() && nodes.empty()) return find_surface_nodes(side);
   Side whole;
-  whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets, whole.kinks = side.kinks,
-  whole.tangent_edges = side.tangent_edges;
-  auto alone = alone_of(side);
-  at_bonds.append_to(whole, side, alone, nodes);
-  SymmetryPlanes planes(side, alone, supports);
-  for (auto& plane : planes.all()) {
-    find_appended(whole, plane);
-    append_image(whole, plane);
-  }
-  if (whole.facets.size() == side.facets.size()) {
-    number_nodes_of_faces(side, alone[0]);
-    return std::move(alone[0]);
-  }
-  auto result = of_first(side, surface_nodes_of_facets(whole));
-  for (const auto& plane : planes.all()) planes.settle(plane, result);
-  return result;
+  whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets, whole.faces = side.faces;
+  at_bonds.append_to(whole, side, nodes);
+  SymmetryPlanes planes(side, supports);
+  for (int round = 0; round < rings_beyond; ++round)  // a side one face wide lies between two planes
+    for (auto& plane : planes.all()) {
+      find_appended(whole, plane);
+      append_image(whole, plane);
+    }
+  auto alone = find_surface_nodes(side);
+  if (whole.facets.size() == side.facets.size()) return alone;
+  find_kinks(whole);
+  auto of_whole = surface_nodes_of_facets(whole);
+  for (const auto& plane : planes.all()) planes.settle(plane, alone, whole.facets, of_whole);
+  return of_first(side, whole.facets, of_whole);
 }
 
 }  // namespace mortise::contact

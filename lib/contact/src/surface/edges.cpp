@@ -51,6 +51,12 @@ Local surface_node_at(const Side& side, const SurfaceNodes& surface_nodes, const
   return surface_nodes.of_corner[static_cast<std::size_t>(side.facets.offset[edge.facet]) + edge.corners[end]];
 }
 
+// Whether the side goes on beyond an edge of its border.
+bool goes_on(const SurfaceNodes& surface_nodes, const HalfEdge& edge)
+{
+  return std::ranges::binary_search(surface_nodes.continued, edge.ends);
+}
+
 // Unit, or zero in plane models.
 Point along(const Side& side, const HalfEdge& edge)
 {
@@ -92,10 +98,11 @@ Edges edges_at(const Side& side, const SurfaceNodes& surface_nodes)
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const HalfEdge& edge = edges[i];
     if ((i > 0 && edges[i - 1].ends == edge.ends) || (i + 1 < edges.size() && edges[i + 1].ends == edge.ends)) continue;
+    if (goes_on(surface_nodes, edge)) continue;
     const Point to_border = side.points[static_cast<std::size_t>(edge.ends[0])] - side.geometry(edge.facet).centre();
     for (const std::size_t end : {0U, 1U}) {
       const auto p = static_cast<std::size_t>(surface_node_at(side, surface_nodes, edge, end));
-      if (!surface_nodes.all[p].continued) result.outward[p] += across(to_border, along(side, edge), surface_nodes.all[p].normal);
+      result.outward[p] += across(to_border, along(side, edge), surface_nodes.all[p].normal);
     }
   }
   for (auto& outward : result.outward)
@@ -128,10 +135,7 @@ Ridges find_ridges(const Side& side, const SurfaceNodes& surface_nodes)
     const HalfEdge &first = edges[i], &last = i + 1 < edges.size() && edges[i + 1].ends == first.ends ? edges[i + 1] : first;
     const bool border = &first == &last;
     if (border && i > 0 && edges[i - 1].ends == first.ends) continue;
-    const auto continued = [&](std::size_t end) {
-      return surface_nodes.all[static_cast<std::size_t>(surface_node_at(side, surface_nodes, first, end))].continued;
-    };
-    if (border && continued(0) && continued(1)) continue;
+    if (border && goes_on(surface_nodes, first)) continue;
     const auto one_node = [&](std::size_t end) {
       return surface_node_at(side, surface_nodes, first, end) == surface_node_at(side, surface_nodes, last, end);
     };

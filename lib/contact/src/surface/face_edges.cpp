@@ -69,6 +69,46 @@ double FaceEdges::depth(std::size_t face, const Place& place, const Point& away)
   return result;
 }
 
+// As a line of second order through its nodes does.
+std::optional<Point> FaceEdges::leaves(std::size_t face, Local from, Local to) const
+{
+  const auto nodes = side_.faces[face];
+  const auto& middles = mesh::middles(side_.faces.type[face]);
+  for (std::size_t m = 0; m < middles.size(); ++m) {
+    if (middles[m].size() != 2) continue;
+    const Local a = nodes[static_cast<std::size_t>(middles[m][0])], b = nodes[static_cast<std::size_t>(middles[m][1])];
+    if ((a == from && b == to) || (a == to && b == from))
+      return Point(4 * at(nodes[faces_[face].nodes.size() + m]) - 3 * at(from) - at(to));
+  }
+  return std::nullopt;
+}
+
+std::optional<double> FaceEdges::turn_of_curved(const Edge& edge, const Place& place) const
+{
+  double sum = 0;
+  int ends = 0;
+  for (const auto& [from, other] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
+    if (ends == 1 && from == other) break;
+    ++ends;
+    for (const std::size_t f : edge.faces) {
+      const auto& nodes = faces_[f].nodes;
+      const std::size_t n = nodes.size(),
+                        k = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), from) - nodes.begin());
+      const Local after = nodes[(k + 1) % n], across = after == other ? nodes[(k + n - 1) % n] : after;
+      const auto line = leaves(f, from, across);
+      if (!line) return std::nullopt;
+      double rise = line->dot(place.normal);
+      if (from != other) {
+        const auto along = leaves(f, from, other);
+        if (!along) return std::nullopt;
+        rise -= line->dot(place.along) * along->dot(place.normal) / along->dot(place.along);
+      }
+      sum += rise / std::abs(line->dot(place.away));
+    }
+  }
+  return sum / ends;
+}
+
 bool FaceEdges::touch(std::size_t face, std::size_t other) const
 {
   const auto& nodes = faces_[other].nodes;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,8 @@ class FaceEdges {
   Place place_of(const Edge& edge) const;
   /// How far a face reaches from an edge.
   double depth(std::size_t face, const Place& place, const Point& away) const;
+  /// By how much the slopes across an edge of the curved faces there differ; none where one of the faces is of first order.
+  std::optional<double> turn_of_curved(const Edge& edge, const Place& place) const;
   /// Whether two faces share a node.
   bool touch(std::size_t face, std::size_t other) const;
   /// The edges of facets that make up an edge: a node in the middle of one of second order cuts it in two.
@@ -52,6 +55,8 @@ class FaceEdges {
 
  private:
   Face corners_of_face(std::size_t f) const;
+  // The direction in which the edge of a face of second order leaves `from` for `to`.
+  std::optional<Point> leaves(std::size_t face, Local from, Local to) const;
   void find_edges();
 
   const Side& side_;

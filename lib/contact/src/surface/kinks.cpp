@@ -33,6 +33,9 @@ class Kinks {
   // The part of it that the surfaces on both sides alone differ by: these are nearly plane. Coarse waves and bumps turn by as
   // much as kinks between curved parts do, but from face to face.
   static constexpr double of_a_kink = 0.85;
+  // The part of it that curved faces have to turn by themselves: coarse faces of second order know more of waves than their
+  // corners.
+  static constexpr double of_curved = 0.5;
   // Faces reach so far from an edge, over what the one at the edge does, where there are two rows of them.
   static constexpr double two_rows = 1.5;
   // Of the least squares: a curvature that the nodes do not determine is 0.
@@ -102,6 +105,7 @@ class Kinks {
       turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], place);
       smooth = std::abs(known.across) * (known.depth + other.depth) / 2;
     }
+    if (const auto curved = all_.turn_of_curved(edge, place); curved && *curved / turn < of_curved) return 0;
     turn = std::abs(turn);
     return turn > least_turn && turn > of_a_kink * (turn + smooth) ? turn : 0;
   }

@@ -10,9 +10,9 @@ namespace mortise::contact {
 /// Kinks: the edges between facets of a side at which it has a kink, from node to node, the smaller first, ascending; in plane
 /// models the nodes, twice. There the surfaces of second order through the corners of the faces on each side alone meet at an
 /// angle that is more than 0.85 of this and of what they turn, together, between the middles of the two faces: on a smooth
-/// surface it is nothing. And the two faces turn by so much more than they do to the next ones. Where one side has a single row
-/// of faces, the surface of the other is continued over it, if three rows tell that this is plane. Edges that turn by more than
-/// about 40 degrees are kinks anyway and not named.
+/// surface it is nothing. Curved faces of second order turn by half of that angle themselves. And the two faces turn by so much
+/// more than they do to the next ones. Where one side has a single row of faces, the surface of the other is continued over it,
+/// if three rows tell that this is plane. Edges that turn by more than about 40 degrees are kinks anyway and not named.
 void find_kinks(Side& side);
 
 }  // namespace mortise::contact

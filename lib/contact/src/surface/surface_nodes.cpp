@@ -1,5 +1,6 @@
 #include "surface/surface_nodes.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -88,6 +89,32 @@ std::vector<Point> directions_of_border(const Side& side, const SurfaceNodes& su
   return result;
 }
 
+// Turns the normal at the start of lines so that it has the opposite slopes of the normals at their ends, in the least squares.
+// Where a border goes on in a direction, it turns across that alone: along it the faces on both sides have said what there is to
+// say. Whether it did.
+bool continue_along(std::span<const std::pair<Point, Local>> lines, const Point& direction, const SurfaceNodes& ends,
+                    Point& normal)
+{
+  constexpr double beside = 0.1, held = 1e-6;
+  const bool corner = direction.isZero(0);
+  const Point across = corner ? Point(Point::Zero()) : Point(normal.cross(direction).normalized());
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  Point right = Point::Zero();
+  for (const auto& [line, end] : lines) {
+    const double length = line.norm();
+    const Point along = line / length;
+    const double part = across.dot(along);
+    if (!corner && std::abs(part) < beside) continue;
+    const Point turns = (corner ? along : Point(part * across)) / length;
+    matrix += turns * turns.transpose();
+    right -= (normal + ends.all[static_cast<std::size_t>(end)].normal).dot(along) / length * turns;
+  }
+  if (matrix.isZero(0)) return false;
+  matrix += held * matrix.trace() * Eigen::Matrix3d::Identity();
+  normal = (normal + Point(matrix.ldlt().solve(right))).normalized();
+  return true;
+}
+
 // Corrects the normals of surface nodes on a border, see find_surface_nodes(), and tells which these are.
 std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nodes)
 {
@@ -110,6 +137,7 @@ std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nod
   const auto smooth = [&](std::size_t p) { return !direction[p].isZero(0); };
   std::vector<bool> known(border.size());
   for (std::size_t p = 0; p < border.size(); ++p) known[p] = !border[p];
+  const auto at = [&](std::size_t p) -> const Point& { return side.points[static_cast<std::size_t>(surface_nodes.all[p].node)]; };
   std::vector<Edge> outer;  // those that start on a border
   std::copy_if(edges.begin(), edges.end(), std::back_inserter(outer), [&](const Edge& edge) {
     const bool along_kink = !plane && edge.count == 1 && !border[static_cast<std::size_t>(edge.to)];  // to where it ends
@@ -121,22 +149,17 @@ std::vector<bool> continue_curvature(const Side& side, SurfaceNodes& surface_nod
       if (pass == 1) return known[b] || (smooth(b) && !smooth(a));
       return known[b] && (pass == 0 ? plane || smooth(a) : !smooth(a));
     };
+    std::vector<std::pair<Point, Local>> lines;  // from a surface node to others
     for (int sweep = 0; sweep < 10; ++sweep)
-      for (const auto& edge : outer) {
-        const auto a = static_cast<std::size_t>(edge.from), b = static_cast<std::size_t>(edge.to);
-        if (known[a] || !leads(b, a)) continue;
-        auto& surface_node = surface_nodes.all[a];
-        const SurfaceNode& inner = surface_nodes.all[b];
-        const Point along =
-            (side.points[static_cast<std::size_t>(inner.node)] - side.points[static_cast<std::size_t>(surface_node.node)])
-                .normalized();
-        // Across the border: along it the faces on both sides have said what there is to say.
-        const Point across = (along - along.dot(direction[a]) * direction[a]).normalized();
-        const double part = across.dot(along);
-        if (part < 0.1) continue;
-        surface_node.normal =
-            (surface_node.normal - (surface_node.normal.dot(along) + inner.normal.dot(along)) / part * across).normalized();
-        reached[a] = true;
+      for (std::size_t first = 0, last = 0; first < outer.size(); first = last) {
+        const auto a = static_cast<std::size_t>(outer[first].from);
+        lines.clear();
+        for (; last < outer.size() && outer[last].from == outer[first].from; ++last)
+          if (const auto b = static_cast<std::size_t>(outer[last].to); !known[a] && leads(b, a))
+            lines.emplace_back(at(b) - at(a), outer[last].to);
+        if (lines.empty()) continue;
+        auto& normal = surface_nodes.all[a].normal;
+        reached[a] = continue_along(lines, direction[a], surface_nodes, normal) || reached[a];
       }
     known = reached;
   }

@@ -12,7 +12,6 @@ struct SurfaceNode {
                  ///< where a plane runs into one
   bool third_order = false;    ///< the normal is one of third order, or exact, see fit_normals()
   Point lean = Point::Zero();  ///< by how much that of second order differs from it then
-  bool continued = false;      ///< on a border beyond which the side goes on: in its image, or across a bond
 };
 
 /// The surface nodes of a side, and the surface node that each corner of a facet (at facets.offset[f] + corner) and each node of
@@ -21,12 +20,14 @@ struct SurfaceNode {
 struct SurfaceNodes {
   std::vector<SurfaceNode> all;
   std::vector<Local> of_corner, of_node;
+  std::vector<FacetEdge> continued;  ///< of the border, beyond which the side goes on: in its image, or across a bond; ascending
 
   /// At a corner of a facet.
-  const Point& normal(const Side& side, std::size_t facet, std::size_t corner) const
+  const SurfaceNode& at(const Side& side, std::size_t facet, std::size_t corner) const
   {
-    return all[static_cast<std::size_t>(of_corner[static_cast<std::size_t>(side.facets.offset[facet]) + corner])].normal;
+    return all[static_cast<std::size_t>(of_corner[static_cast<std::size_t>(side.facets.offset[facet]) + corner])];
   }
+  const Point& normal(const Side& side, std::size_t facet, std::size_t corner) const { return at(side, facet, corner).normal; }
 };
 
 /// At the border of a surface, where faces lie on one side only, normals continue the curvature of the edges that lead inside: an
