@@ -50,11 +50,12 @@ qp::Means means_of(DualProblem& problem, qp::Budget& budget)
 {
   const auto make_explicit = [&problem] {
     problem.be_exact();
-    const auto turn = SparseProblem::turn(problem);
     const bool slender = inaccuracy(problem) > inaccurate;
+    const auto turn = SparseProblem::turn(problem, slender);
     if (turn == SparseProblem::Turn::first) return sparse_programme(problem, slender);
     if (turn == SparseProblem::Turn::never) return dense_programme(problem);
-    // F as a dense matrix is large in soft motions: little may be left in it of what thin cells do.
+    // F as a dense matrix is large in soft motions: little may be left in it of what thin cells do. And each of its columns is a
+    // solution that has to be refined.
     auto programme = slender ? sparse_programme(problem, true) : dense_programme(problem);
     programme.instead = [&problem, slender] { return slender ? dense_programme(problem) : sparse_programme(problem, false); };
     return programme;

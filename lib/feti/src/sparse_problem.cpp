@@ -66,7 +66,7 @@ double work_of_sparse_solution(double entries, double unknowns)
   return sparse_problems * (2 * l * l / std::max(unknowns, 1.0) + steps_of_gmres * slow * 4 * l);
 }
 
-SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
+SparseProblem::Turn SparseProblem::turn(const DualProblem& problem, bool slender)
 {
   const auto& comm = problem.communicator();
   const auto& subdomains = problem.clusters().subdomains();
@@ -93,7 +93,7 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem)
   const bool quick = work < worth_of_sparse * work_of_dense_solution(rows - closing, closing);
   if (sums[0] > 0) return Turn::never;
   if (quick && rows >= many_rows) return Turn::first;
-  return quick || work < some_seconds ? Turn::second : Turn::never;
+  return quick || slender || work < some_seconds ? Turn::second : Turn::never;
 }
 
 SparseProblem::SparseProblem(const DualProblem& problem, bool patient)

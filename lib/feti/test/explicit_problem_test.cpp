@@ -196,7 +196,7 @@ TEST_P(Varied, SolvesAsWithSparseMatrices)
   if (variant.force) GTEST_SKIP() << "not for unknowns of their own";
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
-  EXPECT_EQ(SparseProblem::turn(problem), SparseProblem::Turn::second);  // so few rows
+  EXPECT_EQ(SparseProblem::turn(problem, false), SparseProblem::Turn::second);  // so few rows
   auto set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));

@@ -35,8 +35,9 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   enum class Turn { never, first, second };
   /// Possible for bodies whose stiffness is sparse, with nothing but rigid motions in G, without springs and without long
   /// rows over whole bodies but gauges of motions that nothing resists. First where there are many rows and sparse matrices take
-  /// less time; second where they take no more than some times as long, or some seconds. The same on every rank. Collective.
-  static Turn turn(const DualProblem& problem);
+  /// less time; second where they take no more than some times as long, or some seconds, or bodies are slender and solutions
+  /// refined, of which dense matrices take one for each row. The same on every rank. Collective.
+  static Turn turn(const DualProblem& problem, bool slender);
 
   /// The problem outlives it. `patient`: as of qp::SparseNewton. Throws Error(machine) if memory runs out. Collective.
   explicit SparseProblem(const DualProblem& problem, bool patient = false);
