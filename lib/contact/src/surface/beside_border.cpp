@@ -1,7 +1,10 @@
 #include "surface/beside_border.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "pairing/skin.hpp"
 
 namespace mortise::contact {
 
@@ -41,6 +44,24 @@ std::vector<NodeCorners> corners_of_nodes(const Side& side)
     for (std::size_t k = 0; k < side.facets[f].size(); ++k)
       result[static_cast<std::size_t>(side.facets[f][k])].emplace_back(f, k);
   return result;
+}
+
+std::array<SurfaceNodes, 2> alone_of(const Side& side)
+{
+  return {surface_nodes_of_facets(side), surface_nodes_of_facets(side, false)};
+}
+
+bool goes_on(const Point& face, const Point& alone, const Point& other_face, const Point& other_alone)
+{
+  // The normals of both sides alone at a border may differ by this part of what the faces there do: more is a kink. So is less
+  // than minus that part, as at a groove beside a bump; but for what is far below, as of a flat bottom with steep ends, of whose
+  // curvature the two rows of nodes beside the border say nothing.
+  constexpr double of_a_kink = 0.5, of_steep_ends = 3;
+  // And so is what is far above: faces that hardly turn make no kink, whatever a border says that few nodes determine.
+  const Point faces = other_face - face, nodes = other_alone - alone;
+  if (nodes.norm() < rounding || nodes.norm() > of_steep_ends * faces.norm()) return true;
+  const double part = nodes.dot(faces) / faces.squaredNorm();
+  return std::abs(part) <= of_a_kink;
 }
 
 }  // namespace mortise::contact

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "pairing/skin.hpp"
-#include "search/tree.hpp"
-#include "surface/kinks.hpp"
 
 namespace mortise::contact {
 
@@ -24,8 +23,8 @@ struct SymmetryPlane {
 // The planes that a side ends in, and that supports hold it in.
 class SymmetryPlanes {
  public:
-  SymmetryPlanes(const Side& side, const SupportedNodes& supports)
-      : side_(side), supports_(supports), corners_(corners_of_nodes(side))
+  SymmetryPlanes(const Side& side, std::span<const SurfaceNodes> alone, const SupportedNodes& supports)
+      : side_(side), alone_(alone), supports_(supports), corners_(corners_of_nodes(side))
   {
     for (std::size_t f = 0; f < side.facets.size(); ++f) add_border_of(f);
   }
@@ -33,7 +32,7 @@ class SymmetryPlanes {
   std::vector<SymmetryPlane>& all() { return planes_; }
 
   // Normals lie in a plane where the side goes on in its image; at a kink there they are those of the side alone.
-  void settle(const SymmetryPlane& plane, const SurfaceNodes& alone, const mesh::Cells& facets, SurfaceNodes& of_whole) const
+  void settle(const SymmetryPlane& plane, const mesh::Cells& facets, SurfaceNodes& of_whole) const
   {
     std::vector<char> goes_on(of_whole.all.size(), 0);
     for (const std::size_t f : plane.images)
@@ -47,7 +46,7 @@ class SymmetryPlanes {
         if (plane.has[static_cast<std::size_t>(n)] && goes_on[p]) {
           node.normal = (node.normal - node.normal.dot(plane.normal) * plane.normal).normalized();
         } else if (std::abs(plane.height(at(n))) < rounding * side_.geometry(f).size()) {
-          const SurfaceNode& of_side = alone.at(side_, f, k);
+          const SurfaceNode& of_side = alone_[0].at(side_, f, k);
           node.normal = of_side.normal, node.third_order = of_side.third_order, node.lean = of_side.lean;
         }
       }
@@ -105,11 +104,15 @@ class SymmetryPlanes {
     return part_left(direction).norm() < rounding;
   }
 
-  // Whether no face at a node makes a kink with its image that needs no further look (skin.hpp).
-  bool may_go_on(Local n, const Point& direction) const
+  bool is_symmetric(Local n, const Point& direction) const
   {
+    const auto image = [&](const Point& x) { return Point(x - 2 * x.dot(direction) * direction); };
     return std::ranges::all_of(corners_[static_cast<std::size_t>(n)], [&](const auto& corner) {
-      return 1 - 2 * std::pow(side_.geometry(corner.first).normal().dot(direction), 2) > kink;
+      const Point face = side_.geometry(corner.first).normal();
+      return std::abs(face.dot(direction)) < 0.5 && std::ranges::any_of(alone_, [&](const SurfaceNodes& alone) {
+               const Point& normal = alone.normal(side_, corner.first, corner.second);
+               return goes_on(face, normal, image(face), image(normal));
+             });
     });
   }
 
@@ -121,7 +124,7 @@ class SymmetryPlanes {
       for (const Point& m : held(one)) {
         if (std::abs(m.dot(at(b) - at(a))) > rounding * length || !is_held(one == a ? b : a, m)) continue;
         for (const Local n : {a, b})
-          if (may_go_on(n, m)) plane_of(m, n).has[static_cast<std::size_t>(n)] = 1;
+          if (is_symmetric(n, m)) plane_of(m, n).has[static_cast<std::size_t>(n)] = 1;
       }
   }
 
@@ -135,6 +138,7 @@ class SymmetryPlanes {
   }
 
   const Side& side_;
+  std::span<const SurfaceNodes> alone_;  // see alone_of()
   const SupportedNodes& supports_;
   std::vector<NodeCorners> corners_;
   std::vector<SymmetryPlane> planes_;
@@ -155,55 +159,46 @@ std::vector<Local> in_order(std::span<const Local> nodes)
   return result;
 }
 
-// A face with its corners the other way round.
-std::vector<Local> turned_over(mesh::CellType type, std::span<const Local> nodes)
-{
-  const int corners = mesh::corner_count(type);
-  std::vector<Local> result;
-  for (int k = corners; k-- > 0;) result.push_back(nodes[static_cast<std::size_t>(k)]);
-  for (auto amid : mesh::middles(type)) {
-    for (int& corner : amid) corner = corners - 1 - corner;
-    std::ranges::sort(amid);
-    result.push_back(nodes[static_cast<std::size_t>(mesh::node_amid(type, amid))]);
-  }
-  return result;
-}
-
-// Of facets and faces near the plane, those that are not there yet.
-void append_image(Side& side, SymmetryPlane& plane)
+// Of the facets near the plane, those that are not there yet. `images`: of each point that is none itself the images so far, by
+// any planes; `image_of`: of each point that which it is an image of, or itself. Where both parts of a bond are in one side,
+// there are points in one place that have nothing to do with each other.
+void append_image(Side& side, SymmetryPlane& plane, std::vector<std::vector<Local>>& images, std::vector<Local>& image_of)
 {
   const auto edges = shortest_edges(side);
-  std::vector<Box> boxes;
-  for (const auto& x : side.points) boxes.emplace_back(x, x);
-  const Tree tree(std::move(boxes));
   std::vector<Local> image(side.points.size(), -1);
-  const auto image_of = [&](Local n) {
+  const auto find_image = [&](Local n) {
     const auto of = static_cast<std::size_t>(n);
     if (plane.has[of]) return n;
     if (image[of] >= 0) return image[of];
+    const Local origin = image_of[of];
+    auto& others = images[static_cast<std::size_t>(origin)];
     const Point x = side.points[of], y = x - 2 * plane.height(x) * plane.normal;
-    const double near = rounding * edges[of];
-    for (const int other : tree.candidates(grown(Box(y, y), near)))
-      if ((side.points[static_cast<std::size_t>(other)] - y).norm() < near) return image[of] = static_cast<Local>(other);
+    const auto is_there = [&](Local other) {
+      return (side.points[static_cast<std::size_t>(other)] - y).norm() < rounding * edges[of];
+    };
+    if (is_there(origin)) return image[of] = origin;
+    if (const auto found = std::ranges::find_if(others, is_there); found != others.end()) return image[of] = *found;
+    image[of] = static_cast<Local>(side.points.size());
+    others.push_back(image[of]);
+    image_of.push_back(origin);
     side.points.push_back(y);
-    return image[of] = static_cast<Local>(side.points.size() - 1);
+    return image[of];
   };
-  const auto append = [&](mesh::Cells& cells, std::vector<std::size_t>* appended) {
-    const auto near = facets_round(cells, plane.has);
-    std::vector<std::vector<Local>> known;
-    for (std::size_t f = 0; f < cells.size(); ++f) known.push_back(in_order(cells[f]));
-    std::ranges::sort(known);
-    for (std::size_t f = 0; f < near.size(); ++f) {
-      if (!near[f]) continue;
-      auto nodes = turned_over(cells.type[f], cells[f]);
-      std::ranges::transform(nodes, nodes.begin(), image_of);
-      if (std::ranges::binary_search(known, in_order(nodes))) continue;
-      if (appended) appended->push_back(cells.size());
-      cells.add(mesh::CellType(cells.type[f]), nodes);
-    }
-  };
-  append(side.facets, &plane.images);
-  append(side.faces, nullptr);
+  std::vector<std::vector<Local>> known;
+  for (std::size_t f = 0; f < side.facets.size(); ++f) known.push_back(in_order(side.facets[f]));
+  std::ranges::sort(known);
+  const auto near = facets_round(side.facets, plane.has);
+  std::vector<Local> reversed;
+  for (std::size_t f = 0; f < near.size(); ++f) {
+    if (!near[f]) continue;
+    reversed.assign(side.facets[f].rbegin(), side.facets[f].rend());
+    std::ranges::transform(reversed, reversed.begin(), find_image);
+    if (std::ranges::binary_search(known, in_order(reversed))) continue;
+    plane.images.push_back(side.facets.size());
+    side.facets.add(mesh::CellType(side.facets.type[f]), reversed);
+  }
+  append_kinks(side, side,
+               [&](Local n) { return plane.has[static_cast<std::size_t>(n)] ? n : image[static_cast<std::size_t>(n)]; });
 }
 
 // The edges of the first facets, `count` of them, that others have as well and that lie on one surface with these.
@@ -255,19 +250,25 @@ SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports
 {
   if (supports.empty() && nodes.empty()) return find_surface_nodes(side);
   Side whole;
-  whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets, whole.faces = side.faces;
-  at_bonds.append_to(whole, side, nodes);
-  SymmetryPlanes planes(side, supports);
+  whole.kinematics = side.kinematics, whole.points = side.points, whole.facets = side.facets, whole.kinks = side.kinks,
+  whole.tangent_edges = side.tangent_edges;
+  auto alone = alone_of(side);
+  at_bonds.append_to(whole, side, alone, nodes);
+  SymmetryPlanes planes(side, alone, supports);
+  std::vector<std::vector<Local>> images(whole.points.size());
+  std::vector<Local> image_of(whole.points.size());
+  std::iota(image_of.begin(), image_of.end(), 0);
   for (int round = 0; round < rings_beyond; ++round)  // a side one face wide lies between two planes
     for (auto& plane : planes.all()) {
       find_appended(whole, plane);
-      append_image(whole, plane);
+      append_image(whole, plane, images, image_of);
     }
-  auto alone = find_surface_nodes(side);
-  if (whole.facets.size() == side.facets.size()) return alone;
-  find_kinks(whole);
+  if (whole.facets.size() == side.facets.size()) {
+    number_nodes_of_faces(side, alone[0]);
+    return std::move(alone[0]);
+  }
   auto of_whole = surface_nodes_of_facets(whole);
-  for (const auto& plane : planes.all()) planes.settle(plane, alone, whole.facets, of_whole);
+  for (const auto& plane : planes.all()) planes.settle(plane, whole.facets, of_whole);
   return of_first(side, whole.facets, of_whole);
 }
 

@@ -13,7 +13,8 @@ namespace mortise::contact {
 
 /// The surface nodes of a side, with the normals that they have on what it goes on in: across bonds, and beyond planes of
 /// symmetry. A plane is one if edges of the border lie in it, and supports hold their nodes along its normal. The side ends all
-/// the same where it and what lies beyond have a kink (kinks.hpp). `nodes`: as of FacesAtBonds::nodes_of().
+/// the same where the normals of both parts alone, or of the side alone and of its image, say that there is a kink. `nodes`: as
+/// of FacesAtBonds::nodes_of().
 SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports, const FacesAtBonds& at_bonds,
                                 std::span<const FacesAtBonds::AtBond> nodes);
 

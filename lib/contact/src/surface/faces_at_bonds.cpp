@@ -5,8 +5,10 @@
 #include <tuple>
 
 #include "contact/cyclic.hpp"
+#include "pairing/skin.hpp"
 #include "rows/by_node.hpp"
 #include "search/tree.hpp"
+#include "surface/kinks.hpp"
 
 namespace mortise::contact {
 
@@ -59,10 +61,12 @@ FacesAtBonds::FacesAtBonds(std::span<const Pair> pairs, fem::Kinematics kinemati
       for (std::size_t f = 0; f < its_faces.size(); ++f) its_faces[f].id = static_cast<Global>(f);
       auto& moved = at_bond_[c][static_cast<std::size_t>(at_side)];
       moved.faces = assemble(its_nodes, its_faces, kinematics);
+      find_kinks(moved.faces);
       for (const Global id : moved.faces.node_id) moved.in_bond.push_back(static_cast<char>(in_bond.at(id)));
       if (const auto rotation = rotation_of(pairs[c].options))
         for (auto& x : moved.faces.points)
           x = at_side == 0 ? (*rotation)(x) : Point(rotation->rotation.transpose() * (x - rotation->translation));
+      moved.alone = alone_of(moved.faces);
     }
 }
 
@@ -129,13 +133,32 @@ std::vector<std::vector<Local>> held_together(std::span<const FacesAtBonds::AtBo
   return result;
 }
 
-void FacesAtBonds::append_to(Side& whole, const Side& side, std::span<const AtBond> at_bonds) const
+// Those of a node of the side, each with what comes nearest to its normal beyond.
+bool FacesAtBonds::go_on(const Side& side, std::span<const SurfaceNodes> alone, const NodeCorners& corners, const Moved& beyond,
+                         const NodeCorners& corners_beyond)
+{
+  return std::ranges::all_of(corners, [&](const auto& corner) {
+    const Point face = side.geometry(corner.first).normal();
+    const auto nearest = std::ranges::min_element(
+        corners_beyond, {}, [&](const auto& other) { return (beyond.faces.geometry(other.first).normal() - face).norm(); });
+    for (std::size_t i = 0; i < alone.size(); ++i)
+      if (goes_on(face, alone[i].normal(side, corner.first, corner.second), beyond.faces.geometry(nearest->first).normal(),
+                  beyond.alone[i].normal(beyond.faces, nearest->first, nearest->second)))
+        return true;
+    return false;
+  });
+}
+
+void FacesAtBonds::append_to(Side& whole, const Side& side, std::span<const SurfaceNodes> alone,
+                             std::span<const AtBond> at_bonds) const
 {
   if (at_bonds.empty()) return;
+  const auto corners = corners_of_nodes(side);
   for (const auto& [bond, at_side, nodes] : at_bonds) {
     const auto& beyond = at_bond_[static_cast<std::size_t>(bond)][static_cast<std::size_t>(1 - at_side)];
     const auto& points = beyond.faces.points;
     const auto edges = shortest_edges(beyond.faces);
+    const auto corners_beyond = corners_of_nodes(beyond.faces);
     std::vector<Box> boxes;
     for (const Local n : nodes) {
       const Point& x = side.points[static_cast<std::size_t>(n)];
@@ -150,29 +173,25 @@ void FacesAtBonds::append_to(Side& whole, const Side& side, std::span<const AtBo
       for (const int i : tree.candidates(grown(Box(points[n], points[n]), nearest))) {
         const auto found = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
         const double distance = (side.points[found] - points[n]).norm();
-        if (distance > nearest) continue;
+        if (distance > nearest || !go_on(side, alone, corners[found], beyond, corners_beyond[n])) continue;
         nearest = distance, local[n] = static_cast<Local>(found), common[n] = 1;
       }
     }
-    const auto place_of = [&](Local n) {
-      auto& here = local[static_cast<std::size_t>(n)];
-      if (here < 0) {
-        here = static_cast<Local>(whole.points.size());
-        whole.points.push_back(points[static_cast<std::size_t>(n)]);
+    const auto chosen = facets_round(beyond.faces.facets, common);
+    for (std::size_t f = 0; f < chosen.size(); ++f) {
+      if (!chosen[f]) continue;
+      std::vector<Local> facet;
+      for (const Local n : beyond.faces.facets[f]) {
+        auto& here = local[static_cast<std::size_t>(n)];
+        if (here < 0) {
+          here = static_cast<Local>(whole.points.size());
+          whole.points.push_back(points[static_cast<std::size_t>(n)]);
+        }
+        facet.push_back(here);
       }
-      return here;
-    };
-    const auto append = [&](mesh::Cells& to, const mesh::Cells& from) {
-      const auto chosen = facets_round(from, common);
-      for (std::size_t f = 0; f < chosen.size(); ++f) {
-        if (!chosen[f]) continue;
-        std::vector<Local> nodes;
-        for (const Local n : from[f]) nodes.push_back(place_of(n));
-        to.add(from.type[f], nodes);
-      }
-    };
-    append(whole.facets, beyond.faces.facets);
-    append(whole.faces, beyond.faces.faces);
+      whole.facets.add(beyond.faces.facets.type[f], facet);
+    }
+    append_kinks(whole, beyond.faces, [&](Local n) { return local[static_cast<std::size_t>(n)]; });
   }
 }
 

@@ -24,9 +24,9 @@ class FacesAtBonds {
 
   /// Collective.
   std::vector<AtBond> nodes_of(const Side& side, const Communicator& comm) const;
-  /// Appends to `whole`, to its points, facets and faces alone, those across bonds that have nodes in common with a side once
-  /// they are moved to it, and those round them. `at_bonds`: as of nodes_of().
-  void append_to(Side& whole, const Side& side, std::span<const AtBond> at_bonds) const;
+  /// Appends to `whole`, to its points and facets alone, those that go on from a side without a kink: they have nodes in common
+  /// with it, once they are moved across the bond. `alone`: the side's surface nodes, twice. `at_bonds`: as of nodes_of().
+  void append_to(Side& whole, const Side& side, std::span<const SurfaceNodes> alone, std::span<const AtBond> at_bonds) const;
 
  private:
   struct BondNode {
@@ -47,10 +47,13 @@ class FacesAtBonds {
   struct Moved {
     Side faces;
     std::vector<char> in_bond;
+    std::array<SurfaceNodes, 2> alone;  // see alone_of()
   };
   // This rank's faces within two rings of the bonds' nodes. Collective.
   void find_faces(std::span<const mesh::Surface* const> surfaces, std::vector<SentFaceAtBond>& faces,
                   std::vector<SentNodeAtBond>& nodes, const Communicator& comm) const;
+  static bool go_on(const Side& side, std::span<const SurfaceNodes> alone, const NodeCorners& corners, const Moved& beyond,
+                    const NodeCorners& corners_beyond);
 
   std::vector<BondNode> nodes_;                // this rank's by number, see by_node()
   std::vector<std::array<Moved, 2>> at_bond_;  // by pair and side
