@@ -4,7 +4,7 @@
     lobes.py MORTISE [--fine]
 
 Radii 1 + depth cos(lobes theta + phase), 0.003 more of the shaft, which is held at radius 0.5 and the hub at 2; planes of symmetry at both ends. The energy
-of a sector is that of the whole ring over their number to 15 %, and that of a fine mesh to what the table below says; --fine solves that mesh anew."""
+of a sector is that of the whole ring over their number to 2 %, and that of a fine mesh to what the table below says; --fine solves that mesh anew."""
 
 import argparse
 import json
@@ -85,7 +85,7 @@ def main():
             stored = energy_of_sector(arguments.mortise, model, FINE[0], FINE[1:], False, "bore")
         for secondary in ("bore", "rim"):
             sector, whole = (energy_of_sector(arguments.mortise, model, cell, (shaft, hub), is_whole, secondary) for is_whole in (False, True))
-            fails = abs(sector / whole - 1) > 0.15 or abs(sector / stored - 1) > most
+            fails = abs(sector / whole - 1) > 0.02 or abs(sector / stored - 1) > most
             wrong += fails
             print(f"{'WRONG ' if fails else ''}{model} {cell} {shaft}:{hub}, secondary {secondary}: energy {sector:.4g}, of the whole {whole:.4g}, "
                   f"of a fine mesh {stored:.4g}, {sector / stored - 1:+.3f}", flush=True)

@@ -167,7 +167,7 @@ std::unique_ptr<Amesos2Factor> klu2(const SparseMatrix& lower, int, std::optiona
   return std::make_unique<Factor<MultiVector>>(solver, static_cast<std::size_t>(lower.cols()));
 }
 
-// To add a factorization: a function here that makes an Amesos2 solver of a lower triangle, and its name in feti::Options.
+// To add a factorization: a function here that makes an Amesos2 solver of a lower triangle, and a row in the table.
 using Maker = std::unique_ptr<Amesos2Factor> (*)(const SparseMatrix& lower, int block, std::optional<double> most_rounded);
 const std::map<std::string, Maker>& makers()
 {
@@ -176,6 +176,13 @@ const std::map<std::string, Maker>& makers()
 }
 
 }  // namespace
+
+std::vector<std::string> DirectSolver::names()
+{
+  std::vector<std::string> result;
+  for (const auto& [name, maker] : makers()) result.push_back(name);
+  return result;
+}
 
 struct DirectSolver::Data {
   std::unique_ptr<Amesos2Factor> factor;

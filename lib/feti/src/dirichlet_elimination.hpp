@@ -50,7 +50,6 @@ class DirichletElimination {
   /// an eliminated one.
   Global count() const { return count_; }
   const std::vector<Global>& number() const { return number_; }
-  const std::vector<Global>& touched_number() const { return touched_number_; }
 
   /// What a subdomain of this rank adds to W, H and C.
   struct Part {

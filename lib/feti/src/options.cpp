@@ -1,5 +1,7 @@
 #include "feti/options.hpp"
 
+#include "feti/direct_solver.hpp"
+
 namespace mortise::feti {
 
 void describe(deck::Description<Options>& d)
@@ -8,7 +10,7 @@ void describe(deck::Description<Options>& d)
   d.key("factorization", &Options::factorization,
         "Direct solver of the subdomains: cholmod (supernodal Cholesky); for comparison cholmod_plain (with CHOLMOD's own "
         "solution) and klu2 (slow).")
-      .one_of({"cholmod", "cholmod_plain", "klu2"});
+      .one_of(DirectSolver::names());
   d.key("factor_precision", &Options::factor_precision,
         "Of the factors of cholmod: double; single, in half of the memory, where a solution with it differs by less than 1e-5 in "
         "the energy norm (displacements, reactions and direct solutions are refined in double precision; not for a tolerance "

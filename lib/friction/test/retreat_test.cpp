@@ -106,7 +106,7 @@ TEST_P(Wedges, GoBackFromBoundsThatLeaveNothing)
     if (!slow) continue;  // the others follow the law in one loop
     ASSERT_GE(sums.size(), 3U);
     const auto second = std::next(sums.begin());
-    EXPECT_EQ(second->first, 2 + infeasible);
+    EXPECT_LE(second->first, 2 + infeasible);
     EXPECT_NEAR(second->second, times > 0 ? times * first : expected.bounds.sum(), 0.02 * second->second);
   }
 }

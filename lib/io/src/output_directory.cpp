@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <ctime>
@@ -38,11 +39,17 @@ bool is_ours(const fs::path& path)
   return std::regex_match(path.filename().string(), names);
 }
 
+// What names other files comes first: a run that is killed while it removes them leaves nothing that opens what is gone.
 std::vector<fs::path> our_files(const std::string& directory)
 {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(directory))
     if (is_ours(entry.path())) files.push_back(entry.path());
+  const auto depth = [](const fs::path& path) {
+    const auto extension = path.extension();
+    return extension == ".pvd" ? 0 : extension == ".pvtu" || extension == ".vtm" ? 1 : 2;
+  };
+  std::ranges::sort(files, {}, [&](const fs::path& path) { return std::pair(depth(path), path); });
   return files;
 }
 

@@ -49,6 +49,23 @@ TEST(OutputDirectory, IsMadeWithTheOnesAboveAndIsGoneIfNothingWasWritten)
   EXPECT_FALSE(std::filesystem::exists(scratch / "a/b/c/mortise.lock"));
 }
 
+// Killed between two files, or stopped as here by one that cannot be removed, a run leaves no index of files that are gone.
+TEST(OutputDirectory, WhatNamesOtherFilesIsRemovedBeforeThese)
+{
+  const Communicator comm;
+  const Scratch scratch(comm);
+  for (const char* name : {"solution.pvd", "contact.pvd", "blocks.pvd", "solution.1.pvtu", "solution.2.pvtu", "contact.1.pvtu",
+                           "blocks.1.vtm", "blocks.2.vtm", "solution.1_1.vtu", "blocks.1.b0_0.vtu"})
+    put(scratch / name, "old", comm);
+  const OutputDirectory output(scratch / "", nothing, comm);
+  if (comm.root()) std::filesystem::create_directories(scratch / "contact.1_0.vtu/full");
+  comm.sum(0LL);
+  EXPECT_NE(message_of(ExitStatus::machine, [&] { output.clear(); }).find("cannot be removed"), std::string::npos);
+  comm.sum(0LL);
+  EXPECT_EQ(scratch.files(), (Names{"solution.1_1.vtu", "contact.1_0.vtu", "mortise.lock"}));
+  if (comm.root()) std::filesystem::remove_all(scratch / "contact.1_0.vtu");
+}
+
 // Files of an earlier run on seven ranks would be opened together with ours; notes of the user stay.
 TEST(OutputDirectory, WhatAnEarlierRunLeftIsRemovedAndNothingElse)
 {

@@ -137,6 +137,7 @@ class DirectSolver : public Solver {
     if (!found.reaction) return {};
     Solution result(found.x, found.x, found.nu);
     problem.hessian.apply(found.x, result.gradient);
+    const double size_of_x = std::sqrt(std::max(result.gradient.dot(found.x), 0.0));
     result.gradient.update(-1, problem.right.b, 1);
     Vector defect(result.gradient, Teuchos::Copy), error(defect.getMap());
     defect.update(-1, *found.reaction, 1);
@@ -150,7 +151,8 @@ class DirectSolver : public Solver {
     if (const double forces = found.x.norm2(); equality.size() > 0 && forces > 0)
       result.equality = equality.norm(problem.right.e - equality.apply(found.x)) / forces;
     result.outer_iterations = 1;
-    result.converged = result.error <= rounding_of_direct * goal.energy_norm(found.x, found.nu) &&
+    const double energy_norm = goal.energy_norm ? goal.energy_norm(found.x, found.nu) : size_of_x;
+    result.converged = result.error <= rounding_of_direct * energy_norm &&
                        result.projected_gradient <= (goal.allowed_error ? Goal::largest_residual : goal.residual) &&
                        obeys(problem, found.x) &&
                        (!goal.incompatibility || goal.incompatibility(found.x, found.nu) <= Goal::nearly_compatible);

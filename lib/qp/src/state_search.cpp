@@ -30,6 +30,7 @@ constexpr double roundings = 1e4;                // what rounding makes of W x,
 constexpr int idle = 8;                          // and so many guesses have not brought fewer changes
 constexpr double same_step = 1e-6;               // of motions that go on for ever
 constexpr double way_out = 0.05;                 // of the slip, that a motion may open contact by and still be a slide
+constexpr double residual_of_soft = 0.1;         // over x: what a soft contact is good for, it gives states to begin with
 constexpr double softest = 0.1;                  // of what a point gives way together with all others
 constexpr double hardest = 1e-4;                 // softness that is as good as none
 constexpr double worse = 3;                      // times the residual before: such a step is shortened,
@@ -238,6 +239,7 @@ bool StateSearch::guess(int look_back)
       return true;
     }
     if (changes == 0 && residual <= settled_residual * size) return true;
+    if (programme_.softness() > 0 && changes <= few && residual <= residual_of_soft * size) return true;
     VectorXd nu_step = point_.nu - nu_before;
     if (changes == 0 && !small && is_unbounded(nu_step, last_step)) {
       unbounded_ = true;

@@ -64,4 +64,26 @@ bool goes_on(const Point& face, const Point& alone, const Point& other_face, con
   return std::abs(part) <= of_a_kink;
 }
 
+void follow_neighbours(std::vector<FacetEdge> edges, std::vector<GoesOn>& nodes)
+{
+  const auto vote = [&](Local n) {
+    const GoesOn said = nodes[static_cast<std::size_t>(n)];
+    return said == GoesOn::yes ? 1 : said == GoesOn::no ? -1 : 0;
+  };
+  for (auto& [a, b] : edges)
+    if (b < a) std::swap(a, b);
+  std::ranges::sort(edges);
+  const auto end = std::ranges::unique(edges).begin();
+  std::vector<int> votes(nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) votes[n] = vote(static_cast<Local>(n));
+  for (auto edge = edges.begin(); edge != end; ++edge) {
+    const auto [a, b] = *edge;
+    if (a == b) continue;
+    votes[static_cast<std::size_t>(a)] += vote(b);
+    votes[static_cast<std::size_t>(b)] += vote(a);
+  }
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (nodes[n] != GoesOn::not_asked && votes[n] != 0) nodes[n] = votes[n] > 0 ? GoesOn::yes : GoesOn::no;
+}
+
 }  // namespace mortise::contact

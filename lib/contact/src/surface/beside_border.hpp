@@ -51,4 +51,9 @@ std::array<SurfaceNodes, 2> alone_of(const Side& side);
 /// Whether there is no kink where faces with these normals meet, and the normals of each side alone are these. All are unit.
 bool goes_on(const Point& face, const Point& alone, const Point& other_face, const Point& other_alone);
 
+/// What a border's nodes say, of which each has a vote, as have those at the other ends of its edges; where votes are equal, its
+/// own counts. A side that goes on at some nodes alone would have slits in it.
+enum class GoesOn : char { not_asked, no, yes };
+void follow_neighbours(std::vector<FacetEdge> edges, std::vector<GoesOn>& nodes);
+
 }  // namespace mortise::contact

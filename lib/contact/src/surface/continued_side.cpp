@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "pairing/skin.hpp"
+#include "surface/curved_borders.hpp"
 
 namespace mortise::contact {
 
@@ -14,6 +15,8 @@ namespace {
 struct SymmetryPlane {
   Point normal;
   double offset;
+  std::vector<FacetEdge> border;  // edges that may lie in it, or ends of a curve,
+  std::vector<GoesOn> said;       // and what their nodes say
   std::vector<char> has;
   std::vector<std::size_t> images;  // facets of the whole
 
@@ -27,6 +30,18 @@ class SymmetryPlanes {
       : side_(side), alone_(alone), supports_(supports), corners_(corners_of_nodes(side))
   {
     for (std::size_t f = 0; f < side.facets.size(); ++f) add_border_of(f);
+    const CurvedBorders curved(side);
+    for (auto& plane : planes_) {
+      const auto in_plane = [&](Local n) { return plane.said[static_cast<std::size_t>(n)] != GoesOn::not_asked; };
+      for (const auto& edge : curved.edges()) {
+        if (!in_plane(edge.a) || !in_plane(edge.b) || !curved.meets_image_at_kink(edge, plane.normal)) continue;
+        for (const FacetEdge& part : edge.parts)
+          for (const Local n : part) plane.said[static_cast<std::size_t>(n)] = GoesOn::no;
+      }
+      follow_neighbours(plane.border, plane.said);
+      for (const GoesOn said : plane.said) plane.has.push_back(said == GoesOn::yes ? 1 : 0);
+    }
+    std::erase_if(planes_, [](const SymmetryPlane& plane) { return std::ranges::find(plane.has, 1) == plane.has.end(); });
   }
 
   std::vector<SymmetryPlane>& all() { return planes_; }
@@ -104,16 +119,21 @@ class SymmetryPlanes {
     return part_left(direction).norm() < rounding;
   }
 
-  bool is_symmetric(Local n, const Point& direction) const
+  // Faces that meet their images at a sharp edge have no vote.
+  GoesOn ask(Local n, const Point& direction) const
   {
     const auto image = [&](const Point& x) { return Point(x - 2 * x.dot(direction) * direction); };
-    return std::ranges::all_of(corners_[static_cast<std::size_t>(n)], [&](const auto& corner) {
-      const Point face = side_.geometry(corner.first).normal();
-      return std::abs(face.dot(direction)) < 0.5 && std::ranges::any_of(alone_, [&](const SurfaceNodes& alone) {
-               const Point& normal = alone.normal(side_, corner.first, corner.second);
-               return goes_on(face, normal, image(face), image(normal));
-             });
-    });
+    GoesOn result = GoesOn::yes;
+    for (const auto& [f, k] : corners_[static_cast<std::size_t>(n)]) {
+      const Point face = side_.geometry(f).normal();
+      if (std::abs(face.dot(direction)) >= 0.5) return GoesOn::not_asked;
+      if (std::ranges::none_of(alone_, [&](const SurfaceNodes& alone) {
+            const Point& normal = alone.normal(side_, f, k);
+            return goes_on(face, normal, image(face), image(normal));
+          }))
+        result = GoesOn::no;
+    }
+    return result;
   }
 
   // The edge from a to b, or the end a = b of a curve.
@@ -123,8 +143,9 @@ class SymmetryPlanes {
     for (const Local one : {a, b})
       for (const Point& m : held(one)) {
         if (std::abs(m.dot(at(b) - at(a))) > rounding * length || !is_held(one == a ? b : a, m)) continue;
-        for (const Local n : {a, b})
-          if (is_symmetric(n, m)) plane_of(m, n).has[static_cast<std::size_t>(n)] = 1;
+        auto& plane = plane_of(m, a);
+        for (const Local n : {a, b}) plane.said[static_cast<std::size_t>(n)] = ask(n, m);
+        plane.border.push_back({a, b});
       }
   }
 
@@ -134,7 +155,8 @@ class SymmetryPlanes {
     for (auto& plane : planes_)
       if (std::abs(plane.normal.dot(m)) > 1 - rounding * rounding && std::abs(plane.height(at(n))) < rounding * size)
         return plane;
-    return planes_.emplace_back(m, m.dot(at(n)), std::vector<char>(side_.points.size(), 0));
+    return planes_.emplace_back(
+        SymmetryPlane{.normal = m, .offset = m.dot(at(n)), .said = std::vector<GoesOn>(side_.points.size(), GoesOn::not_asked)});
   }
 
   const Side& side_;

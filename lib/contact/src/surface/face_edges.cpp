@@ -1,6 +1,7 @@
 #include "surface/face_edges.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "pairing/skin.hpp"
@@ -11,6 +12,8 @@ FaceEdges::FaceEdges(const Side& side) : side_(side), faces_(side.faces.size())
 {
   for (std::size_t f = 0; f < faces_.size(); ++f) faces_[f] = corners_of_face(f);
   find_edges();
+  turns_.reserve(edges_.size());
+  for (const Edge& edge : edges_) turns_.push_back(turn_at(edge));
 }
 
 FaceEdges::Face FaceEdges::corners_of_face(std::size_t f) const
@@ -52,13 +55,17 @@ void FaceEdges::find_edges()
 FaceEdges::Place FaceEdges::place_of(const Edge& edge) const
 {
   const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
-  Place place{(at(edge.a) + at(edge.b)) / 2, (first.normal + last.normal).normalized(), Point::Zero(), Point::Zero(), 0};
-  if (edge.a != edge.b) {
-    place.along = (at(edge.b) - at(edge.a)).normalized();
-    place.half = (at(edge.b) - at(edge.a)).norm() / 2;
+  return place_between(edge.a, edge.b, first.normal + last.normal, last.centre - first.centre);
+}
+
+FaceEdges::Place FaceEdges::place_between(Local a, Local b, const Point& normal, const Point& away) const
+{
+  Place place{(at(a) + at(b)) / 2, normal.normalized(), Point::Zero(), Point::Zero(), 0};
+  if (a != b) {
+    place.along = (at(b) - at(a)).normalized();
+    place.half = (at(b) - at(a)).norm() / 2;
   }
-  const Point between = last.centre - first.centre;
-  place.away = (between - between.dot(place.normal) * place.normal - between.dot(place.along) * place.along).normalized();
+  place.away = (away - away.dot(place.normal) * place.normal - away.dot(place.along) * place.along).normalized();
   return place;
 }
 
@@ -83,30 +90,56 @@ std::optional<Point> FaceEdges::leaves(std::size_t face, Local from, Local to) c
   return std::nullopt;
 }
 
-std::optional<double> FaceEdges::turn_of_curved(const Edge& edge, const Place& place) const
+std::optional<double> FaceEdges::slope_of_curved(std::size_t face, Local a, Local b, const Place& place) const
 {
+  const auto& nodes = faces_[face].nodes;
+  const std::size_t n = nodes.size();
   double sum = 0;
-  int ends = 0;
-  for (const auto& [from, other] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
-    if (ends == 1 && from == other) break;
-    ++ends;
-    for (const std::size_t f : edge.faces) {
-      const auto& nodes = faces_[f].nodes;
-      const std::size_t n = nodes.size(),
-                        k = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), from) - nodes.begin());
-      const Local after = nodes[(k + 1) % n], across = after == other ? nodes[(k + n - 1) % n] : after;
-      const auto line = leaves(f, from, across);
-      if (!line) return std::nullopt;
-      double rise = line->dot(place.normal);
-      if (from != other) {
-        const auto along = leaves(f, from, other);
-        if (!along) return std::nullopt;
-        rise -= line->dot(place.along) * along->dot(place.normal) / along->dot(place.along);
-      }
-      sum += rise / std::abs(line->dot(place.away));
+  for (const auto& [from, other] : {std::pair(a, b), std::pair(b, a)}) {
+    const auto k = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), from) - nodes.begin());
+    const Local after = nodes[(k + 1) % n], across = after == other ? nodes[(k + n - 1) % n] : after;
+    const auto line = leaves(face, from, across);
+    if (!line) return std::nullopt;
+    double rise = line->dot(place.normal);
+    if (from != other) {
+      const auto along = leaves(face, from, other);
+      if (!along) return std::nullopt;
+      rise -= line->dot(place.along) * along->dot(place.normal) / along->dot(place.along);
     }
+    sum += rise / std::abs(line->dot(place.away));
   }
-  return sum / ends;
+  return sum / 2;
+}
+
+std::optional<double> FaceEdges::turn_at(const Edge& edge) const
+{
+  const Place place = place_of(edge);
+  const auto first = slope_of_curved(edge.faces[0], edge.a, edge.b, place);
+  const auto last = slope_of_curved(edge.faces[1], edge.a, edge.b, place);
+  return first && last ? std::optional(*first + *last) : std::nullopt;
+}
+
+FaceEdges::Around FaceEdges::around(std::size_t face, Local a, Local b, const std::vector<bool>& parted) const
+{
+  Around result;
+  const auto is_at_edge = [&](const Edge& edge) { return edge.a == a && edge.b == b; };
+  const auto touches_edge = [&](const Edge& edge) { return edge.has(a) || edge.has(b); };
+  const std::size_t rings_of_a_row = faces_[face].nodes.size() == 3 ? 2 : 1;  // two triangles reach as far as a quadrangle
+  std::vector<std::size_t> seen{face};
+  for (std::size_t first = 0, ring = 0; ring < 2 * rings_of_a_row; ++ring) {
+    const bool next = ring < rings_of_a_row;
+    const std::size_t last = seen.size();
+    for (; first < last; ++first)
+      for (const auto& [other, e] : faces_[seen[first]].beside) {
+        if (is_at_edge(edges_[e]) || (ring > 0 && touches_edge(edges_[e])) || (!parted.empty() && parted[e])) continue;
+        if (std::find(seen.begin(), seen.end(), other) == seen.end()) seen.push_back(other);
+        (next ? result.any_next : result.any_beyond) = true;
+        result.curved = result.curved && turns_[e].has_value();
+        double& most = next ? result.next : result.beyond;
+        most = std::max(most, std::abs(turns_[e].value_or(0)));
+      }
+  }
+  return result;
 }
 
 bool FaceEdges::touch(std::size_t face, std::size_t other) const
@@ -116,20 +149,20 @@ bool FaceEdges::touch(std::size_t face, std::size_t other) const
                      [&](Local n) { return std::find(nodes.begin(), nodes.end(), n) != nodes.end(); });
 }
 
-Few<FacetEdge, 2> FaceEdges::facet_edges(const Edge& edge) const
+Few<FacetEdge, 2> FaceEdges::facet_edges(std::size_t of, Local from, Local to) const
 {
-  const auto face = side_.faces[edge.faces[0]];
-  const auto type = side_.faces.type[edge.faces[0]];
+  const auto face = side_.faces[of];
+  const auto type = side_.faces.type[of];
   const auto corners = static_cast<std::size_t>(mesh::corner_count(type));
-  if (edge.a != edge.b)
+  if (from != to)
     for (std::size_t m = corners; m < face.size(); ++m) {
       const auto& ends = mesh::middles(type)[m - corners];
       if (ends.size() != 2) continue;
       const Local a = face[static_cast<std::size_t>(ends[0])], b = face[static_cast<std::size_t>(ends[1])], middle = face[m];
-      if (std::minmax(a, b) != std::pair<const Local&, const Local&>(edge.a, edge.b)) continue;
+      if (std::minmax(a, b) != std::minmax(from, to)) continue;
       return {{std::min(a, middle), std::max(a, middle)}, {std::min(b, middle), std::max(b, middle)}};
     }
-  return {{edge.a, edge.b}};
+  return {{std::min(from, to), std::max(from, to)}};
 }
 
 }  // namespace mortise::contact

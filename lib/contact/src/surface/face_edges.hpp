@@ -44,24 +44,46 @@ class FaceEdges {
   const Point& at(Local n) const { return side_.points[static_cast<std::size_t>(n)]; }
 
   Place place_of(const Edge& edge) const;
+  /// Of the edge from a to b, or the node a = b. `normal` and `away` may be of any length and lean to each other.
+  Place place_between(Local a, Local b, const Point& normal, const Point& away) const;
   /// How far a face reaches from an edge.
   double depth(std::size_t face, const Place& place, const Point& away) const;
+  /// The slope of a face by its corners, in a direction.
+  static double slope(const Face& face, const Place& place, const Point& away)
+  {
+    return -face.normal.dot(away) / face.normal.dot(place.normal);
+  }
+  /// The slope at which a curved face leaves its edge from a to b, or its end a = b, across; none where it is of first order.
+  std::optional<double> slope_of_curved(std::size_t face, Local a, Local b, const Place& place) const;
   /// By how much the slopes across an edge of the curved faces there differ; none where one of the faces is of first order.
-  std::optional<double> turn_of_curved(const Edge& edge, const Place& place) const;
+  const std::optional<double>& turn_of_curved(std::size_t edge) const { return turns_[edge]; }
+
+  /// The most that curved faces turn by at the other edges of a face that has the edge from a to b, and at those of the faces
+  /// behind them that do not touch it; where faces are triangles, of two rings of them each.
+  struct Around {
+    double next = 0, beyond = 0;
+    bool any_next = false, any_beyond = false;
+    bool curved = true;  ///< all faces there are
+  };
+  /// Edges of `parted`, empty or one for each edge, are as a border.
+  Around around(std::size_t face, Local a, Local b, const std::vector<bool>& parted = {}) const;
   /// Whether two faces share a node.
   bool touch(std::size_t face, std::size_t other) const;
-  /// The edges of facets that make up an edge: a node in the middle of one of second order cuts it in two.
-  Few<FacetEdge, 2> facet_edges(const Edge& edge) const;
+  /// The edges of facets that make up an edge of a face: a node in the middle of one of second order cuts it in two.
+  Few<FacetEdge, 2> facet_edges(std::size_t face, Local a, Local b) const;
+  Few<FacetEdge, 2> facet_edges(const Edge& edge) const { return facet_edges(edge.faces[0], edge.a, edge.b); }
 
  private:
   Face corners_of_face(std::size_t f) const;
   // The direction in which the edge of a face of second order leaves `from` for `to`.
   std::optional<Point> leaves(std::size_t face, Local from, Local to) const;
   void find_edges();
+  std::optional<double> turn_at(const Edge& edge) const;
 
   const Side& side_;
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
+  std::vector<std::optional<double>> turns_;
 };
 
 }  // namespace mortise::contact

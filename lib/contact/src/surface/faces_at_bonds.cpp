@@ -1,6 +1,7 @@
 #include "surface/faces_at_bonds.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -8,6 +9,7 @@
 #include "pairing/skin.hpp"
 #include "rows/by_node.hpp"
 #include "search/tree.hpp"
+#include "surface/curved_borders.hpp"
 #include "surface/kinks.hpp"
 
 namespace mortise::contact {
@@ -133,50 +135,100 @@ std::vector<std::vector<Local>> held_together(std::span<const FacesAtBonds::AtBo
   return result;
 }
 
-// Those of a node of the side, each with what comes nearest to its normal beyond.
-bool FacesAtBonds::go_on(const Side& side, std::span<const SurfaceNodes> alone, const NodeCorners& corners, const Moved& beyond,
-                         const NodeCorners& corners_beyond)
+// Of a node of the side each corner, with what comes nearest to its normal beyond. Sharp edges have no vote.
+GoesOn FacesAtBonds::go_on(const Side& side, std::span<const SurfaceNodes> alone, const NodeCorners& corners, const Moved& beyond,
+                           const NodeCorners& corners_beyond)
 {
-  return std::ranges::all_of(corners, [&](const auto& corner) {
+  GoesOn result = GoesOn::yes;
+  for (const auto& corner : corners) {
     const Point face = side.geometry(corner.first).normal();
-    const auto nearest = std::ranges::min_element(
-        corners_beyond, {}, [&](const auto& other) { return (beyond.faces.geometry(other.first).normal() - face).norm(); });
-    for (std::size_t i = 0; i < alone.size(); ++i)
-      if (goes_on(face, alone[i].normal(side, corner.first, corner.second), beyond.faces.geometry(nearest->first).normal(),
-                  beyond.alone[i].normal(beyond.faces, nearest->first, nearest->second)))
-        return true;
-    return false;
-  });
+    const auto normal_beyond = [&](const auto& other) { return beyond.faces.geometry(other.first).normal(); };
+    const auto nearest =
+        std::ranges::min_element(corners_beyond, {}, [&](const auto& other) { return (normal_beyond(other) - face).norm(); });
+    bool goes = false;
+    for (std::size_t i = 0; i < alone.size() && !goes; ++i)
+      goes = goes_on(face, alone[i].normal(side, corner.first, corner.second), normal_beyond(*nearest),
+                     beyond.alone[i].normal(beyond.faces, nearest->first, nearest->second));
+    if (!goes && face.dot(normal_beyond(*nearest)) <= kink) return GoesOn::not_asked;
+    if (!goes) result = GoesOn::no;
+  }
+  return result;
+}
+
+// Says no for the nodes of edges at which curved faces of both meet at a kink.
+void FacesAtBonds::deny_at_kinks_of_curved(const Side& side, const Side& beyond, std::span<Met> met, std::span<GoesOn> votes)
+{
+  const CurvedBorders here(side), there(beyond);
+  std::multimap<Local, Local> nodes;
+  for (const Met& m : met) nodes.emplace(static_cast<Local>(m.here), static_cast<Local>(m.beyond));
+  std::map<FacetEdge, const CurvedBorders::Edge*> edges;
+  for (const auto& edge : there.edges()) edges[{edge.a, edge.b}] = &edge;
+  std::vector<FacetEdge> kinks;
+  for (const auto& edge : here.edges()) {
+    const auto [first_a, last_a] = nodes.equal_range(edge.a);
+    const auto [first_b, last_b] = nodes.equal_range(edge.b);
+    for (auto a = first_a; a != last_a; ++a)
+      for (auto b = first_b; b != last_b; ++b)
+        if (const auto found = edges.find({std::min(a->second, b->second), std::max(a->second, b->second)});
+            found != edges.end() && here.meets_at_kink(edge, there, *found->second))
+          kinks.insert(kinks.end(), edge.parts.begin(), edge.parts.end());
+  }
+  for (const FacetEdge& part : kinks)
+    for (const Local n : part) votes[static_cast<std::size_t>(n)] = GoesOn::no;
+}
+
+// The nodes of a side at a bond and those beyond that lie in the same places. Of several in one place those count that say most.
+std::vector<FacesAtBonds::Met> FacesAtBonds::meet(const Side& side, std::span<const SurfaceNodes> alone,
+                                                  std::span<const Local> nodes, const Moved& beyond)
+{
+  const auto corners = corners_of_nodes(side), corners_beyond = corners_of_nodes(beyond.faces);
+  const auto edges = shortest_edges(beyond.faces);
+  std::vector<Box> boxes;
+  for (const Local n : nodes) {
+    const Point& x = side.points[static_cast<std::size_t>(n)];
+    boxes.emplace_back(x, x);
+  }
+  const Tree tree(std::move(boxes));
+  std::vector<Met> result;
+  std::vector<GoesOn> votes(side.points.size(), GoesOn::not_asked);
+  for (std::size_t n = 0; n < beyond.in_bond.size(); ++n) {
+    if (!beyond.in_bond[n]) continue;
+    const Point& x = beyond.faces.points[n];
+    for (const int i : tree.candidates(grown(Box(x, x), same_node_across * edges[n]))) {
+      const auto here = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
+      const double distance = (side.points[here] - x).norm();
+      if (distance > same_node_across * edges[n]) continue;
+      const GoesOn said = go_on(side, alone, corners[here], beyond, corners_beyond[n]);
+      if (said == GoesOn::not_asked) continue;
+      votes[here] = std::max(votes[here], said);
+      result.push_back({n, here, distance, said});
+    }
+  }
+  deny_at_kinks_of_curved(side, beyond.faces, result, votes);
+  std::vector<FacetEdge> border;
+  const auto asked = [&](Local n) { return votes[static_cast<std::size_t>(n)] != GoesOn::not_asked; };
+  for (std::size_t f = 0; f < side.facets.size(); ++f)
+    for (std::size_t k = 0; k < side.facets[f].size(); ++k)
+      if (const Local a = side.facets[f][k], b = side.facets[f][(k + 1) % side.facets[f].size()]; asked(a) && asked(b))
+        border.push_back({a, b});
+  const auto own = votes;
+  follow_neighbours(std::move(border), votes);
+  std::erase_if(result, [&](const Met& met) { return votes[met.here] != GoesOn::yes || met.said < own[met.here]; });
+  return result;
 }
 
 void FacesAtBonds::append_to(Side& whole, const Side& side, std::span<const SurfaceNodes> alone,
                              std::span<const AtBond> at_bonds) const
 {
   if (at_bonds.empty()) return;
-  const auto corners = corners_of_nodes(side);
   for (const auto& [bond, at_side, nodes] : at_bonds) {
     const auto& beyond = at_bond_[static_cast<std::size_t>(bond)][static_cast<std::size_t>(1 - at_side)];
     const auto& points = beyond.faces.points;
-    const auto edges = shortest_edges(beyond.faces);
-    const auto corners_beyond = corners_of_nodes(beyond.faces);
-    std::vector<Box> boxes;
-    for (const Local n : nodes) {
-      const Point& x = side.points[static_cast<std::size_t>(n)];
-      boxes.emplace_back(x, x);
-    }
-    const Tree tree(std::move(boxes));
     std::vector<Local> local(points.size(), -1);
     std::vector<char> common(local.size(), 0);
-    for (std::size_t n = 0; n < local.size(); ++n) {
-      if (!beyond.in_bond[n]) continue;
-      double nearest = same_node_across * edges[n];
-      for (const int i : tree.candidates(grown(Box(points[n], points[n]), nearest))) {
-        const auto found = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
-        const double distance = (side.points[found] - points[n]).norm();
-        if (distance > nearest || !go_on(side, alone, corners[found], beyond, corners_beyond[n])) continue;
-        nearest = distance, local[n] = static_cast<Local>(found), common[n] = 1;
-      }
-    }
+    std::vector<double> nearest(local.size(), std::numeric_limits<double>::max());
+    for (const auto& [n, here, distance, said] : meet(side, alone, nodes, beyond))
+      if (distance <= nearest[n]) nearest[n] = distance, local[n] = static_cast<Local>(here), common[n] = 1;
     const auto chosen = facets_round(beyond.faces.facets, common);
     for (std::size_t f = 0; f < chosen.size(); ++f) {
       if (!chosen[f]) continue;

@@ -52,8 +52,17 @@ class FacesAtBonds {
   // This rank's faces within two rings of the bonds' nodes. Collective.
   void find_faces(std::span<const mesh::Surface* const> surfaces, std::vector<SentFaceAtBond>& faces,
                   std::vector<SentNodeAtBond>& nodes, const Communicator& comm) const;
-  static bool go_on(const Side& side, std::span<const SurfaceNodes> alone, const NodeCorners& corners, const Moved& beyond,
-                    const NodeCorners& corners_beyond);
+  // A node of a side and one beyond in the same place, where the side goes on.
+  struct Met {
+    std::size_t beyond, here;
+    double distance;
+    GoesOn said;
+  };
+  static GoesOn go_on(const Side& side, std::span<const SurfaceNodes> alone, const NodeCorners& corners, const Moved& beyond,
+                      const NodeCorners& corners_beyond);
+  static void deny_at_kinks_of_curved(const Side& side, const Side& beyond, std::span<Met> met, std::span<GoesOn> votes);
+  static std::vector<Met> meet(const Side& side, std::span<const SurfaceNodes> alone, std::span<const Local> nodes,
+                               const Moved& beyond);
 
   std::vector<BondNode> nodes_;                // this rank's by number, see by_node()
   std::vector<std::array<Moved, 2>> at_bond_;  // by pair and side

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surface/curved_borders.hpp"
 #include "surface/face_edges.hpp"
 #include "surface/tangent_edges.hpp"
 
@@ -28,8 +29,6 @@ class Kinks {
   using Face = FaceEdges::Face;
   using Place = FaceEdges::Place;
 
-  // Slopes of two faces that differ by less than 2 degrees leave too little between the surface through them and the faces.
-  static constexpr double least_turn = 0.035;
   // The part of it that the surfaces on both sides alone differ by: these are nearly plane. Coarse waves and bumps turn by as
   // much as kinks between curved parts do, but from face to face.
   static constexpr double of_a_kink = 0.85;
@@ -80,10 +79,11 @@ class Kinks {
   double turn_at(const Edge& edge, std::vector<std::size_t>* crossed = nullptr) const
   {
     const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
-    if ((first.normal - last.normal).squaredNorm() < least_turn * least_turn) return 0;
+    if ((first.normal - last.normal).squaredNorm() < least_kink * least_kink) return 0;
     const Place place = all_.place_of(edge);
     const Point& away = place.away;
-    const double faces = std::abs(slope_of(last, place, away) - slope_of(first, place, away));
+    const double corners = FaceEdges::slope(last, place, away) - FaceEdges::slope(first, place, away), faces = std::abs(corners);
+    if (const double turn = turn_of_curved_alone(edge, corners); turn > 0) return turn;
     Surface back = rows_beside(edge, 0, place, -away, crossed), forth = rows_beside(edge, 1, place, away, crossed);
     if (!back.known && !forth.known) return 0;
     const bool both = back.known && forth.known;
@@ -105,9 +105,23 @@ class Kinks {
       turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], place);
       smooth = std::abs(known.across) * (known.depth + other.depth) / 2;
     }
-    if (const auto curved = all_.turn_of_curved(edge, place); curved && *curved / turn < of_curved) return 0;
+    if (const auto curved = curved_of(edge); curved && *curved / turn < of_curved) return 0;
     turn = std::abs(turn);
-    return turn > least_turn && turn > of_a_kink * (turn + smooth) ? turn : 0;
+    return turn > least_kink && turn > of_a_kink * (turn + smooth) ? turn : 0;
+  }
+
+  const std::optional<double>& curved_of(const Edge& edge) const
+  {
+    return all_.turn_of_curved(static_cast<std::size_t>(&edge - edges_.data()));
+  }
+
+  // The angle of a kink between curved faces that need no others to tell; 0: there is none, or others have to.
+  double turn_of_curved_alone(const Edge& edge, double corners) const
+  {
+    const auto& own = curved_of(edge);
+    if (!own) return 0;
+    const auto around = [&](std::size_t side) { return all_.around(edge.faces[side], edge.a, edge.b, parted_); };
+    return is_kink_of_curved(*own, corners, around(0), around(1)) ? std::abs(*own) : 0;
   }
 
   // The faces on one side of an edge, and how much they turn from row to row.
@@ -137,9 +151,9 @@ class Kinks {
     }
     result.known = farthest > two_rows * result.depth;
     if (!result.known) return result;
-    const double slope = slope_of(faces_[own], place, away);
+    const double slope = FaceEdges::slope(faces_[own], place, away);
     const auto note = [&](std::size_t row, const Face& face) {
-      result.next[row] += slope_of(face, place, away) - slope;
+      result.next[row] += FaceEdges::slope(face, place, away) - slope;
       ++result.faces[row];
     };
     for (const std::size_t f : round) {
@@ -154,11 +168,6 @@ class Kinks {
     }
     for (const std::size_t row : {0U, 1U}) result.next[row] /= std::max(result.faces[row], 1);
     return result;
-  }
-
-  static double slope_of(const Face& face, const Place& place, const Point& away)
-  {
-    return -face.normal.dot(away) / face.normal.dot(place.normal);
   }
 
   // With the larger curvature for the bend, in the least squares of both sides over the squared distance: exact on spheres and

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/cholesky.hpp"
 
@@ -14,10 +15,13 @@ namespace mortise::feti {
 class DirectSolver {
  public:
   /// Factorizes the matrix with lower triangle `lower`, of nodes with `block` components each, by the solver called `name`:
-  /// cholmod, cholmod_plain or klu2. Throws Error(bad_input) for another name, also if the matrix is not positive definite, and
+  /// one of names(). Throws Error(bad_input) for another name, also if the matrix is not positive definite, and
   /// Error(machine) if memory runs out. `most_rounded`: cholmod may round the factor to single precision, if that changes what it
   /// solves by no more than this (Cholesky::prepare_in_single_precision).
   DirectSolver(const std::string& name, const SparseMatrix& lower, int block = 1, std::optional<double> most_rounded = {});
+  /// Of the solvers there are.
+  static std::vector<std::string> names();
+
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
   ~DirectSolver();

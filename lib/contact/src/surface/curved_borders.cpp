@@ -1,0 +1,62 @@
+#include "surface/curved_borders.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise::contact {
+
+bool is_kink_of_curved(double curved, double corners, const FaceEdges::Around& first, const FaceEdges::Around& last)
+{
+  constexpr double of_corners = 0.4, of_next = 0.5;
+  constexpr double little_of_corners = 0.1, little_of_others = 0.2;  // where the faces behind are known, too
+  const double turn = std::abs(curved), part = curved / corners;
+  if (!first.curved || !last.curved || turn <= least_kink) return false;
+  const double next = std::max(first.next, last.next), beyond = std::max(first.beyond, last.beyond);
+  if ((first.any_next || last.any_next) && part > of_corners && next < of_next * turn) return true;
+  return first.any_beyond && last.any_beyond && part > little_of_corners && std::max(next, beyond) < little_of_others * turn;
+}
+
+CurvedBorders::CurvedBorders(const Side& side) : all_(side)
+{
+  std::vector<Edge> all;
+  for (std::size_t f = 0; f < all_.faces().size(); ++f) {
+    const auto& nodes = all_.faces()[f].nodes;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const Local a = nodes[k], b = nodes.size() == 2 ? a : nodes[(k + 1) % nodes.size()];
+      all.push_back({f, std::min(a, b), std::max(a, b), {}});
+    }
+  }
+  const auto ends = [](const Edge& edge) { return std::pair(edge.a, edge.b); };
+  std::ranges::sort(all, {}, ends);
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    const bool shared = (e > 0 && ends(all[e - 1]) == ends(all[e])) || (e + 1 < all.size() && ends(all[e + 1]) == ends(all[e]));
+    if (shared) continue;
+    for (const FacetEdge& part : all_.facet_edges(all[e].face, all[e].a, all[e].b)) all[e].parts.push_back(part);
+    edges_.push_back(std::move(all[e]));
+  }
+}
+
+bool CurvedBorders::meets_image_at_kink(const Edge& edge, const Point& normal) const
+{
+  const auto& face = all_.faces()[edge.face];
+  const auto place = all_.place_between(edge.a, edge.b, face.normal - face.normal.dot(normal) * normal, normal);
+  const auto curved = all_.slope_of_curved(edge.face, edge.a, edge.b, place);
+  const bool beyond = (face.centre - place.middle).dot(normal) > 0;
+  const double corners = FaceEdges::slope(face, place, beyond ? normal : Point(-normal));
+  const auto around = all_.around(edge.face, edge.a, edge.b);
+  return curved && is_kink_of_curved(2 * *curved, 2 * corners, around, around);
+}
+
+bool CurvedBorders::meets_at_kink(const Edge& edge, const CurvedBorders& other, const Edge& beyond) const
+{
+  const auto &here = all_.faces()[edge.face], &there = other.all_.faces()[beyond.face];
+  const auto place = all_.place_between(edge.a, edge.b, here.normal + there.normal, there.centre - here.centre);
+  const auto curved = all_.slope_of_curved(edge.face, edge.a, edge.b, place);
+  const auto curved_beyond = other.all_.slope_of_curved(beyond.face, beyond.a, beyond.b, place);
+  const double corners = FaceEdges::slope(there, place, place.away) - FaceEdges::slope(here, place, place.away);
+  return curved && curved_beyond &&
+         is_kink_of_curved(*curved + *curved_beyond, corners, all_.around(edge.face, edge.a, edge.b),
+                           other.all_.around(beyond.face, beyond.a, beyond.b));
+}
+
+}  // namespace mortise::contact
