@@ -74,14 +74,14 @@ void Report::LoadSteps::write(const analysis::LoadStepSolver& solver, const anal
   const auto& comm = context_.comm;
   const auto& model = assembly_.model();
   const output::EvaluatedState found{model.decomposition(), assembly_.interface(), solver.problem(), state, probes, results};
-  const bool first = summary_.version.empty();
+  const bool first = !last_;
   auto summary = output::summarise(model, found, comm);
   summary.version = MORTISE_VERSION;
   summary.algorithm = approach_.algorithm == "auto" ? "face_newton" : approach_.algorithm;
   if (approach_.kind == analysis::Approach::Kind::direct_instead && run_.sizes_as_cut_.subdomains > 0)
     output::copy_sizes(run_.sizes_as_cut_, summary);
   if (first) summary.hessian_multiplications += approach_.spent;
-  output::accumulate_steps(acts_, summary_, summary);
+  output::accumulate_steps(acts_, last_ ? last_->summary : io::Summary{}, summary);
   run_.warnings_.add(analysis::check_results(model, state, results, comm));
   {
     const auto scope = context_.timers.scope("output");
@@ -93,9 +93,8 @@ void Report::LoadSteps::write(const analysis::LoadStepSolver& solver, const anal
       if (first) io::write_text(deck_.output.directory + "/deck.yaml", io::written_mark() + "\n" + write_deck(deck_));
     });
   }
-  summary_ = std::move(summary);  // now that what it tells is on the disk
+  last_ = Written{std::move(summary), std::move(results)};  // now that what it tells is on the disk
   run_.state_is_written_ = true;
-  results_ = std::move(results);
   run_.tell_stage("output", "output");  // does not end the run: a state that is written is to be kept for --resume
   if (index_ < states_) restart_.keep(index_, approach_, solver, state);
 }
@@ -112,9 +111,9 @@ analysis::Outcome Report::LoadSteps::failed(const analysis::LoadStepSolver& solv
 void Report::LoadSteps::fail(const Error& error)
 {
   context_.log.end_progress();
-  if (summary_.version.empty()) throw error;  // no state is written
-  summary_.converged = false;
-  summary_.exit_status = static_cast<int>(error.status());
+  if (!last_) throw error;
+  last_->summary.converged = false;
+  last_->summary.exit_status = static_cast<int>(error.status());
   try {
     write_summary(true);
   } catch (const Error&) {  // the one on the disk says that the run is not finished
@@ -126,11 +125,11 @@ void Report::LoadSteps::fail(const Error& error)
 bool Report::LoadSteps::goes_on()
 {
   if (index_ == states_) return false;
-  if (!summary_.converged) {
+  if (!last_->summary.converged) {
     context_.log.line("Step {} did not converge; the {} states after it are not solved.", acts_.step, states_ - index_);
     return false;
   }
-  print_step(summary_, context_.log);
+  print_step(last_->summary, context_.log);
   write_summary(false);
   return true;
 }
@@ -138,30 +137,32 @@ bool Report::LoadSteps::goes_on()
 void Report::LoadSteps::write_summary(bool finished)
 {
   const auto& comm = context_.comm;
-  summary_.finished = finished;
-  summary_.warnings = run_.warnings_.all();
-  summary_.time["total"] = comm.max(MPI_Wtime() - run_.start_);
-  summary_.peak_memory_bytes = comm.sum(static_cast<double>(peak_memory()));
+  auto& summary = last_->summary;
+  summary.finished = finished;
+  summary.warnings = run_.warnings_.all();
+  summary.time["total"] = comm.max(MPI_Wtime() - run_.start_);
+  summary.peak_memory_bytes = comm.sum(static_cast<double>(peak_memory()));
   collectively(comm, [&] {
-    if (comm.root()) io::write_text(deck_.output.directory + "/summary.json", io::to_json(summary_));
+    if (comm.root()) io::write_text(deck_.output.directory + "/summary.json", io::to_json(summary));
   });
 }
 
 ExitStatus Report::LoadSteps::end()
 {
   auto& [comm, log, timers] = context_;
-  output::note_communication(timers, traffic() - run_.before_all_, comm, summary_);
+  auto& [summary, results] = *last_;
+  output::note_communication(timers, traffic() - run_.before_all_, comm, summary);
   const auto spreads = timers.spread(comm);
-  for (const auto& spread : spreads) summary_.time[spread.stage] = spread.max;
+  for (const auto& spread : spreads) summary.time[spread.stage] = spread.max;
   write_summary(true);
-  print_results(results_, summary_, log);
-  print_probes(summary_, log);
-  log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", summary_.time["total"], summary_.peak_memory_bytes / 1e9,
+  print_results(results, summary, log);
+  print_probes(summary, log);
+  log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", summary.time["total"], summary.peak_memory_bytes / 1e9,
            deck_.output.directory);
-  print_communication(summary_, log);
+  print_communication(summary, log);
   print_times(spreads, log);
   print_warnings(run_.warnings_, log);
-  const auto status = results_.verdict.status;
+  const auto status = results.verdict.status;
   if (status == ExitStatus::solved) restart_.remove();
   return status;
 }

@@ -1,6 +1,8 @@
 // What a run tells of its load steps, and what it leaves behind.
 #pragma once
 
+#include <optional>
+
 #include "analysis/load_step_solver.hpp"
 #include "analysis/restart.hpp"
 #include "output/field_files.hpp"
@@ -56,8 +58,11 @@ class Report::LoadSteps {
   model::LoadState acts_;
   output::FieldFiles files_;
   output::ProbeFiles probe_files_;
-  io::Summary summary_;    // of the states that are written; without a version if there is none
-  post::Results results_;  // of the last of them
+  struct Written {
+    io::Summary summary;  // of all states that are written
+    post::Results results;
+  };
+  std::optional<Written> last_;
 };
 
 }  // namespace mortise
