@@ -43,7 +43,7 @@ bool CurvedBorders::meets_image_at_kink(const Edge& edge, const Point& normal) c
   const auto curved = all_.slope_of_curved(edge.face, edge.a, edge.b, place);
   const bool beyond = (face.centre - place.middle).dot(normal) > 0;
   const double corners = FaceEdges::slope(face, place, beyond ? normal : Point(-normal));
-  const auto around = all_.around(edge.face, edge.a, edge.b);
+  const auto around = all_.around(edge.face, edge.a, edge.b, place);
   return curved && is_kink_of_curved(2 * *curved, 2 * corners, around, around);
 }
 
@@ -55,8 +55,8 @@ bool CurvedBorders::meets_at_kink(const Edge& edge, const CurvedBorders& other, 
   const auto curved_beyond = other.all_.slope_of_curved(beyond.face, beyond.a, beyond.b, place);
   const double corners = FaceEdges::slope(there, place, place.away) - FaceEdges::slope(here, place, place.away);
   return curved && curved_beyond &&
-         is_kink_of_curved(*curved + *curved_beyond, corners, all_.around(edge.face, edge.a, edge.b),
-                           other.all_.around(beyond.face, beyond.a, beyond.b));
+         is_kink_of_curved(*curved + *curved_beyond, corners, all_.around(edge.face, edge.a, edge.b, place),
+                           other.all_.around(beyond.face, beyond.a, beyond.b, place));
 }
 
 }  // namespace mortise::contact

@@ -119,9 +119,12 @@ std::optional<double> FaceEdges::turn_at(const Edge& edge) const
   return first && last ? std::optional(*first + *last) : std::nullopt;
 }
 
-FaceEdges::Around FaceEdges::around(std::size_t face, Local a, Local b, const std::vector<bool>& parted) const
+FaceEdges::Around FaceEdges::around(std::size_t face, Local a, Local b, const Place& place, const std::vector<bool>& parted) const
 {
+  constexpr double far = 0.75, behind = 1.4;  // edges across the way are, over how far the face reaches
   Around result;
+  const Point away = (faces_[face].centre - place.middle).dot(place.away) > 0 ? place.away : Point(-place.away);
+  const double reach = depth(face, place, away);
   const auto is_at_edge = [&](const Edge& edge) { return edge.a == a && edge.b == b; };
   const auto touches_edge = [&](const Edge& edge) { return edge.has(a) || edge.has(b); };
   const std::size_t rings_of_a_row = faces_[face].nodes.size() == 3 ? 2 : 1;  // two triangles reach as far as a quadrangle
@@ -133,7 +136,9 @@ FaceEdges::Around FaceEdges::around(std::size_t face, Local a, Local b, const st
       for (const auto& [other, e] : faces_[seen[first]].beside) {
         if (is_at_edge(edges_[e]) || (ring > 0 && touches_edge(edges_[e])) || (!parted.empty() && parted[e])) continue;
         if (std::find(seen.begin(), seen.end(), other) == seen.end()) seen.push_back(other);
-        (next ? result.any_next : result.any_beyond) = true;
+        const double depth_of_edge = ((at(edges_[e].a) + at(edges_[e].b)) / 2 - place.middle).dot(away);
+        if (next && depth_of_edge > far * reach) result.any_next = true;
+        if (!next && depth_of_edge > behind * reach) result.any_beyond = true;
         result.curved = result.curved && turns_[e].has_value();
         double& most = next ? result.next : result.beyond;
         most = std::max(most, std::abs(turns_[e].value_or(0)));

@@ -59,14 +59,15 @@ class FaceEdges {
   const std::optional<double>& turn_of_curved(std::size_t edge) const { return turns_[edge]; }
 
   /// The most that curved faces turn by at the other edges of a face that has the edge from a to b, and at those of the faces
-  /// behind them that do not touch it; where faces are triangles, of two rings of them each.
+  /// behind them that do not touch it; where faces are triangles, of two rings of them each. Whether there are any is of those
+  /// that lie across the way: beside a border there may be none.
   struct Around {
     double next = 0, beyond = 0;
     bool any_next = false, any_beyond = false;
     bool curved = true;  ///< all faces there are
   };
   /// Edges of `parted`, empty or one for each edge, are as a border.
-  Around around(std::size_t face, Local a, Local b, const std::vector<bool>& parted = {}) const;
+  Around around(std::size_t face, Local a, Local b, const Place& place, const std::vector<bool>& parted = {}) const;
   /// Whether two faces share a node.
   bool touch(std::size_t face, std::size_t other) const;
   /// The edges of facets that make up an edge of a face: a node in the middle of one of second order cuts it in two.

@@ -83,7 +83,7 @@ class Kinks {
     const Place place = all_.place_of(edge);
     const Point& away = place.away;
     const double corners = FaceEdges::slope(last, place, away) - FaceEdges::slope(first, place, away), faces = std::abs(corners);
-    if (const double turn = turn_of_curved_alone(edge, corners); turn > 0) return turn;
+    if (const double turn = turn_of_curved_alone(edge, place, corners); turn > 0) return turn;
     Surface back = rows_beside(edge, 0, place, -away, crossed), forth = rows_beside(edge, 1, place, away, crossed);
     if (!back.known && !forth.known) return 0;
     const bool both = back.known && forth.known;
@@ -116,11 +116,11 @@ class Kinks {
   }
 
   // The angle of a kink between curved faces that need no others to tell; 0: there is none, or others have to.
-  double turn_of_curved_alone(const Edge& edge, double corners) const
+  double turn_of_curved_alone(const Edge& edge, const Place& place, double corners) const
   {
     const auto& own = curved_of(edge);
     if (!own) return 0;
-    const auto around = [&](std::size_t side) { return all_.around(edge.faces[side], edge.a, edge.b, parted_); };
+    const auto around = [&](std::size_t side) { return all_.around(edge.faces[side], edge.a, edge.b, place, parted_); };
     return is_kink_of_curved(*own, corners, around(0), around(1)) ? std::abs(*own) : 0;
   }
 
