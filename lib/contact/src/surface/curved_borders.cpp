@@ -7,13 +7,13 @@ namespace mortise::contact {
 
 bool is_kink_of_curved(double curved, double corners, const FaceEdges::Around& first, const FaceEdges::Around& last)
 {
-  constexpr double of_corners = 0.4, of_next = 0.5;
-  constexpr double little_of_corners = 0.1, little_of_others = 0.2;  // where the faces behind are known, too
-  const double turn = std::abs(curved), part = curved / corners;
+  constexpr double of_corners = 0.5, of_next = 0.4;
+  constexpr double less_of_corners = 0.25, little_of_others = 0.1;  // where the faces behind are known, too
+  const double turn = std::abs(curved), part = turn / std::max({std::abs(corners), first.corners, last.corners});
   if (!first.curved || !last.curved || turn <= least_kink) return false;
   const double next = std::max(first.next, last.next), beyond = std::max(first.beyond, last.beyond);
-  if ((first.any_next || last.any_next) && part > of_corners && next < of_next * turn) return true;
-  return first.any_beyond && last.any_beyond && part > little_of_corners && std::max(next, beyond) < little_of_others * turn;
+  if (first.any_next && last.any_next && part > of_corners && next < of_next * turn) return true;
+  return first.any_beyond && last.any_beyond && part > less_of_corners && std::max(next, beyond) < little_of_others * turn;
 }
 
 CurvedBorders::CurvedBorders(const Side& side) : all_(side)

@@ -10,7 +10,7 @@ namespace mortise::contact {
 
 /// Whether there is a kink where curved faces turn by `curved`, a difference of slopes, and their corners by `corners`; `first`,
 /// `last`: around both. Faces of second order that follow a smooth surface hardly turn by themselves: on waves of three faces by
-/// a third of what their corners do, and by half as much at least at one of two edges beside; on arcs by nothing.
+/// a third of what corners turn by there, and by half as much at least at one of two edges beside; on arcs by nothing.
 bool is_kink_of_curved(double curved, double corners, const FaceEdges::Around& first, const FaceEdges::Around& last);
 
 /// Slopes of two faces that differ by less than this leave too little between the surface through them and the faces.

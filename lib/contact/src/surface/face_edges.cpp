@@ -13,7 +13,10 @@ FaceEdges::FaceEdges(const Side& side) : side_(side), faces_(side.faces.size())
   for (std::size_t f = 0; f < faces_.size(); ++f) faces_[f] = corners_of_face(f);
   find_edges();
   turns_.reserve(edges_.size());
-  for (const Edge& edge : edges_) turns_.push_back(turn_at(edge));
+  for (const Edge& edge : edges_) {
+    turns_.push_back(turn_at(edge));
+    corners_.push_back((faces_[edge.faces[0]].normal - faces_[edge.faces[1]].normal).norm());
+  }
 }
 
 FaceEdges::Face FaceEdges::corners_of_face(std::size_t f) const
@@ -142,6 +145,7 @@ FaceEdges::Around FaceEdges::around(std::size_t face, Local a, Local b, const Pl
         result.curved = result.curved && turns_[e].has_value();
         double& most = next ? result.next : result.beyond;
         most = std::max(most, std::abs(turns_[e].value_or(0)));
+        if (next) result.corners = std::max(result.corners, corners_[e]);
       }
   }
   return result;

@@ -63,6 +63,7 @@ class FaceEdges {
   /// that lie across the way: beside a border there may be none.
   struct Around {
     double next = 0, beyond = 0;
+    double corners = 0;  ///< the most that the faces' corners turn by at the next edges
     bool any_next = false, any_beyond = false;
     bool curved = true;  ///< all faces there are
   };
@@ -85,6 +86,7 @@ class FaceEdges {
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
   std::vector<std::optional<double>> turns_;
+  std::vector<double> corners_;  // of each edge, by how much the slopes of the faces' corners differ
 };
 
 }  // namespace mortise::contact
