@@ -8,18 +8,10 @@ all over. The energy is that of a fine mesh to 4 % (it has a peak at the walls, 
 to 15 %, whichever side is secondary."""
 
 import argparse
-import json
-import os
-import pathlib
-import subprocess
 import sys
-import tempfile
 
 import numpy as np
-
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "population"))
-import meshes  # noqa: E402
+from on_meshes import meshes, solved
 
 RADIUS, INTERFERENCE, DEPTH = 3, 1e-3, 0.25
 YOUNG, POISSON = 210000, 0.3
@@ -58,7 +50,7 @@ def solve(mortise, model, where, secondary):
     bodies = strips(angle, cell, lower, upper, where)
     seams = "".join(f"  - {{secondary: {side}_seam0, primary: {side}_seam1, friction: {{bonded: true}}}}\n" for side in ("lower", "upper")) if where == "seam" else ""
     text = f"""dimension: {3 if solid else "plane_strain"}
-mesh: {{file: strips.msh}}
+mesh: {{file: mesh.msh}}
 materials: {{steel: {{young_modulus: {YOUNG}, poisson_ratio: {POISSON}}}}}
 bodies: {{{", ".join(f"{name}: {{material: steel}}" for name in bodies)}}}
 supports:
@@ -70,15 +62,7 @@ contacts:
   - {{name: edge, secondary: {secondary}, primary: {"ridge" if secondary == "groove" else "groove"}, interference: {INTERFERENCE}}}
 {seams}solver: {{tolerance: 1.0e-8}}
 """
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = pathlib.Path(scratch)
-        meshes.write(folder / "strips.msh", bodies)
-        (folder / "strips.yaml").write_text(text)
-        done = subprocess.run([mortise, str(folder / "strips.yaml"), "--output", str(folder / "out")], capture_output=True, text=True,
-                              env=dict(os.environ, OMP_NUM_THREADS="1"), timeout=300)
-        if done.returncode != 0:
-            raise SystemExit(f"{text}\n{done.stdout}{done.stderr}\nexit status {done.returncode}")
-        summary = json.loads((folder / "out" / "summary.json").read_text())
+    summary = solved(mortise, text, bodies)
     energy = summary["strain_energy"] * (2 if where == "symmetry" else 1) / (DEPTH if solid else 1)
     return energy, max(c["max_recovered_pressure"] for c in summary["contacts"] if c["name"] == "edge")
 

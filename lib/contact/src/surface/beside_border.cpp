@@ -86,4 +86,11 @@ void follow_neighbours(std::vector<FacetEdge> edges, std::vector<GoesOn>& nodes)
     if (nodes[n] != GoesOn::not_asked && votes[n] != 0) nodes[n] = votes[n] > 0 ? GoesOn::yes : GoesOn::no;
 }
 
+void deny(std::span<const FacetEdge> parts, std::span<GoesOn> nodes)
+{
+  for (const FacetEdge& part : parts)
+    for (const Local n : part)
+      if (auto& said = nodes[static_cast<std::size_t>(n)]; said != GoesOn::not_asked) said = GoesOn::no;
+}
+
 }  // namespace mortise::contact

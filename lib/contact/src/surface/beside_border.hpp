@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -55,5 +56,7 @@ bool goes_on(const Point& face, const Point& alone, const Point& other_face, con
 /// own counts. A side that goes on at some nodes alone would have slits in it.
 enum class GoesOn : char { not_asked, no, yes };
 void follow_neighbours(std::vector<FacetEdge> edges, std::vector<GoesOn>& nodes);
+/// Of the nodes of an edge, or of its parts, those that were asked say no.
+void deny(std::span<const FacetEdge> parts, std::span<GoesOn> nodes);
 
 }  // namespace mortise::contact

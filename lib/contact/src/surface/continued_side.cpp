@@ -30,14 +30,12 @@ class SymmetryPlanes {
       : side_(side), alone_(alone), supports_(supports), corners_(corners_of_nodes(side))
   {
     for (std::size_t f = 0; f < side.facets.size(); ++f) add_border_of(f);
+    if (planes_.empty()) return;
     const CurvedBorders curved(side);
     for (auto& plane : planes_) {
       const auto in_plane = [&](Local n) { return plane.said[static_cast<std::size_t>(n)] != GoesOn::not_asked; };
-      for (const auto& edge : curved.edges()) {
-        if (!in_plane(edge.a) || !in_plane(edge.b) || !curved.meets_image_at_kink(edge, plane.normal)) continue;
-        for (const FacetEdge& part : edge.parts)
-          for (const Local n : part) plane.said[static_cast<std::size_t>(n)] = GoesOn::no;
-      }
+      for (const auto& edge : curved.edges())
+        if (in_plane(edge.a) && in_plane(edge.b) && curved.meets_image_at_kink(edge, plane.normal)) deny(edge.parts, plane.said);
       follow_neighbours(plane.border, plane.said);
       for (const GoesOn said : plane.said) plane.has.push_back(said == GoesOn::yes ? 1 : 0);
     }

@@ -31,7 +31,7 @@ CurvedBorders::CurvedBorders(const Side& side) : all_(side)
   for (std::size_t e = 0; e < all.size(); ++e) {
     const bool shared = (e > 0 && ends(all[e - 1]) == ends(all[e])) || (e + 1 < all.size() && ends(all[e + 1]) == ends(all[e]));
     if (shared) continue;
-    for (const FacetEdge& part : all_.facet_edges(all[e].face, all[e].a, all[e].b)) all[e].parts.push_back(part);
+    all[e].parts = all_.facet_edges(all[e].face, all[e].a, all[e].b);
     edges_.push_back(std::move(all[e]));
   }
 }

@@ -22,7 +22,7 @@ class CurvedBorders {
   struct Edge {
     std::size_t face;
     Local a, b;  ///< the same in plane models
-    std::vector<FacetEdge> parts;
+    Few<FacetEdge, 2> parts;
   };
 
   explicit CurvedBorders(const Side& side);

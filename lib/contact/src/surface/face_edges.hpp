@@ -86,7 +86,7 @@ class FaceEdges {
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
   std::vector<std::optional<double>> turns_;
-  std::vector<double> corners_;  // of each edge, by how much the slopes of the faces' corners differ
+  std::vector<double> corners_;  // of each edge, by how much the faces turn by their corners
 };
 
 }  // namespace mortise::contact

@@ -156,14 +156,14 @@ GoesOn FacesAtBonds::go_on(const Side& side, std::span<const SurfaceNodes> alone
 }
 
 // Says no for the nodes of edges at which curved faces of both meet at a kink.
-void FacesAtBonds::deny_at_kinks_of_curved(const Side& side, const Side& beyond, std::span<Met> met, std::span<GoesOn> votes)
+void FacesAtBonds::deny_at_kinks_of_curved(const CurvedBorders& here, const Side& beyond, std::span<const Met> met,
+                                           std::span<GoesOn> votes)
 {
-  const CurvedBorders here(side), there(beyond);
+  const CurvedBorders there(beyond);
   std::multimap<Local, Local> nodes;
   for (const Met& m : met) nodes.emplace(static_cast<Local>(m.here), static_cast<Local>(m.beyond));
   std::map<FacetEdge, const CurvedBorders::Edge*> edges;
   for (const auto& edge : there.edges()) edges[{edge.a, edge.b}] = &edge;
-  std::vector<FacetEdge> kinks;
   for (const auto& edge : here.edges()) {
     const auto [first_a, last_a] = nodes.equal_range(edge.a);
     const auto [first_b, last_b] = nodes.equal_range(edge.b);
@@ -171,17 +171,15 @@ void FacesAtBonds::deny_at_kinks_of_curved(const Side& side, const Side& beyond,
       for (auto b = first_b; b != last_b; ++b)
         if (const auto found = edges.find({std::min(a->second, b->second), std::max(a->second, b->second)});
             found != edges.end() && here.meets_at_kink(edge, there, *found->second))
-          kinks.insert(kinks.end(), edge.parts.begin(), edge.parts.end());
+          deny(edge.parts, votes);
   }
-  for (const FacetEdge& part : kinks)
-    for (const Local n : part) votes[static_cast<std::size_t>(n)] = GoesOn::no;
 }
 
 // The nodes of a side at a bond and those beyond that lie in the same places. Of several in one place those count that say most.
-std::vector<FacesAtBonds::Met> FacesAtBonds::meet(const Side& side, std::span<const SurfaceNodes> alone,
-                                                  std::span<const Local> nodes, const Moved& beyond)
+std::vector<FacesAtBonds::Met> FacesAtBonds::meet(const Beside& beside, std::span<const Local> nodes, const Moved& beyond)
 {
-  const auto corners = corners_of_nodes(side), corners_beyond = corners_of_nodes(beyond.faces);
+  const auto& [side, alone, corners, borders] = beside;
+  const auto corners_beyond = corners_of_nodes(beyond.faces);
   const auto edges = shortest_edges(beyond.faces);
   std::vector<Box> boxes;
   for (const Local n : nodes) {
@@ -204,7 +202,7 @@ std::vector<FacesAtBonds::Met> FacesAtBonds::meet(const Side& side, std::span<co
       result.push_back({n, here, distance, said});
     }
   }
-  deny_at_kinks_of_curved(side, beyond.faces, result, votes);
+  deny_at_kinks_of_curved(borders, beyond.faces, result, votes);
   std::vector<FacetEdge> border;
   const auto asked = [&](Local n) { return votes[static_cast<std::size_t>(n)] != GoesOn::not_asked; };
   for (std::size_t f = 0; f < side.facets.size(); ++f)
@@ -221,13 +219,14 @@ void FacesAtBonds::append_to(Side& whole, const Side& side, std::span<const Surf
                              std::span<const AtBond> at_bonds) const
 {
   if (at_bonds.empty()) return;
+  const Beside beside{side, alone, corners_of_nodes(side), CurvedBorders(side)};
   for (const auto& [bond, at_side, nodes] : at_bonds) {
     const auto& beyond = at_bond_[static_cast<std::size_t>(bond)][static_cast<std::size_t>(1 - at_side)];
     const auto& points = beyond.faces.points;
     std::vector<Local> local(points.size(), -1);
     std::vector<char> common(local.size(), 0);
     std::vector<double> nearest(local.size(), std::numeric_limits<double>::max());
-    for (const auto& [n, here, distance, said] : meet(side, alone, nodes, beyond))
+    for (const auto& [n, here, distance, said] : meet(beside, nodes, beyond))
       if (distance <= nearest[n]) nearest[n] = distance, local[n] = static_cast<Local>(here), common[n] = 1;
     const auto chosen = facets_round(beyond.faces.facets, common);
     for (std::size_t f = 0; f < chosen.size(); ++f) {

@@ -7,6 +7,7 @@
 
 #include "contact/mortar.hpp"
 #include "surface/beside_border.hpp"
+#include "surface/curved_borders.hpp"
 
 namespace mortise::contact {
 
@@ -60,9 +61,16 @@ class FacesAtBonds {
   };
   static GoesOn go_on(const Side& side, std::span<const SurfaceNodes> alone, const NodeCorners& corners, const Moved& beyond,
                       const NodeCorners& corners_beyond);
-  static void deny_at_kinks_of_curved(const Side& side, const Side& beyond, std::span<Met> met, std::span<GoesOn> votes);
-  static std::vector<Met> meet(const Side& side, std::span<const SurfaceNodes> alone, std::span<const Local> nodes,
-                               const Moved& beyond);
+  static void deny_at_kinks_of_curved(const CurvedBorders& here, const Side& beyond, std::span<const Met> met,
+                                      std::span<GoesOn> votes);
+  // A side, and what all bonds ask of it.
+  struct Beside {
+    const Side& side;
+    std::span<const SurfaceNodes> alone;
+    std::vector<NodeCorners> corners;
+    CurvedBorders borders;
+  };
+  static std::vector<Met> meet(const Beside& beside, std::span<const Local> nodes, const Moved& beyond);
 
   std::vector<BondNode> nodes_;                // this rank's by number, see by_node()
   std::vector<std::array<Moved, 2>> at_bond_;  // by pair and side
