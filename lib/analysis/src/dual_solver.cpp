@@ -90,26 +90,12 @@ feti::DualSolution DualSolver::solve_tresca(Step& step)
 // the first. With patience other approaches come before these.
 feti::DualSolution DualSolver::solve_coulomb(Step& step)
 {
-  friction::CoulombSearch search({problem_, laws_, omega_, *step.right, step.goal, loop_}, {*algorithm_, hessian_, budget_},
-                                 step.start, step.watch);
-  search.follow_law();
-  if (!search.solved() || !step.patience || from_direct_)
-    search.fixed_point();  // a few products each, from what A^-1 leads on from
-  const std::string limit = hessian_.exhausted()                ? budget_.reason()
-                            : search.steps() >= loop_.max_steps ? "friction_loop.max_steps"
-                                                                : "";
-  const bool spent = hessian_.exhausted();
-  if (!step.patience) search.follow_cautiously(step.before);
-  if (search.solved() && (search.converged() || !(spent || hessian_.exhausted()))) search.judge();
-  step.radii = search.radii();
-  feti::DualSolution result{search.solution()};
-  result.steps = search.steps();
-  result.change = search.change();
-  result.converged = search.converged() && result.solution.converged;
-  result.limit = limit;
-  result.preconditionings = search.preconditionings();
-  result.outer_iterations = search.outer_iterations();
-  return result;
+  const bool persistent = !step.patience;
+  auto [result, radii] = friction::solve_coulomb(
+      {problem_, laws_, omega_, *step.right, step.goal, loop_, step.before, step.start}, {*algorithm_, hessian_, budget_},
+      {.fixed_point = persistent || from_direct_, .cautiously = persistent}, step.watch);
+  step.radii = std::move(radii);
+  return std::move(result);
 }
 
 // What the last residual still changes, by the preconditioner. No product.

@@ -2,18 +2,19 @@
 
 #include <utility>
 
+#include "coulomb_search.hpp"
 #include "equilibrium.hpp"
 
 namespace mortise::friction {
 
-CoulombSearch::CoulombSearch(CoulombProblem problem, CoulombMeans means, std::optional<qp::Solution> start, Observer observer)
-    : problem_(std::move(problem)),
+CoulombSearch::CoulombSearch(const CoulombProblem& problem, const CoulombMeans& means, const Observer& observer)
+    : problem_(problem),
       means_(means),
-      watch_([this, tell = std::move(observer)](const qp::Progress& progress) { tell(step_, change_, progress); }),
+      watch_([this, &observer](const qp::Progress& progress) { observer(step_, change_, progress); }),
       radii_(radii_at(nullptr)),
       previous_radii_(radii_),
       at_work_(radii_),
-      solution_(std::move(start))
+      solution_(problem.start)
 {
 }
 
@@ -75,11 +76,11 @@ void CoulombSearch::follow_law()
   solved_ = true;
 }
 
-void CoulombSearch::follow_cautiously(const std::optional<qp::Solution>& start)
+void CoulombSearch::follow_cautiously()
 {
   if (converged_ || !means_.budget.left()) return;
   means_.budget.change_algorithm();
-  const auto found = means_.algorithm.solve(problem_.right, slip_law(true), start, problem_.goal, watch_);
+  const auto found = means_.algorithm.solve(problem_.right, slip_law(true), problem_.before, problem_.goal, watch_);
   if (!found) return;
   count(*found);
   if (!found->feasible) return;
@@ -96,6 +97,35 @@ void CoulombSearch::follow_cautiously(const std::optional<qp::Solution>& start)
 void CoulombSearch::judge()
 {
   judge_by_law(problem_.dual, problem_.omega.with_radii(at_work_), problem_.laws, means_.hessian, *solution_);
+}
+
+CoulombSolution CoulombSearch::solve(const CoulombWays& ways)
+{
+  const auto& hessian = means_.hessian;
+  follow_law();
+  if (!solved_ || ways.fixed_point) fixed_point();  // a few products each, from what A^-1 leads on from
+  const bool spent = hessian.exhausted();
+  std::string limit;
+  if (spent)
+    limit = means_.budget.reason();
+  else if (step_ >= problem_.options.max_steps)
+    limit = "friction_loop.max_steps";
+  if (ways.cautiously) follow_cautiously();
+  if (solved_ && (converged_ || !(spent || hessian.exhausted()))) judge();
+  return {{.solution = *solution_,
+           .steps = step_,
+           .change = change_,
+           .converged = converged_ && solution_->converged,
+           .limit = std::move(limit),
+           .preconditionings = preconditionings_,
+           .outer_iterations = outer_},
+          at_work_};
+}
+
+CoulombSolution solve_coulomb(const CoulombProblem& problem, const CoulombMeans& means, const CoulombWays& ways,
+                              const Observer& observer)
+{
+  return CoulombSearch(problem, means, observer).solve(ways);
 }
 
 }  // namespace mortise::friction

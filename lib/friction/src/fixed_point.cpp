@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "coulomb_search.hpp"
 #include "equilibrium.hpp"
-#include "friction/coulomb.hpp"
 #include "qp/error_estimate.hpp"
 #include "qp/predicted_solution.hpp"
 #include "relaxation.hpp"
@@ -145,7 +145,7 @@ void CoulombSearch::fixed_point()
   constexpr int most_failures = 15;
   constexpr int steps_of_fall = 2, most_falls = 2;
   constexpr int idle_steps = 3;  // without a smaller change, which is then what solutions leave of the light groups of bodies
-  const auto& [dual, laws, omega, right, goal, options] = problem_;
+  const auto& [dual, laws, omega, right, goal, options, before, begin] = problem_;
   Relaxation relaxation(dual.communicator());
   int failures = 0, falls = 0, idle = 0;
   double strictness = 1, least_change = 1;

@@ -100,8 +100,8 @@ TEST_P(Wedges, GoBackFromBoundsThatLeaveNothing)
       sums.emplace(number, wedge.comm.sum(sum));
     };
     const auto found = step.solve();
-    EXPECT_TRUE(found->converged() && found->solution().converged) << algorithm;
-    const Eigen::VectorXd forces = forces_of(problem, found->solution().x, wedge.points.size());
+    EXPECT_TRUE(found.converged) << algorithm;
+    const Eigen::VectorXd forces = forces_of(problem, found.solution.x, wedge.points.size());
     EXPECT_LT((forces - expected.forces).norm(), (slow ? 1e-5 : 1e-7) * size) << algorithm;
     if (!slow) continue;  // the others follow the law in one loop
     ASSERT_GE(sums.size(), 3U);

@@ -56,20 +56,14 @@ struct CoulombStep {
         goal{tolerance}
   {
   }
-  // All that there is, in turn.
-  std::unique_ptr<const CoulombSearch> solve()
+  // By all ways that there are.
+  feti::DualSolution solve()
   {
     std::optional<qp::Solution> start;
     solver->begin(*right, problem.radii(slip_bounds(problem, laws, nullptr)), start, goal, {});
-    const CoulombProblem step{problem, laws, omega, *right, goal, {goal.residual, 200}};
-    auto search =
-        std::make_unique<CoulombSearch>(step, CoulombMeans{*solver, hessian, budget}, start,
-                                        [this](int number, double, const qp::Progress& progress) { watch(number, progress); });
-    search->follow_law();
-    search->fixed_point();
-    search->follow_cautiously(start);
-    search->judge();
-    return search;
+    return solve_coulomb({problem, laws, omega, *right, goal, {goal.residual, 200}, start, start}, {*solver, hessian, budget}, {},
+                         [this](int number, double, const qp::Progress& progress) { watch(number, progress); })
+        .found;
   }
 
   feti::DualProblem& problem;

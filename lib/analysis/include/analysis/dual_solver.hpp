@@ -19,7 +19,7 @@ namespace mortise::analysis {
 using Observer = std::function<void(int step, double change, const qp::Progress&)>;
 
 /// One load step after the other on a dual problem, which gets another right-hand side between them: recycled directions, the
-/// norm and M of SMALSE-M stay. Where a contact has Coulomb's law, friction::CoulombSearch finds its slip bounds; else they are
+/// norm and M of SMALSE-M stay. Where a contact has Coulomb's law, friction::solve_coulomb() finds its slip bounds; else they are
 /// given.
 class DualSolver {
  public:

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "feti/dual_problem.hpp"
+#include "feti/dual_solution.hpp"
 #include "friction/law.hpp"
 #include "friction/options.hpp"
 #include "qp/solver.hpp"
@@ -28,6 +29,8 @@ struct CoulombProblem {
   const qp::RightHandSide& right;
   qp::Goal goal;
   Options options;
+  const std::optional<qp::Solution>& before;  ///< the solution of the load step before
+  const std::optional<qp::Solution>& start;   ///< this, or what the algorithm knows better
 };
 
 /// By what it is solved. Refers to its parts; they outlive it.
@@ -37,68 +40,20 @@ struct CoulombMeans {
   qp::Budget& budget;
 };
 
-/// The search for forces that obey the law, from one call to the next. Calls throw Error(no_equilibrium) that names the body that
-/// moves and how where no such forces balance the loads. All are collective.
-class CoulombSearch {
- public:
-  /// `start`: where it begins. What the problem and the means refer to outlives it.
-  CoulombSearch(CoulombProblem problem, CoulombMeans means, std::optional<qp::Solution> start, Observer observer);
-  CoulombSearch(const CoulombSearch&) = delete;
-  CoulombSearch& operator=(const CoulombSearch&) = delete;
-
-  /// Bounds and forces together, if the algorithm can.
-  void follow_law();
-  /// Tresca problems until their bounds are at rest, from what was found so far.
-  void fixed_point();
-  /// Once more together from `start`, by steps that may be shortened: for where neither of these converges.
-  void follow_cautiously(const std::optional<qp::Solution>& start);
-  /// Takes what bounds and normal forces still differ by for error, at the end.
-  void judge();
-
-  bool solved() const { return solved_; }        ///< whether there is a solution of this load step
-  bool converged() const { return converged_; }  ///< whether its bounds are those that the law gives
-  const qp::Solution& solution() const { return *solution_; }
-  /// Radii of the last problem that was solved or tried.
-  const std::vector<double>& radii() const { return at_work_; }
-  int steps() const { return step_; }        ///< Tresca problems
-  double change() const { return change_; }  ///< relative, of the slip bounds in the last step
-  int outer_iterations() const { return outer_; }
-  int preconditionings() const { return preconditionings_; }
-
- private:
-  std::vector<double> radii_at(const Vector* lambda) const;
-  qp::SlipLaw slip_law(bool cautious) const;
-  void count(const qp::Solution& found);
-  bool obeys_law(const qp::Solution& found, const std::vector<double>& radii, double change) const;
-  double change_of_radii(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const;
-  bool believable() const;
-  // Of the fixed point.
-  bool solve_tresca(const qp::Goal& goal);
-  void step_back();
-  void admit();
-  bool contacts_at_rest();
-  bool at_rest(const std::vector<double>& wanted, double tolerance);
-  double error_of_bounds(const std::vector<double>& wanted);
-  void note_response(const std::vector<double>& wanted);
-
-  const CoulombProblem problem_;
-  const CoulombMeans means_;
-  const qp::Observer watch_;
-  std::vector<double> radii_, previous_radii_;  // of discs, see DualProblem::radii(): those that come next, and before
-  std::vector<double> at_work_;                 // those of the last problem that was solved, or tried
-  std::optional<qp::Solution> solution_;        // at first the start
-  bool solved_ = false;                         // it is of this load step
-  bool converged_ = false;
-  double change_ = 1;
-  int step_ = 0, outer_ = 0, preconditionings_ = 0;
-  // Of the last Tresca problem that was infeasible, nu, and whether that proves it; and how many were, one after the other.
-  Eigen::VectorXd escape_;
-  bool proven_ = false;
-  int infeasible_ = 0;
-  // A Tresca problem's last radii, and those that its solution asks for; maybe none on this rank.
-  bool any_answer_ = false;
-  std::vector<double> answered_, answer_;
-  double response_ = 1;  // how much of a change of bounds the normal forces answer with; 1: unknown
+/// What is tried after bounds and forces together did not converge.
+struct CoulombWays {
+  bool fixed_point = true;  ///< Tresca problems until their bounds are at rest, from there; always where nothing was found
+  bool cautiously = true;   ///< last: once more together, by steps that may be shortened
 };
+
+struct CoulombSolution {
+  feti::DualSolution found;   ///< without its slip bounds and products
+  std::vector<double> radii;  ///< of the last problem that was solved or tried, see DualProblem::radii()
+};
+
+/// Forces that obey the law. Throws Error(no_equilibrium) that names the body that moves and how where no such forces balance the
+/// loads. Collective.
+CoulombSolution solve_coulomb(const CoulombProblem& problem, const CoulombMeans& means, const CoulombWays& ways,
+                              const Observer& observer);
 
 }  // namespace mortise::friction
