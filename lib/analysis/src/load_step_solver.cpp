@@ -173,19 +173,22 @@ void LoadStepSolver::make_solver()
   solver_.emplace(*problem_, model::friction_laws(assembly_.model().contacts()), assembly_.deck().friction_loop, options);
 }
 
-// Takes note of how large forces, energies and rounding are in a state, which the next ones are measured by. Collective.
-void LoadStepSolver::note_sizes(const StepState& state)
+// Of a state, which is that of the problem still, and of those before it. Collective.
+Magnitudes LoadStepSolver::up_to(const StepState& state) const
 {
+  const auto scope = context_.timers.scope("solve");
   const auto& comm = context_.comm;
+  Magnitudes result = state.before;
   const auto constitution = assembly_.model().constitution(rows_->acts);
-  largest_norm_ = std::max(largest_norm_, norms(constitution, state.solved.solution.x, state.displacement).whole);
+  result.energy_norm = std::max(result.energy_norm, norms(constitution, state.solved.solution.x, state.displacement).whole);
   const auto sizes = post::body_sizes(assembly_.decomposition(), assembly_.deck().kinematics, comm);
-  rounding_before_.take(post::rounding(state.displacement, problem_->load(), assembly_.system().nodal_stiffness,
-                                       problem_->dimension(), *std::max_element(sizes.begin(), sizes.end()), comm));
+  result.rounding.take(post::rounding(state.displacement, problem_->load(), assembly_.system().nodal_stiffness,
+                                      problem_->dimension(), *std::max_element(sizes.begin(), sizes.end()), comm));
   double square = 0;
   for (const auto& f : problem_->jump().apply_transpose(state.solved.solution.x)) square += f.squaredNorm();
-  largest_force_ = std::max(largest_force_, std::sqrt(comm.sum(square)));
-  rounding_before_.force = std::max(rounding_before_.force, part_to_balance * largest_force_);
+  result.force = std::max(result.force, std::sqrt(comm.sum(square)));
+  result.rounding.force = std::max(result.rounding.force, part_to_balance * result.force);
+  return result;
 }
 
 // Makes the problem that of the state `acts`, in place if its rows stay, and turns `from`, the state before, into a start for it.
@@ -200,7 +203,6 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
     load = assembly_.loads(acts, comm);
   }
   const auto scope = context_.timers.scope("solve");
-  note_sizes(from);
   Rows rows = *from.rows;
   const Eigen::VectorXd jumps = problem_->jumps(from.displacement) - problem_->given_way(from.solved.solution.x);
   const auto& ranges = problem_->jump().ranges();
@@ -238,6 +240,7 @@ LoadStepSolver::Norms LoadStepSolver::norms(std::span<const fem::Constitution> c
 
 StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<StepState> before, const Observer& observer)
 {
+  const auto magnitudes = before ? up_to(*before) : Magnitudes{};
   if (before) update(acts, *before);
   const auto scope = context_.timers.scope("solve");
   const auto constitution = assembly_.model().constitution(acts);
@@ -261,7 +264,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
                                          problem_->displacement(lambda, nu), nu);
           },
       .energy_norm = [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
-      .negligible = negligible()};
+      .negligible = magnitudes.negligible()};
   const auto count_on = [&](int step, double change, qp::Progress progress) {
     progress.applications += before_;
     observer(step, change, progress);
@@ -270,25 +273,26 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   std::optional<qp::Solution> start;
   if (before) start = before->solved.solution;
   auto found = solver_->solve(start, accuracy, count_on, patience);
-  if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}, patience};
+  if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}, patience, magnitudes};
   if (approach_.kind == Approach::Kind::direct_instead)
     patience.reset();  // what it has solved is not thrown away for a later state
-  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, unfelt_force * largest_force_);
+  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, unfelt_force * magnitudes.force);
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   refuse_support_of_facets(*problem_, assembly_, *rows_, found, displacement);
   auto shortenings = problem_->shortenings(found.solution.nu);
-  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings), patience};
+  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings), patience, magnitudes};
 }
 
 StepState LoadStepSolver::take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record)
 {
+  const auto magnitudes = before ? up_to(*before) : Magnitudes{};
   if (before) update(acts, *before);
   const auto patience = before ? before->patience : approach_.patience;
   auto found = solution_of(record, *problem_);
   before_ += found.applications;
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   auto shortenings = problem_->shortenings(found.solution.nu);
-  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings), patience};
+  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings), patience, magnitudes};
 }
 
 post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,
@@ -304,9 +308,9 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
                                       state.displacement,
                                       deck.supports.size(),
                                       deck.solver.programme.tolerance.value.value_or(0),
-                                      solver.negligible(),
-                                      solver.rounding_before(),
-                                      solver.largest_force_before()};
+                                      state.before.negligible(),
+                                      state.before.rounding,
+                                      state.before.force};
   const auto bodies = elastic_bodies(assembly, constitution, *state.symmetric);
   auto results = [&] {
     const auto scope = context.timers.scope("stresses");

@@ -16,6 +16,16 @@ namespace mortise::analysis {
 /// Of each subdomain of this rank, see find_symmetric_nodes().
 using SymmetricNodes = std::vector<std::vector<post::SymmetricNode>>;
 
+/// How large things are in the load states so far, 0 in none: what the next one is measured by.
+struct Magnitudes {
+  post::Rounding rounding;  ///< what counts as rounding
+  double force = 0;         ///< ||B'lambda||, the largest
+  double energy_norm = 0;   ///< what springs store included, the largest
+
+  /// An energy norm that counts as none, see qp::Goal::negligible.
+  double negligible() const { return 1e-8 * energy_norm; }
+};
+
 /// A solved load state, from which the next one starts. A value.
 struct StepState {
   std::shared_ptr<const Rows> rows;
@@ -24,6 +34,7 @@ struct StepState {
   std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
   std::vector<double> shortenings;            ///< of the preloaded contacts, lengths
   std::optional<qp::Patience> patience;       ///< when the next load step gives up
+  Magnitudes before;                          ///< of the states before this one
 };
 
 /// The dual problem of a load state, and the rows that it is of. Heavy: moves, does not copy.
@@ -59,12 +70,6 @@ class LoadStepSolver {
 
   /// The dual problem of the last state; replaced by another one when rows change.
   const feti::DualProblem& problem() const { return *problem_; }
-  /// An energy norm that counts as none beside the states before, see qp::Goal::negligible.
-  double negligible() const { return 1e-8 * largest_norm_; }
-  /// What counts as rounding in the states before this one.
-  const post::Rounding& rounding_before() const { return rounding_before_; }
-  /// ||B'lambda||, the largest of the states before.
-  double largest_force_before() const { return largest_force_; }
   /// Products with F of all load steps and of the earlier approaches, also of a load step that threw.
   int applications() const { return before_ + (solver_ ? solver_->applications() : 0); }
 
@@ -78,7 +83,7 @@ class LoadStepSolver {
               const std::vector<Eigen::VectorXd>& displacement) const;
   void make_solver();
   void take_rows(Rows rows);
-  void note_sizes(const StepState& state);
+  Magnitudes up_to(const StepState& state) const;
   void update(const model::LoadState& acts, StepState& from);
 
   const Assembly& assembly_;
@@ -89,9 +94,6 @@ class LoadStepSolver {
   std::unique_ptr<feti::DualProblem> problem_;
   std::optional<DualSolver> solver_;  // refers to the problem
   int before_ = 0;                    // products of the solvers and approaches before this one
-  post::Rounding rounding_before_;
-  double largest_force_ = 0;  // ||B'lambda||, likewise
-  double largest_norm_ = 0;   // energy norm, springs included, of all states before
 };
 
 /// All results of the state that solver.solve() or take_up() returned last, also inside bodies where `probes` are. Throws
