@@ -87,5 +87,29 @@ TEST(Slides, teeth_stand_in_the_whole)
   EXPECT_GT(root(slide.whole, spin), 2 * std::sqrt(slide.tilt) * root(slide.speed, spin));
 }
 
+// Of a turn about the axis a facet feels nothing in the mean, a part of a flat does.
+TEST(Slides, parts_of_flats_are_no_facets)
+{
+  const Communicator comm;
+  for (const int faces : {1, 2, 5}) {
+    Pair pair;
+    pair.options.obstacle = Obstacle{};
+    pair.secondary = surface(
+        {16 * faces, 4, 0, 16, 0, 10, true},
+        [&](double x, double z) {
+          const auto corner = [](double k) {
+            return Point(10 * std::cos(k * std::numbers::pi / 8), 10 * std::sin(k * std::numbers::pi / 8), 0);
+          };
+          const double k = std::min(std::floor(x + 1e-9), 15.0), part = x - k;
+          return Point((1 - part) * corner(k) + part * corner(k + 1) + z * Point::UnitZ());
+        },
+        comm);
+    const auto slide = sliding_surfaces({&pair, 1}, {}, fem::Kinematics::solid, comm).front();
+    const auto spin = about_axis(slide);
+    const double means = slide.of_faces.cwiseProduct(spin * spin.transpose()).sum(), whole = std::pow(root(slide.whole, spin), 2);
+    EXPECT_NEAR(means / whole, 1 - 1.0 / (faces * faces), 1e-6) << faces << " faces a flat";
+  }
+}
+
 }  // namespace
 }  // namespace mortise::contact

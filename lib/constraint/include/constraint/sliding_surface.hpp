@@ -16,9 +16,10 @@ struct SlidingSurface {
   int body = 0;
   Point centre = Point::Zero();
   double length = 1;
-  Form whole = Form::Zero();   ///< of (n . v)^2
-  Form smooth = Form::Zero();  ///< of the square of what n . v has in common with quadratic polynomials; of few faces the whole
-  Form speed = Form::Zero();   ///< of |v|^2
+  Form whole = Form::Zero();     ///< of (n . v)^2
+  Form of_faces = Form::Zero();  ///< of the square of the mean of n . v on each face
+  Form smooth = Form::Zero();    ///< of the square of what n . v has in common with quadratic polynomials; of few faces the whole
+  Form speed = Form::Zero();     ///< of |v|^2
   double tilt = 0;  ///< mean square of the angle (radians) between a face and the mean of those at its nodes, kinks apart
 };
 

@@ -232,9 +232,10 @@ constexpr double enough_faces = 20;
 struct Sums {
   Eigen::Matrix<double, terms, terms> gram = Eigen::Matrix<double, terms, terms>::Zero();
   Eigen::Matrix<double, terms, 6> mixed = Eigen::Matrix<double, terms, 6>::Zero();
-  SlidingSurface::Form whole = SlidingSurface::Form::Zero(), speed = SlidingSurface::Form::Zero();
+  SlidingSurface::Form whole = SlidingSurface::Form::Zero(), speed = SlidingSurface::Form::Zero(),
+                       of_faces = SlidingSurface::Form::Zero();
 };
-static_assert(sizeof(Sums) == sizeof(double) * (100 + 60 + 72));
+static_assert(sizeof(Sums) == sizeof(double) * (100 + 60 + 3 * 36));
 
 std::vector<Key> all_keys(const std::vector<TouchedFace>& faces, const Communicator& comm)
 {
@@ -303,19 +304,29 @@ void set_speeds(const SlidingFaces& all, const std::vector<SlidingExtent>& exten
                 std::vector<SlidingSurface>& surfaces)
 {
   std::vector<Sums> sums(surfaces.size());
-  all.for_each_point([&](std::size_t, std::size_t k, const auto& at) {
+  struct OfFace {
+    Eigen::Matrix<double, 6, 1> speed = Eigen::Matrix<double, 6, 1>::Zero();  // integral of n . v
+    double area = 0;
+  };
+  std::vector<OfFace> of_face(all.faces.size());
+  all.for_each_point([&](std::size_t f, std::size_t k, const auto& at) {
     const double w = at.normal.norm();
     const auto speed_here = normal_speed(surfaces[k], at.x, at.normal / w);
+    of_face[f].speed += w * speed_here;
+    of_face[f].area += w;
     const Terms p = polynomials(surfaces[k], at.x);
     sums[k].gram += w * p * p.transpose();
     sums[k].mixed += w * p * speed_here.transpose();
     sums[k].whole += w * speed_here * speed_here.transpose();
     sums[k].speed += w * speed(surfaces[k], at.x);
   });
+  for (std::size_t f = 0; f < of_face.size(); ++f)
+    sums[all.surface[f]].of_faces += of_face[f].speed * of_face[f].speed.transpose() / of_face[f].area;
   comm.sum_in_place({reinterpret_cast<double*>(sums.data()), sums.size() * sizeof(Sums) / sizeof(double)});
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     auto& slide = surfaces[k];
     slide.whole = sums[k].whole / extents[k].area;
+    slide.of_faces = sums[k].of_faces / extents[k].area;
     slide.smooth = slide.whole;
     if (extents[k].faces >= enough_faces)
       slide.smooth = sums[k].mixed.transpose() * dense::minimum_norm(sums[k].gram, sums[k].mixed) / extents[k].area;
