@@ -167,6 +167,45 @@ void average_over_faces(std::vector<NodeState>& own, std::span<const Pair> pairs
   }
 }
 
+// Where all points at a kink stick, their tractions may oppose each other by any amount: bodies feel the sum alone. A stress in
+// the body leaves t_i = sigma n_i, which differ from their mean by about its size times the tangent of what normals lean by from
+// theirs. So by no more than that.
+void limit_opposing_tractions(std::vector<NodeState>& own)
+{
+  using Normal = Eigen::Map<const Point>;
+  constexpr double rounding_of_motion = 1e-7;  // of the size of a face
+  for (std::size_t first = 0, end = 0; first < own.size(); first = end) {
+    while (end < own.size() && own[end].node == own[first].node && own[end].contact == own[first].contact) ++end;
+    const std::span points(own.begin() + static_cast<std::ptrdiff_t>(first), end - first);
+    const auto sticks = [](const NodeState& p) { return p.status == static_cast<int>(Status::stick); };
+    const auto rests = [&](const NodeState& p) {
+      const double least = rounding_of_motion * std::sqrt(p.area);
+      return !p.bare && p.area > 0 && (sticks(p) || (std::abs(p.gap) < least && Normal(p.slip.data()).norm() < least));
+    };
+    if (points.size() < 2 || std::ranges::none_of(points, sticks) || !std::ranges::all_of(points, rests)) continue;
+    double area = 0;
+    Point mean = Point::Zero(), direction = Point::Zero();
+    for (const auto& p : points) {
+      area += p.area;
+      mean += p.area * Normal(p.traction.data());
+      direction += p.area * Normal(p.normal.data());
+    }
+    mean /= area;
+    direction.normalize();
+    double part = 1;
+    for (const auto& p : points) {
+      const double off = (Normal(p.traction.data()) - mean).norm(), along = Normal(p.normal.data()).dot(direction);
+      const double most = along > 0 ? mean.norm() * std::sqrt(std::max(1 - along * along, 0.0)) / along : off;
+      if (off > most) part = std::min(part, most / off);
+    }
+    for (auto& p : points) {
+      Eigen::Map<Point> traction(p.traction.data());
+      traction = mean + part * (traction - mean);
+      p.force = -traction.dot(Normal(p.normal.data()));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,
@@ -185,6 +224,7 @@ std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> point
     node.force /= node.area;
     for (double& traction : node.traction) traction /= node.area;
   }
+  limit_opposing_tractions(own);
   narrow.take_pressures(own);
   average_over_faces(own, pairs, comm);
   narrow.take_recovered(own);
