@@ -59,6 +59,31 @@ TEST(CurvedBorders, ArcsThatMeetAtAnAngleHaveAKinkThere)
       }
 }
 
+// There one side of a kink says nothing. The arcs turn by 5 degrees a face.
+TEST(CurvedBorders, KinksOneFaceFromABorderOrFromEachOtherAreFound)
+{
+  const Communicator comm;
+  constexpr double face = 0.25;
+  for (const auto type : types)
+    for (const double degrees : {6.0, 8.0, 20.0})
+      for (const bool two : {false, true}) {
+        const double slope = std::tan(degrees / 2 * std::numbers::pi / 180);
+        const auto arcs = [&](double x) {
+          return std::sqrt(9 - x * x) - slope * std::abs(x) - (two ? slope * std::abs(x - face) : 0);
+        };
+        const int before = two ? 3 : 1, faces = before + 4;
+        const bool triangles = type == mesh::CellType::tri6;
+        auto side = curved({faces, 3, -before * face, 4 * face, 0, 3 * face, true, triangles}, type, arcs, comm);
+        find_kinks(side);
+        EXPECT_EQ(side.kinks.size(), two ? 12U : 6U) << degrees << " degrees";
+        for (const auto& edge : side.kinks)
+          for (const Local n : edge) {
+            const double x = side.points[static_cast<std::size_t>(n)][0];
+            EXPECT_TRUE(std::abs(x) < 1e-12 || (two && std::abs(x - face) < 1e-12)) << x;
+          }
+      }
+}
+
 // Of an arc that ends at 80 degrees to a plane; one that ends at a right angle goes on in it.
 TEST(CurvedBorders, AnArcMeetsItsImageAtAKinkUnlessItEndsAtARightAngle)
 {

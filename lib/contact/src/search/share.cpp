@@ -125,9 +125,7 @@ Side deliver(const mesh::Surface& surface, const std::vector<Box>& boxes, const 
   std::vector<SentNode> nodes;
   for (const auto& part : comm.exchange(sent_nodes)) nodes.insert(nodes.end(), part.begin(), part.end());
   for (const auto& part : comm.exchange(sent_faces)) faces.insert(faces.end(), part.begin(), part.end());
-  Side side = assemble(std::move(nodes), faces, kinematics);
-  find_kinks(side);
-  return side;
+  return assemble(std::move(nodes), faces, kinematics);
 }
 
 }  // namespace
@@ -150,11 +148,15 @@ Share share_out(const Pair& pair, const PairSize& size, fem::Kinematics kinemati
   for (std::size_t f = faces.size(); f > 0; --f)
     for (const Local n : share.secondary.faces[f - 1])
       share.own[static_cast<std::size_t>(n)] = faces[f - 1].owner == comm.rank() ? 1 : 0;
-  if (!pair.primary) return share;
+  if (!pair.primary) {
+    find_kinks(share.secondary);
+    return share;
+  }
   faces.clear();
   // Rays go twice as far as the search.
   share.primary = deliver(*pair.primary, boxes_of_faces(*pair.primary), shares, parts, {}, 2 * size.reach + round_it, kinematics,
                           faces, comm);
+  find_kinks(share.secondary, share.primary);
   return share;
 }
 

@@ -9,11 +9,17 @@ bool is_kink_of_curved(double curved, double corners, const FaceEdges::Around& f
 {
   constexpr double of_corners = 0.5, of_next = 0.4;
   constexpr double less_of_corners = 0.25, little_of_others = 0.1;  // where the faces behind are known, too
+  constexpr double straight = 0.05;                                 // faces turn by what their corners do
   const double turn = std::abs(curved), part = turn / std::max({std::abs(corners), first.corners, last.corners});
   if (!first.curved || !last.curved || turn <= least_kink) return false;
   const double next = std::max(first.next, last.next), beyond = std::max(first.beyond, last.beyond);
-  if (first.any_next && last.any_next && part > of_corners && next < of_next * turn) return true;
-  return first.any_beyond && last.any_beyond && part > less_of_corners && std::max(next, beyond) < little_of_others * turn;
+  const double around = std::max(next, beyond);
+  if (first.any_next && last.any_next)
+    return (part > of_corners && next < of_next * turn) ||
+           (first.any_beyond && last.any_beyond && part > less_of_corners && around < little_of_others * turn);
+  // One side is a single face, to a border or another kink, and the other side tells. Of faces that are flat corners tell more.
+  const bool flat = std::abs(curved - corners) < straight * std::abs(corners);
+  return (first.any_beyond || last.any_beyond) && !flat && part > of_corners && around < little_of_others * turn;
 }
 
 CurvedBorders::CurvedBorders(const Side& side) : all_(side)
