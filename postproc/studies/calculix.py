@@ -1,7 +1,9 @@
 """A deck and its mesh in the language of CalculiX, and what CalculiX found.
 
 Translated: elastic materials, solids of first and second order, plane strain and plane stress, prescribed displacements, pressures,
-tractions, forces and accelerations, contact surface to surface (linear penalty) without friction or with Coulomb's, interference.
+tractions, forces and accelerations, contact surface to surface (linear penalty) without friction or with Coulomb's, interference, bolts whose
+two parts share the nodes of the cut, steps of one increment. A bolt is parted there and its two sides are joined by equations: by a *PRE-TENSION
+SECTION through tetrahedra heads carried a fifth of the force, probably as those that have an edge or a corner alone on the cut are not parted.
 CalculiX has no cells with nodes inside faces: quad9, hex27 and prism18 become quad8, hex20 and prism15 on the same corners and edges.
 Needs python3-meshio.
 """
@@ -61,7 +63,7 @@ class Mesh:
         self.dimension = dimension
         self.points = scale * np.array(mesh.points)
         name = {(int(data[1]), int(data[0])): key for key, data in mesh.field_data.items()}
-        self.bodies, self.boundaries, self.sides_of = {}, {}, {}
+        self.bodies, self.boundaries, self.sides_of, self.parted = {}, {}, {}, {}
         element = 0
         for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"]):
             for tag in np.unique(tags):
@@ -87,7 +89,7 @@ class Mesh:
 
     def facets(self, boundary):
         if boundary not in self.boundaries:
-            raise BadInput(f"the mesh has no boundary {boundary} (boundaries narrowed to a body are not translated)")
+            raise BadInput(f"the mesh has no boundary {boundary} (boundaries narrowed to a body are translated in the cuts of bolts alone)")
         return self.boundaries[boundary]
 
     def nodes(self, boundary):
@@ -96,6 +98,25 @@ class Mesh:
 
     def sides(self, boundary):
         return [self.sides_of[tuple(sorted(facet[: corners(kind)]))] for kind, facet in self.facets(boundary)]
+
+    def part(self, boundary, body):
+        """Gives a body nodes of its own on a boundary that it shares with another one: [(the old node, the new one)], and its mean normal there."""
+        if boundary not in self.parted:
+            old = np.unique([facet for _, facet in self.facets(boundary)])
+            copy = {int(n): len(self.points) + i for i, n in enumerate(old)}
+            self.points = np.vstack([self.points, self.points[old]])
+            near = []
+            for kind, _, cells in self.bodies[body]:
+                on = np.isin(cells, old)
+                near.append(self.points[cells[on.any(axis=1)][:, : corners(kind)]].mean(axis=(0, 1)))
+                cells[on] = [copy[int(n)] for n in cells[on]]
+            normal = np.zeros(3)
+            for kind, facet in self.facets(boundary):
+                x = self.points[facet[: corners(kind)]]
+                own = np.cross(x[1] - x[0], x[2] - x[0])
+                normal += own * np.sign(own @ (x[0] - np.mean(near, axis=0)))
+            self.parted[boundary] = [(a + 1, b + 1) for a, b in copy.items()], normal / np.linalg.norm(normal)
+        return self.parted[boundary]
 
     def shares(self, boundary):
         """Measure of the boundary that falls to each node when a traction is spread over it."""
@@ -143,7 +164,8 @@ def lines(values, width=12):
 def model(deck, mesh):
     """Nodes, elements, materials, sets and contact pairs."""
     dimension = deck.get("dimension", 3)
-    text = ["*NODE, NSET=ALL"] + [f"{i + 1}, {x:.15g}, {y:.15g}, {z:.15g}" for i, (x, y, z) in enumerate(mesh.points)]
+    # CalculiX reads 20 characters of a number.
+    text = ["*NODE, NSET=ALL"] + [f"{i + 1}, {x:.12g}, {y:.12g}, {z:.12g}" for i, (x, y, z) in enumerate(mesh.points)]
     for body, blocks in mesh.bodies.items():
         for kind, numbers, cells in blocks:
             text.append(f"*ELEMENT, TYPE={element_type(kind, dimension, deck['bodies'][body].get('formulation'))}, ELSET={body}")
@@ -165,6 +187,15 @@ def contact(deck, mesh, penalty):
     text = []
     for number, pair in enumerate(deck.get("contacts", [])):
         friction = pair.get("friction", {})
+        if "preload" in pair:
+            pairs, normal = mesh.part(*cut_of(pair))
+            node = len(mesh.points) + 1 + number
+            text += [f"*NODE, NSET=bolt{number}", f"{node}, 0., 0., 0.", "*EQUATION"]
+            for fixed, own in pairs:
+                for k, n in enumerate(normal, 1):
+                    terms = [f"{own}, {k}, 1.", f"{fixed}, {k}, -1."] + ([f"{node}, 1, {-n:.12g}"] if abs(n) > 1e-9 else [])
+                    text += [f"{len(terms)}", ", ".join(terms)]
+            continue
         if not set(friction) <= {"coulomb"} or isinstance(pair["primary"], dict):
             raise BadInput(f"contact {pair.get('name', number)}: only contact without friction or with Coulomb's is translated")
         for role in ("secondary", "primary"):
@@ -178,6 +209,36 @@ def contact(deck, mesh, penalty):
     return text
 
 
+def cut_of(pair):
+    """The boundary that both parts of a bolt have in common, and the body on the secondary side."""
+    (body, cut), (_, other) = (pair[role].split(":") for role in ("secondary", "primary"))
+    if cut != other or "force" not in pair["preload"]:
+        raise BadInput(f"contact {pair.get('name')}: only bolts tightened to a force are translated whose two parts share the nodes of one cut")
+    return cut, body
+
+
+def step(deck, mesh, scale, first):
+    """What acts in a step, by the factors that it reaches. Supports stay; bolts keep their length from the second step on."""
+    text = []
+    for support in deck.get("supports", []) if first else []:
+        text.append("*BOUNDARY")
+        for component, value in support["displacement"].items():
+            axis = "xyz".index(component) + 1
+            text.append(f"N{support['boundary']}, {axis}, {axis}, {value}")
+    for number, pair in enumerate(deck.get("contacts", [])):
+        if "preload" in pair:
+            text += ["*CLOAD", f"bolt{number}, 1, {pair['preload']['force']}"] if first else ["*BOUNDARY, FIXED", f"bolt{number}, 1, 1"]
+    scaled = []
+    for load in deck.get("loads", []):
+        factor = scale.get(load.get("name"), 1)
+        scaled.append(load if factor == 1 else {k: times(factor, v) if k in ("pressure", "acceleration", "force", "traction") else v for k, v in load.items()})
+    return text + loads(dict(deck, loads=scaled), mesh)
+
+
+def times(factor, value):
+    return [factor * v for v in value] if isinstance(value, list) else factor * value
+
+
 def loads(deck, mesh):
     text = []
     for load in deck.get("loads", []):
@@ -186,31 +247,37 @@ def loads(deck, mesh):
         elif "acceleration" in load:
             vector = np.array(list(load["acceleration"]) + [0] * (3 - len(load["acceleration"])), dtype=float)
             size = np.linalg.norm(vector)
-            text += ["*DLOAD", f"{load['body']}, GRAV, {size}, " + ", ".join(f"{v:.15g}" for v in vector / size)]
+            text += ["*DLOAD", f"{load['body']}, GRAV, {size}, " + ", ".join(f"{v:.12g}" for v in vector / size)]
         else:
             shares = mesh.shares(load["boundary"])
             whole = sum(shares.values()) if "force" in load else 1.0
             text.append("*CLOAD")
             for axis, value in enumerate(load["force"] if "force" in load else load["traction"]):
-                text += [f"{node}, {axis + 1}, {value * share / whole:.15g}" for node, share in shares.items() if value and share]
+                text += [f"{node}, {axis + 1}, {value * share / whole:.12g}" for node, share in shares.items() if share]  # 0 as well: steps
     return text
 
 
 def input_file(deck, mesh, penalty, solver):
     """The deck in CalculiX's language; `penalty` is a pressure a length."""
+    for pair in deck.get("contacts", []):
+        if "preload" in pair:
+            mesh.part(*cut_of(pair))
     text = model(deck, mesh) + contact(deck, mesh, penalty)
-    text += ["*STEP", f"*STATIC, SOLVER={solver}", "1., 1."]
-    for support in deck.get("supports", []):
-        text.append("*BOUNDARY")
-        for component, value in support["displacement"].items():
-            axis = "xyz".index(component) + 1
-            text.append(f"N{support['boundary']}, {axis}, {axis}, {value}")
-    text += loads(deck, mesh)
-    for support in deck.get("supports", []):
-        text += [f"*NODE PRINT, NSET=N{support['boundary']}, TOTALS=ONLY", "RF"]
-    for body in deck["bodies"]:
-        text += [f"*EL PRINT, ELSET={body}, TOTALS=ONLY", "ELSE"]
-    text += ["*CONTACT PRINT", "CSTR", "*NODE FILE", "U, RF", "*EL FILE", "S", "*CONTACT FILE", "CDIS, CSTR", "*END STEP"]
+    steps = deck.get("steps") or [{}]
+    known = {load["name"] for load in deck.get("loads", []) if "name" in load}
+    for number, one in enumerate(steps):
+        if not set(one) <= {"name", "scale"} or not set(one.get("scale", {})) <= known:
+            raise BadInput("only steps of one increment that scale loads are translated")
+        scale = {key: factor for before in steps[: number + 1] for key, factor in before.get("scale", {}).items()}
+        text += ["*STEP", f"*STATIC, SOLVER={solver}", "1., 1."] + step(deck, mesh, scale, number == 0)
+        for support in deck.get("supports", []):
+            text += [f"*NODE PRINT, NSET=N{support['boundary']}, TOTALS=ONLY", "RF"]
+        for body in deck["bodies"]:
+            text += [f"*EL PRINT, ELSET={body}, TOTALS=ONLY", "ELSE"]
+        for pair, of in enumerate(deck.get("contacts", [])):
+            if "preload" not in of:
+                text += [f"*CONTACT PRINT, SLAVE=s{pair}, MASTER=p{pair}", "CF"]
+        text += ["*CONTACT PRINT", "CSTR", "*NODE FILE", "U, RF", "*EL FILE", "S", "*CONTACT FILE", "CDIS, CSTR", "*END STEP"]
     return "\n".join(text) + "\n"
 
 
