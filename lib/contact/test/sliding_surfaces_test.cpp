@@ -111,5 +111,21 @@ TEST(Slides, parts_of_flats_are_no_facets)
   }
 }
 
+// Edges of 45 degrees are teeth where they tilt faces, and facets of a coarse torus where all do.
+TEST(Slides, sharp_edges_tilt_faces_with_kinks_alone)
+{
+  const Communicator comm;
+  Pair pair;
+  pair.options.obstacle = Obstacle{};
+  const auto at = [](double k, double z) {
+    return Point(10 * std::cos(k * std::numbers::pi / 4), 10 * std::sin(k * std::numbers::pi / 4), z);
+  };
+  pair.secondary = surface({7, 4, 0, 7, 0, 10, true}, at, comm);
+  const auto slide = sliding_surfaces({&pair, 1}, {}, fem::Kinematics::solid, comm).front();
+  EXPECT_NEAR(slide.tilt, 0, 1e-12);
+  const double half = 2 * std::sin(std::numbers::pi / 16);        // of the angle, as a distance of normals
+  EXPECT_NEAR(slide.tilt_with_kinks, half * half * 6 / 7, 1e-9);  // those at both ends have one edge
+}
+
 }  // namespace
 }  // namespace mortise::contact

@@ -39,7 +39,7 @@ class SlidingModes {
       }
       auto& side = moves(surface.body) ? own_[surface.contact] : other_[surface.contact];
       side.push_back({dense::form(surface.whole, there), dense::form(surface.of_faces, there), dense::form(surface.smooth, there),
-                      dense::form(surface.speed, there), surface.tilt});
+                      dense::form(surface.speed, there), surface.tilt, surface.tilt_with_kinks});
     }
   }
 
@@ -124,16 +124,16 @@ class SlidingModes {
   static constexpr double exact = 1e-6;  // what flat surfaces leave by rounding
   struct Part {
     Eigen::MatrixXd whole, of_faces, smooth, speed;
-    double tilt;
+    double tilt, tilt_with_kinks;
     // What facets leave in quadratic polynomials is a small part of the angles between them: 1 to 7 % on meshes of cylinders.
     double tolerance() const { return 0.1 * std::sqrt(tilt) + exact; }
     bool slides(const Eigen::VectorXd& v) const
     {
       const double square = v.dot(speed * v) + 1e-12;
       const double felt = v.dot(whole * v);
-      const auto tilted = [&](double share) { return felt <= (share * tilt + exact * exact) * square; };
-      return v.dot(smooth * v) <= tolerance() * tolerance() * square &&
-             (tilted(sure_share) || (tilted(tilt_share) && v.dot(of_faces * v) <= mean_share * felt));
+      const double rounding = exact * exact;
+      return v.dot(smooth * v) <= tolerance() * tolerance() * square && felt <= (tilt_share * tilt + rounding) * square &&
+             (felt <= (sure_share * tilt_with_kinks + rounding) * square || v.dot(of_faces * v) <= mean_share * felt);
     }
     // Of n . v squared that may be due to tilts: teeth are more. Of a turn about the axis a facet of its own feels nothing in the
     // mean, faces that are parts of a flat do: it is 1/3 of the tilts if there is one face a flat, 2/3 and 1 if there are two and

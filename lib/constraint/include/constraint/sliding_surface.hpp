@@ -21,6 +21,7 @@ struct SlidingSurface {
   Form smooth = Form::Zero();    ///< of the square of what n . v has in common with quadratic polynomials; of few faces the whole
   Form speed = Form::Zero();     ///< of |v|^2
   double tilt = 0;  ///< mean square of the angle (radians) between a face and the mean of those at its nodes, kinks apart
+  double tilt_with_kinks = 0;  ///< the same with them
 };
 
 }  // namespace mortise::constraint

@@ -147,8 +147,12 @@ std::vector<TouchedFace> touched(std::span<const Pair> pairs, const constraint::
   return result;
 }
 
-// Of each face the mean squared angle between it and the mean of the faces at its nodes.
-std::vector<double> tilts(const std::vector<TouchedFace>& faces, bool solid, const Communicator& comm)
+// The mean squared angle between a face and the mean of those at its nodes.
+struct Tilt {
+  double kinks_apart = 0, whole = 0;
+};
+
+std::vector<Tilt> tilts(const std::vector<TouchedFace>& faces, bool solid, const Communicator& comm)
 {
   struct Normal {
     Global node;
@@ -176,21 +180,24 @@ std::vector<double> tilts(const std::vector<TouchedFace>& faces, bool solid, con
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const auto around = answer(by_node(std::span<const Normal>(mine), comm), ask(nodes, comm), comm);
-  std::vector<double> result;
+  std::vector<Tilt> result;
   auto own = mine.begin();
   for (const auto& face : faces) {
-    double sum = 0;
+    Tilt sum;
     const auto count = face.surface->faces[face.face].size();
     for (std::size_t i = 0; i < count; ++i, ++own) {
-      Point mean = Point::Zero();
+      Point mean = Point::Zero(), of_all = Point::Zero();
       auto at =
           std::lower_bound(around.begin(), around.end(), own->node, [](const Normal& a, Global node) { return a.node < node; });
       for (; at != around.end() && at->node == own->node; ++at)
-        if (at->contact == own->contact && at->side == own->side && at->vector().dot(own->vector()) > edge_cosine)
-          mean += at->vector();
-      sum += (own->vector() - mean.normalized()).squaredNorm();
+        if (at->contact == own->contact && at->side == own->side) {
+          of_all += at->vector();
+          if (at->vector().dot(own->vector()) > edge_cosine) mean += at->vector();
+        }
+      sum.kinks_apart += (own->vector() - mean.normalized()).squaredNorm() / static_cast<double>(count);
+      sum.whole += (own->vector() - of_all.normalized()).squaredNorm() / static_cast<double>(count);
     }
-    result.push_back(sum / static_cast<double>(count));
+    result.push_back(sum);
   }
   return result;
 }
@@ -253,7 +260,7 @@ std::vector<Key> all_keys(const std::vector<TouchedFace>& faces, const Communica
 
 // What its faces come to in all.
 struct SlidingExtent {
-  double area, x, y, z, square, tilt, faces;
+  double area, x, y, z, square, tilt, tilt_with_kinks, faces;
 };
 
 // The faces of this rank, and of each the place of its surface among all.
@@ -271,7 +278,7 @@ struct SlidingFaces {
   }
 };
 
-std::vector<SlidingExtent> extents_of(const SlidingFaces& all, const std::vector<double>& tilt, std::size_t surfaces,
+std::vector<SlidingExtent> extents_of(const SlidingFaces& all, const std::vector<Tilt>& tilt, std::size_t surfaces,
                                       const Communicator& comm)
 {
   std::vector<SlidingExtent> extents(surfaces, SlidingExtent{});
@@ -281,9 +288,10 @@ std::vector<SlidingExtent> extents_of(const SlidingFaces& all, const std::vector
     const double w = at.normal.norm();
     e.area += w;
     e.x += w * at.x[0], e.y += w * at.x[1], e.z += w * at.x[2];
-    e.tilt += w * tilt[face];
+    e.tilt += w * tilt[face].kinks_apart;
+    e.tilt_with_kinks += w * tilt[face].whole;
   });
-  comm.sum_in_place({reinterpret_cast<double*>(extents.data()), extents.size() * 7});
+  comm.sum_in_place({reinterpret_cast<double*>(extents.data()), extents.size() * 8});
   return extents;
 }
 
@@ -354,6 +362,7 @@ std::vector<SlidingSurface> sliding_surfaces(std::span<const Pair> pairs, const 
     slide.body = keys[k].body;
     slide.centre = Point(e.x, e.y, e.z) / e.area;
     slide.tilt = e.tilt / e.area;
+    slide.tilt_with_kinks = e.tilt_with_kinks / e.area;
     result.push_back(slide);
   }
   set_lengths(all, extents, comm, result);
