@@ -6,6 +6,7 @@
 #include "crossing/near_itself.hpp"
 #include "pairing/facing.hpp"
 #include "search/near.hpp"
+#include "surface/bulge.hpp"
 #include "surface/surface_nodes.hpp"
 
 namespace mortise::contact {
