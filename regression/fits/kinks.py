@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Two arcs that meet at an angle, in a strip and in its counterpart: an edge between curved parts is an edge, inside a body, one face from its end, at a seam and in a plane of symmetry.
+"""Two arcs that meet at an angle, in a strip and in its counterpart: an edge between curved parts is an edge, inside a body, one face from
+its end, at a seam and in a plane of symmetry.
 
     kinks.py MORTISE
 
 Profile -x^2 / (2 R) - tan(angle / 2) |x| for -1 <= x <= 1, R = 3, or from -0.3, where one face ends; the strips reach 1.5 below and 1 above it, plane strain,
-and press by an interference of 1e-3 all over. The energy is that of a fine mesh to 4 % (it has a peak at the walls, which arcs meet at an angle, too), and the largest pressure is that of flat strips,
-to 15 %, or 30 % where a wall is near, whichever side is secondary."""
+and press by an interference of 1e-3 all over. The energy is that of a fine mesh to 4 %, and the largest pressure that of flat strips to 15 %, or to 30 % where a
+wall is near, which arcs meet at an angle, too; 6 % and 60 % by cells of first order. Whichever side is secondary."""
 
 import argparse
 import sys
