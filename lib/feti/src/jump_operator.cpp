@@ -184,6 +184,7 @@ SparseMatrix JumpOperator::gather_columns(const std::vector<Columns>& parts, int
   for (const auto& part : received)
     for (const auto& entry : part) ++count[rows_->getLocalElement(entry.row)];
   SparseMatrix result(height, width);
+  if (width == 0) return result;  // a rank without rows: Eigen's makeCompressed() writes beyond no columns
   result.reserve(count);
   for_each_part([&](std::size_t row, int start, const auto& column) {
     if (rank[row] != comm.rank()) return;
