@@ -159,7 +159,7 @@ TEST(Clusters, OfCopiesAnswerAlike)
     return std::make_shared<ElasticSubdomain>(k, fem::rigid_motions(cells.points, fem::Kinematics::solid), cells.points, 3,
                                               "cholmod");
   };
-  const std::vector<std::vector<double>> weight(d.subdomains.size(), nodal_stiffness(k, 3));
+  const std::vector<std::vector<double>> weight(d.subdomains.size(), nodal_stiffness(k.diagonal(), 3));
   const partition::NodeDirectory directory(d, weight, alone);
   const auto interface = partition::find_interface(d, directory, alone);
   Subdomains own;

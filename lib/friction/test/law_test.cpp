@@ -21,8 +21,11 @@ TEST(SlipBounds, StickFirstAndFollowTheNormalForces)
   const double infinite = std::numeric_limits<double>::infinity();
   EXPECT_EQ(slip_bounds(problem, {{Kind::coulomb, 0.5}}, nullptr), std::vector<double>(count, infinite));
   EXPECT_EQ(slip_bounds(problem, {{Kind::frictionless, 0}}, nullptr), std::vector<double>(count, 0.0));
-  for (const auto& disc : with_coefficients(problem, {{Kind::coulomb, 0.5}}).discs()) EXPECT_EQ(disc.coefficient, 0.5);
-  for (const auto& disc : with_coefficients(problem, {{Kind::tresca, 0.5}}).discs()) EXPECT_EQ(disc.coefficient, 0);
+  for (const auto& [kind, coefficient] : {std::pair(Kind::coulomb, 0.5), std::pair(Kind::tresca, 0.0)}) {
+    const qp::FeasibleSet set = with_coefficients(problem, {{kind, 0.5}});
+    EXPECT_EQ(set.discs().size(), count);
+    for (const auto& disc : set.discs()) EXPECT_EQ(disc.coefficient, coefficient);
+  }
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(problem.jump().ranges().end);
   for (std::size_t i = 0; i < problem.node_rows().size(); ++i) forces[problem.node_rows()[i].normal] = i % 2 == 0 ? 3.0 : -3.0;
   const Vector x = problem.multipliers(forces);

@@ -165,21 +165,22 @@ bool CoarseMatrix::factorize(std::span<const DowndateBlock> downdates, double re
     const auto at = static_cast<Eigen::Index>(i);
     schur(at, at) += regularisation * gram.coeff(touched_[i], touched_[i]);
   }
-  schur_factor_.compute(schur);
-  return schur_factor_.info() == Eigen::Success;
+  if (!schur_factor_) schur_factor_.emplace();
+  schur_factor_->compute(schur);
+  return schur_factor_->info() == Eigen::Success;
 }
 
 Eigen::VectorXd CoarseMatrix::solve(const Eigen::VectorXd& r) const
 {
   if (!dense_) return factor_->solve(r);
-  if (others_.empty()) return touched_.empty() ? r : Eigen::VectorXd(schur_factor_.solve(r));
+  if (others_.empty()) return touched_.empty() ? r : Eigen::VectorXd(schur_factor_->solve(r));
   Eigen::VectorXd result(r.size());
   const Eigen::VectorXd inner = factor_->solve(Eigen::VectorXd(r(others_)));
   if (touched_.empty()) {
     result(others_) = inner;
     return result;
   }
-  const Eigen::VectorXd outer = schur_factor_.solve(r(touched_) - coupling_ * inner);
+  const Eigen::VectorXd outer = schur_factor_->solve(r(touched_) - coupling_ * inner);
   result(touched_) = outer;
   result(others_) = inner - factor_->solve(Eigen::VectorXd(coupling_.transpose() * outer));
   return result;

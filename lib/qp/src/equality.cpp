@@ -43,6 +43,7 @@ Eigen::VectorXd EqualityConstraint::apply(const Vector& x) const
 
 void EqualityConstraint::add_transpose(double alpha, const Eigen::VectorXd& nu, Vector& y) const
 {
+  if (size() == 0) return;
   auto values = view(y);
   for (Eigen::Index i = 0; i < g_.cols(); ++i) values[i] += alpha * g_.col(i).dot(nu);
 }

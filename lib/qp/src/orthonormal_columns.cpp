@@ -16,7 +16,7 @@ constexpr double largest_condition = 1e12;  // of V'V: beyond, its factor is rou
 Eigen::MatrixXd gram(const Eigen::MatrixXd& v, const Communicator& comm)
 {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(v.cols(), v.cols());
-  if (v.rows() > 0) result.selfadjointView<Eigen::Lower>().rankUpdate(v.transpose());  // else it divides by their number
+  if (v.size() > 0) result.selfadjointView<Eigen::Lower>().rankUpdate(v.transpose());  // else it divides by their number
   comm.sum_in_place({result.data(), static_cast<std::size_t>(result.size())});
   return result;
 }

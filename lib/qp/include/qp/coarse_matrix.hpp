@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <span>
 
 #include "qp/equality.hpp"
@@ -60,7 +62,7 @@ class CoarseMatrix {
   std::unique_ptr<Cholesky> factor_;  // dense: of the rows of others_ alone; else of all
   SparseMatrix coupling_;             // dense: touched x others
   Eigen::MatrixXd schur_;             // dense: with D = I, lower triangle
-  Eigen::LLT<Eigen::MatrixXd> schur_factor_;
+  std::optional<Eigen::LLT<Eigen::MatrixXd>> schur_factor_;
 };
 
 }  // namespace mortise::qp
