@@ -30,8 +30,8 @@ Rays::GapOf StartingGaps::start() const
 {
   return [this](std::size_t surface_node, const Opposite& opposite) {
     // An obstacle has no faces, and no surface of the geometry.
-    const bool one = one_surface_.anywhere() &&
-                     one_surface_.holds(surface_node, static_cast<std::size_t>(primary_.face_of[opposite.facet]));
+    const bool one =
+        one_surface_.anywhere() && one_surface_.holds(surface_node, static_cast<std::size_t>(primary_.face_of[opposite.facet]));
     return starting_gap(options_, opposite.gap, one);
   };
 }
