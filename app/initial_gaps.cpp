@@ -38,6 +38,13 @@ std::string near(const contact::InitialGap& gap)
   return fmt::format(", {:.4g} within {:.2g}", gap.near_area, gap.touching);
 }
 
+// Which side has points and fields, if not the one that the deck calls secondary.
+std::string exchange(const contact::Options& contact)
+{
+  if (!contact.exchanged) return "";
+  return fmt::format("; points and fields on {}, far softer than {}", contact.secondary, contact.primary);
+}
+
 }  // namespace
 
 void print_initial_gaps(const std::vector<contact::InitialGap>& gaps, const model::Contacts& contacts, bool all, Log& log)
@@ -47,9 +54,9 @@ void print_initial_gaps(const std::vector<contact::InitialGap>& gaps, const mode
     if (gaps[c].area > 0) met.push_back(c);
   const std::size_t count = all ? met.size() : std::min(most_lines, met.size());
   for (const std::size_t c : std::span(met).first(count))
-    log.line("  contact {}: initial gap {:.3g} to {:.3g}, {:.4g} of {:.4g} touches{}{}", contacts[c].name,
+    log.line("  contact {}: initial gap {:.3g} to {:.3g}, {:.4g} of {:.4g} touches{}{}{}", contacts[c].name,
              plain(gaps[c].smallest, gaps[c].touching), plain(gaps[c].largest, gaps[c].touching), gaps[c].touching_area,
-             gaps[c].area, near(gaps[c]), instead(gaps[c], contacts[c]));
+             gaps[c].area, near(gaps[c]), instead(gaps[c], contacts[c]), exchange(contacts[c]));
   if (count < met.size()) log.line("  and {} more contacts, which --check lists", met.size() - count);
 }
 

@@ -178,6 +178,11 @@ class Whereabouts {
       return;
     }
     const auto nodes_of_boundary = probe.nodes.empty() ? std::vector<std::vector<Global>>{} : faces_on(of);
+    const auto means_face = [&](const mesh::Surface& side, std::size_t f) {
+      return probe.nodes.empty()
+                 ? probe.on_body[static_cast<std::size_t>(side.body[f])]
+                 : std::binary_search(nodes_of_boundary.begin(), nodes_of_boundary.end(), ascending(side.faces[f], side.node_id));
+    };
     bool any = false;
     const auto pairs = model_.contact_pairs(model::load_states(model_.deck(), contacts).front());
     for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -186,13 +191,17 @@ class Whereabouts {
       any = any || (by_name && meant[c]);
       if (by_name) continue;
       for (std::size_t f = 0; f < side.faces.size(); ++f) {
-        if (!(probe.nodes.empty() ? probe.on_body[static_cast<std::size_t>(side.body[f])]
-                                  : std::binary_search(nodes_of_boundary.begin(), nodes_of_boundary.end(),
-                                                       ascending(side.faces[f], side.node_id))))
-          continue;
+        if (!means_face(side, f)) continue;
         any = true;
         for (const Local n : side.faces[f]) nodes[static_cast<std::size_t>(n)] = true;
       }
+      if (!pairs[c].options.exchanged) continue;
+      // Of what the deck calls secondary, the whole: the pressure is the same on either side.
+      bool whole = true;
+      for (std::size_t f = 0; f < pairs[c].primary->faces.size(); ++f) whole = whole && means_face(*pairs[c].primary, f);
+      if (comm_.any(!whole)) continue;
+      any = true;
+      nodes.assign(nodes.size(), true);
     }
     if (!comm_.any(any))
       document.error(path, contacts.size() == 0

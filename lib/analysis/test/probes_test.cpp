@@ -22,13 +22,22 @@ bodies: {lower: {material: steel}, upper: {material: steel, method: boundary_ele
 decomposition: {method: grid, counts: {lower: [2, 1, 1], upper: [1, 2, 1]}}
 )";
 
+const std::string steel_on_rubber = R"(
+mesh:
+  blocks:
+    lower: {size: [1, 1, 1], cells: [2, 2, 2]}
+    upper: {origin: [0, 0, 1], size: [1, 1, 1], cells: [3, 3, 3]}
+materials: {rubber: {young_modulus: 1, poisson_ratio: 0.3}, steel: {young_modulus: 1000, poisson_ratio: 0.3}}
+bodies: {lower: {material: rubber}, upper: {material: steel}}
+contacts: [{name: joint, secondary: upper.zmin, primary: lower.zmax}]
+)";
+
 class Asked {
   Quiet quiet_;
 
  public:
-  explicit Asked(const std::string& interior)
-      : document_(two_methods + "output: {" + (interior.starts_with("probes") ? "" : "interior: ") + interior + "}\n",
-                  "deck.yaml", {}),
+  explicit Asked(const std::string& interior, const std::string& deck = two_methods)
+      : document_(deck + "output: {" + (interior.starts_with("probes") ? "" : "interior: ") + interior + "}\n", "deck.yaml", {}),
         deck_(model::read_deck(document_, ""))
   {
     document_.check();
@@ -155,6 +164,21 @@ TEST(Probes, ExtremesAreLookedForWhereTheirNamesSay)
     return s.body == 1 && (x[0] == 0 || x[0] == 1 || x[1] == 0 || x[1] == 1 || x[2] == 1 || x[2] == 2);
   });
   expect(4, [](const auto& s, const Point& x) { return s.body == 0 && x[0] == 0; });
+}
+
+// The soft side has the pressures: those of the stiff one, which the deck calls secondary, as a whole.
+TEST(Probes, PressuresOfSidesThatAreExchanged)
+{
+  for (const char* of : {"joint", "upper.zmin", "upper", "lower.zmax", "lower", "'upper:*'"}) {
+    Asked asked("probes: {a: {largest: pressure, of: " + std::string(of) + "}}", steel_on_rubber);
+    const auto probes = asked.find();
+    ASSERT_EQ(probes.extremes.size(), 1U);
+    ASSERT_EQ(probes.extremes[0].contact_nodes.size(), 1U);
+    long long found = 0;
+    for (const bool node : probes.extremes[0].contact_nodes[0]) found += node;
+    EXPECT_EQ(asked.comm.sum(found), 9) << of;
+  }
+  EXPECT_THROW(Asked("probes: {a: {largest: pressure, of: upper.xmin}}", steel_on_rubber).find(), Error);
 }
 
 }  // namespace

@@ -134,7 +134,10 @@ void describe(deck::Description<Options>& d)
 {
   d.help("A pair of boundaries that may touch.");
   d.key("name", &Options::name, "For results; secondary/primary if not given.");
-  d.key("secondary", &Options::secondary, "Boundary that carries the multipliers: the finer or softer side.").required();
+  d.key("secondary", &Options::secondary,
+        "Boundary that carries the multipliers: the finer or softer side. One that is more than twenty times stiffer than the "
+        "primary side carries none if its faces are smaller, or bonded: the two are exchanged, which the log says.")
+      .required();
   d.custom(
        "primary",
        "The boundary opposite, or a rigid obstacle: {plane: {point: [..], normal: [..]}}, {cylinder: {point: [..], axis: [..], "

@@ -125,6 +125,7 @@ Json contact(const StateSummary::Contact& c)
             {"slip", c.slip},
             {"max_recovered_pressure", number(c.max_recovered_pressure)},
             {"max_tension", number(c.max_tension)}};
+  if (c.exchanged) json["exchanged"] = true;
   if (c.initial_gap)
     json["initial_gap"] = {{"smallest", number(c.initial_gap->smallest)},
                            {"largest_overlap", number(c.initial_gap->largest_overlap)},

@@ -15,6 +15,7 @@
 #include "model/model.hpp"
 #include "model/patterns.hpp"
 #include "partition/skin.hpp"
+#include "side_bodies.hpp"
 
 namespace mortise::model {
 
@@ -30,32 +31,12 @@ std::size_t auto_entry(const std::vector<contact::Options>& contacts)
 std::set<contact::Bodies> pairs_that_are_named(const std::vector<contact::Options>& contacts,
                                                const partition::Decomposition& decomposition, const Communicator& comm)
 {
-  const auto& catalogue = decomposition.catalogue;
-  std::map<std::pair<std::string, std::string>, std::vector<int>> sides;  // boundary, body: contact and side
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (contacts[c].automatic || contacts[c].obstacle || contacts[c].cyclic) continue;
-    int side = 2 * static_cast<int>(c);
-    for (const auto& name : {contacts[c].secondary, contacts[c].primary}) {
-      const auto [boundary, body] = parse_boundary(name);
-      sides[{boundary, body}].push_back(side++);
-    }
-  }
-  std::set<std::array<int, 2>> mine;  // contact and side, body
-  std::set<std::pair<int, int>> own;  // boundary, body
-  for (const auto& subdomain : decomposition.subdomains)
-    for (const int boundary : subdomain.mesh.facets.boundary) own.emplace(boundary, subdomain.body);
-  for (const auto& [name, which] : sides)
-    for (const auto& [boundary, body] : own)
-      if (catalogue.boundaries[static_cast<std::size_t>(boundary)] == name.first &&
-          (name.second.empty() || matches_name(catalogue.bodies[static_cast<std::size_t>(body)], name.second)))
-        for (const int side : which) mine.insert({side, body});
-  std::map<int, std::set<int>> bodies;  // of each contact and side
-  for (const auto& [side, body] : comm.all_gather(std::vector(mine.begin(), mine.end()))) bodies[side].insert(body);
+  const auto bodies = bodies_on_sides(contacts, decomposition, comm);
   std::set<contact::Bodies> pairs;
   for (const auto& [side, on] : bodies)
-    if (side % 2 == 0)
+    if (const auto other = bodies.find(side + 1); side % 2 == 0 && other != bodies.end())
       for (const int a : on)
-        for (const int b : bodies[side + 1]) pairs.insert(std::minmax(a, b));
+        for (const int b : other->second) pairs.insert(std::minmax(a, b));
   return pairs;
 }
 
@@ -74,14 +55,6 @@ std::vector<bool> unnamed_bodies(const mesh::Surface& skin, const std::set<conta
 
 // Of Young's modulus: from here on the softer side is secondary, whichever has the smaller faces; see post::scattered_contacts().
 constexpr double stiffer = 4;
-
-double modulus_of(const Deck& deck, const std::vector<mesh::Body>& bodies, int body)
-{
-  double softest = std::numeric_limits<double>::infinity();
-  for (const auto& name : material_names(body_entry(deck, bodies[static_cast<std::size_t>(body)].group)->second))
-    softest = std::min(softest, deck.materials.at(name).modulus());
-  return softest;
-}
 
 void swap_sides(contact::ContactCandidate& candidate)
 {
@@ -135,9 +108,9 @@ std::vector<contact::ContactCandidate> resolve_auto(const Deck& deck, Contacts& 
   auto candidates = contact::find_contact_candidates(
       partition::outer_surface(decomposition, context.comm), static_cast<int>(bodies.size()),
       pairs_that_are_named(contacts.options, decomposition, context.comm), entry, deck.kinematics, context.comm);
+  const auto modulus = [&](int body) { return least_modulus(deck, bodies[static_cast<std::size_t>(body)]); };
   for (auto& candidate : candidates)
-    if (modulus_of(deck, bodies, candidate.secondary) > stiffer * modulus_of(deck, bodies, candidate.primary))
-      swap_sides(candidate);
+    if (modulus(candidate.secondary) > stiffer * modulus(candidate.primary)) swap_sides(candidate);
   std::vector<contact::Options> found;
   std::vector<std::pair<std::string, const std::vector<Global>*>> boundaries;
   for (const auto& candidate : candidates) {

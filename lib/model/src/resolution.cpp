@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "model/auto_contacts.hpp"
 #include "model/patterns.hpp"
+#include "side_bodies.hpp"
 
 namespace mortise::model {
 
@@ -36,6 +37,7 @@ Resolution resolve(const Deck& deck, deck::Document& document, partition::Decomp
   document.check();
   result.found = resolve_auto(deck, result.contacts, document, result.decomposition, context);
   document.check();
+  exchange_stiff_sides(deck, result.contacts, result.decomposition, context.comm);
   return result;
 }
 

@@ -36,8 +36,8 @@ void add_work(const feti::DualSolution& solved, io::StateSummary& summary)
 void add_figures(const post::Results& results, const mesh::Catalogue& catalogue, io::StateSummary& summary)
 {
   const auto& r = results.residuals;
-  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration, r.complementarity, r.supports,
-                       r.interfaces};
+  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration,
+                       r.complementarity,    r.supports, r.interfaces};
   summary.error_estimate.discretization = results.mesh_error.relative;
   summary.error_estimate.algebraic = results.algebraic_error;
   summary.strain_energy = results.stress.strain_energy;
@@ -98,8 +98,9 @@ void add_contacts(const model::Contacts& contacts, const analysis::StepState& st
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& r = results.contact.resultants[c];
     const auto& surface = results.contact.surfaces[c];
+    const Point force = contacts[c].exchanged ? Point(Point::Zero() - r.force) : r.force;  // on the side that the deck calls secondary
     summary.contacts.push_back({contacts[c].name,
-                                {r.force[0], r.force[1], r.force[2]},
+                                {force[0], force[1], force[2]},
                                 std::max(largest(surface.pressure), 0.0),
                                 r.area,
                                 r.open,
@@ -108,6 +109,7 @@ void add_contacts(const model::Contacts& contacts, const analysis::StepState& st
                                 largest(surface.recovered_pressure),
                                 results.contact.tensions[c]});
     const auto& gap = state.rows->initial_gaps[c];
+    summary.contacts.back().exchanged = contacts[c].exchanged;
     summary.contacts.back().initial_gap = {gap.smallest, gap.largest_overlap(), gap.touching_area};
   }
   const auto& pretension_sections = state.rows->constraints.pretension_sections;

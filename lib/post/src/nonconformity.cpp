@@ -99,8 +99,10 @@ std::vector<Warning> coarse_secondaries(std::span<const ContactError> errors, do
                   "between its points the sides of contact {} miss each other by up to {:.3g} at {}: some {:.2g} % in the energy "
                   "norm of the softer body, and forces, and what lies loose there, may be off by far more",
                   options.name, largest, spell(at), 100 * part),
-              "let the side with the smaller faces or the softer body be the secondary one, or make the secondary side's faces "
-              "smaller"};
+              options.exchanged
+                  ? fmt::format("make the faces of {} smaller", options.secondary)
+                  : "let the side with the smaller faces or the softer body be the secondary one, or make the secondary side's "
+                    "faces smaller"};
     w.at = at;
     w.contact = options.name;
     w.boundary = options.secondary;

@@ -116,7 +116,7 @@ std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surf
                   "{:.4g} as a mean over faces and {:.4g} at one node; this, its area and how far the bodies approach are "
                   "those of the mesh, and the error that is given for the mesh leaves it out",
                   name, spell(peak.at), wide == 1 ? "one face" : "two faces", recovered.value, peak.value),
-        wide == 0
+        wide == 0 && !pairs[c].options.exchanged
             ? "make the faces there smaller, those of the other side as well; or let the side with the smaller faces be secondary"
             : "make the faces there smaller, on both sides, until four and more press across"};
     w.at = peak.at;

@@ -33,6 +33,7 @@ struct Options {
   double search_distance = 0;  ///< surfaces farther apart than this never meet; 0: a tenth of the smaller side's extent
   std::optional<PreloadOptions> preload = {};        ///< bonded contacts alone
   std::optional<mesh::RotationOptions> cyclic = {};  ///< the turn that brings the primary side of a sector to the secondary one
+  bool exchanged = false;                            ///< the deck names the two sides the other way round
   bool automatic = false;                            ///< stands for all pairs of bodies that face each other: pairing.hpp
 };
 

@@ -84,6 +84,7 @@ struct StateSummary {
     struct Preload {
       double force, shortening;
     };
+    bool exchanged = false;  ///< points and fields are those of the side that the deck calls primary
     /// What it starts with, before interference and loads; negative `smallest`: an overlap.
     struct InitialGap {
       double smallest, largest_overlap, touching_area;
