@@ -26,22 +26,48 @@ class Union {
   std::vector<std::size_t> parent_;
 };
 
+std::size_t at(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+// Zeros where the lower triangle of T'A T can have entries, whatever tangents T has at these pairs of unknowns.
+SparseMatrix pattern_of(const SparseMatrix& a, std::span<const std::pair<int, int>> pairs)
+{
+  std::vector<Eigen::Triplet<double>> places;
+  for (int i = 0; i < a.rows(); ++i) places.emplace_back(i, i, 1);
+  for (const auto& [i, j] : pairs) places.insert(places.end(), {{i, j, 1}, {j, i, 1}});
+  SparseMatrix t(a.rows(), a.rows());
+  t.setFromTriplets(places.begin(), places.end());
+  const SparseMatrix product = t * SparseMatrix(a.cwiseAbs()) * t;
+  SparseMatrix lower = product.triangularView<Eigen::Lower>();
+  std::fill_n(lower.valuePtr(), lower.nonZeros(), 0.0);
+  return lower;
+}
+
 }  // namespace
 
 ContactGram::ContactGram(const JumpOperator& jump, const std::vector<std::vector<double>>& nodal_stiffness, int dimension,
-                         const Communicator& comm)
+                         std::span<const qp::Disc> discs, const Communicator& comm)
     : jump_(jump), comm_(comm)
 {
   const auto& ranges = jump.ranges();
   const auto count = static_cast<long long>(ranges.extra - ranges.contacts);
   first_ = comm.all_gather(std::vector<Global>{jump.contact_rows().first + static_cast<Global>(comm.offset(count))});
-  const auto entries = products(nodal_stiffness, dimension);
+  auto entries = products(nodal_stiffness, dimension);
+  for (const auto& disc : discs)
+    if (disc.size() == 2) entries.push_back({row_of(disc.index[1]), row_of(disc.index[0]), 0});
   const bool coupled = std::any_of(entries.begin(), entries.end(), [](const Entry& e) { return e.row != e.column; });
   identity_ = !comm.any(coupled);
   if (identity_) return;
-  place(entries);
-  if (matrix_.rows() > 0) factor_.emplace(matrix_);
+  place(entries, discs);
   factorize(true);
+}
+
+// The global number of an owned row.
+Global ContactGram::row_of(Local row) const
+{
+  return first_[static_cast<std::size_t>(comm_.rank())] + row - jump_.ranges().contacts;
 }
 
 std::size_t ContactGram::owner(Global row) const
@@ -148,7 +174,7 @@ std::vector<std::pair<Global, Global>> ContactGram::blocks_of(const std::vector<
 }
 
 // Brings the blocks to their ranks. Collective.
-void ContactGram::place(const std::vector<Entry>& entries)
+void ContactGram::place(const std::vector<Entry>& entries, std::span<const qp::Disc> discs)
 {
   const auto blocks = blocks_of(entries);
   const auto me = static_cast<std::size_t>(comm_.rank());
@@ -167,6 +193,10 @@ void ContactGram::place(const std::vector<Entry>& entries)
       numbers[owner(block)].push_back(row);
       sent_[owner(block)].push_back(jump_.ranges().contacts + static_cast<Local>(row - first_[me]));
     }
+  std::vector<std::vector<Global>> pairs_of(first_.size());
+  for (const auto& disc : discs)
+    if (disc.size() == 2)
+      if (const auto to = target(row_of(disc.index[0]))) pairs_of[*to].push_back(row_of(disc.index[0]));
   const auto all = comm_.exchange(numbers);
   std::vector<Global> rows;
   for (const auto& part : all) rows.insert(rows.end(), part.begin(), part.end());
@@ -181,44 +211,89 @@ void ContactGram::place(const std::vector<Entry>& entries)
   for (const auto& part : comm_.exchange(send))
     for (const auto& e : part) triplets.emplace_back(position(e.row), position(e.column), e.value);
   const auto size = static_cast<int>(rows.size());
-  matrix_.resize(size, size);
-  matrix_.setFromTriplets(triplets.begin(), triplets.end());
-  fixed_.assign(rows.size(), 0);
+  SparseMatrix lower(size, size);
+  lower.setFromTriplets(triplets.begin(), triplets.end());
+  for (int i = 0; i < size; ++i)  // of a pair one row may have no entry, where supports hold both sides
+    if (lower.coeff(i, i) == 0) lower.coeffRef(i, i) = 1;
+  lower.makeCompressed();
+  freedom_.assign(rows.size(), {});
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& part : comm_.exchange(pairs_of))
+    for (const Global row : part) pairs.emplace_back(position(row), position(row + 1));
+  pattern_ = pattern_of(lower.selfadjointView<Eigen::Lower>(), pairs);
+  matrix_ = std::move(lower);
 }
 
-void ContactGram::fix(std::span<const Local> fixed)
+void ContactGram::fix(std::span<const Local> fixed, std::span<const qp::SlipDirection> slips)
 {
   if (identity_) return;
+  slips_.assign(slips.begin(), slips.end());
   const auto& ranges = jump_.ranges();
-  std::vector<char> mine(static_cast<std::size_t>(ranges.extra - ranges.contacts), 0);
+  std::vector<Freedom> mine(static_cast<std::size_t>(ranges.extra - ranges.contacts));
   for (const Local i : fixed)
-    if (i >= ranges.contacts && i < ranges.extra) mine[static_cast<std::size_t>(i - ranges.contacts)] = 1;
-  std::vector<std::vector<char>> send(sent_.size());
+    if (i >= ranges.contacts && i < ranges.extra) mine[static_cast<std::size_t>(i - ranges.contacts)] = {Freedom::none};
+  for (const auto& slip : slips_)
+    for (const int k : {0, 1})
+      mine[static_cast<std::size_t>(slip.index[static_cast<std::size_t>(k)] - ranges.contacts)] = {
+          k == 0 ? Freedom::first : Freedom::second, slip.tangent[k], slip.curvature};
+  std::vector<std::vector<Freedom>> send(sent_.size());
   for (std::size_t r = 0; r < sent_.size(); ++r)
     for (const Local i : sent_[r]) send[r].push_back(mine[static_cast<std::size_t>(i - ranges.contacts)]);
-  const auto flags = comm_.exchange(send);
+  const auto got = comm_.exchange(send);
   bool changed = false;
-  for (std::size_t r = 0; r < flags.size(); ++r)
-    for (std::size_t i = 0; i < flags[r].size(); ++i) {
-      auto& now = fixed_[static_cast<std::size_t>(got_[r][i])];
-      changed = changed || now != flags[r][i];
-      now = flags[r][i];
+  for (std::size_t r = 0; r < got.size(); ++r)
+    for (std::size_t i = 0; i < got[r].size(); ++i) {
+      auto& now = freedom_[static_cast<std::size_t>(got_[r][i])];
+      changed = changed || !(now == got[r][i]);
+      now = got[r][i];
     }
   if (comm_.any(changed)) factorize(changed);
+}
+
+// The unknown that a row belongs to.
+int ContactGram::unknown(int row) const
+{
+  return freedom_[at(row)].kind == Freedom::second ? row - 1 : row;
+}
+
+// The lower triangle of T'(B D^-1 B' + E) T + Sigma, with 1 where T is zero.
+SparseMatrix ContactGram::free_part() const
+{
+  SparseMatrix free = pattern_;
+  for (int c = 0; c < matrix_.outerSize(); ++c) {
+    const auto& of_column = freedom_[at(c)];
+    if (of_column.kind == Freedom::none) continue;
+    SparseMatrix::InnerIterator place(free, c);
+    for (SparseMatrix::InnerIterator it(matrix_, c); it; ++it) {
+      const auto& of_row = freedom_[at(static_cast<int>(it.row()))];
+      if (of_row.kind == Freedom::none) continue;
+      if (of_row.kind == Freedom::all && of_column.kind == Freedom::all) {
+        while (place.row() < it.row()) ++place;
+        place.valueRef() += it.value();
+        continue;
+      }
+      const auto [column, row] = std::minmax(unknown(c), unknown(static_cast<int>(it.row())));
+      const double twice = row == column && it.row() != c ? 2 : 1;
+      free.coeffRef(row, column) += twice * of_row.along * it.value() * of_column.along;
+    }
+  }
+  for (int i = 0; i < matrix_.rows(); ++i) {
+    const auto& freedom = freedom_[at(i)];
+    if (freedom.kind == Freedom::none || freedom.kind == Freedom::second) free.coeffRef(i, i) = 1;
+    if (freedom.kind == Freedom::first) free.coeffRef(i, i) += freedom.curvature;
+  }
+  return free;
 }
 
 // `changed`: here. Collective.
 void ContactGram::factorize(bool changed)
 {
-  SparseMatrix free = matrix_;
-  for (int c = 0; c < free.outerSize(); ++c)
-    for (SparseMatrix::InnerIterator it(free, c); it; ++it)
-      if (fixed_[static_cast<std::size_t>(it.row())] || fixed_[static_cast<std::size_t>(c)])
-        it.valueRef() = it.row() == c ? 1 : 0;
   // Rows that depend on each other (bonded contacts round a common edge, a pair named twice) need a trace more; on all ranks the
   // same.
   const bool known = !changed && usable_;
   const double before = trace_;
+  const SparseMatrix free = free_part();
+  if (matrix_.rows() > 0 && !factor_) factor_.emplace(free);
   usable_ = false;
   for (double trace = 0; !usable_ && trace <= 1e-2; trace = trace == 0 ? 1e-8 : 1e2 * trace) {
     trace_ = trace;
@@ -246,7 +321,11 @@ void ContactGram::apply_inverse(Vector& x) const
     Eigen::VectorXd right(matrix_.rows());
     for (std::size_t r = 0; r < parts.size(); ++r)
       for (std::size_t i = 0; i < parts[r].size(); ++i) right[got_[r][i]] = parts[r][i];
-    const Eigen::VectorXd solved = factor_->solve(right);
+    Eigen::VectorXd felt = Eigen::VectorXd::Zero(right.size());  // T'right
+    for (int i = 0; i < right.size(); ++i) felt[unknown(i)] += freedom_[at(i)].along * right[i];
+    const Eigen::VectorXd x_free = factor_->solve(felt);
+    Eigen::VectorXd solved(right.size());
+    for (int i = 0; i < right.size(); ++i) solved[i] = freedom_[at(i)].along * x_free[unknown(i)];
     for (std::size_t r = 0; r < parts.size(); ++r)
       for (std::size_t i = 0; i < parts[r].size(); ++i) parts[r][i] = solved[got_[r][i]];
   }
@@ -256,6 +335,19 @@ void ContactGram::apply_inverse(Vector& x) const
   if (trace_ > 0) result.segment(ranges.contacts, ranges.extra - ranges.contacts) /= 1 + trace_;
   for (std::size_t r = 0; r < sent_.size(); ++r)
     for (std::size_t i = 0; i < sent_[r].size(); ++i) result[sent_[r][i]] = parts[r][i];
+}
+
+void ContactGram::add_curvature(const Vector& x, Vector& y) const
+{
+  if (!usable_) return;
+  const auto in = view(x);
+  auto out = view(y);
+  for (const auto& slip : slips_) {
+    const auto [i, j] = slip.index;
+    const double force = slip.curvature * (in[i] * slip.tangent[0] + in[j] * slip.tangent[1]);
+    out[i] += force * slip.tangent[0];
+    out[j] += force * slip.tangent[1];
+  }
 }
 
 }  // namespace mortise::feti

@@ -69,13 +69,13 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
   groups_ = body_groups(decomposition, *jump_, constraints_.prescribed, comm_);
   if (!constraints_.springs.rows.empty()) springs_ = std::make_unique<ElasticRows>(constraints_.springs, *jump_, comm_);
   hessian_ = std::make_unique<DualOperator>(*jump_, system.clusters, context.timers, springs_.get());
+  make_set();
   if (options.preconditioner != "none") {
     const auto kind = options.preconditioner == "lumped" ? Preconditioner::Kind::lumped : Preconditioner::Kind::dirichlet;
     preconditioner_ =
         std::make_unique<Preconditioner>(kind, decomposition, *jump_, system.clusters.subdomains(), system.nodal_stiffness,
-                                         options.factorization, context.timers, comm_, springs_.get());
+                                         set_.discs(), options.factorization, context.timers, comm_, springs_.get());
   }
-  make_set();
   make_rhs(std::move(load));
 }
 

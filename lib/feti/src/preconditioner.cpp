@@ -81,12 +81,13 @@ double relaxed_energy(const SubdomainOperator& subdomain, const std::vector<bool
 
 Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump,
                                const Subdomains& subdomains, const std::vector<std::vector<double>>& nodal_stiffness,
-                               const std::string& factorization, Timers& timers, const Communicator& comm,
-                               const ElasticRows* springs)
+                               std::span<const qp::Disc> discs, const std::string& factorization, Timers& timers,
+                               const Communicator& comm, const ElasticRows* springs)
     : jump_(jump),
       nodal_stiffness_(nodal_stiffness),
       dimension_(decomposition.catalogue.dimension),
       subdomains_(subdomains),
+      discs_(discs.begin(), discs.end()),
       springs_(springs),
       comm_(comm),
       timers_(timers)
@@ -107,21 +108,30 @@ Preconditioner::Preconditioner(Kind kind, const partition::Decomposition& decomp
       groups_.push_back({std::move(surface), std::move(members)});
     }
   });
-  gram_ = std::make_unique<ContactGram>(jump_, nodal_stiffness, dimension, comm_);
+  gram_ = std::make_unique<ContactGram>(jump_, nodal_stiffness, dimension, std::span<const qp::Disc>(), comm_);
+  contact_ = gram_.get();
 }
 
 Preconditioner::~Preconditioner() = default;
 
-void Preconditioner::fix(std::span<const Local> fixed)
+void Preconditioner::fix(std::span<const Local> fixed, std::span<const qp::SlipDirection> slips)
 {
-  gram_->fix(fixed);
+  const auto scope = timers_.scope("preconditioner");
+  if (comm_.any(!slips.empty())) {
+    if (!with_slip_) with_slip_ = std::make_unique<ContactGram>(jump_, nodal_stiffness_, dimension_, discs_, comm_);
+    contact_ = with_slip_.get();
+    contact_->fix(fixed, slips);
+    if (contact_->usable()) return;
+  }
+  contact_ = gram_.get();
+  contact_->fix(fixed, {});
 }
 
 double Preconditioner::energy(const Vector& r)
 {
   const auto scope = timers_.scope("preconditioner");
   Vector right(r, Teuchos::Copy);
-  gram_->apply_inverse(right);
+  contact_->apply_inverse(right);
   auto u = jump_.apply_transpose(right);
   double sum = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
@@ -144,7 +154,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
     Vector right(*in, Teuchos::Copy);
-    gram_->apply_inverse(right);
+    contact_->apply_inverse(right);
     auto forces = jump_.apply_transpose(right);
     for (const auto& [surface, members] : groups_)
       for (std::size_t first = 0; first < members.size(); first += block_columns) {
@@ -165,7 +175,8 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
       }
     Vector result = jump_.apply(forces);
     view(result) += jump_.compliance().cwiseProduct(view(right));
-    gram_->apply_inverse(result);
+    contact_->add_curvature(right, result);
+    contact_->apply_inverse(result);
     if (springs_) springs_->add_stiffness(1, *in, result);
     const auto extra = jump_.ranges().end - jump_.ranges().extra;
     view(result).segment(jump_.ranges().extra, extra) = view(*in).segment(jump_.ranges().extra, extra);

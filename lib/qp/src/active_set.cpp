@@ -65,19 +65,19 @@ ActiveSet::ActiveSet(Projector& projector, const FeasibleSet& set, const Vector&
       continue;
     }
     const double curvature = (r - disc.radius) / (step * disc.radius);
-    slips_.push_back(
-        {disc.index, Eigen::Vector2d(-y[1], y[0]) / r, curvature, std::sqrt(stiffness[d] / (stiffness[d] + curvature))});
+    slips_.push_back({disc.index, Eigen::Vector2d(-y[1], y[0]) / r, curvature});
+    weights_.push_back(std::sqrt(stiffness[d] / (stiffness[d] + curvature)));
   }
   for (const Local i : fixed_) {
     auto& block = downdates.emplace_back();
     block.index[0] = i;
     block.matrix(0, 0) = 1;
   }
-  for (const auto& slip : slips_) {
+  for (std::size_t i = 0; i < slips_.size(); ++i) {
+    const auto& tangent = slips_[i].tangent;
     auto& block = downdates.emplace_back();
-    block.index = {slip.index[0], slip.index[1], -1};
-    block.matrix.topLeftCorner<2, 2>() =
-        Eigen::Matrix2d::Identity() - slip.weight * slip.weight * slip.tangent * slip.tangent.transpose();
+    block.index = {slips_[i].index[0], slips_[i].index[1], -1};
+    block.matrix.topLeftCorner<2, 2>() = Eigen::Matrix2d::Identity() - weights_[i] * weights_[i] * tangent * tangent.transpose();
   }
   factorize(matrix_, downdates);
   if (!coupled || equality_.communicator().sum(static_cast<long long>(couplings_.size())) == 0) return;
@@ -98,9 +98,9 @@ void ActiveSet::restrict(Vector& x, int power) const
   auto values = view(x);
   for (const Local i : fixed_) values[i] = 0;
   const auto scale = [power](double w) { return power == 0 ? 1 : power == 1 ? w : power == 2 ? w * w : 1 / (w * w); };
-  for (const auto& slip : slips_) {
-    const double along =
-        (values[slip.index[0]] * slip.tangent[0] + values[slip.index[1]] * slip.tangent[1]) * scale(slip.weight);
+  for (std::size_t i = 0; i < slips_.size(); ++i) {
+    const auto& slip = slips_[i];
+    const double along = (values[slip.index[0]] * slip.tangent[0] + values[slip.index[1]] * slip.tangent[1]) * scale(weights_[i]);
     values[slip.index[0]] = along * slip.tangent[0];
     values[slip.index[1]] = along * slip.tangent[1];
   }

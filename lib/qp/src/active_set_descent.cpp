@@ -93,9 +93,9 @@ class Columns {
 // the directions D as columns, images = Q R, Q'Q = I, it goes by D R^-1 Q' residual.
 class Descent {
  public:
-  // From the point of the active set with gradient `gy`.
-  Descent(const ActiveSet& active_set, const Communicator& comm, const Vector& gy)
-      : residual(gy, Teuchos::Copy), active_set_(active_set), comm_(comm)
+  // From the point of the active set with gradient `gy`. `curved`: the preconditioner knows the curvatures.
+  Descent(const ActiveSet& active_set, const Communicator& comm, bool curved, const Vector& gy)
+      : residual(gy, Teuchos::Copy), active_set_(active_set), comm_(comm), curved_(curved)
   {
     residual.scale(-1);
     active_set.project_gradient(residual);
@@ -108,9 +108,10 @@ class Descent {
     constrained.update(1, residual, -1, free, 0);
     return free;
   }
-  // Its norm, slip directions scaled.
+  // Its norm, slip directions scaled where nothing else knows their curvatures.
   double size() const
   {
+    if (curved_) return residual.norm2();
     Vector constrained(residual.getMap());
     Vector free = split(constrained);
     active_set_.scale(free);
@@ -183,6 +184,7 @@ class Descent {
 
   const ActiveSet& active_set_;
   const Communicator& comm_;
+  bool curved_;
   OrthonormalColumns first_;    // the first columns of Q
   std::vector<Vector> images_;  // the others
   Columns columns_, directions_, products_;
@@ -205,14 +207,20 @@ void FaceNewton::precondition(const ActiveSet& active_set, const Vector& residua
     q.update(-part[i], recycled_directions_[i].image, 1);
   }
   if (!recycled_directions_.empty()) active_set.project_gradient(q, 1);  // once is enough for what is projected again at the end
-  active_set.scale(q);
+  const auto scale = [&](Vector& x) {
+    if (preconditioner_ && preconditioner_->knows_curvature())
+      active_set.keep_free(x);
+    else
+      active_set.scale(x);
+  };
+  scale(q);
   if (preconditioner_) {
     preconditioner_->apply(q, z);
     ++preconditionings_;
   } else {
     z.update(step_length / norm_, q, 0);
   }
-  active_set.scale(z);
+  scale(z);
   if (!recycled_directions_.empty()) active_set.project(z, 1);
   for (std::size_t i = 0; i < recycled_directions_.size(); ++i)
     if (recycled_directions_[i].step)
@@ -290,7 +298,7 @@ bool FaceNewton::descend(const ActiveSet& active_set, double goal, double weight
     recycle(active_set, Vector(direction, Teuchos::Copy), Vector(product, Teuchos::Copy), false);
   y.assign(z);
   gy.assign(g);
-  Descent descent(active_set, programme_.equality.communicator(), gy);
+  Descent descent(active_set, programme_.equality.communicator(), preconditioner_ && preconditioner_->knows_curvature(), gy);
   const double start = descent.size();
   if (start <= 1e-2 * goal) return false;
   goal = std::max(goal, inner_reduction * start);

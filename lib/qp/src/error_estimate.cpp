@@ -34,7 +34,7 @@ double error_bound(const Problem& problem, const Vector& x, const Projection& na
   residual.scale(norm);
   double square = 0;
   if (preconditioner) {
-    preconditioner->fix(far_from_contact(problem, x, natural, largest));
+    preconditioner->fix(far_from_contact(problem, x, natural, largest), {});
     square = std::max(preconditioner->energy(residual), 0.0);
   } else {
     square = residual.dot(residual) / norm;

@@ -137,7 +137,7 @@ bool FaceNewton::contact_converged(const Run& run, const Projection& natural)
   if (!goal.contact_converged || !preconditioner_ || settled) return true;
   Vector gap(z, Teuchos::Copy), change(z.getMap());
   gap.update(-norm_, natural.point, norm_);
-  preconditioner_->fix({});
+  preconditioner_->fix({}, {});
   preconditioner_->apply(gap, change);
   ++preconditionings_;
   return goal.contact_converged(z, natural.argument, change);

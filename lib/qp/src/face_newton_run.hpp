@@ -58,13 +58,14 @@ struct FaceNewton::Run {
   Solution result;
   State state;
   ContactForces contact;
-  double size = 1;                    // that residuals are relative to: ||P b||
-  double energy = 0;                  // of z
-  double residual = 0;                // natural, of z
-  double mismatch = 0;                // of radii at z, as a residual
-  Eigen::VectorXd nu = {};            // a start for the next projection
-  FeasibleSet::Active active = {};    // how many constraints are
-  bool moved = false;                 // y differs from z
+  int products_before;              // this solve
+  double size = 1;                  // that residuals are relative to: ||P b||
+  double energy = 0;                // of z
+  double residual = 0;              // natural, of z
+  double mismatch = 0;              // of radii at z, as a residual
+  Eigen::VectorXd nu = {};          // a start for the next projection
+  FeasibleSet::Active active = {};  // how many constraints are
+  bool moved = false;               // y differs from z
   // y and z after a longer step, where bounds follow the solution.
   std::optional<Vector> beyond = {}, beyond_z = {};
   std::deque<double> last_residuals = {};  // worst() of some steps, there

@@ -14,7 +14,7 @@ std::optional<PredictedSolution> predict(const Problem& problem, const Solution&
   if (!natural.found) return {};
   gap.update(norm, found.x, -norm, natural.point, 0);
   PredictedSolution result{natural.argument, Vector(gap.getMap())};
-  preconditioner.fix({});
+  preconditioner.fix({}, {});
   preconditioner.apply(gap, result.change);
   return result;
 }

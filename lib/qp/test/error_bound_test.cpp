@@ -14,7 +14,7 @@ namespace {
 class Inverse : public ActiveSetPreconditioner {
  public:
   Inverse(const Eigen::MatrixXd& a, Teuchos::RCP<const Map> map) : inverse_(a.inverse(), map, world()) {}
-  void fix(std::span<const Local>) override {}
+  void fix(std::span<const Local>, std::span<const SlipDirection>) override {}
   Teuchos::RCP<const Map> getDomainMap() const override { return inverse_.getDomainMap(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return inverse_.getRangeMap(); }
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override

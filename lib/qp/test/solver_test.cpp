@@ -26,7 +26,7 @@ class DenseProgramme : public ActiveSetPreconditioner {
     const Eigen::VectorXd whole = programme_.dense.llt().solve(gathered(*x.getVector(0), world()));
     y.getVectorNonConst(0)->update(alpha, local_part(whole, programme_.map), beta);
   }
-  void fix(std::span<const Local>) override {}
+  void fix(std::span<const Local>, std::span<const SlipDirection>) override {}
 
   ExplicitProgramme::Point solve(const RightHandSide& right) const { return solve(right.b, right.e, nullptr); }
   ExplicitProgramme::Point solve(const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Point* near) const

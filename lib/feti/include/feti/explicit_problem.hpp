@@ -37,7 +37,7 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
   /// y = alpha F^-1 x + beta y. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
-  void fix(std::span<const Local>) override {}  // energy() is a bound over all x, and so over those with zeros
+  void fix(std::span<const Local>, std::span<const qp::SlipDirection>) override {}  // energy() is a bound over all x
 
  private:
   const DualProblem& problem_;

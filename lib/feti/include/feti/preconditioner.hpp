@@ -29,15 +29,18 @@ class ContactGram;
 class Preconditioner : public qp::ActiveSetPreconditioner {
  public:
   enum class Kind { lumped, dirichlet };
-  /// nodal_stiffness[s][n]: D. `factorization`: of K_ii, by a solver of DirectSolver's. `springs`: null if there are none. Throws
-  /// as DirectSolver. Collective.
+  /// nodal_stiffness[s][n]: D. `discs`: in which contact rows of this rank slip. `factorization`: of K_ii, by a solver of
+  /// DirectSolver's. `springs`: null if there are none. Throws as DirectSolver. Collective.
   Preconditioner(Kind kind, const partition::Decomposition& decomposition, const JumpOperator& jump, const Subdomains& subdomains,
-                 const std::vector<std::vector<double>>& nodal_stiffness, const std::string& factorization, Timers& timers,
-                 const Communicator& comm, const ElasticRows* springs = nullptr);
+                 const std::vector<std::vector<double>>& nodal_stiffness, std::span<const qp::Disc> discs,
+                 const std::string& factorization, Timers& timers, const Communicator& comm,
+                 const ElasticRows* springs = nullptr);
   ~Preconditioner() override;
 
-  /// As ActiveSetPreconditioner has it: the inverse of B D^-1 B' is that of the contact rows that stay free. Collective.
-  void fix(std::span<const Local> fixed) override;
+  /// As ActiveSetPreconditioner has it: the inverse of B D^-1 B' is that of the contact rows that stay free, of `slips` that of
+  /// T'(B D^-1 B') T + Sigma, T the tangents and Sigma their curvatures. Collective.
+  void fix(std::span<const Local> fixed, std::span<const qp::SlipDirection> slips) override;
+  bool knows_curvature() const override { return contact_ == with_slip_.get(); }
   /// Twice the strain energy of displacements that close the gaps r: those of D^-1 B' C r at the interfaces, and inside what is
   /// nearly of least energy. Collective.
   double energy(const Vector& r) override;
@@ -61,8 +64,10 @@ class Preconditioner : public qp::ActiveSetPreconditioner {
     std::vector<std::size_t> members;  // copies of one subdomain, and alike in which nodes are touched
   };
   std::vector<Group> groups_;
-  std::unique_ptr<ContactGram> gram_;  // B D^-1 B' of the contact rows
-  const ElasticRows* springs_;         // null if there are none
+  std::vector<qp::Disc> discs_;
+  std::unique_ptr<ContactGram> gram_, with_slip_;  // B D^-1 B' of the contact rows; the other once it is asked for
+  ContactGram* contact_ = nullptr;                 // that of the two which fix() wants
+  const ElasticRows* springs_;                     // null if there are none
   const Communicator& comm_;
   Timers& timers_;
 };

@@ -6,6 +6,7 @@
 // the circle is that on the tangent with sigma added to its Hessian.
 #pragma once
 
+#include "qp/problem.hpp"
 #include "qp/projection.hpp"
 
 namespace mortise::qp {
@@ -53,18 +54,14 @@ class ActiveSet {
 
   /// Whether on any rank discs that slip follow their normal unknowns: then project_trial() is another projection than project().
   bool coupled() const { return trial_matrix_ != &matrix_; }
-  /// Unknowns of this rank that are not free at all.
+  /// Unknowns of this rank that are not free at all, and pairs that are along a tangent alone.
   const std::vector<Local>& fixed() const { return fixed_; }
+  const std::vector<SlipDirection>& slips() const { return slips_; }
 
   long long active_bounds = 0;  ///< bounds on this rank that hold their unknown
   long long slipping = 0;       ///< discs on this rank that slip or are pinned
 
  private:
-  struct Slip {
-    std::array<Local, 2> index;
-    Eigen::Vector2d tangent;
-    double curvature, weight;
-  };
   struct Coupling {
     Local normal;
     std::array<Local, 2> index;
@@ -78,7 +75,8 @@ class ActiveSet {
   const EqualityConstraint& equality_;
   CoarseMatrix& matrix_;
   std::vector<Local> fixed_;
-  std::vector<Slip> slips_;
+  std::vector<SlipDirection> slips_;
+  std::vector<double> weights_;  // of each of these: w
   std::vector<Coupling> couplings_;
   CoarseMatrix* trial_matrix_;  // of T w^2 T'; matrix_ where nothing is coupled
 };

@@ -5,6 +5,7 @@
 // A, G and Omega, but for the radii of its discs, stay from load step to load step: the programme. b and e are new in each.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -40,12 +41,21 @@ class Hessian {
   int count_ = 0;
 };
 
+/// Two unknowns that are free along a tangent of their disc alone, where the disc bends it: A has `curvature` more there.
+struct SlipDirection {
+  std::array<Local, 2> index;
+  Eigen::Vector2d tangent;
+  double curvature;
+};
+
 /// An approximation of A^-1, symmetric positive semidefinite, that may adapt to the active set it serves.
 class ActiveSetPreconditioner : public Operator {
  public:
-  /// Until the next call the unknowns `fixed` of this rank are 0 in what it is applied to, and in what is used of the result.
-  /// Collective.
-  virtual void fix(std::span<const Local> fixed) = 0;
+  /// Until the next call, of what it is applied to and of what is used of the result the unknowns `fixed` of this rank are 0, and
+  /// those of `slips` are along their tangents. Collective.
+  virtual void fix(std::span<const Local> fixed, std::span<const SlipDirection> slips) = 0;
+  /// Whether it is one of (A + curvatures of `slips`)^-1 then; if not, its arguments and results want to be scaled.
+  virtual bool knows_curvature() const { return false; }
   /// No less than sup (r'x)^2 / x'A x over all x with G x = 0 and x = 0 where fixed: the square of the error that a residual r
   /// stands for. r'M r is, if M comes from an approximation of the displacements that close the gaps r; a sharper one may cost
   /// as much as a product with A. Collective.
