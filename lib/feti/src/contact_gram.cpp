@@ -272,7 +272,7 @@ SparseMatrix ContactGram::free_part() const
         place.valueRef() += it.value();
         continue;
       }
-      const auto [column, row] = std::minmax(unknown(c), unknown(static_cast<int>(it.row())));
+      const auto [column, row] = std::minmax({unknown(c), unknown(static_cast<int>(it.row()))});
       const double twice = row == column && it.row() != c ? 2 : 1;
       free.coeffRef(row, column) += twice * of_row.along * it.value() * of_column.along;
     }
