@@ -36,8 +36,8 @@ void add_work(const feti::DualSolution& solved, io::StateSummary& summary)
 void add_figures(const post::Results& results, const mesh::Catalogue& catalogue, io::StateSummary& summary)
 {
   const auto& r = results.residuals;
-  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration,
-                       r.complementarity,    r.supports, r.interfaces};
+  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration, r.complementarity, r.supports,
+                       r.interfaces};
   summary.error_estimate.discretization = results.mesh_error.relative;
   summary.error_estimate.algebraic = results.algebraic_error;
   summary.strain_energy = results.stress.strain_energy;
@@ -98,7 +98,8 @@ void add_contacts(const model::Contacts& contacts, const analysis::StepState& st
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& r = results.contact.resultants[c];
     const auto& surface = results.contact.surfaces[c];
-    const Point force = contacts[c].exchanged ? Point(Point::Zero() - r.force) : r.force;  // on the side that the deck calls secondary
+    // On the side that the deck calls secondary.
+    const Point force = contacts[c].exchanged ? Point(Point::Zero() - r.force) : r.force;
     summary.contacts.push_back({contacts[c].name,
                                 {force[0], force[1], force[2]},
                                 std::max(largest(surface.pressure), 0.0),
