@@ -13,11 +13,11 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double longer_step = 20;          // times step_length: where bounds follow the solution, on what is not free
-constexpr double constraint_weight = 4;     // over the step's length: what a force off its constraint counts beside gaps
-constexpr int products_without_slip = 100;  // of a solve, before the preconditioner is told which points slip
-constexpr int probes = 4;                   // applications of the preconditioner that tell how stiff the point of a disc is
-constexpr double norm_accuracy = 0.4;       // the step only picks the active set, and a descent is checked
+constexpr double longer_step = 20;       // times step_length: where bounds follow the solution, on what is not free
+constexpr double constraint_weight = 4;  // over the step's length: what a force off its constraint counts beside gaps
+constexpr int fruitless_sets = 2;        // that brought nothing better: from then on the preconditioner knows nothing of slip
+constexpr int probes = 4;                // applications of the preconditioner that tell how stiff the point of a disc is
+constexpr double norm_accuracy = 0.4;    // the step only picks the active set, and a descent is checked
 constexpr double first_active_set_tolerance = 1e-3;  // distances from bounds, over the largest, that count as none
 constexpr double first_active_set_tolerance_updated =
     1e-5;                               // the same where bounds follow the solution: the longer step picks better
@@ -68,15 +68,7 @@ Solution FaceNewton::solve(const RightHandSide& right, std::span<const double> r
   if (law && law->cautious) recycled_directions_.clear();  // they would lead where they have led before
   find_norm(start, observer);
 
-  Run run{problem,
-          start,
-          goal,
-          law ? &*followed : nullptr,
-          observer,
-          std::move(result),
-          State(map),
-          ContactForces(problem),
-          programme_.hessian.count()};
+  Run run{problem, start, goal, law ? &*followed : nullptr, observer, std::move(result), State(map), ContactForces(problem)};
   const double size = relative_size(problem, goal.allowed_error ? tolerances::finest : goal.residual);
   if (size != 0) run.size = size;
   run.active_set_tolerance = law ? first_active_set_tolerance_updated : first_active_set_tolerance;
@@ -182,8 +174,7 @@ void FaceNewton::minimise(Run& run, const Trial& trial)
   const bool follow = run.followed != nullptr;
   const ActiveSet active_set(projector_, run.problem.set, trial.next.argument, run.beyond ? longer_step * trial.step : trial.step,
                              disc_stiffness_, run.active_set_tolerance, follow);
-  // Two active sets that brought nothing better: another preconditioner may.
-  const bool curved = programme_.hessian.count() - run.products_before > products_without_slip && run.since_best < 2;
+  const bool curved = run.since_best < fruitless_sets;
   if (preconditioner_)
     preconditioner_->fix(active_set.fixed(), curved ? std::span(active_set.slips()) : std::span<const SlipDirection>());
   const double enough = residual_to_reach(run);

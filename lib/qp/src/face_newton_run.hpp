@@ -58,7 +58,6 @@ struct FaceNewton::Run {
   Solution result;
   State state;
   ContactForces contact;
-  int products_before;              // this solve
   double size = 1;                  // that residuals are relative to: ||P b||
   double energy = 0;                // of z
   double residual = 0;              // natural, of z
