@@ -33,18 +33,25 @@ namespace mortise::contact {
 
 // Of a row: where supports leave no more, what they push into each other is not for the rest to make good.
 inline constexpr double hardly_moves = 0.05;
+// Of a face, or of a row's weight.
+inline constexpr double same_node = 1e-6;
 
-// A node that has rows of a contact that is not bonded.
-struct UnbondedNode {
+// A secondary node of a contact.
+struct NodeOfContact {
   Global node;
+  bool bonded = false;
+  bool matches = false;  // all nodes of its faces lie opposite nodes
+  int contact = 0;
+  double cover = 0;  // see ContactNodes
 };
 
 // The rows of one contact at the nodes that are this rank's.
 class ContactBuilder {
  public:
-  // `unbonded_nodes`: those of share.secondary, ascending. All arguments outlive it. Collective.
+  // `others`: nodes of share.secondary at which others have rows, ascending; may be filled until add_rows(). All arguments
+  // outlive it. Collective.
   ContactBuilder(const Options& options, const Share& share, double reach, int index, const SupportDirectory& supports,
-                 const FacesAtBonds& at_bonds, const std::vector<UnbondedNode>& unbonded_nodes, const CurvedFaces& curved,
+                 const FacesAtBonds& at_bonds, const std::vector<NodeOfContact>& others, const CurvedFaces& curved,
                  fem::Kinematics kinematics, const Communicator& comm)
       : options_(options),
         index_(index),
@@ -54,7 +61,7 @@ class ContactBuilder {
         share_(share),
         secondary_(share.secondary),
         primary_(share.primary),
-        unbonded_nodes_(unbonded_nodes),
+        others_(others),
         supports_(supports, secondary_.node_id, comm),
         primary_supports_(supports, primary_.node_id, comm),
         primary_at_bonds_(at_bonds.nodes_of(primary_, comm)),
@@ -98,14 +105,30 @@ class ContactBuilder {
   const InitialGap& initial_gap() const { return initial_gap_; }
   void set_lengths(double touching, double face) { initial_gap_.touching = touching, initial_gap_.face = face; }
 
-  // All of its work: afterwards the others tell what it found.
-  void add_rows(constraint::Contacts& contacts, const SupportDirectory& supports, const Communicator& comm)
+  // What the faces have in common. Collective.
+  void integrate(const Communicator& comm)
   {
     const auto cover = [&](std::size_t face) { return discretization_->cover(face); };
     auto between = take_places_between(nearest_, secondary_, nodes_, faces_, share_.own, cover, comm);
     for (const std::size_t f : faces_.round()) discretization_->add_face(f, between.in_facets[f] != 0);
     between_.emplace(std::move(between.places), secondary_, share_.own, comm);
     faces_.number_corners();
+    if (bonded()) matches_ = on_matching_faces(comm);
+  }
+
+  // Of a bond, after integrate(): this rank's secondary nodes that it covers.
+  std::vector<NodeOfContact> nodes_of_bond()
+  {
+    std::vector<NodeOfContact> result;
+    const auto cover = cover_of_nodes(faces_, nodes_.all.size());
+    for (std::size_t p = 0; p < nodes_.all.size(); ++p)
+      if (own(p) && cover[p] > 0) result.push_back({node_of(p), true, matches_[p] != 0, index_, cover[p]});
+    return result;
+  }
+
+  // The rest of its work, after integrate(): afterwards the others tell what it found.
+  void add_rows(constraint::Contacts& contacts, const SupportDirectory& supports, const Communicator& comm)
+  {
     const auto one_node = nodes_of_both_sides();
     ends_meet_ = std::ranges::find(one_node, 1) != one_node.end();
     chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, one_node, primary_held(), bonded_nodes(), dimension_);
@@ -140,21 +163,54 @@ class ContactBuilder {
   bool bonded() const { return options_.law == Law::bonded; }
   bool ends_together() const { return options_.preload || options_.cyclic || options_.obstacle; }
 
+  Global node_of(std::size_t p) const { return secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)]; }
+
   std::optional<BondedNodes> bonded_nodes()
   {
     if (!bonded()) return {};
     BondedNodes known;
-    const auto unbonded = [&](Local node) {
-      return std::binary_search(unbonded_nodes_.begin(), unbonded_nodes_.end(),
-                                UnbondedNode{secondary_.node_id[static_cast<std::size_t>(node)]},
-                                [](const UnbondedNode& a, const UnbondedNode& b) { return a.node < b.node; });
-    };
     for (std::size_t p = 0; p < nodes_.all.size(); ++p) {
       const bool met = ends_together() || rays_.meets(p);
       if (!ends_together()) known.met.push_back(met);
-      known.seam_ends.push_back(met && discretization_->seams_end_at_contacts() && unbonded(nodes_.all[p].node));
+      known.seam_ends.push_back(discretization_->seams_end_at_contacts() && belongs_to_others(p, met));
     }
     return known;
+  }
+
+  // Where bonds meet, rows that tie pairs of nodes agree with each other; others would tie to each other what lies opposite, as
+  // stiffly as this body's nodes are close.
+  bool belongs_to_others(std::size_t p, bool met) const
+  {
+    const auto before = [](const NodeOfContact& other, Global n) { return other.node < n; };
+    for (auto other = std::lower_bound(others_.begin(), others_.end(), node_of(p), before);
+         other != others_.end() && other->node == node_of(p); ++other)
+      if (other->bonded ? !matches_[p] || !other->matches : met) return true;
+    return false;
+  }
+
+  // Collective.
+  std::vector<char> on_matching_faces(const Communicator& comm)
+  {
+    std::vector<char> apart(nodes_.all.size(), 0);
+    for (std::size_t f = 0; f < secondary_.faces.size(); ++f) {
+      const auto surface_nodes = faces_.surface_nodes_of(f);
+      if (std::ranges::all_of(surface_nodes, [&](Local p) { return opposite_a_node(static_cast<std::size_t>(p)); })) continue;
+      for (const Local p : surface_nodes) apart[static_cast<std::size_t>(p)] = 1;
+    }
+    std::vector<NodeOfContact> own_apart;  // their ranks know all of their faces
+    for (std::size_t p = 0; p < apart.size(); ++p)
+      if (apart[p] && own(p)) own_apart.push_back({node_of(p)});
+    const auto found = answer(by_node<NodeOfContact>(own_apart, comm), ask(secondary_.node_id, comm), comm);
+    std::vector<char> result(nodes_.all.size(), 0);
+    for (std::size_t p = 0; p < result.size(); ++p)
+      result[p] = !std::ranges::binary_search(found, node_of(p), {}, &NodeOfContact::node);
+    return result;
+  }
+
+  bool opposite_a_node(std::size_t p)
+  {
+    const Opposite& opposite = rays_.meet(p);
+    return std::isfinite(opposite.gap) && opposite.hit.shape.maxCoeff() > 1 - same_node;
   }
 
   // Of each surface node whether it is a node of the primary side as well, as at the tip of a slit; but none of a face that has
@@ -338,7 +394,7 @@ class ContactBuilder {
   bool axisymmetric_;
   const Share& share_;
   const Side &secondary_, &primary_;
-  const std::vector<UnbondedNode>& unbonded_nodes_;
+  const std::vector<NodeOfContact>& others_;
   SupportedNodes supports_, primary_supports_;
   std::vector<FacesAtBonds::AtBond> primary_at_bonds_;
   SurfaceNodes nodes_, primary_nodes_;
@@ -360,8 +416,9 @@ class ContactBuilder {
   RowWriter writer_;
   SupportConflicts conflicts_;
   ContactNodes chosen_;
-  bool ends_meet_ = false;   // some nodes are on both sides
-  std::vector<Term> terms_;  // of the surface node at work
+  bool ends_meet_ = false;     // some nodes are on both sides
+  std::vector<Term> terms_;    // of the surface node at work
+  std::vector<char> matches_;  // of each surface node of a bond: all nodes of its faces lie opposite nodes
 };
 
 }  // namespace mortise::contact

@@ -12,6 +12,8 @@ namespace {
 
 // Less than this part of a facet is covered by chance.
 constexpr double least_piece = 0.01;
+// Of a face: a bond goes without less, where its nodes are held otherwise.
+constexpr double least_part_of_bond = 0.1;
 // A node that looks past the border with more of its surroundings covered is one on it.
 constexpr double most_cover = 0.6;
 
@@ -99,14 +101,25 @@ void keep_one_of_each_piece(CutFaces& faces, std::span<const char> past, std::ve
   for (const std::size_t p : more) keep[p] = 1;
 }
 
-// Marks the surface nodes of faces at which `holds` of all of them.
-template <class Holds>
-std::vector<char> at_all_nodes_of_a_face(const CutFaces& faces, std::size_t count, const Holds& holds)
+// The part of a face that is covered.
+double cover_of_face(CutFaces& faces, std::size_t face)
+{
+  double covered = 0, whole = 0;
+  for (const std::size_t i : faces.pieces(face)) {
+    covered += faces.piece(i).covered.sum();
+    whole += faces.piece(i).whole.sum();
+  }
+  return whole > 0 ? covered / whole : 0;
+}
+
+// Marks the surface nodes of faces that count at which `holds` of all of them.
+template <class Holds, class Counts>
+std::vector<char> at_all_nodes_of_a_face(const CutFaces& faces, std::size_t count, const Holds& holds, const Counts& counts)
 {
   std::vector<char> result(count, 0);
   for (const std::size_t f : faces.round()) {
     const auto surface_nodes = faces.surface_nodes_of(f);
-    if (std::all_of(surface_nodes.begin(), surface_nodes.end(), [&](Local p) { return holds(static_cast<std::size_t>(p)); }))
+    if (std::ranges::all_of(surface_nodes, [&](Local p) { return holds(static_cast<std::size_t>(p)); }) && counts(f))
       for (const Local p : surface_nodes) result[static_cast<std::size_t>(p)] = 1;
   }
   return result;
@@ -128,6 +141,15 @@ std::vector<double> sum_areas(CutFaces& faces, std::vector<double>& covered)
 }
 
 }  // namespace
+
+std::vector<double> cover_of_nodes(CutFaces& faces, std::size_t count)
+{
+  std::vector<double> cover(faces.places(), 0.0);
+  const auto whole = sum_areas(faces, cover);
+  for (std::size_t p = 0; p < count; ++p) cover[p] = whole[p] > 0 ? std::min(cover[p] / whole[p], 1.0) : 0.0;
+  cover.resize(count);
+  return cover;
+}
 
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
                                   const SupportedNodes& supports, const std::vector<char>& one_node,
@@ -171,8 +193,10 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
            (bond && bond->seam_ends[faces.surface_node(p)]);
   };
   nodes.stranded = at_all_nodes_of_a_face(
-      faces, count, [&](std::size_t p) { return left_out(p) || (!bond && !nodes.directions[p].free_normal); });
-  const auto without_others = at_all_nodes_of_a_face(faces, count, left_out);
+      faces, count, [&](std::size_t p) { return left_out(p) || (!bond && !nodes.directions[p].free_normal); },
+      [](std::size_t) { return true; });
+  const auto without_others = at_all_nodes_of_a_face(
+      faces, count, left_out, [&](std::size_t f) { return !bond || cover_of_face(faces, f) > least_part_of_bond; });
   std::vector<char> allowed(count, 0);
   nodes.cover.assign(count, 0);
   nodes.kept.assign(count, 0);

@@ -28,12 +28,16 @@ struct BondedNodes {
   /// The seam ends there at a contact: both sides of the seam have rows of that contact, each of which says what the other and
   /// the seam say: pressures that nothing shares out. As the mortar method does where multipliers meet, the seam has none there.
   /// Not past the border of the primary side, where multipliers stand inside, at places that the contact knows nothing of.
+  /// Or another bond covers more of what is round the node, or as much and comes first.
   std::vector<char> seam_ends;
   /// The primary side lies opposite. Nodes past its border leave their multipliers to the others of their faces: with their own
   /// the bond would hold whole faces, and be as wide as those. Unless what is left holds no whole face there, as on a strip with
   /// a single row of nodes. Empty where sides end together, as cuts of sectors do.
   std::vector<char> met;
 };
+
+/// The part of the faces round each of `count` surface nodes that is covered.
+std::vector<double> cover_of_nodes(CutFaces& faces, std::size_t count);
 
 /// `faces` in pieces, with their integrals. `one_node`: of each surface node whether it is a node of the primary side as well, as
 /// at the tip of a slit: it has no multiplier, since it cannot leave itself. `primary_held`: of each surface node whether

@@ -1,12 +1,43 @@
 // discretize() works out one contact after the other. Bonded contacts come last: a seam has no multipliers where it ends at
-// another contact.
+// another contact. Where bonds share secondary nodes each of these belongs to one of them.
 #include <algorithm>
+#include <memory>
 
 #include "rows/across_bonds.hpp"
 #include "rows/by_node.hpp"
 #include "rows/contact_builder.hpp"
 
 namespace mortise::contact {
+
+namespace {
+
+constexpr double as_much = 1e-3;  // of a cover
+
+// A contact at work.
+struct Work {
+  Share share;
+  std::vector<NodeOfContact> others;
+  std::unique_ptr<ContactBuilder> builder;
+};
+
+// Of the nodes of several bonds, each with the bond that it belongs to: the one that covers most of what is round it, the first
+// of several. `nodes`: ascending.
+std::vector<NodeOfContact> owners(const std::vector<NodeOfContact>& nodes)
+{
+  std::vector<NodeOfContact> result;
+  for (std::size_t i = 0, end = 0; i < nodes.size(); i = end) {
+    while (end < nodes.size() && nodes[end].node == nodes[i].node) ++end;
+    std::size_t owner = i;
+    for (std::size_t j = i + 1; j < end; ++j) {
+      const double more = nodes[j].cover - nodes[owner].cover;
+      if (more > as_much || (more >= -as_much && nodes[j].contact < nodes[owner].contact)) owner = j;
+    }
+    if (end - i > 1) result.push_back(nodes[owner]);
+  }
+  return result;
+}
+
+}  // namespace
 
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::PrescribedDof> prescribed,
                                 fem::Kinematics kinematics, const Communicator& comm,
@@ -16,46 +47,63 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
   constraint::Contacts contacts;
   const auto sizes = measure(pairs, comm);
   const SupportDirectory directory(prescribed, skew_supports, comm);
-  std::vector<UnbondedNode> unbonded_nodes;  // this rank's nodes by number, not by place; see by_node()
   const CurvedFaces curved(curved_faces, comm);
   const FacesAtBonds at_bonds(pairs, kinematics, comm);
   if (initial_gaps) initial_gaps->assign(pairs.size(), {});
+  const auto integrate = [&](const Pair& pair, std::size_t c) {
+    auto work = std::make_unique<Work>(Work{share_out(pair, sizes[c], kinematics, comm), {}, nullptr});
+    work->builder = std::make_unique<ContactBuilder>(pair.options, work->share, sizes[c].reach, static_cast<int>(c), directory,
+                                                     at_bonds, work->others, curved, kinematics, comm);
+    work->builder->integrate(comm);
+    return work;
+  };
   // What touches nothing, or lies far from what it should, once more with its primary side turned the other way.
   const auto check_cuts = [&](std::size_t c, const CutFit& fit) {
     if (pairs[c].options.law == Law::bonded) return require_one_surface(pairs[c], sizes[c], fit, comm);
     if (!may_be_turned_wrongly(pairs[c], sizes[c], fit)) return;
     const Pair other = turned_back(pairs[c]);
-    const Share share = share_out(other, sizes[c], kinematics, comm);
-    const std::vector<UnbondedNode> none;
-    ContactBuilder builder(other.options, share, sizes[c].reach, static_cast<int>(c), directory, at_bonds, none, curved,
-                           kinematics, comm);
+    const auto work = integrate(other, c);
     constraint::Contacts tried;
-    builder.add_rows(tried, directory, comm);
-    require_this_way(pairs[c], sizes[c], fit, over_ranks(builder.fit(), comm));
+    work->builder->add_rows(tried, directory, comm);
+    require_this_way(pairs[c], sizes[c], fit, over_ranks(work->builder->fit(), comm));
   };
-  const auto add = [&](std::size_t c) {
-    const auto& options = pairs[c].options;
-    const Share share = share_out(pairs[c], sizes[c], kinematics, comm);
-    std::vector<UnbondedNode> at_seam;
-    if (options.law == Law::bonded && comm.any(!unbonded_nodes.empty()))
-      at_seam = answer(unbonded_nodes, ask(share.secondary.node_id, comm), comm);
-    ContactBuilder builder(options, share, sizes[c].reach, static_cast<int>(c), directory, at_bonds, at_seam, curved, kinematics,
-                           comm);
+  const auto add = [&](ContactBuilder& builder, std::size_t c) {
     builder.set_lengths(touching_gap(sizes[c].extent, sizes[c].secondary_face), sizes[c].secondary_face);
     builder.add_rows(contacts, directory, comm);
     if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
-    if (options.cyclic) check_cuts(c, over_ranks(builder.fit(), comm));
-    builder.conflicts().refuse(options, sizes[c].reach, comm);
+    if (pairs[c].options.cyclic) check_cuts(c, over_ranks(builder.fit(), comm));
+    builder.conflicts().refuse(pairs[c].options, sizes[c].reach, comm);
   };
-  const auto is_bonded = [](const Pair& pair) { return pair.options.law == Law::bonded; };
+  std::vector<std::size_t> bonds;
   for (std::size_t c = 0; c < pairs.size(); ++c)
-    if (!is_bonded(pairs[c])) add(c);
-  if (std::none_of(pairs.begin(), pairs.end(), is_bonded)) return contacts;
+    if (pairs[c].options.law == Law::bonded)
+      bonds.push_back(c);
+    else
+      add(*integrate(pairs[c], c)->builder, c);
+  if (bonds.empty()) return contacts;
   join_across_bonds(pairs, contacts, comm);
-  for (const auto& point : contacts.nodes) unbonded_nodes.push_back({point.node});
-  unbonded_nodes = by_node<UnbondedNode>(unbonded_nodes, comm);
-  for (std::size_t c = 0; c < pairs.size(); ++c)
-    if (is_bonded(pairs[c])) add(c);
+
+  // Nodes are this rank's by number, not by place; see by_node().
+  std::vector<NodeOfContact> unbonded, bonded;
+  for (const auto& point : contacts.nodes) unbonded.push_back({point.node});
+  std::vector<std::unique_ptr<Work>> works;
+  for (const std::size_t c : bonds) {
+    works.push_back(integrate(pairs[c], c));
+    const auto nodes = works.back()->builder->nodes_of_bond();
+    bonded.insert(bonded.end(), nodes.begin(), nodes.end());
+  }
+  auto known = by_node<NodeOfContact>(unbonded, comm);
+  const auto owned = owners(by_node<NodeOfContact>(bonded, comm));
+  known.insert(known.end(), owned.begin(), owned.end());
+  std::ranges::stable_sort(known, {}, &NodeOfContact::node);
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const auto c = bonds[b];
+    auto& [share, others, builder] = *works[b];
+    others = answer(known, ask(share.secondary.node_id, comm), comm);
+    std::erase_if(others, [&](const NodeOfContact& node) { return node.bonded && node.contact == static_cast<int>(c); });
+    add(*builder, c);
+    works[b].reset();
+  }
   return contacts;
 }
 
