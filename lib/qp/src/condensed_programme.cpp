@@ -88,6 +88,26 @@ ConstraintStates CondensedProgramme::states_at(const VectorXd& x, const VectorXd
   return result;
 }
 
+void CondensedProgramme::keep_one_change(const ConstraintStates& before, ConstraintStates& now) const
+{
+  const std::size_t bounds = now.closed.size();
+  const auto place = [&](std::size_t d) { return bound_of_[d] >= 0 ? static_cast<std::size_t>(bound_of_[d]) : bounds + d; };
+  std::vector<std::size_t> changed;  // discs
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < bounds; ++i)
+    if (now.closed[i] != before.closed[i]) last = i;
+  for (std::size_t d = 0; d < now.kind.size(); ++d) {
+    const bool turned = now.kind[d] == ConstraintStates::Kind::slips && now.slip[d].direction.dot(before.slip[d].direction) < 0;
+    if (now.kind[d] == before.kind[d] && !turned) continue;
+    changed.push_back(d);
+    last = std::max(last, place(d));
+  }
+  for (const std::size_t d : changed)
+    if (place(d) != last) now.kind[d] = before.kind[d], now.slip[d] = before.slip[d];
+  for (std::size_t i = 0; i < bounds; ++i)
+    if (i != last) now.closed[i] = before.closed[i];
+}
+
 double CondensedProgramme::residual(const VectorXd& x, const VectorXd& nu) const
 {
   VectorXd y = x - step_.cwiseProduct(gradient(x, nu));

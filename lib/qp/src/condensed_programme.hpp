@@ -43,6 +43,9 @@ class CondensedProgramme {
   /// Those of x - step s, s what is felt at x and nu, or what is given.
   ConstraintStates states(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const { return states_at(x, gradient(x, nu)); }
   ConstraintStates states_at(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient) const;
+  /// Leaves of the changes from `before` to `now` that of the last place alone, a bound with the disc whose radius follows it, or
+  /// a disc. Slip that goes on in much the same direction is no change.
+  void keep_one_change(const ConstraintStates& before, ConstraintStates& now) const;
   /// W x + H'nu - b, of softened W.
   Eigen::VectorXd gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const;
   /// The norm, in that of `own`, of x - P(x - step s), and of what H x - C nu lacks.

@@ -15,12 +15,16 @@ namespace {
 
 constexpr int max_guesses = 15;        // at one softness, and so many
 constexpr int max_last_guesses = 60;   // once it is none: forces that hardly count settle late;
+constexpr int idle_before_single = 4;  // guesses that have not brought fewer changes: from then on one place changes at a time,
+constexpr int idle_single = 30;        // for so many more,
+constexpr int max_single_guesses = 300;
 constexpr int look_back_at_first = 4;  // guesses that must have halved changes, if these are more than so few
 constexpr int look_back_on_path = 1;
 constexpr int to_the_end = 0;
 constexpr double few_changes = 0.02;             // of all constraints, or so few,
 constexpr double handful = 8;                    // or so few in all
 constexpr int max_turns = 3;                     // of the slip at a point; then it sticks before it turns
+constexpr double other_loads = 1e-3;             // residual over x of a solution before
 constexpr double settled_residual = 1e-10;       // residual over x
 constexpr double flutter = 1e-12;                // the same below which guesses differ by rounding
 constexpr int most_polishing = 4;                // guesses more, as long as they make the residual smaller
@@ -46,7 +50,7 @@ constexpr double path_nearer = 0.1;              // and of what it was then, to 
 constexpr Eigen::Index few_unknowns = 2000;      // up to which a factor of W takes a moment; beyond, as long as many guesses,
 constexpr int guesses_of_path = 60;              // and a path of them as long as so many
 constexpr Eigen::Index few_motions = 5000;       // up to which a sparse factor takes a moment
-constexpr double soft_for_large_ones = 1e4;      // beyond, these take fewer steps along a path than strides to hardness
+constexpr double soft_for_large_ones = 1e5;      // beyond, these take fewer steps along a path than strides to hardness
 constexpr double most_operations = 3e12;         // of factors that a last search may take
 constexpr Eigen::Index very_few_unknowns = 800;  // up to which steps of other lengths are tried: hundreds of guesses
 constexpr int patience_with_radii = 6;           // radii in a row without a residual that is so much,
@@ -132,19 +136,22 @@ bool StateSearch::find_sparingly()
   }
 }
 
-// With loads that turn, slip turns, and all sticks first.
+// What slipped sticks first under other loads, as points of a plastic body are elastic first: slip that would go on may lead to
+// another solution than the one that loads lead to on their way, with joints loose that are locked.
 bool StateSearch::from(const VectorXd& x, const VectorXd& nu, const VectorXd& reaction)
 {
-  const auto begin = [&] {
+  const auto begin = [&](bool sticks) {
     point_.x = x;
     point_.nu = nu;
     states_ = programme_.states_at(x, reaction);
+    if (!sticks) return;
+    for (auto& kind : states_.kind)
+      if (kind == ConstraintStates::Kind::slips) kind = ConstraintStates::Kind::sticks;
   };
-  begin();
+  const bool same_loads = programme_.residual(x, nu) <= other_loads * programme_.size(x);
+  begin(!same_loads);
   if (guess(look_back_at_first)) return true;
-  begin();
-  for (auto& kind : states_.kind)
-    if (kind == ConstraintStates::Kind::slips) kind = ConstraintStates::Kind::sticks;
+  begin(same_loads);
   return guess(look_back_at_first);
 }
 
@@ -198,12 +205,15 @@ bool StateSearch::is_unbounded(const VectorXd& step, const VectorXd& last_step) 
 // of them changes have not become half as many. So do those of bodies that run away: no state changes any more, and each solution
 // leads as far from the last one as this from the one before, as weak springs allow. Where no force answers there is no solution
 // [Pazy, Israel J. Math. 9 (1971), of monotone problems]. Steps between soft contacts that make the residual larger are
-// shortened: where friction passes forces on, whole ones take turns for ever.
+// shortened: where friction passes forces on, whole ones take turns for ever. So they may without softness where few states are
+// left to settle: then the last of the places that would change does so alone, which ends where W is a P-matrix [Murty, Linear
+// Algebra Appl. 9 (1974)], until there are fewer changes than ever [Judice and Pires, Comput. Oper. Res. 21 (1994)].
 bool StateSearch::guess(int look_back)
 {
   std::vector<int> turns(states_.kind.size(), 0), history;
   const double few = std::max(few_changes * static_cast<double>(states_.closed.size() + states_.kind.size()), handful);
-  const int guesses = look_back > 0 || programme_.softness() > 0 ? max_guesses : max_last_guesses;
+  int guesses = look_back > 0 || programme_.softness() > 0 ? max_guesses : max_last_guesses;
+  const int most = std::min(max_single_guesses, affordable_guesses());
   int fewest = INT_MAX, fewest_at = 0;
   double before = 0, least = 0;
   VectorXd best_x, best_nu, last_step;
@@ -222,8 +232,12 @@ bool StateSearch::guess(int look_back)
     if (!std::isfinite(residual) && sparing_) return false;
     auto next = programme_.states(point_.x, point_.nu);
     const int changes = compare(states_, next, turns);
-    states_ = std::move(next);
     if (changes < fewest) fewest = changes, fewest_at = step;
+    const bool single = look_back == to_the_end && programme_.softness() == 0 && changes > 1 && changes <= few &&
+                        step - fewest_at >= idle_before_single;
+    if (single) programme_.keep_one_change(states_, next);
+    if (single && step + 1 == guesses && step - fewest_at < idle_single && guesses < most) ++guesses;
+    states_ = std::move(next);
     const bool stands = residual > stalled * before;
     const bool rounded = stands && residual <= roundings * programme_.rounding(point_.x, point_.nu);
     const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
