@@ -91,7 +91,7 @@ BodyRows body_rows(const JumpOperator& jump, Bodies& bodies, const SparseMatrix&
 {
   const auto& contacts = constraints.contacts;
   const Local first = jump.ranges().dirichlet, count = jump.ranges().extra - first;
-  const Eigen::VectorXd unscale = jump.scaling().factor.segment(first, count).cwiseInverse();
+  const Eigen::VectorXd unscale = RowScaling::of(jump).segment(first, count).cwiseInverse();
   BodyRows rows;
   rows.values = unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
   rows.first_contact = jump.ranges().contacts - first;

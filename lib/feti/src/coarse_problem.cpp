@@ -95,7 +95,7 @@ SparseMatrix with_unknowns(const SparseMatrix& g, std::span<const Unknown> unkno
   std::vector<Eigen::Triplet<double>> triplets;
   auto height = static_cast<int>(g.rows());
   for (const auto& unknown : unknowns) {
-    for (const auto& [row, part] : unknown.parts) triplets.emplace_back(height, row, jump.scaling().factor[row] * part);
+    for (const auto& [row, part] : unknown.parts) triplets.emplace_back(height, row, RowScaling::of(jump)[row] * part);
     ++height;
   }
   SparseMatrix added(height, g.cols()), result = g;

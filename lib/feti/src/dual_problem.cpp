@@ -101,7 +101,7 @@ Eigen::VectorXd DualProblem::bound() const
     if (!section.preload.force)
       for (const auto& [row, part] : section.rows) {
         const auto at = jump_->ranges().contacts + static_cast<Local>(row);
-        c[at] += jump_->scaling().factor[at] * (part * section.preload.shortening);
+        c[at] += RowScaling::of(*jump_)[at] * (part * section.preload.shortening);
       }
   return c;
 }

@@ -15,13 +15,13 @@ namespace mortise::feti {
 
 Eigen::VectorXd DualProblem::forces(const Vector& lambda) const
 {
-  return view(lambda).cwiseProduct(jump_->scaling().factor);
+  return view(lambda).cwiseProduct(RowScaling::of(*jump_));
 }
 
 Vector DualProblem::multipliers(const Eigen::VectorXd& forces) const
 {
   Vector lambda(jump_->rows());
-  view(lambda) = forces.cwiseQuotient(jump_->scaling().factor);
+  view(lambda) = forces.cwiseQuotient(RowScaling::of(*jump_));
   return lambda;
 }
 
@@ -29,13 +29,13 @@ Eigen::VectorXd DualProblem::gaps(const Vector& gradient, const Eigen::VectorXd&
 {
   Vector reaction(gradient, Teuchos::Copy);
   equality_->add_transpose(1, nu, reaction);
-  return view(reaction).cwiseQuotient(jump_->scaling().factor);
+  return view(reaction).cwiseQuotient(RowScaling::of(*jump_));
 }
 
 Vector DualProblem::gradient(const Eigen::VectorXd& gaps, const Eigen::VectorXd& nu) const
 {
   Vector result(jump_->rows());
-  view(result) = gaps.cwiseProduct(jump_->scaling().factor);
+  view(result) = gaps.cwiseProduct(RowScaling::of(*jump_));
   equality_->add_transpose(-1, nu, result);
   return result;
 }
@@ -43,25 +43,25 @@ Vector DualProblem::gradient(const Eigen::VectorXd& gaps, const Eigen::VectorXd&
 Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
 {
   const Vector scaled = jump_->apply(u);
-  return view(scaled).cwiseQuotient(jump_->scaling().factor);
+  return view(scaled).cwiseQuotient(RowScaling::of(*jump_));
 }
 
 Eigen::VectorXd DualProblem::given_way(const Vector& lambda) const
 {
-  return view(lambda).cwiseProduct(jump_->compliance()).cwiseQuotient(jump_->scaling().factor);
+  return view(lambda).cwiseProduct(jump_->compliance()).cwiseQuotient(RowScaling::of(*jump_));
 }
 
 std::vector<double> DualProblem::radii(std::span<const double> slip_bounds) const
 {
   std::vector<double> radii(slip_bounds.begin(), slip_bounds.end());
-  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] /= jump_->scaling().factor[set_.discs()[i].normal];
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] /= RowScaling::of(*jump_)[set_.discs()[i].normal];
   return radii;
 }
 
 std::vector<double> DualProblem::slip_bounds(const qp::FeasibleSet& set) const
 {
   std::vector<double> forces;
-  for (const auto& disc : set.discs()) forces.push_back(jump_->scaling().factor[disc.normal] * disc.radius);
+  for (const auto& disc : set.discs()) forces.push_back(RowScaling::of(*jump_)[disc.normal] * disc.radius);
   return forces;
 }
 
@@ -112,7 +112,7 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
 
   const Local first = jump_->ranges().dirichlet, count = jump_->ranges().end - first;
   const auto kernels = system_.clusters.kernel_dimension();
-  const Eigen::VectorXd unscale = jump_->scaling().factor.segment(first, count).cwiseInverse();
+  const Eigen::VectorXd unscale = RowScaling::of(*jump_).segment(first, count).cwiseInverse();
   const SparseMatrix g = equality_->local().middleCols(first, count);
   const SparseMatrix rows_of_bodies =
       unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.transpose()).leftCols(kernels) * bodies.aggregate);

@@ -11,7 +11,7 @@ ElasticRows::ElasticRows(const constraint::Springs& springs, const JumpOperator&
   const auto size = stiffness_.rows();
   scale_ = Eigen::VectorXd::Zero(size);
   for (std::size_t i = 0; i < own_.size(); ++i)
-    scale_[static_cast<Eigen::Index>(own_[i])] = jump.scaling().factor[first_ + static_cast<Local>(i)];
+    scale_[static_cast<Eigen::Index>(own_[i])] = RowScaling::of(jump)[first_ + static_cast<Local>(i)];
   comm_.sum_in_place({scale_.data(), static_cast<std::size_t>(size)});
   weight_ = scale_.cwiseQuotient(stiffness_.diagonal());
   collectively(comm_, [&] {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "row_builder.hpp"
-#include "row_scaling.hpp"
 
 namespace mortise::feti {
 
@@ -85,7 +84,7 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   contact_rows_.second = rows.end();
   rows.add(extra);
   ranges_.end = rows.size();
-  scaling_ = std::make_unique<RowScaling>(RowScaling{Eigen::Map<const Eigen::VectorXd>(rows.scale().data(), ranges_.end)});
+  scaling_ = Eigen::Map<const Eigen::VectorXd>(rows.scale().data(), ranges_.end);
   compliance_ = Eigen::VectorXd::Zero(ranges_.end);
   for (const auto& node : contacts.nodes)
     for (std::size_t r = node.row; r <= node.row + node.tangents.size(); ++r)
@@ -101,10 +100,6 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
     blocks_.push_back(block_of(subdomain, decomposition.catalogue.dimension, piece, pieces.end(), *overlap_));
 }
 
-JumpOperator::~JumpOperator() = default;
-JumpOperator::JumpOperator(JumpOperator&&) noexcept = default;
-JumpOperator& JumpOperator::operator=(JumpOperator&&) noexcept = default;
-
 Eigen::VectorXd JumpOperator::bound(const constraint::Constraints& constraints) const
 {
   Eigen::VectorXd bound = Eigen::VectorXd::Zero(ranges_.end);
@@ -114,7 +109,7 @@ Eigen::VectorXd JumpOperator::bound(const constraint::Constraints& constraints) 
   for (const auto& mean : constraints.mean_motions) bound[row++] = mean.value;
   const auto& rows = constraints.contacts.rows;
   for (std::size_t r = 0; r < rows.size(); ++r) bound[ranges_.contacts + static_cast<Local>(r)] = rows.bound[r];
-  bound.array() *= scaling_->factor.array();
+  bound.array() *= scaling_.array();
   return bound;
 }
 

@@ -8,7 +8,6 @@
 // by 1e6.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "base/cholesky.hpp"
@@ -27,7 +26,7 @@ struct SubdomainRow {
   double scale = 1;
 };
 
-struct RowScaling;
+struct RowScaling;  // of this module alone
 
 /// Heavy: moves, does not copy.
 class JumpOperator {
@@ -40,9 +39,6 @@ class JumpOperator {
                std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
                std::span<const SubdomainRow> extra, const Communicator& comm,
                std::span<const constraint::MeanMotion> mean_motions = {}, const constraint::Springs& springs = {});
-  ~JumpOperator();
-  JumpOperator(JumpOperator&&) noexcept;
-  JumpOperator& operator=(JumpOperator&&) noexcept;
 
   /// The dual space: each row on one rank.
   Teuchos::RCP<const Map> rows() const { return rows_; }
@@ -53,8 +49,6 @@ class JumpOperator {
   const Ranges& ranges() const { return ranges_; }
   /// Global numbers of the contact rows of all ranks: first, and one past the last.
   std::pair<Global, Global> contact_rows() const { return contact_rows_; }
-  /// For this module alone.
-  const RowScaling& scaling() const { return *scaling_; }
   /// How far each owned row gives way under its multiplier: F gets these on its diagonal. Rows between contact nodes give way
   /// as a node does, for without it they depend on those of the nodes; and so do rows without entries, of friction between what
   /// supports hold. The others do not.
@@ -93,12 +87,13 @@ class JumpOperator {
   SparseMatrix gather_columns(const std::vector<Columns>& parts, int height, const Communicator& comm) const;
 
  private:
+  friend struct RowScaling;
   Teuchos::RCP<const Map> rows_;
   Teuchos::RCP<const Map> overlap_;
   Teuchos::RCP<const Import> import_;
   Ranges ranges_;
   std::pair<Global, Global> contact_rows_;
-  std::unique_ptr<const RowScaling> scaling_;
+  Eigen::VectorXd scaling_;
   Eigen::VectorXd compliance_;
   std::vector<Block> blocks_;
 };
