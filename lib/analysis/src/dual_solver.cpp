@@ -21,7 +21,7 @@ struct DualSolver::Step {
   const Observer& watch;
 };
 
-DualSolver::DualSolver(feti::DualProblem& problem, std::vector<friction::Law> laws, const friction::Options& loop,
+DualSolver::DualSolver(const feti::DualProblem& problem, std::vector<friction::Law> laws, const friction::Options& loop,
                        const qp::Options& solver)
     : problem_(problem),
       laws_(std::move(laws)),

@@ -170,6 +170,7 @@ void LoadStepSolver::make_solver()
   auto options = assembly_.deck().solver.programme;
   options.algorithm = approach_.algorithm;
   if (auto& most = options.max_multiplications.value) *most -= before_;
+  if (qp::solver_kind(options.algorithm).exact_products) problem_->be_exact();
   solver_.emplace(*problem_, model::friction_laws(assembly_.model().contacts()), assembly_.deck().friction_loop, options);
 }
 

@@ -46,10 +46,9 @@ double inaccuracy(const DualProblem& problem)
 
 }  // namespace
 
-qp::Means means_of(DualProblem& problem, qp::Budget& budget)
+qp::Means means_of(const DualProblem& problem, qp::Budget& budget)
 {
   const auto make_explicit = [&problem] {
-    problem.be_exact();
     const bool slender = inaccuracy(problem) > inaccurate;
     const auto turn = SparseProblem::turn(problem, slender);
     if (turn == SparseProblem::Turn::first) return sparse_programme(problem, slender);

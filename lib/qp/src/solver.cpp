@@ -9,9 +9,10 @@ namespace mortise::qp {
 std::span<const SolverKind> solvers()
 {
   static constexpr std::array table{
-      SolverKind{"face_newton", "an active set method on exactly projected points", false, make_face_newton},
-      SolverKind{"smalse", "SMALSE-M with MPGP inside, the paper's", true, make_smalse},
-      SolverKind{"direct", "every body one subdomain, the dual operator a matrix, contact solved exactly", false, make_direct}};
+      SolverKind{"face_newton", "an active set method on exactly projected points", false, false, make_face_newton},
+      SolverKind{"smalse", "SMALSE-M with MPGP inside, the paper's", true, false, make_smalse},
+      SolverKind{"direct", "every body one subdomain, the dual operator a matrix, contact solved exactly", false, true,
+                 make_direct}};
   return table;
 }
 

@@ -23,8 +23,9 @@ using Observer = std::function<void(int step, double change, const qp::Progress&
 /// given.
 class DualSolver {
  public:
-  /// The problem outlives it. laws[c]: of contact c. Collective.
-  DualSolver(feti::DualProblem& problem, std::vector<friction::Law> laws, const friction::Options& loop,
+  /// The problem outlives it, and is exact where the solver's products have to be (qp::SolverKind::exact_products). laws[c]: of
+  /// contact c. Collective.
+  DualSolver(const feti::DualProblem& problem, std::vector<friction::Law> laws, const friction::Options& loop,
              const qp::Options& solver);
   DualSolver(const DualSolver&) = delete;
   DualSolver& operator=(const DualSolver&) = delete;

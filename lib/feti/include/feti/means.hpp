@@ -7,7 +7,8 @@
 namespace mortise::feti {
 
 /// The preconditioner of `problem`, and F and G as matrices (ExplicitProblem) for a solver that asks for them, which is then
-/// collective, and from which on products are exact. `problem` and `budget` outlive the result.
-qp::Means means_of(DualProblem& problem, qp::Budget& budget);
+/// collective. The products of such a solver have to be exact: see qp::SolverKind::exact_products and DualProblem::be_exact().
+/// `problem` and `budget` outlive the result.
+qp::Means means_of(const DualProblem& problem, qp::Budget& budget);
 
 }  // namespace mortise::feti

@@ -84,7 +84,8 @@ class Solver {
 struct SolverKind {
   std::string_view name;  ///< in the deck
   std::string_view help;
-  bool steady;  ///< its residual may rise for long: see Budget
+  bool steady;          ///< its residual may rise for long: see Budget
+  bool exact_products;  ///< it compares products with matrices, so that whoever makes it has to make them exact before
   /// What `programme` and `means` refer to outlives the solver. Collective.
   std::unique_ptr<Solver> (*make)(const Programme& programme, const Means& means);
 };
