@@ -8,6 +8,7 @@
 #include "base/timer.hpp"
 #include "fem/stiffness.hpp"
 #include "feti/dense_subdomain.hpp"
+#include "feti/preconditioner_kind.hpp"
 
 namespace mortise::analysis {
 
@@ -22,6 +23,12 @@ constexpr double constraints_of_subdomain = 45;  // averages that join a subdoma
 constexpr double numbers_of_plane_operators = 8, numbers_of_boundary_operators = 16;
 constexpr double bytes_an_entry = 12;  // of a sparse matrix
 constexpr double margin = 0.9;         // of what is available
+
+// Whether the preconditioner factorizes, too.
+bool second_factors(const model::Deck& deck)
+{
+  return feti::preconditioner_kind(deck.solver.subdomains.preconditioner).factorizes;
+}
 
 // Sum over the ranks that share this rank's memory. Collective.
 double sum_on_machine(double x, const Communicator& comm)
@@ -67,7 +74,7 @@ Memory foresee_memory(const model::Model& model, const std::vector<partition::Co
     matrices += unknowns(s);
     squares += unknowns(s) * unknowns(s);
   }
-  const double times = deck.solver.subdomains.preconditioner == "dirichlet" ? 1 + dirichlet_part : 1.0;
+  const double times = second_factors(deck) ? 1 + dirichlet_part : 1.0;
   double others = bytes_an_unknown * all + 0.5 * bytes_a_multiplier * surfaces + dense + making;
   if (decomposition.clustered()) others += constraints_of_subdomain * sizeof(double) * matrices;
   // `sparse`: of the factors, `twice`: of the largest, of which there are two copies while it is factorized; `entries`: of K.
@@ -111,7 +118,7 @@ void require(const Memory& memory, const model::Model& model)
                   "{:.0f}, needs less the smaller it is down to 1000){}{}, more machines, a coarser mesh",
                   memory.total / 1e9, memory.factors / 1e9, memory.excess / 1e9, average,
                   deck.mesh.surfaces.empty() ? "" : ", which takes the cells of a body: one of its surface alone is not cut",
-                  deck.solver.subdomains.preconditioner == "dirichlet" ? ", solver.preconditioner: lumped" : ""),
+                  second_factors(deck) ? ", solver.preconditioner: lumped" : ""),
       Error::Cause::memory);
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "deck/cases.hpp"
 #include "rows/discretization.hpp"
@@ -11,57 +13,75 @@ namespace mortise::contact {
 
 namespace {
 
+// One law as the deck has it: its name, and a value or true.
+struct LawKind {
+  std::string_view name;
+  Law law;
+  bool has_value;
+  std::string_view example, value;  // what stands behind the name, and what it is
+};
+
+// The table.
+constexpr std::array laws{LawKind{"coulomb", Law::coulomb, true, "0.3", "coefficient"},
+                          LawKind{"tresca", Law::tresca, true, "25.0", "slip bound as a traction"},
+                          LawKind{"bonded", Law::bonded, false, "true", "true"}};
+
+// "{coulomb: 0.3}, {tresca: 25.0} and {bonded: true}".
+std::string all_laws(std::string_view LawKind::*behind, const char* last)
+{
+  std::string text;
+  for (std::size_t i = 0; i < laws.size(); ++i)
+    text += fmt::format("{}{{{}: {}}}", i == 0 ? "" : i + 1 < laws.size() ? ", " : last, laws[i].name, laws[i].*behind);
+  return text;
+}
+
 // friction: {coulomb: 0.3} | {tresca: 25} | {bonded: true}
 void read_friction(Options& contact, const YAML::Node& node, const std::string& path, deck::Document& document,
                    const deck::Limits&)
 {
   if (!node.IsMap() || node.size() != 1) {
-    document.error(path, "expected one of {coulomb: 0.3}, {tresca: 25.0} and {bonded: true}, found " + deck::found(node));
+    document.error(path, "expected one of " + all_laws(&LawKind::example, " and ") + ", found " + deck::found(node));
     return;
   }
   const auto name = node.begin()->first.Scalar();
   const auto value = node.begin()->second;
   const auto at = path + "." + name;
   document.locate(at, node.begin()->first);
-  deck::Limits not_negative;
-  not_negative.lower = 0;
-  if (name == "coulomb" || name == "tresca") {
-    contact.law = name == "coulomb" ? Law::coulomb : Law::tresca;
+  const auto* kind = std::ranges::find(laws, name, &LawKind::name);
+  if (kind == laws.end()) {
+    std::vector<std::string> names;
+    for (const auto& known : laws) names.emplace_back(known.name);
+    document.error(at, "unknown friction law" + deck::suggestion(name, names));
+  } else if (kind->has_value) {
+    deck::Limits not_negative;
+    not_negative.lower = 0;
+    contact.law = kind->law;
     deck::Codec<double>::read(contact.friction, value, at, document, not_negative);
-  } else if (name == "bonded") {
-    bool bonded = false;
-    deck::Codec<bool>::read(bonded, value, at, document, {});
-    contact.law = bonded ? Law::bonded : Law::frictionless;
   } else {
-    document.error(at, "unknown friction law" + deck::suggestion(name, {"coulomb", "tresca", "bonded"}));
+    bool wanted = false;
+    deck::Codec<bool>::read(wanted, value, at, document, {});
+    contact.law = wanted ? kind->law : Law::frictionless;
   }
 }
 
 YAML::Node write_friction(const Options& contact)
 {
+  const auto* kind = std::ranges::find(laws, contact.law, &LawKind::law);
+  if (kind == laws.end()) return {};
   YAML::Node node(YAML::NodeType::Map);
   node.SetStyle(YAML::EmitterStyle::Flow);
-  switch (contact.law) {
-    case Law::frictionless:
-      return {};
-    case Law::tresca:
-      node["tresca"] = deck::Codec<double>::write(contact.friction);
-      break;
-    case Law::coulomb:
-      node["coulomb"] = deck::Codec<double>::write(contact.friction);
-      break;
-    case Law::bonded:
-      node["bonded"] = true;
-      break;
-  }
+  node[std::string(kind->name)] = kind->has_value ? deck::Codec<double>::write(contact.friction) : YAML::Node(true);
   return node;
 }
 
 nlohmann::ordered_json friction_schema(const deck::Limits&)
 {
-  const nlohmann::ordered_json number{{"type", "number"}, {"minimum", 0}};
+  using Json = nlohmann::ordered_json;
+  Json properties;
+  for (const auto& kind : laws)
+    properties[std::string(kind.name)] = kind.has_value ? Json{{"type", "number"}, {"minimum", 0}} : Json{{"type", "boolean"}};
   return {{"type", "object"},
-          {"properties", {{"coulomb", number}, {"tresca", number}, {"bonded", {{"type", "boolean"}}}}},
+          {"properties", std::move(properties)},
           {"additionalProperties", false},
           {"minProperties", 1},
           {"maxProperties", 1}};
@@ -116,6 +136,12 @@ void check_options(const Options& contact, const std::string& path, deck::Docume
 
 }  // namespace
 
+std::string_view name_of(Law law)
+{
+  const auto* kind = std::ranges::find(laws, law, &LawKind::law);
+  return kind == laws.end() ? std::string_view() : kind->name;
+}
+
 void describe(deck::Description<PreloadOptions>& d)
 {
   d.help("Draws the two sides of a bonded contact, a cut through the shank of a bolt, together along the cut's mean normal.");
@@ -154,8 +180,8 @@ void describe(deck::Description<Options>& d)
          return deck::schema_by_case({{"type", "string"}}, deck::Codec<std::string>::schema(limits), obstacle_schema());
        })
       .required();
-  d.custom("friction", "{coulomb: coefficient}, {tresca: slip bound as a traction} or {bonded: true}; absent: frictionless.",
-           read_friction, write_friction, friction_schema);
+  d.custom("friction", all_laws(&LawKind::value, " or ") + "; absent: frictionless.", read_friction, write_friction,
+           friction_schema);
   std::vector<std::string> names;
   std::string help;
   for (const auto& kind : discretizations()) {

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "exactly_free.hpp"
+#include "feti/preconditioner_kind.hpp"
 #include "neutral_motions.hpp"
 #include "row_scaling.hpp"
 
@@ -70,12 +71,10 @@ DualProblem::DualProblem(const partition::Decomposition& decomposition, const pa
   if (!constraints_.springs.rows.empty()) springs_ = std::make_unique<ElasticRows>(constraints_.springs, *jump_, comm_);
   hessian_ = std::make_unique<DualOperator>(*jump_, system.clusters, context.timers, springs_.get());
   make_set();
-  if (options.preconditioner != "none") {
-    const auto kind = options.preconditioner == "lumped" ? Preconditioner::Kind::lumped : Preconditioner::Kind::dirichlet;
+  if (const auto& kind = preconditioner_kind(options.preconditioner).kind)
     preconditioner_ =
-        std::make_unique<Preconditioner>(kind, decomposition, *jump_, system.clusters.subdomains(), system.nodal_stiffness,
+        std::make_unique<Preconditioner>(*kind, decomposition, *jump_, system.clusters.subdomains(), system.nodal_stiffness,
                                          set_.discs(), options.factorization, context.timers, comm_, springs_.get());
-  }
   make_rhs(std::move(load));
 }
 

@@ -1,6 +1,11 @@
 #include "feti/options.hpp"
 
+#include <fmt/format.h>
+
+#include <vector>
+
 #include "feti/direct_solver.hpp"
+#include "feti/preconditioner_kind.hpp"
 
 namespace mortise::feti {
 
@@ -16,10 +21,15 @@ void describe(deck::Description<Options>& d)
         "the energy norm (displacements, reactions and direct solutions are refined in double precision; not for a tolerance "
         "below 1e-4, nor with temperature changes); auto: single where the tolerance is auto and factors do not fit in a cache.")
       .one_of({"auto", "double", "single"});
-  d.key("preconditioner", &Options::preconditioner,
-        "Of face_newton: none, lumped (the surface block of the stiffness matrix), or dirichlet (its Schur complement; fewer "
-        "products, a second factorization).")
-      .one_of({"none", "lumped", "dirichlet"});
+  const auto kinds = preconditioners();
+  std::vector<std::string> names;
+  std::string help = "Of face_newton: ";
+  for (const auto& kind : kinds) {
+    help += names.empty() ? "" : names.size() + 1 < kinds.size() ? ", " : ", or ";
+    help += kind.help.empty() ? std::string(kind.name) : fmt::format("{} ({})", kind.name, kind.help);
+    names.emplace_back(kind.name);
+  }
+  d.key("preconditioner", &Options::preconditioner, help + ".").one_of(names);
 }
 
 }  // namespace mortise::feti

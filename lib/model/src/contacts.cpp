@@ -33,14 +33,8 @@ std::vector<contact::Pair> Model::contact_pairs(const LoadState& state) const
 
 std::vector<friction::Law> friction_laws(const Contacts& contacts)
 {
-  using Kind = friction::Law::Kind;
   std::vector<friction::Law> laws;
-  for (const auto& contact : contacts.options) {
-    const Kind kind = contact.law == contact::Law::tresca    ? Kind::tresca
-                      : contact.law == contact::Law::coulomb ? Kind::coulomb
-                                                             : Kind::frictionless;
-    laws.push_back({kind, contact.friction});
-  }
+  for (const auto& contact : contacts.options) laws.push_back(friction::law_of(contact::name_of(contact.law), contact.friction));
   return laws;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contact/obstacle.hpp"
@@ -11,7 +12,11 @@
 
 namespace mortise::contact {
 
+/// To add one: a value here and its row in the table of options.cpp.
 enum class Law { frictionless, tresca, coulomb, bonded };
+
+/// In the deck; empty without friction.
+std::string_view name_of(Law law);
 
 /// How a bonded contact draws its two sides together; exactly one is given.
 struct PreloadOptions {

@@ -10,7 +10,7 @@ namespace mortise::feti {
 struct Options {
   std::string factorization = "cholmod";  ///< see DirectSolver: cholmod | cholmod_plain | klu2
   std::string factor_precision = "auto";  ///< auto | double | single
-  std::string preconditioner = "lumped";  ///< none | lumped | dirichlet, of face Newton
+  std::string preconditioner = "lumped";  ///< see preconditioners(): none | lumped | dirichlet, of face Newton
 };
 
 /// The keywords.

@@ -1,17 +1,21 @@
-// Laws of friction: the slip bounds of contact nodes.
+// Laws of friction, in one table (law.cpp): the slip bounds of contact nodes.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "feti/dual_problem.hpp"
 
 namespace mortise::friction {
 
-/// The law of one contact. To add a law: a value here and its bound in slip_bounds().
+/// The law of one contact. To add a law: a value here and its row in the table.
 struct Law {
   enum class Kind { frictionless, tresca, coulomb } kind = Kind::frictionless;
   double value = 0;  ///< tresca: traction; coulomb: coefficient
 };
+
+/// The law with this name in the deck; of a name without a row, as that of bonded contacts, the one without friction.
+Law law_of(std::string_view name, double value);
 
 /// The slip bound of each disc of problem.set(), a force, from the multipliers `lambda`; without lambda Coulomb points stick,
 /// with an infinite one. laws[c]: of contact c.
