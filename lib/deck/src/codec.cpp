@@ -103,11 +103,7 @@ void Codec<std::string>::read(std::string& value, const YAML::Node& node, const 
   }
   value = word;
   if (limits.names.empty() || std::find(limits.names.begin(), limits.names.end(), value) != limits.names.end()) return;
-  if (std::find(limits.future.begin(), limits.future.end(), value) != limits.future.end())
-    document.error(path, fmt::format("\"{}\" is not available in this version of Mortise (there {} {})", value,
-                                     limits.names.size() == 1 ? "is" : "are", fmt::join(limits.names, ", ")));
-  else
-    document.error(path, fmt::format("unknown value \"{}\"{}", value, suggestion(value, limits.names)));
+  document.error(path, fmt::format("unknown value \"{}\"{}", value, suggestion(value, limits.names)));
 }
 
 nlohmann::ordered_json Codec<std::string>::schema(const Limits& limits)

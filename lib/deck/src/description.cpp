@@ -27,8 +27,6 @@ bool AnyDescription::read(void* value, const YAML::Node& node, const std::string
     const auto key = std::find_if(all_.begin(), all_.end(), [&](const auto* k) { return k->name == name; });
     if (key != all_.end())
       (*key)->read_any(value, entry.second, at, document, (*key)->limits);
-    else if (std::find(unavailable_.begin(), unavailable_.end(), name) != unavailable_.end())
-      document.error(at, "is not available in this version of Mortise");
     else
       document.error(at, "unknown key" + suggestion(name, names));
   }

@@ -69,7 +69,6 @@ void describe(deck::Description<SolverOptions>& d)
           [source, member](const SolverOptions& value) { return source->write(value.*member); }, source->schema);
       own.limits = source->limits;
     }
-    for (const auto& name : part.unavailable()) d.unavailable(name);
   };
   adopt(deck::description<qp::Options>(), &SolverOptions::programme);
   adopt(deck::description<feti::Options>(), &SolverOptions::subdomains);

@@ -1,10 +1,7 @@
 #include "partition/skins.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <tuple>
+#include <array>
 
 #include "mesh/topology.hpp"
 #include "partition/skin.hpp"
@@ -234,28 +231,6 @@ Global renumber(const Visit& visit, Global first, const Communicator& comm)
   return numbers.count;
 }
 
-// An edge of a panel, from its corner `place`.
-struct PanelEdge {
-  Local low, high;  // its nodes
-  bool along;       // whether the panel runs from low to high
-  std::size_t panel, place;
-};
-
-// The angle, in (0, 2 pi], by which the panel of `from` has to be turned about the edge, through the solid behind it, to lie on
-// that of `to`.
-double angle_through_solid(const mesh::Mesh& skin, const PanelEdge& from, const PanelEdge& to)
-{
-  const auto point = [&](Local n) { return skin.points[static_cast<std::size_t>(n)]; };
-  const Point origin = point(from.low), edge = (point(from.high) - origin).normalized();
-  const auto away = [&](const PanelEdge& of) -> Point {  // in the panel, across the edge
-    const Point x = point(skin.cells[of.panel][(of.place + 2) % 3]) - origin;
-    return (x - x.dot(edge) * edge).normalized();
-  };
-  const Point own = away(from), other = away(to), outward = (from.along ? edge : Point(-edge)).cross(own);
-  const double angle = std::atan2(-other.dot(outward), other.dot(own));
-  return angle > 0 ? angle : angle + 2 * std::numbers::pi;
-}
-
 }  // namespace
 
 Decomposition skins(Decomposition decomposition, const std::vector<bool>& of_body, bool keep_inside, const Communicator& comm)
@@ -294,34 +269,6 @@ Decomposition skins(Decomposition decomposition, const std::vector<bool>& of_bod
     if (subdomain.inside.node_count() > 0)
       std::copy(subdomain.mesh.node_id.begin(), subdomain.mesh.node_id.end(), subdomain.inside.node_id.begin());
   return decomposition;
-}
-
-std::vector<std::array<Local, 3>> panel_neighbours(const mesh::Mesh& skin)
-{
-  std::vector<PanelEdge> edges;
-  for (std::size_t p = 0; p < skin.cells.size(); ++p)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Local a = skin.cells[p][k], b = skin.cells[p][(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), a < b, p, k});
-    }
-  std::sort(edges.begin(), edges.end(), [](const PanelEdge& a, const PanelEdge& b) {
-    return std::tie(a.low, a.high, a.panel) < std::tie(b.low, b.high, b.panel);
-  });
-  std::vector<std::array<Local, 3>> result(skin.cells.size());
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) ++end;
-    for (std::size_t i = begin; i < end; ++i) {
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t j = begin; j < end; ++j) {
-        if (edges[j].along == edges[i].along) continue;
-        const double angle = end - begin == 2 ? 0 : angle_through_solid(skin, edges[i], edges[j]);
-        if (angle >= least) continue;
-        least = angle;
-        result[edges[i].panel][edges[i].place] = static_cast<Local>(edges[j].panel);
-      }
-    }
-  }
-  return result;
 }
 
 }  // namespace mortise::partition

@@ -1,8 +1,12 @@
 // Skins of a cube, of wedges round an edge and of instances; bodies without one, and bodies that are taken whole.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "partition/congruence.hpp"
@@ -43,6 +47,59 @@ TEST(Skins, OfACubeIsWhatIsCountedByHand)
     EXPECT_EQ(copy.original, 0U);
     EXPECT_FALSE(copy.rotation);
   }
+}
+
+// An edge of a panel, from its corner `place`.
+struct PanelEdge {
+  Local low, high;  // its nodes
+  bool along;       // whether the panel runs from low to high
+  std::size_t panel, place;
+};
+
+// The angle, in (0, 2 pi], by which the panel of `from` has to be turned about the edge, through the solid behind it, to lie on
+// that of `to`.
+double angle_through_solid(const mesh::Mesh& skin, const PanelEdge& from, const PanelEdge& to)
+{
+  const auto point = [&](Local n) { return skin.points[static_cast<std::size_t>(n)]; };
+  const Point origin = point(from.low), edge = (point(from.high) - origin).normalized();
+  const auto away = [&](const PanelEdge& of) -> Point {  // in the panel, across the edge
+    const Point x = point(skin.cells[of.panel][(of.place + 2) % 3]) - origin;
+    return (x - x.dot(edge) * edge).normalized();
+  };
+  const Point own = away(from), other = away(to), outward = (from.along ? edge : Point(-edge)).cross(own);
+  const double angle = std::atan2(-other.dot(outward), other.dot(own));
+  return angle > 0 ? angle : angle + 2 * std::numbers::pi;
+}
+
+// For each panel of a skin in space the panels beyond its edges: [panel][k] across the edge from corner k to corner k + 1, which
+// that panel has the other way. Where cells of a subdomain touch in an edge alone, four panels or more do; those are neighbours
+// that bound the same wedge of the solid.
+std::vector<std::array<Local, 3>> panel_neighbours(const mesh::Mesh& skin)
+{
+  std::vector<PanelEdge> edges;
+  for (std::size_t p = 0; p < skin.cells.size(); ++p)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Local a = skin.cells[p][k], b = skin.cells[p][(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), a < b, p, k});
+    }
+  std::sort(edges.begin(), edges.end(), [](const PanelEdge& a, const PanelEdge& b) {
+    return std::tie(a.low, a.high, a.panel) < std::tie(b.low, b.high, b.panel);
+  });
+  std::vector<std::array<Local, 3>> result(skin.cells.size());
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) ++end;
+    for (std::size_t i = begin; i < end; ++i) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t j = begin; j < end; ++j) {
+        if (edges[j].along == edges[i].along) continue;
+        const double angle = end - begin == 2 ? 0 : angle_through_solid(skin, edges[i], edges[j]);
+        if (angle >= least) continue;
+        least = angle;
+        result[edges[i].panel][edges[i].place] = static_cast<Local>(edges[j].panel);
+      }
+    }
+  }
+  return result;
 }
 
 // Cells round an edge, wedges of a turned cake of which some are missing: the skin of each wedge is closed in itself.

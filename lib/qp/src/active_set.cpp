@@ -138,13 +138,6 @@ void ActiveSet::extend_transpose(Vector& x) const
         values[coupling.normal] += coupling.direction[static_cast<Eigen::Index>(k)] * values[coupling.index[k]];
 }
 
-void ActiveSet::keep_constrained(Vector& x) const
-{
-  Vector result(x.getMap());
-  add_constrained(1, x, result);
-  x.assign(result);
-}
-
 void ActiveSet::add_constrained(double factor, const Vector& x, Vector& y) const
 {
   const auto in = view(x);

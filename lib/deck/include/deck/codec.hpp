@@ -21,7 +21,6 @@ struct Limits {
   double upper = std::numeric_limits<double>::infinity();
   bool strictly_above = false, strictly_below = false;  ///< the limits themselves are not allowed
   std::vector<std::string> names;                       ///< allowed strings; empty: all
-  std::vector<std::string> future;                      ///< strings that are refused as not available yet
 };
 
 /// read() sets `value` from a node of the deck, or leaves an error about `path` in the document; write() gives the node that

@@ -50,8 +50,6 @@ class Key : public AnyKey {
   Key& below(double value) { return limits.upper = value, limits.strictly_below = true, *this; }
   /// The strings that it may be.
   Key& one_of(std::vector<std::string> names) { return limits.names = std::move(names), *this; }
-  /// Names that a later version will know.
-  Key& not_yet(std::vector<std::string> names) { return limits.future = std::move(names), *this; }
 };
 
 /// What descriptions of all types share, compiled once: every struct of a deck would have functions of its own, of some 20 kB.
@@ -59,8 +57,6 @@ class AnyDescription {
  public:
   /// What the section or entry is for: a paragraph of the manual.
   void help(std::string text) { help_ = std::move(text); }
-  /// A keyword that the format knows and this version cannot do.
-  void unavailable(const std::string& name) { unavailable_.push_back(name); }
   /// A check of which keys are given: which of them go together.
   void check_keys(std::function<void(const std::vector<std::string>& given, const std::string& path, Document&)> function)
   {
@@ -68,8 +64,6 @@ class AnyDescription {
   }
   /// What of its keys goes together, as a schema (cases.hpp): tells editors what the checks tell those who run the program.
   void rule(nlohmann::ordered_json schema) { rules_.push_back(std::move(schema)); }
-
-  const std::vector<std::string>& unavailable() const { return unavailable_; }
 
   /// Reads a mapping into the struct at `value`, of the type described. Returns whether there was no error.
   bool read(void* value, const YAML::Node& node, const std::string& path, Document& document) const;
@@ -82,7 +76,6 @@ class AnyDescription {
 
  private:
   std::string help_;
-  std::vector<std::string> unavailable_;
   std::function<void(const std::vector<std::string>&, const std::string&, Document&)> key_check_;
   std::vector<nlohmann::ordered_json> rules_;
 };

@@ -1,7 +1,6 @@
 // Subdomains that are known by their surface alone, as boundary elements need them: panels instead of cells.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -22,10 +21,5 @@ namespace mortise::partition {
 /// same cells in the same local numbering get the same panels in the same local numbering. Subdomains, clusters and ranks stay.
 /// `keep_inside`: fill Subdomain::inside where there are cells. Collective.
 Decomposition skins(Decomposition decomposition, const std::vector<bool>& of_body, bool keep_inside, const Communicator& comm);
-
-/// For each panel of a skin in space the panels beyond its edges: [panel][k] across the edge from corner k to corner k + 1, which
-/// that panel has the other way. Where cells of a subdomain touch in an edge alone, four panels or more do; those are neighbours
-/// that bound the same wedge of the solid.
-std::vector<std::array<Local, 3>> panel_neighbours(const mesh::Mesh& skin);
 
 }  // namespace mortise::partition

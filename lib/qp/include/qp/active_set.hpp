@@ -28,12 +28,10 @@ class ActiveSet {
 
   /// x becomes its free part Pi x: zero at constrained unknowns, along the tangent alone at discs that slip.
   void keep_free(Vector& x) const { restrict(x, 0); }
-  /// x becomes x - T d, d its free part: how far it leads off the constraints. T d = d + coefficient d[normal] n at discs that
-  /// slip in the direction n and follow a normal unknown.
-  void keep_constrained(Vector& x) const;
-  /// y += factor times what keep_constrained() would leave of x, which touches no other unknowns.
+  /// y += factor (x - T d), d the free part of x: how far x leads off the constraints. T d = d + coefficient d[normal] n at discs
+  /// that slip in the direction n and follow a normal unknown. No other unknowns are touched.
   void add_constrained(double factor, const Vector& x, Vector& y) const;
-  /// x becomes T d + constrained with G x = 0, d nearly its free part; `constrained` as keep_constrained() leaves it. Collective.
+  /// x becomes T d + constrained with G x = 0, d nearly its free part; `constrained` as add_constrained() has it. Collective.
   void project_trial(Vector& x, const Vector& constrained) const;
 
   /// y += Sigma x.
