@@ -52,9 +52,49 @@ partition::FactorSize whole_factor(double n, double inside, double by_law, const
   return by_law < joined.entries ? partition::FactorSize{by_law, 2 * by_law * by_law / n} : joined;
 }
 
-}  // namespace
+// How many rows of B a direct solution has to do with, of all ranks.
+struct CountedRows {
+  double all = 0;           // with bodies taken whole
+  double closing = 0;       // of contacts that may open
+  double prescribed = 0;    // by supports that stay rows
+  bool eliminated = false;  // the other supports: with the stiffness, by factors of their own
+  bool rigid = true;        // nothing gives way, or moves by something unknown
+};
 
-DirectEffort effort_of_direct(const Assembly& assembly, const constraint::Constraints& constraints, const Communicator& comm)
+// Collective.
+CountedRows count_rows(const Assembly& assembly, const constraint::Constraints& constraints, const Communicator& comm)
+{
+  const auto& contacts = constraints.contacts;
+  CountedRows rows;
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
+    if (!contacts.bonded[i]) rows.closing += 1 + static_cast<double>(contacts.nodes[i].tangents.size());
+  rows.closing = comm.sum(rows.closing);
+  // Many supports along axes are eliminated with the stiffness, by factors of their own.
+  const auto coupled = std::count_if(constraints.prescribed.begin(), constraints.prescribed.end(),
+                                     [](const constraint::PrescribedDof& dof) { return dof.unknown; });
+  const Global along_axes = comm.sum(static_cast<long long>(constraints.prescribed.size()) - coupled);
+  rows.eliminated = along_axes > feti::few_supports;
+  rows.prescribed =
+      static_cast<double>(comm.sum(static_cast<long long>(constraints.skew_supports.size() + constraints.mean_motions.size() +
+                                                          constraints.springs.own.size()) +
+                                   coupled) +
+                          (rows.eliminated ? 0 : along_axes));
+  rows.all = rows.prescribed + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size()))) +
+             comm.sum(rows_between_skins(assembly.decomposition(), assembly.interface()));
+  rows.rigid = !comm.any(!constraints.springs.own.empty() || !constraints.mean_motions.empty() ||
+                         !constraints.pretension_sections.empty() || coupled > 0);
+  return rows;
+}
+
+// The factors of whole bodies, of all ranks.
+struct WholeFactors {
+  double entries = 0, operations = 0;
+  double unknowns = 0, weighted = 0;  // of the bodies; the sum of entries times unknowns
+  double read_by_product = 0;         // entries of the factors of the subdomains that there are, which a product with F reads
+};
+
+// Collective.
+WholeFactors foresee_factors(const Assembly& assembly, const Communicator& comm)
 {
   const auto& decomposition = assembly.decomposition();
   const int dimension = decomposition.catalogue.dimension;
@@ -70,56 +110,47 @@ DirectEffort effort_of_direct(const Assembly& assembly, const constraint::Constr
     sums[b + 2] += of_nested_dissection(n, dimension);
   }
   comm.sum_in_place(sums);
-  const auto& contacts = constraints.contacts;
-  double closing = 0;
-  for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
-    if (!contacts.bonded[i]) closing += 1 + static_cast<double>(contacts.nodes[i].tangents.size());
-  closing = comm.sum(closing);
-  // Many supports along axes are eliminated with the stiffness, by factors of their own.
-  const auto coupled = std::count_if(constraints.prescribed.begin(), constraints.prescribed.end(),
-                                     [](const constraint::PrescribedDof& h) { return h.unknown; });
-  const Global along_axes = comm.sum(static_cast<long long>(constraints.prescribed.size()) - coupled);
-  const bool eliminated = along_axes > feti::few_supports;
-  const auto prescribed =
-      static_cast<double>(comm.sum(static_cast<long long>(constraints.skew_supports.size() + constraints.mean_motions.size() +
-                                                          constraints.springs.own.size()) +
-                                   coupled) +
-                          (eliminated ? 0 : along_axes));
-  const double all = prescribed + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size()))) +
-                     comm.sum(rows_between_skins(decomposition, assembly.interface()));
-  const double free = all - closing;
-
   const auto interfaces = partition::interface_elimination(decomposition, assembly.interface(), comm);
-  double inside = 0, law = 0, factors = 0, factorizing = 0, weighted = 0, unknowns = 0;
+  WholeFactors factors;
+  double inside = 0, law = 0;
   for (std::size_t b = 0; b < bodies; ++b) {
     const double n = std::max(sums[3 * b], 1.0), own = sums[3 * b + 1], own_law = sums[3 * b + 2];
     const auto whole = whole_factor(n, own, own / std::max(own_law, 1.0) * of_nested_dissection(n, dimension), interfaces[b]);
     inside += own;
     law += own_law;
-    factors += whole.entries;
-    factorizing += whole.operations;
-    weighted += whole.entries * n;
-    unknowns += n;
+    factors.entries += whole.entries;
+    factors.operations += whole.operations;
+    factors.weighted += whole.entries * n;
+    factors.unknowns += n;
   }
-  const double entries = std::max(inside, law);  // that a product with F reads
+  factors.read_by_product = std::max(inside, law);
+  return factors;
+}
+
+}  // namespace
+
+DirectEffort effort_of_direct(const Assembly& assembly, const constraint::Constraints& constraints, const Communicator& comm)
+{
+  const auto rows = count_rows(assembly, constraints, comm);
+  const auto factors = foresee_factors(assembly, comm);
+  const double free = rows.all - rows.closing;
   // With sparse matrices nothing grows with the number of rows; see feti::SparseProblem.
-  const double dense = feti::work_of_dense_solution(free, closing), sparse = feti::work_of_sparse_solution(factors, unknowns);
-  const bool rigid = !comm.any(!constraints.springs.own.empty() || !constraints.mean_motions.empty() ||
-                               !constraints.pretension_sections.empty() || coupled > 0);
+  const double dense = feti::work_of_dense_solution(free, rows.closing),
+               sparse = feti::work_of_sparse_solution(factors.entries, factors.unknowns);
   DirectEffort effort;
-  effort.multipliers = static_cast<Global>(all);
-  effort.sparse = rigid && all >= feti::many_rows && sparse < feti::worth_of_sparse * dense;
+  effort.multipliers = static_cast<Global>(rows.all);
+  effort.sparse = rows.rigid && rows.all >= feti::many_rows && sparse < feti::worth_of_sparse * dense;
   if (effort.sparse) {
-    effort.seconds = (factorizing + sparse) / dense_rate;
-    effort.products = set_up + effort.seconds * sparse_rate / (4 * entries);
-    effort.bytes = sizeof(double) * 6 * factors;
-    return effort;
+    effort.seconds = (factors.operations + sparse) / dense_rate;
+    effort.bytes = sizeof(double) * 6 * factors.entries;
+  } else {
+    const double columns = rows.prescribed + 2 * (rows.all - rows.prescribed);
+    const double work =
+        (rows.eliminated ? 2 : 1) * factors.operations + 4 * columns * factors.weighted / factors.unknowns + dense;
+    effort.seconds = work / dense_rate;
+    effort.bytes = sizeof(double) * ((rows.eliminated ? 2.5 : 1.5) * factors.entries + 4 * rows.all * rows.all);
   }
-  const double columns = prescribed + 2 * (all - prescribed);
-  const double work = (eliminated ? 2 : 1) * factorizing + 4 * columns * weighted / unknowns + dense;
-  effort.seconds = work / dense_rate;
-  effort.products = set_up + effort.seconds * sparse_rate / (4 * entries);
-  effort.bytes = sizeof(double) * ((eliminated ? 2.5 : 1.5) * factors + 4 * all * all);
+  effort.products = set_up + effort.seconds * sparse_rate / (4 * factors.read_by_product);
   return effort;
 }
 

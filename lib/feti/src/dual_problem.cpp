@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "exactly_free.hpp"
 #include "feti/preconditioner_kind.hpp"
+#include "gauge.hpp"
 #include "neutral_motions.hpp"
 #include "row_scaling.hpp"
 

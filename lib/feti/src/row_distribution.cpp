@@ -103,7 +103,8 @@ SentNode pack(const constraint::ContactNode& from, bool bonded)
 
 SentImage pack(const constraint::Image& from)
 {
-  return {from.contact, from.node, from.part, {array(from.rotation.col(0)), array(from.rotation.col(1)), array(from.rotation.col(2))}};
+  const auto& r = from.rotation;
+  return {from.contact, from.node, from.part, {array(r.col(0)), array(r.col(1)), array(r.col(2))}};
 }
 
 constraint::Image unpack(const SentImage& from)

@@ -21,8 +21,9 @@ std::string file_of_library()
   return std::filesystem::exists(beside, none) ? beside.string() : built.string();
 }
 
-// gmsh's libraries look for their 100,000 symbols among themselves first. The program's own libraries, as many again, would be asked
-// before them, which took two thirds of the time of loading. Where a library was loaded before the program it is to be asked first.
+// gmsh's libraries look for their 100,000 symbols among themselves first. The program's own libraries, as many again, would be
+// asked before them, which took two thirds of the time of loading. Where a library was loaded before the program it is to be
+// asked first.
 int own_symbols_first()
 {
 #ifdef MORTISE_DEEP_BIND

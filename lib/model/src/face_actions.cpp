@@ -74,6 +74,83 @@ bool along(const Point& direction, const Point& normal)
   return direction.cross(normal).norm() < parallel;
 }
 
+// Collects what acts on the faces of this rank, which begin() names one after the other.
+class FaceActions {
+ public:
+  // Facet `facet` of `mesh` is the next face.
+  void begin(const mesh::Mesh& mesh, std::size_t facet)
+  {
+    mesh_ = &mesh;
+    facet_ = facet;
+    plane_ = plane_of(mesh, facet);
+    ++faces_;
+  }
+  void add(const constraint::SupportOptions& options, const constraint::Support& support);
+  void add(const fem::LoadOptions& load, const std::optional<deck::LocalAxes>& axes);
+  void add_coupling() { note_all(Kind::coupled, plane_.normal, plane_.normal); }
+  // The axis of revolution, a face beside the others: nodes not farther from it than `near` stay on it.
+  void add_axis(const mesh::Mesh& mesh, double near)
+  {
+    for (std::size_t n = 0; n < mesh.node_count(); ++n)
+      if (const Point& x = mesh.points[n]; std::abs(x[0]) <= near)
+        found.push_back({mesh.node_id[n], array_of(x), {-1, 0, 0}, {-1, 0, 0}, near, faces_, Kind::held});
+  }
+
+  std::vector<FaceAction> found;
+
+ private:
+  std::span<const Local> nodes() const { return mesh_->facets.cells[facet_]; }
+  void note(Local n, Kind kind, const Point& normal, const Point& direction)
+  {
+    const auto node = static_cast<std::size_t>(n);
+    found.push_back({mesh_->node_id[node], array_of(mesh_->points[node]), array_of(normal), array_of(direction), plane_.size,
+                     faces_ - 1, kind});
+  }
+  void note_all(Kind kind, const Point& normal, const Point& direction)
+  {
+    for (const Local n : nodes()) note(n, kind, normal, direction);
+  }
+
+  const mesh::Mesh* mesh_ = nullptr;
+  std::size_t facet_ = 0, faces_ = 0;  // the face in its mesh; how many there were, this one included
+  Plane plane_;
+};
+
+// What a support prescribes, or its springs hold.
+void FaceActions::add(const constraint::SupportOptions& options, const constraint::Support& support)
+{
+  if (support.normal && plane_.flat) note_all(Kind::held, plane_.normal, plane_.normal);
+  const auto prescribed =
+      directions(*mesh_, facet_, support.axes, [&](std::size_t c) { return support.displacement[c].has_value(); });
+  const bool normal =
+      plane_.flat && prescribed.size() == nodes().size() &&
+      std::all_of(prescribed.begin(), prescribed.end(), [&](const auto& d) { return along(d.second, plane_.normal); });
+  for (const auto& [n, direction] : prescribed)
+    if (normal)
+      note(n, Kind::held, support.axes ? plane_.normal : Point(std::round(direction.dot(plane_.normal)) * direction),
+           direction);
+    else if (!along(direction, plane_.normal))
+      note(n, Kind::tangential, plane_.normal, direction);
+  const auto& springs = options.stiffness;
+  for (int c = 0; c < 3; ++c)
+    if (springs.tangential || springs.along[static_cast<std::size_t>(c)])
+      note_all(Kind::tangential, plane_.normal, Point::Unit(c));
+}
+
+// A force or traction, in its axes.
+void FaceActions::add(const fem::LoadOptions& load, const std::optional<deck::LocalAxes>& axes)
+{
+  const auto push = constant_push(load);
+  if (push && push->isZero(0)) return;
+  const auto pushes = [&](std::size_t c) {
+    return !push && !((*load.traction)[c].is_constant() && (*load.traction)[c].constant() == 0);
+  };
+  for (const auto& [n, direction] : directions(*mesh_, facet_, axes, pushes)) note(n, Kind::pushed, plane_.normal, direction);
+  for (const Local n : nodes())
+    if (const auto rows = axes.value_or(deck::LocalAxes()).at(mesh_->points[static_cast<std::size_t>(n)]); push && rows)
+      note(n, Kind::pushed, plane_.normal, (rows->transpose() * *push).normalized());
+}
+
 }  // namespace
 
 std::vector<FaceAction> Model::face_actions(const LoadState& state, const Communicator& comm) const
@@ -90,64 +167,25 @@ std::vector<FaceAction> Model::face_actions(const LoadState& state, const Commun
   for (const auto& load : deck_.loads)
     load_axes.push_back(load.axes.empty() ? std::nullopt : std::optional(local_axes(deck_, load.axes)));
 
-  std::vector<FaceAction> actions;
-  std::size_t face = 0;
+  FaceActions actions;
   for (const auto& subdomain : decomposition_.subdomains) {
-    const auto& mesh = subdomain.mesh;
-    for (std::size_t f = 0; f < mesh.facets.cells.size(); ++f, ++face) {
-      const auto plane = plane_of(mesh, f);
-      const auto here = [&](const std::string& name) { return selected(name, mesh.facets.boundary[f], subdomain.body); };
-      const auto note = [&](Local n, Kind kind, const Point& normal, const Point& direction) {
-        actions.push_back({mesh.node_id[static_cast<std::size_t>(n)], array_of(mesh.points[static_cast<std::size_t>(n)]),
-                           array_of(normal), array_of(direction), plane.size, face, kind});
-      };
-      const auto note_all = [&](Kind kind, const Point& normal, const Point& direction) {
-        for (const Local n : mesh.facets.cells[f]) note(n, kind, normal, direction);
-      };
-      for (std::size_t i = 0; i < deck_.supports.size(); ++i) {
-        const auto& options = deck_.supports[i];
-        if (!state.acting[i] || !here(options.boundary)) continue;
-        if (supports[i].normal && plane.flat) note_all(Kind::held, plane.normal, plane.normal);
-        const auto held = directions(mesh, f, supports[i].axes,
-                                     [&](std::size_t c) { return supports[i].displacement[c].has_value(); });
-        const bool normal = plane.flat && held.size() == mesh.facets.cells[f].size() &&
-                            std::all_of(held.begin(), held.end(), [&](const auto& d) { return along(d.second, plane.normal); });
-        for (const auto& [n, direction] : held)
-          if (normal)
-            note(n, Kind::held, supports[i].axes ? plane.normal : Point(std::round(direction.dot(plane.normal)) * direction),
-                 direction);
-          else if (!along(direction, plane.normal))
-            note(n, Kind::tangential, plane.normal, direction);
-        const auto& springs = options.stiffness;
-        for (int c = 0; c < 3; ++c)
-          if (springs.tangential || springs.along[static_cast<std::size_t>(c)])
-            note_all(Kind::tangential, plane.normal, Point::Unit(c));
-      }
-      for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
-        const auto& load = deck_.loads[i];
-        if (state.load[i] == 0 || !here(load.boundary)) continue;
-        const auto push = constant_push(load);
-        if (push && push->isZero(0)) continue;
-        const auto pushes = [&](std::size_t c) {
-          return !push && !((*load.traction)[c].is_constant() && (*load.traction)[c].constant() == 0);
-        };
-        for (const auto& [n, direction] : directions(mesh, f, load_axes[i], pushes))
-          note(n, Kind::pushed, plane.normal, direction);
-        for (const Local n : mesh.facets.cells[f])
-          if (const auto rows = load_axes[i].value_or(deck::LocalAxes()).at(mesh.points[static_cast<std::size_t>(n)]); push && rows)
-            note(n, Kind::pushed, plane.normal, (rows->transpose() * *push).normalized());
-      }
+    const auto& facets = subdomain.mesh.facets;
+    for (std::size_t f = 0; f < facets.cells.size(); ++f) {
+      const auto here = [&](const std::string& name) { return selected(name, facets.boundary[f], subdomain.body); };
+      actions.begin(subdomain.mesh, f);
+      for (std::size_t i = 0; i < deck_.supports.size(); ++i)
+        if (state.acting[i] && here(deck_.supports[i].boundary)) actions.add(deck_.supports[i], supports[i]);
+      for (std::size_t i = 0; i < deck_.loads.size(); ++i)
+        if (state.load[i] != 0 && here(deck_.loads[i].boundary)) actions.add(deck_.loads[i], load_axes[i]);
       for (const auto& [name, coupling] : deck_.couplings)
-        if (here(coupling.boundary)) note_all(Kind::coupled, plane.normal, plane.normal);
+        if (here(coupling.boundary)) actions.add_coupling();
     }
   }
-  if (!deck_.axisymmetric()) return actions;
-  const double near = rounding(comm);
-  for (const auto& subdomain : decomposition_.subdomains)
-    for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
-      if (const Point& x = subdomain.mesh.points[n]; std::abs(x[0]) <= near)
-        actions.push_back({subdomain.mesh.node_id[n], array_of(x), {-1, 0, 0}, {-1, 0, 0}, near, face, Kind::held});
-  return actions;
+  if (deck_.axisymmetric()) {
+    const double near = rounding(comm);
+    for (const auto& subdomain : decomposition_.subdomains) actions.add_axis(subdomain.mesh, near);
+  }
+  return std::move(actions.found);
 }
 
 }  // namespace mortise::model

@@ -1,6 +1,7 @@
 #include "pressed_faces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -71,28 +72,27 @@ void set_peaks(const Patches& patches, std::span<const contact::SurfaceState> su
   for (std::size_t p = 0; p < result.size(); ++p) result[p].node = peaks[2 * p], result[p].recovered = peaks[2 * p + 1];
 }
 
-}  // namespace
+// A face of a contact's secondary side.
+struct SideFace {
+  std::size_t contact, face;
+};
 
-std::vector<PressedPatch> pressed_patches(std::span<const contact::SurfaceState> surfaces,
-                                          std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
-                                          const Communicator& comm)
+SideNode node_of(std::size_t contact, const mesh::Surface& side, Local n)
 {
-  struct Face {
-    std::size_t contact, face;
-  };
-  std::vector<SideNode> of_points;
-  for (const auto& p : points) {
-    of_points.push_back({p.contact, p.node});
-    for (const auto& part : p.parts) of_points.push_back({p.contact, part.node});
-  }
-  const Patches patches(surfaces, pairs, std::move(of_points), comm);
-  std::vector<Face> whole;
+  return {static_cast<long long>(contact), side.node_id[static_cast<std::size_t>(n)]};
+}
+
+// The faces that are pressed at all corners; `at_border`, ascending: those of their corners that faces with an open corner have,
+// too, on any rank. Collective.
+std::vector<SideFace> whole_faces(std::span<const contact::SurfaceState> surfaces, std::span<const contact::Pair> pairs,
+                                  const Communicator& comm, std::vector<SideNode>& at_border)
+{
+  std::vector<SideFace> whole;
   std::vector<SideNode> corners, outer;  // of whole faces; of those with an open corner
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& side = pairs[c].secondary;
     const auto add = [&](std::vector<SideNode>& to, std::size_t f) {
-      for (const Local n : corners_of(side, f))
-        to.push_back({static_cast<long long>(c), side.node_id[static_cast<std::size_t>(n)]});
+      for (const Local n : corners_of(side, f)) to.push_back(node_of(c, side, n));
     };
     for (std::size_t f = 0; f < side.faces.size(); ++f) {
       const auto nodes = corners_of(side, f);
@@ -104,40 +104,78 @@ std::vector<PressedPatch> pressed_patches(std::span<const contact::SurfaceState>
       }
     }
   }
-  const auto at_border = anywhere_among(std::move(corners), std::move(outer), comm);
-  constexpr std::size_t kinds = 6;
-  std::vector<double> sums(kinds * patches.contacts().size(), 0.0);
+  at_border = anywhere_among(std::move(corners), std::move(outer), comm);
+  return whole;
+}
+
+// Adds the whole faces of this rank, and the nodes inside, to their patches.
+void count_faces(const Patches& patches, std::span<const SideFace> whole, std::span<const SideNode> at_border,
+                 std::span<const contact::Pair> pairs, std::vector<PressedPatch>& result)
+{
   for (const auto& [c, f] : whole) {
     const auto& side = pairs[c].secondary;
     std::optional<std::size_t> patch;
     for (const Local n : side.faces[f])
-      if (!patch) patch = patches.of({static_cast<long long>(c), side.node_id[static_cast<std::size_t>(n)]});
+      if (!patch) patch = patches.of(node_of(c, side, n));
     if (!patch) continue;
     const auto nodes = corners_of(side, f);
-    const auto inside = std::count_if(nodes.begin(), nodes.end(), [&](Local n) {
-      const SideNode node{static_cast<long long>(c), side.node_id[static_cast<std::size_t>(n)]};
-      return !std::binary_search(at_border.begin(), at_border.end(), node);
+    const auto inside = std::count_if(nodes.begin(), nodes.end(), [&, contact = c](Local n) {
+      return !std::binary_search(at_border.begin(), at_border.end(), node_of(contact, side, n));
     });
-    double* sum = &sums[kinds * *patch];
-    sum[0] += 1;
-    sum[1] += side.faces[f].size() > nodes.size() ? 1 : 0;
-    sum[2] += static_cast<double>(inside);
-    sum[3] += inside == static_cast<std::ptrdiff_t>(nodes.size()) ? 1 : 0;
+    auto& counted = result[*patch];
+    counted.whole += 1;
+    counted.second_order += side.faces[f].size() > nodes.size() ? 1 : 0;
+    counted.inside += static_cast<double>(inside);
+    counted.core += inside == static_cast<std::ptrdiff_t>(nodes.size()) ? 1 : 0;
   }
-  for (const auto& p : points) {
+}
+
+// Adds the forces of this rank's contact nodes to their patches.
+void add_forces(const Patches& patches, std::span<const contact::ContactNodeState> states, std::vector<PressedPatch>& result)
+{
+  for (const auto& p : states) {
     auto patch = patches.of({p.contact, p.node});
     for (const auto& part : p.parts)
       if (!patch) patch = patches.of({p.contact, part.node});
     if (!patch) continue;
-    sums[kinds * *patch + 4] += std::abs(p.force);
-    if (!p.parts.empty()) sums[kinds * *patch + 5] += std::abs(p.force);
+    result[*patch].force += std::abs(p.force);
+    if (!p.parts.empty()) result[*patch].between += std::abs(p.force);
   }
+}
+
+// Of all ranks. Collective.
+void sum_over_ranks(std::vector<PressedPatch>& patches, const Communicator& comm)
+{
+  constexpr std::array summed{&PressedPatch::whole, &PressedPatch::second_order, &PressedPatch::inside,
+                              &PressedPatch::core,  &PressedPatch::force,        &PressedPatch::between};
+  std::vector<double> sums;
+  for (const auto& patch : patches)
+    for (const auto member : summed) sums.push_back(patch.*member);
   comm.sum_in_place(sums);
-  std::vector<PressedPatch> result;
-  for (const int contact : patches.contacts()) {
-    const double* sum = &sums[kinds * result.size()];
-    result.push_back({contact, sum[0], sum[1], sum[2], sum[3], sum[4], sum[5], {}, {}});
+  auto sum = sums.begin();
+  for (auto& patch : patches)
+    for (const auto member : summed) patch.*member = *sum++;
+}
+
+}  // namespace
+
+std::vector<PressedPatch> pressed_patches(std::span<const contact::SurfaceState> surfaces,
+                                          std::span<const contact::ContactNodeState> states, std::span<const contact::Pair> pairs,
+                                          const Communicator& comm)
+{
+  std::vector<SideNode> of_points;
+  for (const auto& p : states) {
+    of_points.push_back({p.contact, p.node});
+    for (const auto& part : p.parts) of_points.push_back({p.contact, part.node});
   }
+  const Patches patches(surfaces, pairs, std::move(of_points), comm);
+  std::vector<SideNode> at_border;
+  const auto whole = whole_faces(surfaces, pairs, comm, at_border);
+  std::vector<PressedPatch> result;
+  for (const int contact : patches.contacts()) result.emplace_back().contact = contact;
+  count_faces(patches, whole, at_border, pairs, result);
+  add_forces(patches, states, result);
+  sum_over_ranks(result, comm);
   set_peaks(patches, surfaces, pairs, comm, result);
   return result;
 }

@@ -20,7 +20,8 @@ double of_nested_dissection(double unknowns, int dimension);
 /// The memory of a run, from the analysis of the largest subdomain of each rank; the factors of the others are scaled from its.
 /// Unless `exact`, a bound from above does where that is no more than there is: the analysis takes a third of the time of a
 /// factorization. `copies` as of Model::congruent. Collective.
-Memory foresee_memory(const model::Model& model, const std::vector<partition::CopyOf>& copies, bool exact, const Communicator& comm);
+Memory foresee_memory(const model::Model& model, const std::vector<partition::CopyOf>& copies, bool exact,
+                      const Communicator& comm);
 
 /// Throws Error(machine), on every rank alike, that says what would fit, if a machine has not enough.
 void require(const Memory& memory, const model::Model& model);

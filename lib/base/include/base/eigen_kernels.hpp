@@ -1,6 +1,7 @@
-// Products and factors of dense matrices, compiled once: Eigen would compile its kernels, some thousand instructions each, into every
-// file that multiplies two matrices or solves with one. Part of the precompiled headers; nothing else includes it, and without it all is the same but for
-// the compiler's time. The kernels are internal to Eigen 3.4: for other versions there is nothing here.
+// Products and factors of dense matrices, compiled once: Eigen would compile its kernels, some thousand instructions each, into
+// every file that multiplies two matrices or solves with one. Part of the precompiled headers; nothing else includes it, and
+// without it all is the same but for the compiler's time. The kernels are internal to Eigen 3.4: for other versions there is
+// nothing here.
 #pragma once
 
 #include <Eigen/Cholesky>

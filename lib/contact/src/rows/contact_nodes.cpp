@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 
 #include "rows/held_by_others.hpp"
 
@@ -140,6 +141,37 @@ std::vector<double> sum_areas(CutFaces& faces, std::vector<double>& covered)
   return whole;
 }
 
+// Along which directions each node moves, by what supports prescribe of it.
+std::vector<Directions> directions_of_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, const CutFaces& faces,
+                                            const SupportedNodes& supports, int dimension)
+{
+  std::vector<Directions> result;
+  result.reserve(faces.places());
+  for (std::size_t p = 0; p < faces.places(); ++p) {
+    const auto& surface_node = surface_nodes.all[faces.surface_node(p)];
+    const Global node = secondary.node_id[static_cast<std::size_t>(surface_node.node)];
+    const std::array<bool, 3> prescribed{supports.find(node, 0) != nullptr, supports.find(node, 1) != nullptr,
+                                         supports.find(node, 2) != nullptr};
+    result.push_back(directions(surface_node.normal, prescribed, supports.skew_supports(node), dimension));
+  }
+  return result;
+}
+
+// Marks the surface nodes of a bond past the primary side's border, prescribed along their normal, whose share the others hold:
+// what such a node sees is the primary side alone, which it would hold to what the few nodes that move leave of the face, as
+// stiffly as that. `met`: as BondedNodes has it; `whole`: the area round each node.
+std::vector<char> held_past_the_border(const Side& secondary, CutFaces& faces, std::span<const char> met,
+                                       const ContactNodes& nodes, std::span<const double> whole, int dimension)
+{
+  std::vector<char> aside(met.size(), 0);
+  auto stay = aside;
+  for (std::size_t p = 0; p < aside.size(); ++p) {
+    aside[p] = !nodes.directions[p].free_normal && !met[p];
+    stay[p] = !aside[p] && nodes.covered[p] > least_cover * whole[p];
+  }
+  return held_by_others(secondary, faces, aside, stay, dimension);
+}
+
 }  // namespace
 
 std::vector<double> cover_of_nodes(CutFaces& faces, std::size_t count)
@@ -153,37 +185,22 @@ std::vector<double> cover_of_nodes(CutFaces& faces, std::size_t count)
 
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
                                   const SupportedNodes& supports, const std::vector<char>& one_node,
-                                  const std::vector<char>& primary_held, const std::optional<BondedNodes>& bond, int dimension)
+                                  const std::vector<char>& primary_held, const std::optional<BondedNodes>& bond,
+                                  int dimension)
 {
   const auto count = faces.places();
   ContactNodes nodes;
   nodes.covered.assign(count, 0.0);
   const auto whole = sum_areas(faces, nodes.covered);
-  nodes.directions.reserve(count);
-  for (std::size_t p = 0; p < count; ++p) {
-    const auto& surface_node = surface_nodes.all[faces.surface_node(p)];
-    const Global node = secondary.node_id[static_cast<std::size_t>(surface_node.node)];
-    const std::array<bool, 3> prescribed{supports.find(node, 0) != nullptr, supports.find(node, 1) != nullptr,
-                                         supports.find(node, 2) != nullptr};
-    nodes.directions.push_back(directions(surface_node.normal, prescribed, supports.skew_supports(node), dimension));
-  }
+  nodes.directions = directions_of_nodes(secondary, surface_nodes, faces, supports, dimension);
   // Surface nodes prescribed along their normal keep their rows where the primary side can move: it alone feels them. Where it is
   // held as well they leave their share to the others of the face, as those at a seam's end do: a function sees a little of the
   // nodes beside the held ones, which alone would answer for all that it presses, and a bond would hold the mean of what it meets
   // once more. Where a face has no others, as on a surface that a support moves as a whole, they stay; rows in which nothing
   // moves, as those of an obstacle, are dropped.
-  // Past the primary side's border those of a bond stay only where the others do not hold what is covered: what they see is the
-  // primary side alone, which they would hold to what the few nodes that move leave of the face, as stiffly as that.
+  // Past the primary side's border those of a bond stay only where the others do not hold what is covered.
   std::vector<char> others_hold;
-  if (bond && !bond->met.empty()) {
-    std::vector<char> aside(surface_nodes.all.size(), 0);
-    auto stay = aside;
-    for (std::size_t p = 0; p < aside.size(); ++p) {
-      aside[p] = !nodes.directions[p].free_normal && !bond->met[p];
-      stay[p] = !aside[p] && nodes.covered[p] > least_cover * whole[p];
-    }
-    others_hold = held_by_others(secondary, faces, aside, stay, dimension);
-  }
+  if (bond && !bond->met.empty()) others_hold = held_past_the_border(secondary, faces, bond->met, nodes, whole, dimension);
   const auto needed = [&](std::size_t place) {
     const auto p = faces.surface_node(place);
     return !primary_held[p] && (others_hold.empty() || !others_hold[p]);

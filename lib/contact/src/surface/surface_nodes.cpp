@@ -247,66 +247,99 @@ bool share_edge(std::span<const Local> facet, std::size_t k, std::span<const Loc
   return false;
 }
 
-}  // namespace
+// The corners of facets round each node, in the order of the facets, and the normals there.
+struct CornersRoundNodes {
+  std::vector<std::size_t> offset, corner;
+  std::vector<Local> facet;     // of each corner
+  std::vector<Point> normal;    // of each facet
+  std::vector<Point> weighted;  // of each corner: the normal times its weight
 
-SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted)
+  explicit CornersRoundNodes(const Side& side);
+  std::span<const std::size_t> round(std::size_t node) const
+  {
+    return {corner.data() + offset[node], offset[node + 1] - offset[node]};
+  }
+};
+
+CornersRoundNodes::CornersRoundNodes(const Side& side)
+    : offset(side.points.size() + 1, 0),
+      corner(side.facets.nodes.size()),
+      facet(corner.size()),
+      normal(side.facets.size()),
+      weighted(corner.size())
 {
-  // The corners of facets round each node, in the order of the facets, and the normal and its weight there.
-  const std::size_t nodes = side.points.size(), count = side.facets.nodes.size();
-  std::vector<std::size_t> offset(nodes + 1, 0), round(count);
-  std::vector<Point> normals(side.facets.size()), weighted(count);
-  std::vector<Local> facet_of(count);
   for (const Local n : side.facets.nodes) ++offset[static_cast<std::size_t>(n) + 1];
-  for (std::size_t n = 0; n < nodes; ++n) offset[n + 1] += offset[n];
+  for (std::size_t n = 0; n + 1 < offset.size(); ++n) offset[n + 1] += offset[n];
   auto next = offset;
   for (std::size_t f = 0; f < side.facets.size(); ++f) {
     const auto face = side.geometry(f);
-    normals[f] = face.normal();
+    normal[f] = face.normal();
     for (std::size_t k = 0; k < face.nodes.size(); ++k) {
-      const auto corner = static_cast<std::size_t>(side.facets.offset[f]) + k;
-      weighted[corner] = corner_normal(face, k);
-      facet_of[corner] = static_cast<Local>(f);
-      round[next[static_cast<std::size_t>(side.facets.nodes[corner])]++] = corner;
+      const auto c = static_cast<std::size_t>(side.facets.offset[f]) + k;
+      weighted[c] = corner_normal(face, k);
+      facet[c] = static_cast<Local>(f);
+      corner[next[static_cast<std::size_t>(side.facets.nodes[c])]++] = c;
     }
   }
+}
 
+// group[i] becomes the smallest of those that hang together with i, of `count` things of which `together` tells by twos.
+template <class Together>
+void join_groups(std::size_t count, const Together& together, std::vector<std::size_t>& group)
+{
+  group.resize(count);
+  std::iota(group.begin(), group.end(), 0U);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (group[a] != group[b] && together(a, b)) {
+          group[a] = group[b] = std::min(group[a], group[b]);
+          changed = true;
+        }
+  }
+}
+
+// A surface node of each group of facets round a node between which there is no kink, with the mean of their normals.
+SurfaceNodes nodes_between_kinks(const Side& side)
+{
+  const CornersRoundNodes corners_round(side);
   const auto kinks_of_nodes = both_ways(side.kinks);
   SurfaceNodes surface_nodes;
-  surface_nodes.of_corner.resize(count);
+  surface_nodes.of_corner.resize(corners_round.corner.size());
   std::vector<std::size_t> group;
-  for (std::size_t n = 0; n < nodes; ++n) {
-    const std::span corners(round.data() + offset[n], offset[n + 1] - offset[n]);
-    const auto normal_at = [&](std::size_t a) -> const Point& { return normals[static_cast<std::size_t>(facet_of[corners[a]])]; };
+  for (std::size_t n = 0; n < side.points.size(); ++n) {
+    const auto corners = corners_round.round(n);
+    const auto facet_at = [&](std::size_t a) { return static_cast<std::size_t>(corners_round.facet[corners[a]]); };
+    const auto normal_at = [&](std::size_t a) -> const Point& { return corners_round.normal[facet_at(a)]; };
     const std::span kinks = std::ranges::equal_range(kinks_of_nodes, static_cast<Local>(n), {}, &std::pair<Local, Local>::first);
     const auto together = [&](std::size_t a, std::size_t b) {
       if (normal_at(a).dot(normal_at(b)) <= kink) return false;
       if (kinks.empty()) return true;
-      const auto f = static_cast<std::size_t>(facet_of[corners[a]]), g = static_cast<std::size_t>(facet_of[corners[b]]);
+      const auto f = facet_at(a), g = facet_at(b);
       return share_edge(side.facets[f], corners[a] - static_cast<std::size_t>(side.facets.offset[f]), side.facets[g],
                         corners[b] - static_cast<std::size_t>(side.facets.offset[g]), kinks);
     };
-    group.resize(corners.size());
-    std::iota(group.begin(), group.end(), 0U);
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (std::size_t a = 0; a < corners.size(); ++a)
-        for (std::size_t b = 0; b < a; ++b)
-          if (group[a] != group[b] && together(a, b)) {
-            group[a] = group[b] = std::min(group[a], group[b]);
-            changed = true;
-          }
-    }
+    join_groups(corners.size(), together, group);
     for (std::size_t g = 0; g < corners.size(); ++g) {
       Point normal = Point::Zero();
       for (std::size_t a = 0; a < corners.size(); ++a) {
         if (group[a] != g) continue;
-        normal += weighted[corners[a]];
+        normal += corners_round.weighted[corners[a]];
         surface_nodes.of_corner[corners[a]] = static_cast<Local>(surface_nodes.all.size());
       }
       if (normal.squaredNorm() > 0) surface_nodes.all.push_back({static_cast<Local>(n), normal.normalized()});
     }
   }
-  const SurfaceNodes means = surface_nodes;
+  return surface_nodes;
+}
+
+}  // namespace
+
+SurfaceNodes surface_nodes_of_facets(const Side& side, bool fitted)
+{
+  const SurfaceNodes means = nodes_between_kinks(side);
+  SurfaceNodes surface_nodes = means;
   take_normals_between_arcs(side, surface_nodes);
   take_normals_of_straight(side, surface_nodes);
   const auto border = continue_curvature(side, surface_nodes);
