@@ -65,7 +65,7 @@ void print_couplings(const io::StateSummary& s, Log& log)
   for (const auto& c : s.couplings) {
     log.line("  coupling {}: its point moves {}", c.name, pair(c.displacement, ", turns ", c.rotation));
     log.line("    force on the boundary {}{}", pair(c.force, ", moment about the point ", c.moment),
-             c.held ? "; supports react with " + pair(c.reaction_force, ", ", c.reaction_moment) : "");
+             c.prescribed ? "; supports react with " + pair(c.reaction_force, ", ", c.reaction_moment) : "");
   }
 }
 

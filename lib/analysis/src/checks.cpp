@@ -123,12 +123,12 @@ std::vector<Warning> short_searches(const Rows& rows, const post::Results& resul
   constexpr double close = 0.7;  // of the search distance
   const auto& pairs = rows.pairs;
   const auto& contacts = rows.constraints.contacts;
-  const auto& points = results.contact.points;
+  const auto& states = results.contact.states;
   const auto reaches = contact::search_distances(pairs, comm);
   std::vector<post::Found> widest(pairs.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i].status != contact::Status::open)
-      widest[static_cast<std::size_t>(points[i].contact)].take(contacts.nodes[i].gap, contacts.nodes[i].at);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (states[i].status != contact::Status::open)
+      widest[static_cast<std::size_t>(states[i].contact)].take(contacts.nodes[i].gap, contacts.nodes[i].at);
   widest = post::largest_of_ranks(widest, comm);
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -362,18 +362,18 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   auto result = post::large_displacements(decomposition, sizes, state.displacement, comm);
   append(result, post::inverted_cells(decomposition, state.displacement, comm));
   append(result,
-         post::long_slides(pairs, state.rows->constraints.contacts, contact.points, decomposition, state.displacement, comm));
-  append(result, post::facet_turns(pairs, state.rows->constraints.contacts, contact.points, decomposition, deck.kinematics,
+         post::long_slides(pairs, state.rows->constraints.contacts, contact.states, decomposition, state.displacement, comm));
+  append(result, post::facet_turns(pairs, state.rows->constraints.contacts, contact.states, decomposition, deck.kinematics,
                                    state.displacement, comm));
   append(result, post::large_pressures(contact.surfaces, pairs, softest, names, comm));
-  append(result, post::narrow_contacts(contact.surfaces, contact.points, pairs, comm));
+  append(result, post::narrow_contacts(contact.surfaces, contact.states, pairs, comm));
   append(result, post::scattered_contacts(contact.surfaces, pairs, softest, comm));
   append(result, post::lost_moments(results.moments, pairs, results.balance.acting));
   append(result,
-         post::loose_fits(contact.points, pairs, *std::ranges::min_element(softest), *std::ranges::max_element(sizes), comm));
-  append(result, post::frictions_across_gaps(contact.points, pairs, results.balance.acting, comm));
+         post::loose_fits(contact.states, pairs, *std::ranges::min_element(softest), *std::ranges::max_element(sizes), comm));
+  append(result, post::frictions_across_gaps(contact.states, pairs, results.balance.acting, comm));
   append(result, post::pressing_overlaps(
-                     {state.rows->constraints.contacts.nodes, contact.points, state.rows->initial_gaps, pairs, contact.surfaces},
+                     {state.rows->constraints.contacts.nodes, contact.states, state.rows->initial_gaps, pairs, contact.surfaces},
                      2 * results.stress.strain_energy, *std::ranges::min_element(softest), comm));
   append(result, post::strained_supports(support_loads(model, results, comm), results.balance.acting));
   append(result, post::point_forces(point_forces(model, state.rows->acts, results), results.balance.acting));

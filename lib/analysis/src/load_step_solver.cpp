@@ -94,7 +94,7 @@ std::vector<constraint::SlidingSurface> sliding_surfaces_of(const Rows& rows, co
 {
   // A support along normals is to its body what an obstacle that it touches everywhere is.
   auto pairs = rows.pairs;
-  for (auto& surface : model.surfaces_held_along_normals(rows.acts)) pairs.push_back({{}, std::move(surface), nullptr});
+  for (auto& surface : model.surfaces_prescribed_along_normals(rows.acts)) pairs.push_back({{}, std::move(surface), nullptr});
   return contact::sliding_surfaces(pairs, rows.constraints.contacts, model.deck().kinematics, comm);
 }
 

@@ -144,15 +144,15 @@ void carry_slip(const constraint::Contacts& from, constraint::Contacts& to)
       to.rows.bound[b.row + 1 + t] += slip;
     };
     // What a row without entries gave way by is slip once the node is let go.
-    for (const bool held : {true, false})
+    for (const bool prescribed : {true, false})
       change_tangents(
           a, b,
           [&](std::size_t t) {
             const auto row = a.row + 1 + t;
-            return from.slipped[row] - (!held && from.rows[row].empty() ? from.rows.bound[row] : 0);
+            return from.slipped[row] - (!prescribed && from.rows[row].empty() ? from.rows.bound[row] : 0);
           },
           [&](std::size_t t, double slip) {
-            if (to.rows[b.row + 1 + t].empty() == held) take(t, slip);
+            if (to.rows[b.row + 1 + t].empty() == prescribed) take(t, slip);
           });
   }
 }

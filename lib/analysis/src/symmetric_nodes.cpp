@@ -57,10 +57,10 @@ struct PrescribedNormal {
 };
 
 // Those of one node.
-std::span<const PrescribedNormal> planes_at(std::span<const PrescribedNormal> held, Global node)
+std::span<const PrescribedNormal> planes_at(std::span<const PrescribedNormal> prescribed, Global node)
 {
   const auto [begin, end] =
-      std::equal_range(held.begin(), held.end(), PrescribedNormal{node, {}},
+      std::equal_range(prescribed.begin(), prescribed.end(), PrescribedNormal{node, {}},
                        [](const PrescribedNormal& a, const PrescribedNormal& b) { return a.node < b.node; });
   return {begin, end};
 }
@@ -70,17 +70,17 @@ std::vector<PrescribedNormal> prescribed_normals(std::span<const Global> nodes, 
                                                  const Communicator& comm)
 {
   const auto by_node = [](const PrescribedNormal& a, const PrescribedNormal& b) { return a.node < b.node; };
-  std::vector<PrescribedNormal> held;
+  std::vector<PrescribedNormal> prescribed;
   for (const auto& action : actions)
-    if (action.kind == Kind::held) held.push_back({action.node, action.normal});
-  std::sort(held.begin(), held.end(), by_node);
+    if (action.kind == Kind::prescribed) prescribed.push_back({action.node, action.normal});
+  std::sort(prescribed.begin(), prescribed.end(), by_node);
   std::vector<std::vector<Global>> asked(static_cast<std::size_t>(comm.size()));
   for (const Global node : nodes) asked[home(node, comm)].push_back(node);
   std::vector<std::vector<PrescribedNormal>> answers;
   for (const auto& part : comm.exchange(asked)) {
     auto& answer = answers.emplace_back();
     for (const Global node : part) {
-      const auto planes = planes_at(held, node);
+      const auto planes = planes_at(prescribed, node);
       answer.insert(answer.end(), planes.begin(), planes.end());
     }
   }
@@ -96,19 +96,19 @@ void drop_curved(std::vector<model::FaceAction>& actions, const Communicator& co
 {
   std::vector<Global> nodes;
   for (const auto& action : actions)
-    if (action.kind == Kind::held) nodes.push_back(action.node);
+    if (action.kind == Kind::prescribed) nodes.push_back(action.node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto held = prescribed_normals(nodes, sent_home(actions, comm), comm);
+  const auto prescribed = prescribed_normals(nodes, sent_home(actions, comm), comm);
   std::set<std::size_t> curved;
   for (const auto& action : actions) {
-    if (action.kind != Kind::held) continue;
+    if (action.kind != Kind::prescribed) continue;
     const Point normal = point(action.normal);
-    for (const auto& other : planes_at(held, action.node))
+    for (const auto& other : planes_at(prescribed, action.node))
       if (const Point n = point(other.normal); (n - normal).norm() > parallel && n.dot(normal) > right_angle)
         curved.insert(action.face);
   }
-  std::erase_if(actions, [&](const auto& action) { return action.kind == Kind::held && curved.contains(action.face); });
+  std::erase_if(actions, [&](const auto& action) { return action.kind == Kind::prescribed && curved.contains(action.face); });
 }
 
 // What contacts push along their surfaces with, at nodes that supports hold along normals. Rows along which supports hold both
@@ -128,7 +128,7 @@ class ContactForces {
       }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    held_ = prescribed_normals(all, actions, comm);
+    prescribed_ = prescribed_normals(all, actions, comm);
     for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
       const auto& node = contacts.nodes[i];
       for (std::size_t t = 0; t < node.tangents.size(); ++t) add_row(node, node.row + 1 + t, node.tangents[t]);
@@ -148,23 +148,23 @@ class ContactForces {
   {
     if (contacts_.rows[row].empty() && contacts_.rows.bound[row] == 0) return;
     for (const Global node : nodes_of(contacts_, at))
-      if (!planes_at(held_, node).empty()) add(node, at, tangent);
+      if (!planes_at(prescribed_, node).empty()) add(node, at, tangent);
   }
 
   void add_bond(const constraint::ContactNode& at)
   {
-    for (const auto& own : planes_at(held_, at.node)) {
+    for (const auto& own : planes_at(prescribed_, at.node)) {
       bool both = false;
       for (std::size_t row = at.row; row <= at.row + at.tangents.size(); ++row)
         for (const auto& entry : contacts_.rows[row])
-          for (const auto& other : planes_at(held_, entry.node))
+          for (const auto& other : planes_at(prescribed_, entry.node))
             both = both || (entry.node != at.node && (point(own.normal) - point(other.normal)).norm() < parallel);
       if (!both) add(at.node, at, point(own.normal));
     }
   }
 
   const constraint::Contacts& contacts_;
-  std::vector<PrescribedNormal> held_;
+  std::vector<PrescribedNormal> prescribed_;
 };
 
 // What acts at one node.
@@ -173,7 +173,7 @@ using Actions = std::span<const model::FaceAction>;
 // Whether it shears the plane with this normal through the node's place.
 bool shears(const model::FaceAction& action, const Point& normal, const Point& place, double rounding)
 {
-  if (action.kind == Kind::held) return false;
+  if (action.kind == Kind::prescribed) return false;
   if (action.kind == Kind::coupled) return true;
   const double beyond = (point(action.at) - place).dot(normal);
   if (std::abs(beyond) > rounding) return beyond > 0;
@@ -191,7 +191,7 @@ std::vector<Point> normals_of(Actions actions)
   Point place = Point::Zero();
   double rounding = 0;
   for (const auto& action : actions) {
-    if (action.kind != Kind::held) continue;
+    if (action.kind != Kind::prescribed) continue;
     const Point normal = point(action.normal);
     if (std::none_of(normals.begin(), normals.end(), [&](const Point& n) { return (n - normal).norm() < parallel; }))
       normals.push_back(normal);
@@ -314,7 +314,7 @@ std::vector<std::vector<post::SymmetricNode>> find_symmetric_nodes(const model::
                                                                    const Communicator& comm)
 {
   auto actions = model.face_actions(rows.acts, comm);
-  if (!comm.any(std::any_of(actions.begin(), actions.end(), [](const auto& a) { return a.kind == Kind::held; }))) return {};
+  if (!comm.any(std::any_of(actions.begin(), actions.end(), [](const auto& a) { return a.kind == Kind::prescribed; }))) return {};
   drop_curved(actions, comm);
   actions = sent_home(actions, comm);
   const auto pushed = sent_home(ContactForces(rows.constraints.contacts, actions, comm).found, comm);

@@ -36,7 +36,7 @@ std::vector<bool> reached(const std::vector<contact::Pair>& pairs, const constra
     tell(pair.secondary);
     if (pair.primary) tell(*pair.primary);
   }
-  for (const auto& point : contacts.nodes) touched[static_cast<std::size_t>(point.node) % ranks].push_back(point.node);
+  for (const auto& node : contacts.nodes) touched[static_cast<std::size_t>(node.node) % ranks].push_back(node.node);
   for (const auto& entry : contacts.rows.entries) touched[static_cast<std::size_t>(entry.node) % ranks].push_back(entry.node);
   std::vector<Global> nodes;
   for (const auto& part : comm.exchange(touched)) nodes.insert(nodes.end(), part.begin(), part.end());

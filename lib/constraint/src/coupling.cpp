@@ -136,14 +136,14 @@ struct PrescribedValue {
 };
 
 // What supports make of a mean motion whose nodes they hold all, and the sum of what makes it up.
-std::optional<std::pair<double, double>> mean_of_supports(const MeanMotion& motion, const std::vector<PrescribedValue>& held)
+std::optional<std::pair<double, double>> mean_of_supports(const MeanMotion& motion, const std::vector<PrescribedValue>& values)
 {
   double mean = 0, scale = 0;
   for (const auto& entry : motion.entries) {
     if (entry.coefficient == 0) continue;
     const PrescribedValue wanted{entry.node, entry.component, 0};
-    const auto found = std::lower_bound(held.begin(), held.end(), wanted);
-    if (found == held.end() || wanted < *found) return {};
+    const auto found = std::lower_bound(values.begin(), values.end(), wanted);
+    if (found == values.end() || wanted < *found) return {};
     mean += entry.coefficient * found->value;
     scale += std::abs(entry.coefficient * found->value);
   }
@@ -169,16 +169,16 @@ void require_consistent(std::span<const MeanMotion> motions, std::span<const Pre
                         std::span<const Coupling> couplings, const Communicator& comm)
 {
   if (!comm.any(!motions.empty())) return;
-  std::vector<PrescribedValue> held;
+  std::vector<PrescribedValue> values;
   for (const auto& p : prescribed)
-    if (p.coupling < 0) held.push_back({p.node, p.component, p.value});
-  held = comm.all_gather(held);
-  std::sort(held.begin(), held.end());
+    if (p.coupling < 0) values.push_back({p.node, p.component, p.value});
+  values = comm.all_gather(values);
+  std::sort(values.begin(), values.end());
   const auto name = [&](const MeanMotion& motion) { return couplings[static_cast<std::size_t>(motion.coupling)].name; };
   collectively(comm, [&] {
     for (std::size_t i = 0; i < motions.size(); ++i) {
       const auto& motion = motions[i];
-      if (const auto found = mean_of_supports(motion, held); found && differ(found->first, motion.value, found->second))
+      if (const auto found = mean_of_supports(motion, values); found && differ(found->first, motion.value, found->second))
         throw Error(ExitStatus::bad_input,
                     fmt::format("coupling \"{}\" and the supports that hold its boundary prescribe different motions of it; drop "
                                 "the component from one of them",

@@ -248,10 +248,10 @@ std::vector<SkewSupport> skew_support_rows(std::span<const Support> supports, st
                                           [](const PrescribedDof& h, Global node) { return h.node < node; });
       const auto last = std::find_if(first, prescribed.end(), [&](const PrescribedDof& h) { return h.node != begin->node; });
       if (const auto free = std::find_if(first, last, [](const PrescribedDof& h) { return h.unknown; }); free != last)
-        throw_held_coupling(supports, free->support, begin->support);
-      Directions held(supports, {first, last});
-      for (auto direction = begin; direction != end; ++direction) held.add(*direction);
-      for (SkewSupport row : held.skew_supports()) {
+        throw_prescribed_coupling(supports, free->support, begin->support);
+      Directions here(supports, {first, last});
+      for (auto direction = begin; direction != end; ++direction) here.add(*direction);
+      for (SkewSupport row : here.skew_supports()) {
         const auto shares = std::span(row.shares).first(static_cast<std::size_t>(row.share_count));
         row.along_normals = std::all_of(shares.begin(), shares.end(), [&](const SkewSupport::Share& share) {
           return supports[static_cast<std::size_t>(share.support)].normal.has_value();

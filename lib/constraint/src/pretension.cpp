@@ -14,10 +14,10 @@ constexpr double least_mean = 0.5;
 Point direction(const Contacts& contacts, const Preload& preload, bool axisymmetric, const Communicator& comm)
 {
   std::vector<double> sums(4, 0.0);  // area times normal, area
-  for (const auto& point : contacts.nodes) {
-    if (point.contact != preload.contact) continue;
-    for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)] += point.area * point.normal[c];
-    sums[3] += point.area;
+  for (const auto& node : contacts.nodes) {
+    if (node.contact != preload.contact) continue;
+    for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)] += node.area * node.normal[c];
+    sums[3] += node.area;
   }
   comm.sum_in_place(sums);
   if (!(sums[3] > 0))
@@ -44,11 +44,11 @@ std::vector<PretensionSection> find_pretension_sections(const Contacts& contacts
   std::vector<PretensionSection> pretension_sections;
   for (const auto& preload : preloads) {
     PretensionSection section{preload, direction(contacts, preload, axisymmetric, comm), {}};
-    for (const auto& point : contacts.nodes) {
-      if (point.contact != preload.contact) continue;
-      section.rows.push_back({point.row, point.weight * section.normal.dot(point.normal)});
-      for (std::size_t t = 0; t < point.tangents.size(); ++t)
-        section.rows.push_back({point.row + 1 + t, point.weight * section.normal.dot(point.tangents[t])});
+    for (const auto& node : contacts.nodes) {
+      if (node.contact != preload.contact) continue;
+      section.rows.push_back({node.row, node.weight * section.normal.dot(node.normal)});
+      for (std::size_t t = 0; t < node.tangents.size(); ++t)
+        section.rows.push_back({node.row + 1 + t, node.weight * section.normal.dot(node.tangents[t])});
     }
     pretension_sections.push_back(std::move(section));
   }

@@ -32,11 +32,11 @@ bool update_rhs(Constraints& constraints, std::vector<PrescribedDof> prescribed,
 
 void add_interference(Contacts& contacts, int contact, double overlap)
 {
-  for (auto& point : contacts.nodes) {
-    if (point.contact != contact) continue;
-    const double before = bound_of(point);
-    point.gap -= point.weight * overlap;
-    contacts.rows.bound[point.row] += bound_of(point) - before;
+  for (auto& node : contacts.nodes) {
+    if (node.contact != contact) continue;
+    const double before = bound_of(node);
+    node.gap -= node.weight * overlap;
+    contacts.rows.bound[node.row] += bound_of(node) - before;
   }
 }
 

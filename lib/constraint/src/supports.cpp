@@ -25,7 +25,7 @@ double value_at(std::span<const Support> supports, int support, const deck::Form
                           supports[static_cast<std::size_t>(support)].boundary, formula.text(), place[0], place[1], place[2]));
 }
 
-void throw_held_coupling(std::span<const Support> supports, int coupling, int support)
+void throw_prescribed_coupling(std::span<const Support> supports, int coupling, int support)
 {
   throw Error(ExitStatus::bad_input,
               fmt::format("the {}, which is rigid, and supports[{}] (boundary \"{}\") share nodes, which cannot follow both; "
@@ -38,7 +38,8 @@ namespace {
 
 void check_agreement(const PrescribedDof& a, const PrescribedDof& b, std::span<const Support> supports, double largest)
 {
-  if (a.unknown || b.unknown) throw_held_coupling(supports, a.unknown ? a.support : b.support, a.unknown ? b.support : a.support);
+  if (a.unknown || b.unknown)
+    throw_prescribed_coupling(supports, a.unknown ? a.support : b.support, a.unknown ? b.support : a.support);
   const bool formulas =
       !supports[static_cast<std::size_t>(a.support)].is_uniform() || !supports[static_cast<std::size_t>(b.support)].is_uniform();
   if (std::abs(a.value - b.value) <= 1e-12 * (formulas ? largest : std::max(std::abs(a.value), std::abs(b.value)))) return;

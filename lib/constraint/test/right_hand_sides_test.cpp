@@ -73,7 +73,7 @@ TEST(RightHandSides, InterferenceClosesGaps)
   add_interference(contacts, 0, 0.1);
   EXPECT_NEAR(contacts.nodes[0].gap, 0.05, 1e-15);
   EXPECT_NEAR(contacts.rows.bound[0], 0.3 - 0.2, 1e-15);
-  contacts.nodes[0].held = 0.25;  // of what overlaps
+  contacts.nodes[0].prescribed_share = 0.25;  // of what overlaps
   add_interference(contacts, 0, 0.1);
   EXPECT_NEAR(contacts.nodes[0].gap, -0.15, 1e-15);
   EXPECT_NEAR(contacts.rows.bound[0], 0.3 - 0.2 - 0.05 - 0.75 * 0.15, 1e-15);

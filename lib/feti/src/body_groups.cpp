@@ -32,7 +32,7 @@ BodyGroups body_groups(const partition::Decomposition& decomposition, const Jump
   std::iota(groups.of_body.begin(), groups.of_body.end(), 0);
   const auto count = static_cast<double>(groups.of_body.size());
   int couplings = 0;
-  for (const auto& held : prescribed) couplings = std::max(couplings, held.coupling + 1);
+  for (const auto& dof : prescribed) couplings = std::max(couplings, dof.coupling + 1);
   couplings = static_cast<int>(comm.max(static_cast<long long>(couplings)));
   while (true) {
     Vector lowest = lowest_of_rows(decomposition, jump, groups.of_body);

@@ -21,13 +21,13 @@ constexpr double part_of_row = 0.1;  // that may be open: a tenth of a cell at t
 bool contact_converged(const DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change)
 {
   const auto& comm = problem.communicator();
-  const auto& points = problem.constraints().contacts.nodes;
+  const auto& nodes = problem.constraints().contacts.nodes;
   const auto& bonded = problem.constraints().contacts.bonded;
   const Eigen::VectorXd differs = problem.forces(change), firmly = problem.forces(argument);
   const Pressures pressures(problem, x);
   const auto count = pressures.parts();
   std::vector<double> moved(count, 0.0), pressed(count, 0.0), undecided(count, 0.0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (bonded[i]) continue;
     const auto& rows = problem.node_rows()[i];
     const auto c = pressures.part_of(i);

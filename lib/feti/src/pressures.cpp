@@ -74,11 +74,11 @@ void Pressures::find_parts()
     int contact, group;
     auto operator<=>(const Part&) const = default;
   };
-  const auto& points = problem_.constraints().contacts.nodes;
+  const auto& nodes = problem_.constraints().contacts.nodes;
   const auto& groups = problem_.groups();
   std::vector<Part> own;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    own.push_back({points[i].contact, std::max(groups.of_row[static_cast<std::size_t>(problem_.node_rows()[i].normal)], 0)});
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    own.push_back({nodes[i].contact, std::max(groups.of_row[static_cast<std::size_t>(problem_.node_rows()[i].normal)], 0)});
   const auto each_once = [](std::vector<Part> parts) {
     std::sort(parts.begin(), parts.end());
     parts.erase(std::unique(parts.begin(), parts.end()), parts.end());

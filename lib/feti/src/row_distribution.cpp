@@ -57,7 +57,7 @@ struct SentNode {
   int contact, tangent_count;
   bool bonded;
   Global node;
-  double area, weight, gap, cover, held;
+  double area, weight, gap, cover, prescribed_share;
   Vector3 normal, at;
   std::array<Vector3, 2> tangents;
   std::size_t parts, images;
@@ -92,7 +92,7 @@ SentNode pack(const constraint::ContactNode& from, bool bonded)
   to.weight = from.weight;
   to.gap = from.gap;
   to.cover = from.cover;
-  to.held = from.held;
+  to.prescribed_share = from.prescribed_share;
   to.normal = array(from.normal);
   to.at = array(from.at);
   std::transform(from.tangents.begin(), from.tangents.end(), to.tangents.begin(), array);
@@ -118,7 +118,7 @@ constraint::ContactNode unpack(const SentNode& from, std::size_t row)
 {
   constraint::ContactNode to{from.contact, from.node,   from.area, point(from.normal), {},
                              row,          from.weight, from.gap,  point(from.at),     from.cover};
-  to.held = from.held;
+  to.prescribed_share = from.prescribed_share;
   for (int t = 0; t < from.tangent_count; ++t) to.tangents.push_back(point(from.tangents[static_cast<std::size_t>(t)]));
   return to;
 }

@@ -22,7 +22,7 @@ constexpr long probes = 64;
 int contact_count(const DualProblem& problem)
 {
   int count = 0;
-  for (const auto& point : problem.constraints().contacts.nodes) count = std::max(count, point.contact + 1);
+  for (const auto& node : problem.constraints().contacts.nodes) count = std::max(count, node.contact + 1);
   return static_cast<int>(problem.communicator().max(static_cast<long long>(count)));
 }
 
@@ -36,13 +36,13 @@ double tangential(const NodeRows& rows, const Eigen::Ref<const Eigen::VectorXd>&
 int band(const DualProblem& problem, int contact, const std::vector<bool>& open)
 {
   const auto& comm = problem.communicator();
-  const auto& points = problem.constraints().contacts.nodes;
+  const auto& nodes = problem.constraints().contacts.nodes;
   struct Sent {
     double x, y, z, open;
   };
   std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i].contact == contact) send[0].push_back({points[i].at[0], points[i].at[1], points[i].at[2], open[i] ? 1.0 : 0.0});
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i].contact == contact) send[0].push_back({nodes[i].at[0], nodes[i].at[1], nodes[i].at[2], open[i] ? 1.0 : 0.0});
   std::vector<Place> places;
   for (const auto& part : comm.exchange(send))
     for (const auto& p : part) places.push_back({Point(p.x, p.y, p.z), p.open > 0});
@@ -52,9 +52,9 @@ int band(const DualProblem& problem, int contact, const std::vector<bool>& open)
 std::vector<Undecided::Band> bands(const DualProblem& problem, std::size_t contacts, const std::vector<bool>& open)
 {
   const auto& comm = problem.communicator();
-  const auto& points = problem.constraints().contacts.nodes;
+  const auto& nodes = problem.constraints().contacts.nodes;
   std::vector<double> counts(contacts, 0.0);
-  for (std::size_t i = 0; i < points.size(); ++i) counts[static_cast<std::size_t>(points[i].contact)] += open[i];
+  for (std::size_t i = 0; i < nodes.size(); ++i) counts[static_cast<std::size_t>(nodes[i].contact)] += open[i];
   comm.sum_in_place(counts);
   std::vector<Undecided::Band> result(contacts);
   for (std::size_t c = 0; c < contacts; ++c)
@@ -81,12 +81,12 @@ Point position_of_largest(const DualProblem& problem, std::size_t point, double 
 std::optional<Stuck> worst_points(const DualProblem& problem, int contact, const std::vector<double>& value, double least)
 {
   const auto& comm = problem.communicator();
-  const auto& points = problem.constraints().contacts.nodes;
+  const auto& nodes = problem.constraints().contacts.nodes;
   long long count = 0;
   std::size_t worst = 0;
   double largest = -1;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].contact != contact || value[i] < least) continue;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].contact != contact || value[i] < least) continue;
     ++count;
     if (value[i] > largest) {
       largest = value[i];
@@ -131,12 +131,12 @@ std::vector<ContactStatus> states_at(const DualProblem& problem, const qp::Feasi
 std::vector<Undecided> undecided(const DualProblem& problem, const qp::FeasibleSet& set, const Vector& x,
                                  const qp::PredictedSolution& predicted)
 {
-  const auto& points = problem.constraints().contacts.nodes;
+  const auto& nodes = problem.constraints().contacts.nodes;
   const Pressures pressures(problem, x);
   const Eigen::VectorXd change = problem.forces(predicted.change), argument = problem.forces(predicted.argument);
   const auto bounds = problem.slip_bounds(set);
-  std::vector<bool> rim(points.size(), false), edge_of_stick(points.size(), false);
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  std::vector<bool> rim(nodes.size(), false), edge_of_stick(nodes.size(), false);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto& rows = problem.node_rows()[i];
     if (pressures.idle(pressures.part_of(i))) continue;
     const double largest = pressures.largest(pressures.part_of(i));

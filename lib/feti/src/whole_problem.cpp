@@ -62,7 +62,7 @@ qp::FeasibleSet SupportElimination::reduced(const qp::FeasibleSet& set) const
   return {std::move(bounds), std::move(discs)};
 }
 
-VectorXd SupportElimination::held(const VectorXd& bounds) const
+VectorXd SupportElimination::prescribed(const VectorXd& bounds) const
 {
   VectorXd u = VectorXd::Zero(rows_.cols());
   for (const auto& support : supports_) u[support.unknown] = bounds[support.row] / support.coefficient;
@@ -119,7 +119,7 @@ WholeProblem::WholeProblem(SparseMatrix stiffness, const SupportElimination& eli
 WholeProblem::Solution WholeProblem::solve(const VectorXd& f, const VectorXd& c, const qp::FeasibleSet& set, const Start* near)
 {
   const auto &kept = elimination_.kept(), &free = elimination_.free();
-  VectorXd u = elimination_.held(c);
+  VectorXd u = elimination_.prescribed(c);
   VectorXd load = f;
   load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
   const VectorXd gap = c - elimination_.rows() * u;
@@ -147,7 +147,7 @@ WholeInverse::WholeInverse(SparseMatrix regularised, const SupportElimination& e
 VectorXd WholeInverse::times(const VectorXd& r) const
 {
   const auto& free = elimination_.free();
-  VectorXd u = elimination_.held(r);
+  VectorXd u = elimination_.prescribed(r);
   VectorXd force = VectorXd::Zero(u.size());
   force -= regularised_.selfadjointView<Eigen::Lower>() * u;
   const VectorXd jump = r - elimination_.rows() * u;

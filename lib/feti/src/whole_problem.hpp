@@ -25,7 +25,7 @@ class SupportElimination {
   qp::SparseMatrices reduced(const SparseMatrix& stiffness) const;
   qp::FeasibleSet reduced(const qp::FeasibleSet& set) const;
   /// The unknowns that supports hold, over all unknowns, where their rows are to see these bounds.
-  Eigen::VectorXd held(const Eigen::VectorXd& bounds) const;
+  Eigen::VectorXd prescribed(const Eigen::VectorXd& bounds) const;
   /// The multipliers of all rows from those of kept(), where supports take up what `forces` lack.
   Eigen::VectorXd complete(const Eigen::VectorXd& multipliers, const Eigen::VectorXd& forces) const;
 

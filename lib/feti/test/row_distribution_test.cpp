@@ -92,7 +92,7 @@ struct CutBlocks {
                                 2 + number,
                                 3 + number,
                                 Point(number, 0, 1)});
-      contacts.nodes.back().held = 4 + number;
+      contacts.nodes.back().prescribed_share = 4 + number;
       contacts.bonded.push_back(i % 2 == 1);
       for (std::size_t r = 0; r <= i % 3; ++r) {
         contacts.prescribed.push_back({contacts.rows.size(), static_cast<int>(r), static_cast<int>(above[i]), number});
@@ -167,7 +167,7 @@ TEST(RowDistribution, ContactPointsKeepTheirRows)
     EXPECT_EQ(point.area, 1 + number);
     EXPECT_EQ(point.weight, 2 + number);
     EXPECT_EQ(point.gap, 3 + number);
-    EXPECT_EQ(point.held, 4 + number);
+    EXPECT_EQ(point.prescribed_share, 4 + number);
     EXPECT_EQ(point.normal, Point(0, 0, -1));
     EXPECT_EQ(point.at, Point(number, 0, 1));
     for (std::size_t r = 0; r <= point.tangents.size(); ++r, ++rows) {

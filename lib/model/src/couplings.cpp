@@ -125,8 +125,9 @@ std::vector<constraint::MeanMotion> Model::mean_motions(const std::vector<constr
   const int dimension = deck_.dimension();
   for (std::size_t i = 0; i < couplings.size(); ++i) {
     const auto& coupling = couplings[i];
-    const bool held = std::any_of(coupling.motion.begin(), coupling.motion.end(), [](const auto& m) { return m.has_value(); });
-    if (coupling.rigid || !held) continue;
+    const bool prescribed =
+        std::any_of(coupling.motion.begin(), coupling.motion.end(), [](const auto& m) { return m.has_value(); });
+    if (coupling.rigid || !prescribed) continue;
     const auto& options = deck_.couplings.at(coupling.name);
     const auto area = area_of(options, comm);
     const auto selection = select(options.boundary);

@@ -46,17 +46,17 @@ std::vector<DoubledNodes> doubled_nodes(const std::vector<contact::DoubledFaces>
 std::set<Global> supported_faces(const Model& model, const Communicator& comm)
 {
   const auto& catalogue = model.decomposition().catalogue;
-  std::map<int, std::vector<std::string>> held;  // boundary: names of bodies
+  std::map<int, std::vector<std::string>> supported;  // boundary: names of bodies
   for (const auto& support : model.deck().supports) {
     const auto [boundary, body] = parse_boundary(support.boundary);
     const auto found = std::find(catalogue.boundaries.begin(), catalogue.boundaries.end(), boundary);
-    if (found != catalogue.boundaries.end()) held[static_cast<int>(found - catalogue.boundaries.begin())].push_back(body);
+    if (found != catalogue.boundaries.end()) supported[static_cast<int>(found - catalogue.boundaries.begin())].push_back(body);
   }
   std::vector<Global> faces;
   for (const auto& subdomain : model.decomposition().subdomains) {
     const auto& facets = subdomain.mesh.facets;
     for (std::size_t f = 0; f < facets.boundary.size(); ++f)
-      if (const auto found = held.find(facets.boundary[f]); found != held.end())
+      if (const auto found = supported.find(facets.boundary[f]); found != supported.end())
         for (const auto& body : found->second)
           if (body.empty() || matches_name(catalogue.bodies[static_cast<std::size_t>(subdomain.body)], body))
             faces.push_back(partition::face_number(subdomain.mesh, f));

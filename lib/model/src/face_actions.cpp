@@ -93,7 +93,7 @@ class FaceActions {
   {
     for (std::size_t n = 0; n < mesh.node_count(); ++n)
       if (const Point& x = mesh.points[n]; std::abs(x[0]) <= near)
-        found.push_back({mesh.node_id[n], array_of(x), {-1, 0, 0}, {-1, 0, 0}, near, faces_, Kind::held});
+        found.push_back({mesh.node_id[n], array_of(x), {-1, 0, 0}, {-1, 0, 0}, near, faces_, Kind::prescribed});
   }
 
   std::vector<FaceAction> found;
@@ -119,7 +119,7 @@ class FaceActions {
 // What a support prescribes, or its springs hold.
 void FaceActions::add(const constraint::SupportOptions& options, const constraint::Support& support)
 {
-  if (support.normal && plane_.flat) note_all(Kind::held, plane_.normal, plane_.normal);
+  if (support.normal && plane_.flat) note_all(Kind::prescribed, plane_.normal, plane_.normal);
   const auto prescribed =
       directions(*mesh_, facet_, support.axes, [&](std::size_t c) { return support.displacement[c].has_value(); });
   const bool normal =
@@ -127,7 +127,7 @@ void FaceActions::add(const constraint::SupportOptions& options, const constrain
       std::all_of(prescribed.begin(), prescribed.end(), [&](const auto& d) { return along(d.second, plane_.normal); });
   for (const auto& [n, direction] : prescribed)
     if (normal)
-      note(n, Kind::held, support.axes ? plane_.normal : Point(std::round(direction.dot(plane_.normal)) * direction),
+      note(n, Kind::prescribed, support.axes ? plane_.normal : Point(std::round(direction.dot(plane_.normal)) * direction),
            direction);
     else if (!along(direction, plane_.normal))
       note(n, Kind::tangential, plane_.normal, direction);

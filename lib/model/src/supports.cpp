@@ -78,7 +78,7 @@ std::vector<mesh::Surface> Model::support_surfaces() const
   return surfaces;
 }
 
-std::vector<mesh::Surface> Model::surfaces_held_along_normals(const LoadState& state) const
+std::vector<mesh::Surface> Model::surfaces_prescribed_along_normals(const LoadState& state) const
 {
   std::vector<mesh::Surface> surfaces;
   for (std::size_t i = 0; i < deck_.supports.size(); ++i) {

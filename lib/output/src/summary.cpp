@@ -74,9 +74,10 @@ void add_couplings(const model::Deck& deck, const post::Results& results, io::St
   auto state = results.couplings.begin();
   for (const auto& [name, options] : deck.couplings) {
     const auto& [motion, action, reaction] = *state++;
-    const bool held = std::any_of(deck.supports.begin(), deck.supports.end(), [&](const auto& s) { return s.coupling == name; });
-    summary.couplings.push_back(
-        {name, options.boundary, head(motion), tail(motion), head(action), tail(action), head(reaction), tail(reaction), held});
+    const bool prescribed =
+        std::any_of(deck.supports.begin(), deck.supports.end(), [&](const auto& s) { return s.coupling == name; });
+    summary.couplings.push_back({name, options.boundary, head(motion), tail(motion), head(action), tail(action), head(reaction),
+                                 tail(reaction), prescribed});
   }
 }
 

@@ -74,11 +74,11 @@ Openings openings(const feti::DualProblem& problem, const std::vector<Eigen::Vec
 
 // The value of each row of Constraints::prescribed of this rank: what supports prescribe, and what the motions of rigid couplings
 // make of it.
-std::vector<double> places_of_held_nodes(const feti::DualProblem& problem, const Eigen::VectorXd& nu)
+std::vector<double> places_of_prescribed_nodes(const feti::DualProblem& problem, const Eigen::VectorXd& nu)
 {
   const auto& constraints = problem.constraints();
   std::vector<double> places;
-  for (const auto& held : constraints.prescribed) places.push_back(held.value);
+  for (const auto& dof : constraints.prescribed) places.push_back(dof.value);
   Eigen::Index next = problem.first_coupling_motion();
   for (const auto& motion : constraint::unknown_motions(constraints, problem.dimension())) {
     for (const auto& [row, part] : motion.rows) places[row] += part * nu[next];
@@ -100,8 +100,8 @@ std::vector<double> distances_from_supports(const feti::DualProblem& problem, co
     auto& distance = largest[static_cast<std::size_t>(std::max(groups.of_row[static_cast<std::size_t>(row)], 0))];
     distance = std::max(distance, std::abs(jumps[row++] - place));
   };
-  for (const double place : places_of_held_nodes(problem, nu)) note(place);
-  for (const auto& held : constraints.skew_supports) note(held.value);
+  for (const double place : places_of_prescribed_nodes(problem, nu)) note(place);
+  for (const auto& support : constraints.skew_supports) note(support.value);
   return largest;
 }
 

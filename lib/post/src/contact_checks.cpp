@@ -68,23 +68,23 @@ double width_of(const contact::ContactNodeState& point, const Point& at, fem::Ki
 
 // The sum of the sizes of the forces at a contact's points, and what they could turn. Collective.
 std::pair<double, double> turning(std::span<const constraint::ContactNode> nodes,
-                                  std::span<const contact::ContactNodeState> points, int contact, fem::Kinematics kinematics,
+                                  std::span<const contact::ContactNodeState> states, int contact, fem::Kinematics kinematics,
                                   const Communicator& comm)
 {
   double widest = 0;
   std::array<double, 4> sums{};  // size, size * place
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].contact != contact) continue;
-    const double size = points[i].force_on_secondary.norm();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (states[i].contact != contact) continue;
+    const double size = states[i].force_on_secondary.norm();
     sums[0] += size;
-    if (size > 0) widest = std::max(widest, width_of(points[i], nodes[i].at, kinematics));
+    if (size > 0) widest = std::max(widest, width_of(states[i], nodes[i].at, kinematics));
     for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(1 + c)] += size * nodes[i].at[c];
   }
   comm.sum_in_place(sums);
   const Point centre = sums[0] > 0 ? Point(Point(sums[1], sums[2], sums[3]) / sums[0]) : Point::Zero();
   double second = 0;  // size * distance^2 from there
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i].contact == contact) second += points[i].force_on_secondary.norm() * (nodes[i].at - centre).squaredNorm();
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (states[i].contact == contact) second += states[i].force_on_secondary.norm() * (nodes[i].at - centre).squaredNorm();
   return {sums[0], std::max(std::sqrt(sums[0] * comm.sum(second)), sums[0] * comm.max(widest))};
 }
 
@@ -103,7 +103,7 @@ Warning about(const contact::Pair& pair, const char* kind, std::string text, std
 std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, const Vector& lambda,
                                            const partition::Decomposition& decomposition, fem::Kinematics kinematics,
                                            std::span<const contact::Pair> pairs,
-                                           std::span<const contact::ContactNodeState> points)
+                                           std::span<const contact::ContactNodeState> states)
 {
   const auto& comm = problem.communicator();
   const auto& nodes = problem.constraints().contacts.nodes;
@@ -116,7 +116,7 @@ std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, con
         moment(decomposition, problem.jump().apply_transpose(part), problem.dimension()) + moment_on_supports(problem, part);
     std::array<double, 3> sum{mine[0], mine[1], mine[2]};
     comm.sum_in_place(sum);
-    const auto [sizes, scale] = turning(nodes, points, contact, kinematics, comm);
+    const auto [sizes, scale] = turning(nodes, states, contact, kinematics, comm);
     result[c] = {std::hypot(sum[0], sum[1], sum[2]), scale, sizes};
   }
   return result;
@@ -138,12 +138,12 @@ std::vector<Warning> lost_moments(std::span<const ContactMoment> moments, std::s
   return worst(std::move(result), "contacts");
 }
 
-std::vector<Warning> loose_fits(std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
+std::vector<Warning> loose_fits(std::span<const contact::ContactNodeState> states, std::span<const contact::Pair> pairs,
                                 double modulus, double size, const Communicator& comm)
 {
   constexpr double none = 1e-9;
   std::vector<double> pressure(pairs.size(), 0.0);
-  for (const auto& p : points) {
+  for (const auto& p : states) {
     auto& largest = pressure[static_cast<std::size_t>(p.contact)];
     if (p.area > 0) largest = std::max(largest, p.force / p.area);
   }
@@ -164,12 +164,12 @@ std::vector<Warning> loose_fits(std::span<const contact::ContactNodeState> point
   return worst(std::move(result), "contacts", [](const Warning& w) { return w.limit; });
 }
 
-std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> points,
+std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> states,
                                            std::span<const contact::Pair> pairs, double forces, const Communicator& comm)
 {
   std::vector<double> sums(2 * pairs.size(), 0.0);  // forces at open points, at all points
   std::vector<Found> gaps(pairs.size());
-  for (const auto& p : points) {
+  for (const auto& p : states) {
     const auto c = static_cast<std::size_t>(p.contact);
     const double force = p.force_on_secondary.norm();
     sums[2 * c + 1] += force;
@@ -201,13 +201,13 @@ std::vector<Warning> pressing_overlaps(const StartedContacts& all, double work, 
   const auto count = all.pairs.size();
   std::vector<double> works(count, 0.0);
   std::vector<Found> overlaps(count), pressures(count);
-  for (std::size_t i = 0; i < std::min(all.nodes.size(), all.points.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(all.nodes.size(), all.states.size()); ++i) {
     const auto& node = all.nodes[i];
     const auto c = static_cast<std::size_t>(node.contact);
     const double asked = all.pairs[c].options.interference;
     const double overlap = -(node.gap / node.weight + std::max(asked, 0.0));
-    if (!(overlap > 0) || !(all.points[i].force > 0)) continue;
-    works[c] += overlap * all.points[i].force;
+    if (!(overlap > 0) || !(all.states[i].force > 0)) continue;
+    works[c] += overlap * all.states[i].force;
     overlaps[c].take(overlap, node.at);
   }
   for (std::size_t c = 0; c < count; ++c)

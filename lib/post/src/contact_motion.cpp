@@ -131,13 +131,13 @@ bool touches(std::span<const contact::Pair> pairs, const contact::ContactNodeSta
 
 // Of the nodes in rows of closed points.
 std::unordered_map<Global, Nodal> nodes_at_contact(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                                   std::span<const contact::ContactNodeState> points,
+                                                   std::span<const contact::ContactNodeState> states,
                                                    const partition::Decomposition& decomposition,
                                                    const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
   std::vector<Global> wanted;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!touches(pairs, points[i])) continue;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!touches(pairs, states[i])) continue;
     wanted.push_back(contacts.nodes[i].node);
     for (const auto& entry : contacts.rows[contacts.nodes[i].row]) wanted.push_back(entry.node);
   }
@@ -165,14 +165,14 @@ Point tangential_jump(const constraint::Contacts& contacts, const constraint::Co
 }  // namespace
 
 std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                 std::span<const contact::ContactNodeState> points, const partition::Decomposition& decomposition,
+                                 std::span<const contact::ContactNodeState> states, const partition::Decomposition& decomposition,
                                  const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
-  const auto nodes = nodes_at_contact(pairs, contacts, points, decomposition, displacement, comm);
+  const auto nodes = nodes_at_contact(pairs, contacts, states, decomposition, displacement, comm);
   std::vector<Found> longest(pairs.size()), parts(pairs.size());  // slide; slide over size of the face
   std::vector<double> closed(pairs.size(), 0.0);                  // nodes
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!touches(pairs, points[i])) continue;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!touches(pairs, states[i])) continue;
     const auto& point = contacts.nodes[i];
     closed[static_cast<std::size_t>(point.contact)] += 1;
     const auto found = nodes.find(point.node);
@@ -277,14 +277,14 @@ void take_faces(const constraint::Contacts& contacts, const constraint::ContactN
 }
 
 std::vector<Patch> pressing_patches(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                    std::span<const contact::ContactNodeState> points,
+                                    std::span<const contact::ContactNodeState> states,
                                     const std::unordered_map<Global, Nodal>& nodes, int dimension, const Communicator& comm)
 {
   std::vector<double> largest(pairs.size(), 0.0);
   const auto for_each_point = [&](const auto& visit) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto c = static_cast<std::size_t>(points[i].contact);
-      if (touches(pairs, points[i]) && points[i].force > presses * largest[c]) visit(c, contacts.nodes[i], points[i].force);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const auto c = static_cast<std::size_t>(states[i].contact);
+      if (touches(pairs, states[i]) && states[i].force > presses * largest[c]) visit(c, contacts.nodes[i], states[i].force);
     }
   };
   for_each_point([&](std::size_t c, const auto&, double force) { largest[c] = std::max(largest[c], force); });
@@ -341,14 +341,14 @@ double rolls_by(const Patch& patch, const Facets& faces, const Point& rotation)
 }  // namespace
 
 std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                 std::span<const contact::ContactNodeState> points, const partition::Decomposition& decomposition,
+                                 std::span<const contact::ContactNodeState> states, const partition::Decomposition& decomposition,
                                  fem::Kinematics kinematics, const std::vector<Eigen::VectorXd>& displacement,
                                  const Communicator& comm)
 {
   constexpr double part_of_angle = 0.005, rigid = 10;
   if (kinematics == fem::Kinematics::axisymmetric) return {};
-  const auto nodes = nodes_at_contact(pairs, contacts, points, decomposition, displacement, comm);
-  const auto patches = pressing_patches(pairs, contacts, points, nodes, decomposition.catalogue.dimension, comm);
+  const auto nodes = nodes_at_contact(pairs, contacts, states, decomposition, displacement, comm);
+  const auto patches = pressing_patches(pairs, contacts, states, nodes, decomposition.catalogue.dimension, comm);
   const auto some_may = [](const Patch& patch) {
     return std::ranges::any_of(patch.sides, [&](const Facets& side) { return may_roll(patch, side); });
   };

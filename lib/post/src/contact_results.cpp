@@ -70,7 +70,7 @@ ContactResults contact_results(const feti::DualProblem& problem, const Vector& l
     }
     const double slip_bound = rows.disc < 0 ? 0.0 : slip_bounds[static_cast<std::size_t>(rows.disc)];
     const auto& state =
-        results.points.emplace_back(contact::state_of(point, contacts.bonded[i], multipliers, row_jumps, bound[point.row],
+        results.states.emplace_back(contact::state_of(point, contacts.bonded[i], multipliers, row_jumps, bound[point.row],
                                                       slip_bound, nothing * largest[static_cast<std::size_t>(point.contact)]));
     if (contacts.bonded[i]) continue;
     results.penetration = std::max(results.penetration, -state.gap * std::min(point.weight, 1.0));
@@ -78,11 +78,11 @@ ContactResults contact_results(const feti::DualProblem& problem, const Vector& l
   }
   results.penetration = comm.max(results.penetration);
   results.work_of_gaps = comm.sum(results.work_of_gaps);
-  results.shown = contact::with_images(results.points, contacts.nodes);
+  results.shown = contact::with_images(results.states, contacts.nodes);
   results.resultants = contact::resultants(results.shown, pairs.size(), comm);
   results.surfaces = contact::surface_states(results.shown, pairs, comm, contacts.without_rows);
   for (std::size_t c = 0; c < pairs.size(); ++c) results.resultants[c].area = results.surfaces[c].area;
-  results.tensions = largest_tensions(results.points, pairs.size(), comm);
+  results.tensions = largest_tensions(results.states, pairs.size(), comm);
   return results;
 }
 

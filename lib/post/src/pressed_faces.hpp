@@ -27,9 +27,9 @@ struct PressedPatch {
   double between = 0;       ///< the part of it that acts at places between nodes
   Found node, recovered;    ///< the largest pressure of a node, and of the means over faces
 };
-/// By contact, bonded ones apart; the same on every rank. `points`: states of this rank's contact nodes. Collective.
+/// By contact, bonded ones apart; the same on every rank. `states`: states of this rank's contact nodes. Collective.
 std::vector<PressedPatch> pressed_patches(std::span<const contact::SurfaceState> surfaces,
-                                          std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
+                                          std::span<const contact::ContactNodeState> states, std::span<const contact::Pair> pairs,
                                           const Communicator& comm);
 
 }  // namespace mortise::post

@@ -53,7 +53,7 @@ std::vector<Global> sorted_once(std::vector<Global> nodes)
 }
 
 // The nodes that supports hold by rows of this rank.
-std::vector<Global> held_nodes(const feti::DualProblem& problem)
+std::vector<Global> prescribed_nodes(const feti::DualProblem& problem)
 {
   std::vector<Global> nodes;
   for (const auto& row : problem.constraints().prescribed)
@@ -75,7 +75,7 @@ std::size_t place_of(const std::vector<Global>& nodes, Global node)
 std::vector<Eigen::MatrixXd> holding_forces(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                                             const partition::Interface& interface, const Vector& lambda)
 {
-  const auto nodes = held_nodes(problem);
+  const auto nodes = prescribed_nodes(problem);
   std::vector<Point> force(nodes.size(), Point::Zero());
   for_each_support_row(problem, problem.forces(lambda),
                        [&](Global node, const Point& own) { force[place_of(nodes, node)] += own; });

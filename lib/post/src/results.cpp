@@ -28,7 +28,7 @@ double prescribed(const constraint::Constraints& constraints, const Communicator
   double prescribed = 0, gap = 0;
   for (const auto& h : constraints.prescribed) prescribed = std::max(prescribed, std::abs(h.value));
   for (const auto& i : constraints.skew_supports) prescribed = std::max(prescribed, std::abs(i.value));
-  for (const auto& point : constraints.contacts.nodes) gap = std::max(gap, std::abs(point.gap));
+  for (const auto& node : constraints.contacts.nodes) gap = std::max(gap, std::abs(node.gap));
   return comm.max(prescribed) + comm.max(gap);
 }
 
@@ -107,7 +107,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   results.contact_errors = contact_errors(bodies, displacement, results.stress, pairs, results.contact.surfaces, comm);
   estimate_errors(solved, rounding, stored, comm, results);
   if (bodies.kinematics != fem::Kinematics::axisymmetric)
-    results.moments = contact_moments(problem, lambda, bodies.decomposition, bodies.kinematics, pairs, results.contact.points);
+    results.moments = contact_moments(problem, lambda, bodies.decomposition, bodies.kinematics, pairs, results.contact.states);
   results.reactions = reactions(problem, lambda, supports);
   results.couplings = coupling_states(problem, lambda);
   results.springs = spring_states(problem, lambda);

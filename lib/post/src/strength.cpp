@@ -92,10 +92,10 @@ std::vector<const PressedPatch*> narrowest(const std::vector<PressedPatch>& patc
 }  // namespace
 
 std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces,
-                                     std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
+                                     std::span<const contact::ContactNodeState> states, std::span<const contact::Pair> pairs,
                                      const Communicator& comm)
 {
-  const auto patches = pressed_patches(surfaces, points, pairs, comm);
+  const auto patches = pressed_patches(surfaces, states, pairs, comm);
   const auto found = narrowest(patches, pairs.size());
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -155,7 +155,7 @@ struct Faces {
   }
 };
 
-struct Pressed {
+struct FacesInContact {
   Faces secondary, primary;
   double whole = 0, partly = 0;  // secondary faces that are pressed at all corners, at some
 };
@@ -166,7 +166,7 @@ std::vector<Warning> scattered_contacts(std::span<const contact::SurfaceState> s
                                         const std::vector<double>& softest, const Communicator& comm)
 {
   constexpr double stiffer = 4, finer = 1.2, twice = 2, least = 8;
-  std::vector<Pressed> mine(pairs.size());
+  std::vector<FacesInContact> mine(pairs.size());
   std::vector<Found> peaks(pairs.size());
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& side = pairs[c].secondary;
@@ -183,7 +183,7 @@ std::vector<Warning> scattered_contacts(std::span<const contact::SurfaceState> s
   const auto all = comm.all_gather(mine);
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    Pressed sum;
+    FacesInContact sum;
     for (std::size_t r = c; r < all.size(); r += pairs.size()) {
       sum.secondary.take(all[r].secondary), sum.primary.take(all[r].primary);
       sum.whole += all[r].whole, sum.partly += all[r].partly;
@@ -209,11 +209,11 @@ std::vector<Warning> scattered_contacts(std::span<const contact::SurfaceState> s
   return worst(std::move(result), "contacts");
 }
 
-std::vector<double> largest_tensions(std::span<const contact::ContactNodeState> points, std::size_t contacts,
+std::vector<double> largest_tensions(std::span<const contact::ContactNodeState> states, std::size_t contacts,
                                      const Communicator& comm)
 {
   std::vector<double> result(contacts, 0.0);
-  for (const auto& p : points) {
+  for (const auto& p : states) {
     auto& largest = result[static_cast<std::size_t>(p.contact)];
     if (p.status != contact::Status::open && p.area > 0) largest = std::max(largest, -p.force / p.area);
   }

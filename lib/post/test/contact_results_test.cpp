@@ -22,9 +22,9 @@ TEST(ContactResults, OfAPressedColumn)
   const auto& nu = result.solution.nu;
   const auto u = problem.displacement(lambda, nu);
   const auto results = contact_results(problem, lambda, nu, result.slip_bounds, u, pairs, 0);
-  EXPECT_EQ(column.comm.sum(static_cast<long long>(results.points.size())), 15);
-  for (std::size_t i = 0; i < results.points.size(); ++i) {
-    const auto& point = results.points[i];
+  EXPECT_EQ(column.comm.sum(static_cast<long long>(results.states.size())), 15);
+  for (std::size_t i = 0; i < results.states.size(); ++i) {
+    const auto& point = results.states[i];
     EXPECT_EQ(point.status, contact::Status::slip);
     EXPECT_NEAR(point.force, pressure_on_top * Pieces::share(problem.constraints().contacts.nodes[i].at), 1e-8);
     EXPECT_LT((point.force_on_secondary - Point(0, 0, point.force)).norm(), 1e-12);
@@ -40,7 +40,7 @@ TEST(ContactResults, OfAPressedColumn)
   EXPECT_EQ(results.tensions, std::vector<double>{0});
 
   // Both sides feel the same at the same places: nothing is lost of a moment.
-  const auto moments = contact_moments(problem, lambda, column.decomposition, fem::Kinematics::solid, pairs, results.points);
+  const auto moments = contact_moments(problem, lambda, column.decomposition, fem::Kinematics::solid, pairs, results.states);
   ASSERT_EQ(moments.size(), 1U);
   EXPECT_LT(moments[0].lost, 1e-8);
   EXPECT_NEAR(moments[0].sizes, pressure_on_top * Pieces::area, 1e-8);
@@ -98,8 +98,8 @@ TEST(ContactResults, AreThoseOfRowsAndJumps)
       [](const Point&, int body) { return body == 0 ? Point(0, 0, 0.002) : Point(0.03, 0.04, -0.014); });
   const auto results = contact.results(problem, lambda, u);
   long long pressed = 0;
-  for (std::size_t i = 0; i < results.points.size(); ++i) {
-    const auto& p = results.points[i];
+  for (std::size_t i = 0; i < results.states.size(); ++i) {
+    const auto& p = results.states[i];
     const bool closed = problem.constraints().contacts.nodes[i].at[0] < 1.9;
     pressed += closed;
     EXPECT_EQ(p.status, closed ? contact::Status::stick : contact::Status::open);
@@ -139,7 +139,7 @@ TEST(ContactResults, SlipCountsFromTheStepBefore)
   const auto problem = contact.column.problem();
   const auto u =
       contact.column.displacement([](const Point&, int body) { return body == 0 ? Point(0, 0, 0) : Point(0.06, 0.08, 0); });
-  for (const auto& p : contact.results(problem, Vector(problem.jump().rows()), u).points)
+  for (const auto& p : contact.results(problem, Vector(problem.jump().rows()), u).states)
     EXPECT_LT((p.slip - 0.08 * Point(0.6, 0.8, 0)).norm(), 1e-12);
 }
 
@@ -188,7 +188,7 @@ TEST(ContactMoments, AreLostAcrossGaps)
     const auto results =
         bond.results(problem, lambda, bond.column.displacement([](const Point&, int) { return Point(0, 0, 0); }));
     const auto found =
-        contact_moments(problem, lambda, bond.column.decomposition, fem::Kinematics::solid, bond.pairs, results.points);
+        contact_moments(problem, lambda, bond.column.decomposition, fem::Kinematics::solid, bond.pairs, results.states);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0].lost, 15 * shear * apart, 1e-10);
     EXPECT_NEAR(found[0].sizes, 15 * shear, 1e-10);
@@ -198,7 +198,7 @@ TEST(ContactMoments, AreLostAcrossGaps)
     auto obstacle = bond.pairs;
     obstacle[0].options.obstacle.emplace();
     EXPECT_EQ(
-        contact_moments(problem, lambda, bond.column.decomposition, fem::Kinematics::solid, obstacle, results.points)[0].lost, 0);
+        contact_moments(problem, lambda, bond.column.decomposition, fem::Kinematics::solid, obstacle, results.states)[0].lost, 0);
   }
 }
 
@@ -213,7 +213,7 @@ TEST(ContactMoments, CountWhatGoesIntoSupports)
   const Vector all = bond.multipliers(problem, [&](const Point&) { return Point(2, 0, 0); });
   const auto results = bond.results(problem, all, bond.column.displacement([](const Point&, int) { return Point(0, 0, 0); }));
   EXPECT_NEAR(
-      contact_moments(problem, all, bond.column.decomposition, fem::Kinematics::solid, bond.pairs, results.points)[0].lost, 2 * 3,
+      contact_moments(problem, all, bond.column.decomposition, fem::Kinematics::solid, bond.pairs, results.states)[0].lost, 2 * 3,
       1e-10);
 }
 

@@ -112,13 +112,14 @@ struct ContactNode {
   double cover = 1;
   std::vector<Part> parts = {};    ///< of a place between nodes, whose row is a combination of theirs: these, and what they bear
   std::vector<Image> images = {};  ///< of a contact that goes on across a bond: the nodes whose rows this one is as well
-  double held = 0;  ///< part of the row at places that supports hold on both sides: what overlaps there nothing can close
+  /// Part of the row at places that supports hold on both sides: what overlaps there nothing can close.
+  double prescribed_share = 0;
 };
 
 /// Bound of its normal row before any support moves, a length: the gap, or what of an overlap can be closed.
 inline double bound_of(const ContactNode& node)
 {
-  return node.gap - node.held * std::min(node.gap, 0.0);
+  return node.gap - node.prescribed_share * std::min(node.gap, 0.0);
 }
 
 /// An entry of a contact row that a support holds: it stands in the row's bound instead, and what the row's multiplier pushes

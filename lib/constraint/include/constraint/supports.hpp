@@ -46,6 +46,6 @@ double value_at(std::span<const Support> supports, int support, const deck::Form
 
 /// Throws Error(bad_input): supports[support] holds a node that moves with supports[coupling], which stands for a rigid coupling,
 /// by something unknown.
-[[noreturn]] void throw_held_coupling(std::span<const Support> supports, int coupling, int support);
+[[noreturn]] void throw_prescribed_coupling(std::span<const Support> supports, int coupling, int support);
 
 }  // namespace mortise::constraint

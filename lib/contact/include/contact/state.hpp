@@ -33,9 +33,9 @@ struct ContactNodeState {
 ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std::span<const double> multipliers,
                           std::span<const double> jumps, double bound, double slip_bound, double negligible_pressure);
 
-/// The states of contact nodes, and after them of their images across a bond, each with its own part of the area and of the force.
-/// `points` are those of `nodes`.
-std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> points, std::span<const constraint::ContactNode> nodes);
+/// The states of contact nodes, and after them of their images across a bond, each with its own part of the area and of the
+/// force. `states` are those of `nodes`.
+std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> states, std::span<const constraint::ContactNode> nodes);
 
 /// Totals of one contact, over all ranks.
 struct Resultant {
@@ -45,7 +45,7 @@ struct Resultant {
   double sizes = 0;                         ///< the sum of |force| over the nodes
 };
 /// Of each of so many `contacts`, from this rank's nodes. Collective.
-std::vector<Resultant> resultants(std::span<const ContactNodeState> points, std::size_t contacts, const Communicator& comm);
+std::vector<Resultant> resultants(std::span<const ContactNodeState> states, std::size_t contacts, const Communicator& comm);
 
 /// Nodal fields on this rank's secondary surface of one contact: pressures and tractions are forces per area, gaps and slips
 /// lengths. Where contact nodes share a node at a kink, the fields are those of the one with the largest pressure. A node whose
@@ -65,7 +65,7 @@ struct SurfaceState {
 };
 /// One for each pair. Nodes without rows show the mean of their neighbours, whose rows stand in for them; but no slip.
 /// Collective.
-std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,
+std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> states, std::span<const Pair> pairs,
                                          const Communicator& comm,
                                          std::span<const constraint::NodeWithoutRows> without_rows = {});
 

@@ -32,7 +32,7 @@ struct Candidate {
   Global node;
   enum class Kind : int { node, corner, between } kind;  // itself, a corner of the primary side beside it, a place between nodes
   int tangents;
-  double area, weight, gap, held;
+  double area, weight, gap, prescribed_share;
   std::array<double, 3> at, normal;
   std::array<std::array<double, 3>, 2> tangent;
 };
@@ -227,9 +227,10 @@ class Joining {
     const auto motion = bond.side == 0 ? motion_of(bond.bond) : mesh::Motion();
     using Kind = Candidate::Kind;
     const Kind kind = !node.parts.empty() ? Kind::between : node.cover == 0 ? Kind::corner : Kind::node;
-    Candidate c{
-        node.contact, bond.bond,   bond.side, comm_.rank(), index, node.node, kind, static_cast<int>(node.tangents.size()),
-        node.area,    node.weight, node.gap,  node.held,    {},    {},        {}};
+    Candidate c{node.contact, bond.bond,   bond.side, comm_.rank(),
+                index,        node.node,   kind,      static_cast<int>(node.tangents.size()),
+                node.area,    node.weight, node.gap,  node.prescribed_share,
+                {},           {},          {}};
     c.at = packed(motion(node.at));
     c.normal = packed(motion.rotation * node.normal);
     for (std::size_t t = 0; t < node.tangents.size(); ++t) c.tangent[t] = packed(motion.rotation * node.tangents[t]);
@@ -290,10 +291,11 @@ class Joining {
     for (const auto& s : shares) area += s.part * s.from->area;
     const double own = node.area / area;
     for (const auto& e : entries_of(index)) rows.add(e, static_cast<std::size_t>(e.row), own);
-    node.weight *= own, node.gap *= own, node.held *= own;
+    node.weight *= own, node.gap *= own, node.prescribed_share *= own;
     for (const auto& s : shares) {
       const double part = s.part * s.from->area / area;
-      node.weight += part * s.from->weight, node.gap += part * s.from->gap, node.held += part * s.from->held;
+      node.weight += part * s.from->weight, node.gap += part * s.from->gap,
+          node.prescribed_share += part * s.from->prescribed_share;
       const bool between = s.from->kind == Candidate::Kind::between;
       const auto rotation = motion_of(s.from->bond).rotation;
       if (!between) node.images.push_back({s.from->contact, s.from->node, part, rotation});

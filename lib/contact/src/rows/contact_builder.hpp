@@ -82,7 +82,7 @@ class ContactBuilder {
                                             : OneSurface()),
         points_(secondary_, nodes_, faces_, rays_, nearest_),
         gaps_(options, reach, primary_, faces_, rays_, points_, one_surface_),
-        held_(secondary_, nodes_, primary_, primary_supports_, rays_, dimension_, rotation_of(options)),
+        opposite_supports_(secondary_, nodes_, primary_, primary_supports_, rays_, dimension_, rotation_of(options)),
         writer_(secondary_, primary_, supports_, primary_supports_, dimension_, rotation_of(options)),
         conflicts_(secondary_, primary_, writer_, dimension_)
   {
@@ -131,10 +131,11 @@ class ContactBuilder {
   {
     const auto one_node = nodes_of_both_sides();
     ends_meet_ = std::ranges::find(one_node, 1) != one_node.end();
-    chosen_ = choose_contact_nodes(secondary_, nodes_, faces_, supports_, one_node, primary_held(), bonded_nodes(), dimension_);
+    chosen_ =
+        choose_contact_nodes(secondary_, nodes_, faces_, supports_, one_node, primary_prescribed(), bonded_nodes(), dimension_);
     if (!options_.preload && !options_.obstacle)
       for (std::size_t p = 0; p < nodes_.all.size(); ++p)
-        if (own(p) && !chosen_.kept[p] && chosen_.cover[p] > least_cover) note_conflict_where_held(p);
+        if (own(p) && !chosen_.kept[p] && chosen_.cover[p] > least_cover) note_conflict_where_prescribed(p);
     if (discretization_->others_take_over())
       for (std::size_t p = 0; p < nodes_.all.size(); ++p)
         if (const auto& n = nodes_.all[p].normal; own(p) && chosen_.shared[p])
@@ -231,21 +232,22 @@ class ContactBuilder {
   }
 
   // Contact may push along a part of a normal that supports leave free. What ends together has nothing to ask for supports.
-  std::vector<char> primary_held()
+  std::vector<char> primary_prescribed()
   {
     if (bonded() && ends_together()) return std::vector<char>(nodes_.all.size(), 1);
     if (options_.obstacle) return std::vector<char>(nodes_.all.size(), 0);
-    return held_.hold_along_normals(faces_, bonded() ? &OppositeSupports::hold : &OppositeSupports::hold_all);
+    return opposite_supports_.prescribed_along_normals(
+        faces_, bonded() ? &OppositeSupports::prescribe : &OppositeSupports::prescribe_all);
   }
 
-  void note_conflict_where_held(std::size_t p)
+  void note_conflict_where_prescribed(std::size_t p)
   {
     const Local node = nodes_.all[p].node;
     const Point& normal = nodes_.all[p].normal;
     if (bonded())
-      conflicts_.note_held_tear(node, normal, rays_.meet(p));
+      conflicts_.note_prescribed_tear(node, normal, rays_.meet(p));
     else if (!chosen_.directions[p].free_normal)
-      conflicts_.note_held_crossing(node, normal, rays_.meet(p), chosen_.directions[p]);
+      conflicts_.note_prescribed_crossing(node, normal, rays_.meet(p), chosen_.directions[p]);
   }
 
   void add_place(std::size_t p, constraint::Contacts& contacts)
@@ -260,7 +262,7 @@ class ContactBuilder {
     if (!(d > 0)) return;
     merge_terms(terms_);
     if (at_nearest_place(p) && !options_.obstacle) take_one_part(p);
-    add_point(p, d, rise, contacts);
+    add_node(p, d, rise, contacts);
   }
 
   // What is nearest there may be one of several bodies that the functions see.
@@ -274,24 +276,24 @@ class ContactBuilder {
   }
 
   // The contact node of a surface node and its rows; `d`, `rise`: integrals of its functions and of what surfaces bulge.
-  void add_point(std::size_t p, double d, double rise, constraint::Contacts& contacts)
+  void add_node(std::size_t p, double d, double rise, constraint::Contacts& contacts)
   {
     const SurfaceNode& node_here = surface_node(p);
     const auto [at, own_normal] = points_.at(p);
     const Point normal = bonded() ? node_here.normal : rays_.direction(faces_.surface_node(p), at, own_normal);
-    constraint::ContactNode point{
+    constraint::ContactNode node{
         index_, secondary_.node_id[static_cast<std::size_t>(node_here.node)], d, normal, {}, contacts.rows.size()};
     if (bonded() && !options_.preload) conflicts_.note_tear(terms_, d, normal);
     const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
-    Few<Point, 2> held;                                         // tangents along which supports hold both
+    Few<Point, 2> prescribed_tangents;                          // tangents along which supports hold both
     if (!prescribed && options_.law != Law::frictionless) {
       for (const auto& tangent : writer_.across_axis(node_here.node, normal, tangents(p, normal)))
-        if (writer_.moves(terms_, d, tangent)) point.tangents.push_back(tangent);
+        if (writer_.moves(terms_, d, tangent)) node.tangents.push_back(tangent);
       if (!bonded()) {
-        writer_.leave_what_moves(terms_, d, normal, point.tangents);
-        const auto others = other_tangents(normal, point.tangents, dimension_);
+        writer_.leave_what_moves(terms_, d, normal, node.tangents);
+        const auto others = other_tangents(normal, node.tangents, dimension_);
         for (const auto& tangent : writer_.across_axis(node_here.node, normal, others))
-          if (writer_.held_on_both_sides(terms_, tangent)) held.push_back(tangent);
+          if (writer_.prescribed_on_both_sides(terms_, tangent)) prescribed_tangents.push_back(tangent);
       }
     }
 
@@ -302,38 +304,38 @@ class ContactBuilder {
       separation -= term.value / d * side.points[static_cast<std::size_t>(term.node)];
       if (!term.on_primary) weight += term.value / d;
     }
-    point.weight = weight;
-    point.at = at;
+    node.weight = weight;
+    node.at = at;
     const double room = points_.room(p);
-    point.cover = room < 1 ? std::min(chosen_.cover[p], 0.5 * room) : chosen_.cover[p];
+    node.cover = room < 1 ? std::min(chosen_.cover[p], 0.5 * room) : chosen_.cover[p];
     const double mean = (normal.dot(separation) - rise / d) / weight;
     const auto [mesh_gap, gap] = gaps_.at_node(p, at_nearest_place(p), at, normal, mean, terms_);
-    note_gap(initial_gap_, gap, mesh_gap, gaps_.by_geometry(gap), d * weight, point.at);
-    point.gap = bonded() ? 0 : weight * (gap - options_.interference);
-    point.held = bonded() ? 0 : held_on_both_sides(normal);
+    note_gap(initial_gap_, gap, mesh_gap, gaps_.by_geometry(gap), d * weight, node.at);
+    node.gap = bonded() ? 0 : weight * (gap - options_.interference);
+    node.prescribed_share = bonded() ? 0 : prescribed_on_both_sides(normal);
     if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
-      conflicts_.note_crossing(terms_, d, normal, point.gap, chosen_.directions[p], prescribed && chosen_.stranded[p]);
+      conflicts_.note_crossing(terms_, d, normal, node.gap, chosen_.directions[p], prescribed && chosen_.stranded[p]);
     if (prescribed) return;
     if (axisymmetric_) {  // rings do not turn
-      writer_.add(terms_, d, normal, constraint::bound_of(point), contacts);
-      for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts);
+      writer_.add(terms_, d, normal, constraint::bound_of(node), contacts);
+      for (const auto& tangent : node.tangents) writer_.add(terms_, d, tangent, 0, contacts);
     } else {
       const Moments moments(terms_, d, normal, bonded() ? 0 : mesh_gap, points_.moved(p) ? &at : nullptr, secondary_, primary_,
                             dimension_);
-      writer_.add(terms_, d, normal, constraint::bound_of(point), contacts);
-      for (const auto& tangent : point.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), normal);
+      writer_.add(terms_, d, normal, constraint::bound_of(node), contacts);
+      for (const auto& tangent : node.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), normal);
     }
-    for (const auto& tangent : held) {
-      writer_.add_held(terms_, d, tangent, contacts);
-      point.tangents.push_back(tangent);
+    for (const auto& tangent : prescribed_tangents) {
+      writer_.add_prescribed(terms_, d, tangent, contacts);
+      node.tangents.push_back(tangent);
     }
-    between_->note(point, points_.means_field(p), terms_, d, secondary_, primary_);
-    contacts.nodes.push_back(std::move(point));
+    between_->note(node, points_.means_field(p), terms_, d, secondary_, primary_);
+    contacts.nodes.push_back(std::move(node));
     contacts.bonded.push_back(bonded());
   }
 
   // Part of the row: that of the side of which supports hold less.
-  double held_on_both_sides(const Point& normal) const
+  double prescribed_on_both_sides(const Point& normal) const
   {
     if (options_.obstacle || (!ends_meet_ && (supports_.empty() || primary_supports_.empty()))) return 0;
     return std::clamp(1 - std::max(writer_.freedom(terms_, false, normal), writer_.freedom(terms_, true, normal)), 0.0, 1.0);
@@ -349,7 +351,7 @@ class ContactBuilder {
     if (others.empty()) return result;
     const Opposite opposite = opposite_of(p);
     for (const auto& tangent : others)
-      if (!held_.hold(opposite, tangent)) result.push_back(tangent);
+      if (!opposite_supports_.prescribe(opposite, tangent)) result.push_back(tangent);
     return result;
   }
 
@@ -412,7 +414,7 @@ class ContactBuilder {
   InitialGap initial_gap_;
   MultiplierPoints points_;
   StartingGaps gaps_;
-  OppositeSupports held_;
+  OppositeSupports opposite_supports_;
   RowWriter writer_;
   SupportConflicts conflicts_;
   ContactNodes chosen_;

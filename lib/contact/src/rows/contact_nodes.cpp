@@ -185,7 +185,7 @@ std::vector<double> cover_of_nodes(CutFaces& faces, std::size_t count)
 
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
                                   const SupportedNodes& supports, const std::vector<char>& one_node,
-                                  const std::vector<char>& primary_held, const std::optional<BondedNodes>& bond,
+                                  const std::vector<char>& primary_prescribed, const std::optional<BondedNodes>& bond,
                                   int dimension)
 {
   const auto count = faces.places();
@@ -203,7 +203,7 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   if (bond && !bond->met.empty()) others_hold = held_past_the_border(secondary, faces, bond->met, nodes, whole, dimension);
   const auto needed = [&](std::size_t place) {
     const auto p = faces.surface_node(place);
-    return !primary_held[p] && (others_hold.empty() || !others_hold[p]);
+    return !primary_prescribed[p] && (others_hold.empty() || !others_hold[p]);
   };
   const auto left_out = [&](std::size_t p) {
     return one_node[faces.surface_node(p)] || (!nodes.directions[p].free_normal && !needed(p)) ||

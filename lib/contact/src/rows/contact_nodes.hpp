@@ -40,11 +40,12 @@ struct BondedNodes {
 std::vector<double> cover_of_nodes(CutFaces& faces, std::size_t count);
 
 /// `faces` in pieces, with their integrals. `one_node`: of each surface node whether it is a node of the primary side as well, as
-/// at the tip of a slit: it has no multiplier, since it cannot leave itself. `primary_held`: of each surface node whether
+/// at the tip of a slit: it has no multiplier, since it cannot leave itself. `primary_prescribed`: of each surface node whether
 /// supports hold the primary side along the normal where multipliers stand; all of cuts of sectors. `bond`: none of a contact.
 /// `dimension`: 2 or 3.
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
                                   const SupportedNodes& supports, const std::vector<char>& one_node,
-                                  const std::vector<char>& primary_held, const std::optional<BondedNodes>& bond, int dimension);
+                                  const std::vector<char>& primary_prescribed, const std::optional<BondedNodes>& bond,
+                                  int dimension);
 
 }  // namespace mortise::contact

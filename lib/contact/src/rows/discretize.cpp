@@ -37,6 +37,107 @@ std::vector<NodeOfContact> owners(const std::vector<NodeOfContact>& nodes)
   return result;
 }
 
+class OneByOne {
+ public:
+  // All arguments outlive it. Collective.
+  OneByOne(std::span<const Pair> pairs, std::span<const constraint::PrescribedDof> prescribed, fem::Kinematics kinematics,
+           const Communicator& comm, std::span<const constraint::SkewSupport> skew_supports,
+           std::span<const CurvedFace> curved_faces, std::vector<InitialGap>* initial_gaps)
+      : pairs_(pairs),
+        kinematics_(kinematics),
+        comm_(comm),
+        initial_gaps_(initial_gaps),
+        sizes_(measure(pairs, comm)),
+        directory_(prescribed, skew_supports, comm),
+        curved_(curved_faces, comm),
+        at_bonds_(pairs, kinematics, comm)
+  {
+    if (initial_gaps) initial_gaps->assign(pairs.size(), {});
+  }
+
+  // Collective.
+  constraint::Contacts discretize()
+  {
+    std::vector<std::size_t> bonds;
+    for (std::size_t c = 0; c < pairs_.size(); ++c)
+      if (pairs_[c].options.law == Law::bonded)
+        bonds.push_back(c);
+      else
+        add(*integrate(pairs_[c], c)->builder, c);
+    if (bonds.empty()) return std::move(contacts_);
+    join_across_bonds(pairs_, contacts_, comm_);
+    add_bonds(bonds);
+    return std::move(contacts_);
+  }
+
+ private:
+  std::unique_ptr<Work> integrate(const Pair& pair, std::size_t c) const
+  {
+    auto work = std::make_unique<Work>(Work{share_out(pair, sizes_[c], kinematics_, comm_), {}, nullptr});
+    work->builder = std::make_unique<ContactBuilder>(pair.options, work->share, sizes_[c].reach, static_cast<int>(c), directory_,
+                                                     at_bonds_, work->others, curved_, kinematics_, comm_);
+    work->builder->integrate(comm_);
+    return work;
+  }
+
+  void add(ContactBuilder& builder, std::size_t c)
+  {
+    builder.set_lengths(touching_gap(sizes_[c].extent, sizes_[c].secondary_face), sizes_[c].secondary_face);
+    builder.add_rows(contacts_, directory_, comm_);
+    if (initial_gaps_) (*initial_gaps_)[c] = over_ranks(builder.initial_gap(), comm_);
+    if (pairs_[c].options.cyclic) check_cuts(c, over_ranks(builder.fit(), comm_));
+    builder.conflicts().refuse(pairs_[c].options, sizes_[c].reach, comm_);
+  }
+
+  // All of them are integrated before the first has rows. Lists of nodes are those of this rank's by number, not by place; see
+  // by_node().
+  void add_bonds(const std::vector<std::size_t>& bonds)
+  {
+    std::vector<NodeOfContact> unbonded, bonded;
+    for (const auto& node : contacts_.nodes) unbonded.push_back({node.node});
+    std::vector<std::unique_ptr<Work>> works;
+    for (const std::size_t c : bonds) {
+      works.push_back(integrate(pairs_[c], c));
+      const auto nodes = works.back()->builder->nodes_of_bond();
+      bonded.insert(bonded.end(), nodes.begin(), nodes.end());
+    }
+    auto known = by_node<NodeOfContact>(unbonded, comm_);
+    const auto owned = owners(by_node<NodeOfContact>(bonded, comm_));
+    known.insert(known.end(), owned.begin(), owned.end());
+    std::ranges::stable_sort(known, {}, &NodeOfContact::node);
+    for (std::size_t b = 0; b < bonds.size(); ++b) {
+      const auto c = bonds[b];
+      auto& [share, others, builder] = *works[b];
+      others = answer(known, ask(share.secondary.node_id, comm_), comm_);
+      std::erase_if(others, [&](const NodeOfContact& node) { return node.bonded && node.contact == static_cast<int>(c); });
+      add(*builder, c);
+      works[b].reset();
+    }
+  }
+
+  // What touches nothing, or lies far from what it should, once more with its primary side turned the other way.
+  void check_cuts(std::size_t c, const CutFit& fit) const
+  {
+    if (pairs_[c].options.law == Law::bonded) return require_one_surface(pairs_[c], sizes_[c], fit, comm_);
+    if (!may_be_turned_wrongly(pairs_[c], sizes_[c], fit)) return;
+    const Pair other = turned_back(pairs_[c]);
+    const auto work = integrate(other, c);
+    constraint::Contacts tried;
+    work->builder->add_rows(tried, directory_, comm_);
+    require_this_way(pairs_[c], sizes_[c], fit, over_ranks(work->builder->fit(), comm_));
+  }
+
+  std::span<const Pair> pairs_;
+  fem::Kinematics kinematics_;
+  const Communicator& comm_;
+  std::vector<InitialGap>* initial_gaps_;
+  std::vector<PairSize> sizes_;
+  SupportDirectory directory_;
+  CurvedFaces curved_;
+  FacesAtBonds at_bonds_;
+  constraint::Contacts contacts_;
+};
+
 }  // namespace
 
 constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const constraint::PrescribedDof> prescribed,
@@ -44,67 +145,7 @@ constraint::Contacts discretize(std::span<const Pair> pairs, std::span<const con
                                 std::span<const constraint::SkewSupport> skew_supports, std::span<const CurvedFace> curved_faces,
                                 std::vector<InitialGap>* initial_gaps)
 {
-  constraint::Contacts contacts;
-  const auto sizes = measure(pairs, comm);
-  const SupportDirectory directory(prescribed, skew_supports, comm);
-  const CurvedFaces curved(curved_faces, comm);
-  const FacesAtBonds at_bonds(pairs, kinematics, comm);
-  if (initial_gaps) initial_gaps->assign(pairs.size(), {});
-  const auto integrate = [&](const Pair& pair, std::size_t c) {
-    auto work = std::make_unique<Work>(Work{share_out(pair, sizes[c], kinematics, comm), {}, nullptr});
-    work->builder = std::make_unique<ContactBuilder>(pair.options, work->share, sizes[c].reach, static_cast<int>(c), directory,
-                                                     at_bonds, work->others, curved, kinematics, comm);
-    work->builder->integrate(comm);
-    return work;
-  };
-  // What touches nothing, or lies far from what it should, once more with its primary side turned the other way.
-  const auto check_cuts = [&](std::size_t c, const CutFit& fit) {
-    if (pairs[c].options.law == Law::bonded) return require_one_surface(pairs[c], sizes[c], fit, comm);
-    if (!may_be_turned_wrongly(pairs[c], sizes[c], fit)) return;
-    const Pair other = turned_back(pairs[c]);
-    const auto work = integrate(other, c);
-    constraint::Contacts tried;
-    work->builder->add_rows(tried, directory, comm);
-    require_this_way(pairs[c], sizes[c], fit, over_ranks(work->builder->fit(), comm));
-  };
-  const auto add = [&](ContactBuilder& builder, std::size_t c) {
-    builder.set_lengths(touching_gap(sizes[c].extent, sizes[c].secondary_face), sizes[c].secondary_face);
-    builder.add_rows(contacts, directory, comm);
-    if (initial_gaps) (*initial_gaps)[c] = over_ranks(builder.initial_gap(), comm);
-    if (pairs[c].options.cyclic) check_cuts(c, over_ranks(builder.fit(), comm));
-    builder.conflicts().refuse(pairs[c].options, sizes[c].reach, comm);
-  };
-  std::vector<std::size_t> bonds;
-  for (std::size_t c = 0; c < pairs.size(); ++c)
-    if (pairs[c].options.law == Law::bonded)
-      bonds.push_back(c);
-    else
-      add(*integrate(pairs[c], c)->builder, c);
-  if (bonds.empty()) return contacts;
-  join_across_bonds(pairs, contacts, comm);
-
-  // Nodes are this rank's by number, not by place; see by_node().
-  std::vector<NodeOfContact> unbonded, bonded;
-  for (const auto& point : contacts.nodes) unbonded.push_back({point.node});
-  std::vector<std::unique_ptr<Work>> works;
-  for (const std::size_t c : bonds) {
-    works.push_back(integrate(pairs[c], c));
-    const auto nodes = works.back()->builder->nodes_of_bond();
-    bonded.insert(bonded.end(), nodes.begin(), nodes.end());
-  }
-  auto known = by_node<NodeOfContact>(unbonded, comm);
-  const auto owned = owners(by_node<NodeOfContact>(bonded, comm));
-  known.insert(known.end(), owned.begin(), owned.end());
-  std::ranges::stable_sort(known, {}, &NodeOfContact::node);
-  for (std::size_t b = 0; b < bonds.size(); ++b) {
-    const auto c = bonds[b];
-    auto& [share, others, builder] = *works[b];
-    others = answer(known, ask(share.secondary.node_id, comm), comm);
-    std::erase_if(others, [&](const NodeOfContact& node) { return node.bonded && node.contact == static_cast<int>(c); });
-    add(*builder, c);
-    works[b].reset();
-  }
-  return contacts;
+  return OneByOne(pairs, prescribed, kinematics, comm, skew_supports, curved_faces, initial_gaps).discretize();
 }
 
 }  // namespace mortise::contact

@@ -4,7 +4,7 @@
 
 namespace mortise::contact {
 
-bool OppositeSupports::hold(const Opposite& opposite, const Point& direction) const
+bool OppositeSupports::prescribe(const Opposite& opposite, const Point& direction) const
 {
   constexpr double none = 1e-6;  // of shape functions
   if (!std::isfinite(opposite.gap)) return true;
@@ -17,7 +17,7 @@ bool OppositeSupports::hold(const Opposite& opposite, const Point& direction) co
   return true;
 }
 
-bool OppositeSupports::hold_all(const Opposite& opposite, const Point& direction) const
+bool OppositeSupports::prescribe_all(const Opposite& opposite, const Point& direction) const
 {
   constexpr double next_to_nothing = 0.1;
   if (!std::isfinite(opposite.gap)) return true;
@@ -32,11 +32,10 @@ bool OppositeSupports::hold_all(const Opposite& opposite, const Point& direction
   return free < next_to_nothing * all;
 }
 
-std::vector<char> OppositeSupports::hold_along_normals(CutFaces& faces,
-                                                       bool (OppositeSupports::*hold)(const Opposite&, const Point&) const) const
+std::vector<char> OppositeSupports::prescribed_along_normals(CutFaces& faces, Test test) const
 {
   std::vector<char> result;
-  for (std::size_t p = 0; p < nodes_.all.size(); ++p) result.push_back((this->*hold)(rays_.meet(p), nodes_.all[p].normal));
+  for (std::size_t p = 0; p < nodes_.all.size(); ++p) result.push_back((this->*test)(rays_.meet(p), nodes_.all[p].normal));
   for (const std::size_t f : faces.round())
     for (const std::size_t i : faces.pieces(f)) {
       const auto piece = faces.piece(i);
@@ -49,7 +48,7 @@ std::vector<char> OppositeSupports::hold_along_normals(CutFaces& faces,
         Point at = Point::Zero();
         for (std::size_t c = 0; c < corners.size(); ++c)
           at += piece.points(k, static_cast<Eigen::Index>(c)) * secondary_.points[static_cast<std::size_t>(corners[c])];
-        result[p] = (this->*hold)(rays_.met_from(p, at, nodes_.all[p].normal), nodes_.all[p].normal);
+        result[p] = (this->*test)(rays_.met_from(p, at, nodes_.all[p].normal), nodes_.all[p].normal);
       }
     }
   return result;

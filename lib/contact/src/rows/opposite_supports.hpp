@@ -28,15 +28,15 @@ class OppositeSupports {
   }
 
   /// Whether supports hold what a line meets, along a direction; true where it meets nothing.
-  bool hold(const Opposite& opposite, const Point& direction) const;
+  bool prescribe(const Opposite& opposite, const Point& direction) const;
   /// Whether they leave next to nothing of the direction free.
-  bool hold_all(const Opposite& opposite, const Point& direction) const;
+  bool prescribe_all(const Opposite& opposite, const Point& direction) const;
 
+  using Test = bool (OppositeSupports::*)(const Opposite&, const Point&) const;
   /// Of each surface node whether they do, by one of these, along its normal where its multipliers stand: at the node, or, past
   /// the border of the primary side, at the points inside to which the functions of faces that it covers in part belong; of
   /// several points all.
-  std::vector<char> hold_along_normals(CutFaces& faces,
-                                       bool (OppositeSupports::*hold)(const Opposite&, const Point&) const) const;
+  std::vector<char> prescribed_along_normals(CutFaces& faces, Test test) const;
 
  private:
   Point turned_back(const Point& direction) const

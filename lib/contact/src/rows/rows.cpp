@@ -13,8 +13,8 @@ namespace mortise::contact {
 namespace {
 
 constexpr double negligible_coefficient = 1e-12;  // of a coefficient
-constexpr double held_but_for = 0.1;              // of what all terms together could move: that much is no slip
-constexpr double least_held = 0.1;                // of a side, to bear what rubs there
+constexpr double prescribed_but_for = 0.1;        // of what all terms together could move: that much is no slip
+constexpr double least_prescribed = 0.1;          // of a side, to bear what rubs there
 
 }  // namespace
 
@@ -141,7 +141,7 @@ void RowWriter::leave_what_moves(std::span<const Term> terms, double d, const Po
   }
   const Point felt = mobility * normal;
   mobility -= felt * felt.transpose() / felt.dot(normal);
-  const double least = held_but_for * held_but_for * all;
+  const double least = prescribed_but_for * prescribed_but_for * all;
   if (tangents.size() == 1) {
     if (tangents[0].dot(mobility * tangents[0]) < least) tangents.clear();
     return;
@@ -154,22 +154,22 @@ void RowWriter::leave_what_moves(std::span<const Term> terms, double d, const Po
   if (moves.values[1] >= least) tangents.emplace_back(plane * moves.vectors.col(1));
 }
 
-double RowWriter::part_at_holding(std::span<const Term> terms, bool on_primary, const Point& axis) const
+double RowWriter::part_at_prescribed_nodes(std::span<const Term> terms, bool on_primary, const Point& axis) const
 {
   constexpr double nothing = 1e-6;
-  double holding = 0, all = 0;
+  double prescribed = 0, all = 0;
   for (const auto& term : terms) {
     if (term.on_primary != on_primary) continue;
     const auto& supports = on_primary ? primary_supports_ : supports_;
-    if (supports.freedom(node_of(term), axis_of(term, axis), dimension_) < 1 - nothing) holding += term.value;
+    if (supports.freedom(node_of(term), axis_of(term, axis), dimension_) < 1 - nothing) prescribed += term.value;
     all += term.value;
   }
-  return all != 0 ? holding / all : 1;
+  return all != 0 ? prescribed / all : 1;
 }
 
-bool RowWriter::held_on_both_sides(std::span<const Term> terms, const Point& axis) const
+bool RowWriter::prescribed_on_both_sides(std::span<const Term> terms, const Point& axis) const
 {
-  return std::min(part_at_holding(terms, false, axis), part_at_holding(terms, true, axis)) > least_held;
+  return std::min(part_at_prescribed_nodes(terms, false, axis), part_at_prescribed_nodes(terms, true, axis)) > least_prescribed;
 }
 
 double RowWriter::prescribed_part(std::span<const Term> terms, double d, const Point& axis)
@@ -199,8 +199,8 @@ void RowWriter::take_skew_supports(std::span<const Term> terms, double d, const 
 
 constraint::PrescribedEntry RowWriter::entry_of(std::size_t row, const Coefficient& c)
 {
-  const auto& held = *c.prescribed;
-  return {row, c.component, held.support, c.value, held.at, held.coupling, held.arm};
+  const auto& prescribed = *c.prescribed;
+  return {row, c.component, prescribed.support, c.value, prescribed.at, prescribed.coupling, prescribed.arm};
 }
 
 void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
@@ -225,11 +225,11 @@ void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, do
   contacts.rows.close(bound);
 }
 
-void RowWriter::add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts)
+void RowWriter::add_prescribed(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts)
 {
   const auto row = contacts.rows.size();
   double bound = 0;
-  const std::array<double, 2> part{part_at_holding(terms, false, axis), part_at_holding(terms, true, axis)};
+  const std::array<double, 2> part{part_at_prescribed_nodes(terms, false, axis), part_at_prescribed_nodes(terms, true, axis)};
   std::vector<Term> all(terms.begin(), terms.end());
   for (auto& term : all) term.value /= part[term.on_primary ? 1 : 0];
   take_skew_supports(all, d, axis, bound, contacts);

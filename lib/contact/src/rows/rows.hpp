@@ -49,9 +49,9 @@ class RowWriter {
   /// its cuts, is its own image: along the axis it goes with itself, and stresses that are alike in all sectors pass nothing on
   /// there; a row along it would feel what the meshes of the cuts differ by alone.
   Few<Point, 2> across_axis(Local node, const Point& normal, std::span<const Point> tangents) const;
-  /// Leaves those of the tangents of `normal` (or the one direction between two) along which more than `held_but_for` of the
-  /// terms can move, what the row along the normal feels aside. A point near a plane of symmetry that both sides have has a row
-  /// across it that is nearly a combination of its others: no friction acts there.
+  /// Leaves those of the tangents of `normal` (or the one direction between two) along which more than `prescribed_but_for` of
+  /// the terms can move, what the row along the normal feels aside. A point near a plane of symmetry that both sides have has a
+  /// row across it that is nearly a combination of its others: no friction acts there.
   void leave_what_moves(std::span<const Term> terms, double d, const Point& normal, std::vector<Point>& tangents);
   /// What supports contribute to the row.
   double prescribed_part(std::span<const Term> terms, double d, const Point& axis);
@@ -59,11 +59,11 @@ class RowWriter {
   void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
            std::span<const Term> couple = {}, const Point& couple_axis = Point::Zero());
   /// Whether supports hold more than a tenth of each side along an axis: enough to bear what rubs there.
-  bool held_on_both_sides(std::span<const Term> terms, const Point& axis) const;
+  bool prescribed_on_both_sides(std::span<const Term> terms, const Point& axis) const;
   /// Appends a row along which nothing moves but supports, so that what they make of it stands in its bound, or hardly anything:
   /// nodes that supports leave free leave their part to the others of their side, lest forces are lost. For those of
-  /// held_on_both_sides().
-  void add_held(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts);
+  /// prescribed_on_both_sides().
+  void add_prescribed(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts);
 
  private:
   // Whether the other side has the node as well, and nothing turns it.
@@ -97,7 +97,7 @@ class RowWriter {
     return (term.on_primary ? primary_supports_ : supports_).skew_supports(node_of(term));
   }
   // The part of one side at nodes that supports hold somewhat along an axis; 1 of nothing.
-  double part_at_holding(std::span<const Term> terms, bool on_primary, const Point& axis) const;
+  double part_at_prescribed_nodes(std::span<const Term> terms, bool on_primary, const Point& axis) const;
   void merge();
   // Of a term's node: the projector onto what supports leave free, turned as the node is.
   Eigen::Matrix3d free_part(const Term& term) const;

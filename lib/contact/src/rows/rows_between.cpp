@@ -222,9 +222,9 @@ void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory&
   std::ranges::stable_sort(terms_, {}, [](const SentTerm& t) { return std::pair(t.node, t.number); });
 
   const Side secondary = nodes_of(terms_, false, setting.kinematics), primary = nodes_of(terms_, true, setting.kinematics);
-  const SupportedNodes held(supports, secondary.node_id, comm_), primary_held(supports, primary.node_id, comm_);
+  const SupportedNodes supported(supports, secondary.node_id, comm_), primary_supported(supports, primary.node_id, comm_);
   const int dimension = fem::dimension(setting.kinematics);
-  RowWriter writer(secondary, primary, held, primary_held, dimension, setting.rotation);
+  RowWriter writer(secondary, primary, supported, primary_supported, dimension, setting.rotation);
   for (const auto& place : places_) {
     constraint::ContactNode node{setting.contact, place.node, 0, Point::Zero(), {}, contacts.rows.size()};
     node.at = place.at;
@@ -244,7 +244,7 @@ void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory&
       std::erase_if(node.tangents, [&](const Point& tangent) { return !writer.moves(terms, 1, tangent); });
       writer.leave_what_moves(terms, 1, node.normal, node.tangents);
       for (const auto& tangent : other_tangents(node.normal, node.tangents, dimension))
-        if (writer.held_on_both_sides(terms, tangent)) fixed.push_back(tangent);
+        if (writer.prescribed_on_both_sides(terms, tangent)) fixed.push_back(tangent);
     }
     const bool rings = setting.kinematics == fem::Kinematics::axisymmetric;  // these do not turn
     const Moments moments =
@@ -253,7 +253,7 @@ void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory&
     for (const auto& tangent : node.tangents)
       writer.add(terms, 1, tangent, 0, contacts, rings ? std::vector<Term>() : moments.couple(tangent), node.normal);
     for (const auto& tangent : fixed) {
-      writer.add_held(terms, 1, tangent, contacts);
+      writer.add_prescribed(terms, 1, tangent, contacts);
       node.tangents.push_back(tangent);
     }
     contacts.nodes.push_back(std::move(node));

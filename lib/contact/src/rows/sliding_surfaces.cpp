@@ -89,16 +89,16 @@ struct Touch {
 std::vector<Touch> touches(const constraint::Contacts& contacts)
 {
   std::map<std::tuple<Global, int, int>, Point> sums;
-  for (const auto& point : contacts.nodes) {
+  for (const auto& node : contacts.nodes) {
     Global before = -1;
-    for (const auto& entry : contacts.rows[point.row]) {
-      const double sign = entry.coefficient * point.normal[entry.component];
+    for (const auto& entry : contacts.rows[node.row]) {
+      const double sign = entry.coefficient * node.normal[entry.component];
       if (entry.node == before || sign == 0) continue;
       before = entry.node;
-      const auto place = sums.emplace(std::tuple(entry.node, point.contact, sign > 0 ? 1 : 0), Point::Zero()).first;
-      place->second += sign > 0 ? point.normal : Point(-point.normal);
+      const auto place = sums.emplace(std::tuple(entry.node, node.contact, sign > 0 ? 1 : 0), Point::Zero()).first;
+      place->second += sign > 0 ? node.normal : Point(-node.normal);
     }
-    sums.emplace(std::tuple(point.node, point.contact, 1), point.normal);  // one whose entries supports hold
+    sums.emplace(std::tuple(node.node, node.contact, 1), node.normal);  // one whose entries supports hold
   }
   std::vector<Touch> result;
   for (const auto& [key, n] : sums) result.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), n[0], n[1], n[2]});

@@ -36,14 +36,14 @@ namespace {
 }
 
 // A node that supports hold along a direction: where it is, and how far they move it.
-struct HeldNode {
+struct PrescribedNode {
   Point at;
   double value;
 };
 
 // From what values near a place differ from a linear field: the second derivative of a quadratic one. None if there are no more
 // values than a linear field takes.
-std::optional<double> second_derivative(const std::vector<HeldNode>& near)
+std::optional<double> second_derivative(const std::vector<PrescribedNode>& near)
 {
   constexpr double independent = 1e-4, of_three = 3;  // three in a row are off by a third of their second difference
   const auto count = static_cast<Eigen::Index>(near.size());
@@ -80,15 +80,16 @@ std::optional<double> SupportConflicts::bend(const std::set<Local>& nodes, bool 
 {
   const Side& side = on_primary ? primary_ : secondary_;
   std::optional<double> result;
-  std::vector<HeldNode> held;
+  std::vector<PrescribedNode> prescribed;
   for (const Local middle : nodes) {
-    held.clear();
+    prescribed.clear();
     for (const Local n : nodes_round(middle, on_primary)) {
       const Term alone{n, on_primary, 1};
       if (!writer_.moves(std::span(&alone, 1), 1, direction))
-        held.push_back({side.points[static_cast<std::size_t>(n)], writer_.prescribed_part(std::span(&alone, 1), 1, direction)});
+        prescribed.push_back(
+            {side.points[static_cast<std::size_t>(n)], writer_.prescribed_part(std::span(&alone, 1), 1, direction)});
     }
-    if (const auto found = second_derivative(held)) result = std::max(result.value_or(0), *found);
+    if (const auto found = second_derivative(prescribed)) result = std::max(result.value_or(0), *found);
   }
   return result;
 }
@@ -139,12 +140,12 @@ double SupportConflicts::of_interpolation(std::span<const Term> terms, double d,
 // At the border of a side supports may move it along a curved surface, which normals of the meshes see as a little of a crossing,
 // and what overlaps in the mesh has its own warning.
 void SupportConflicts::note_crossing(std::span<const Term> terms, double d, const Point& normal, double gap,
-                                     const Directions& held, bool stranded)
+                                     const Directions& directions, bool stranded)
 {
   constexpr double along = 0.1;  // of the motion: that of what slides along a coarse mesh
   const double into = writer_.prescribed_part(terms, d, normal);
   double square = into * into;
-  for (const auto& tangent : held.tangents) square += std::pow(writer_.prescribed_part(terms, d, tangent), 2);
+  for (const auto& tangent : directions.tangents) square += std::pow(writer_.prescribed_part(terms, d, tangent), 2);
   if (!stranded && !(into > along * std::sqrt(square))) return;
   const double crossing = into - (stranded ? gap : std::max(gap, 0.0));
   if (crossing > crossing_ && crossing > of_interpolation(terms, d, normal)) crossing_ = crossing;
@@ -172,7 +173,8 @@ std::vector<Term> SupportConflicts::terms_of(Local node, const Opposite& opposit
   return terms;
 }
 
-void SupportConflicts::note_held_crossing(Local node, const Point& normal, const Opposite& opposite, const Directions& directions)
+void SupportConflicts::note_prescribed_crossing(Local node, const Point& normal, const Opposite& opposite,
+                                                const Directions& directions)
 {
   if (!std::isfinite(opposite.gap)) return;
   auto terms = terms_of(node, opposite);  // and of the primary side only the nodes that are held, which move alike
@@ -191,7 +193,7 @@ void SupportConflicts::note_held_crossing(Local node, const Point& normal, const
 }
 
 // What supports say of normals of meshes may differ a little.
-void SupportConflicts::note_held_tear(Local node, const Point& normal, const Opposite& opposite)
+void SupportConflicts::note_prescribed_tear(Local node, const Point& normal, const Opposite& opposite)
 {
   constexpr double of_normals = 1e-3;
   if (!std::isfinite(opposite.gap)) return;

@@ -27,12 +27,12 @@ class SupportConflicts {
                      bool stranded);
   /// A secondary node of a contact that has no multiplier since supports hold both sides along its normal; `directions`: what is
   /// free there.
-  void note_held_crossing(Local node, const Point& normal, const Opposite& opposite, const Directions& directions);
+  void note_prescribed_crossing(Local node, const Point& normal, const Opposite& opposite, const Directions& directions);
   /// A place of a bond along directions in which supports prescribe both sides.
   void note_tear(std::span<const Term> terms, double d, const Point& normal);
   /// A place of a bond, a secondary node, that has no multiplier since supports hold it: all that they say there of both sides,
   /// if they hold these along a direction.
-  void note_held_tear(Local node, const Point& normal, const Opposite& opposite);
+  void note_prescribed_tear(Local node, const Point& normal, const Opposite& opposite);
 
   /// Throws Error(bad_input) if, on any rank, supports alone push the two sides into each other, or those of a bond apart, by
   /// more than rounding of `reach`. Collective.

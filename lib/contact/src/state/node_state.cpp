@@ -82,11 +82,11 @@ NodeState part_of(const NodeState& place, const constraint::Part& part)
 
 }  // namespace
 
-std::vector<NodeState> meet(std::span<const ContactNodeState> points, std::span<const constraint::NodeWithoutRows> without_rows,
+std::vector<NodeState> meet(std::span<const ContactNodeState> states, std::span<const constraint::NodeWithoutRows> without_rows,
                             const Communicator& comm)
 {
   std::vector<NodeState> mine;
-  for (const auto& p : points) {
+  for (const auto& p : states) {
     const auto &n = p.normal, &f = p.force_on_secondary, &s = p.slip;
     const NodeState state{p.node,
                           p.contact,

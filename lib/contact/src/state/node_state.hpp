@@ -28,7 +28,7 @@ inline constexpr double bears = 0.1;
 
 /// Those of this rank's own nodes, ascending by node, contact and side. What presses on a corner of the primary side counts with
 /// the node beside it. Collective.
-std::vector<NodeState> meet(std::span<const ContactNodeState> points, std::span<const constraint::NodeWithoutRows> without_rows,
+std::vector<NodeState> meet(std::span<const ContactNodeState> states, std::span<const constraint::NodeWithoutRows> without_rows,
                             const Communicator& comm);
 /// What the nodes of this rank's secondary sides are, ascending. Collective.
 std::vector<NodeState> on_sides(const std::vector<NodeState>& nodes, std::span<const Pair> pairs, const Communicator& comm);

@@ -37,7 +37,7 @@ ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std
   return state;
 }
 
-std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> points, std::span<const constraint::ContactNode> nodes)
+std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> states, std::span<const constraint::ContactNode> nodes)
 {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto take = [](ContactNodeState& state, double part) {
@@ -45,7 +45,7 @@ std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> points, 
     };
     double own = 1;
     for (const auto& image : nodes[i].images) {
-      auto state = points[i];
+      auto state = states[i];
       state.contact = image.contact;
       state.node = image.node;
       if (!state.parts.empty()) {
@@ -55,18 +55,18 @@ std::vector<ContactNodeState> with_images(std::vector<ContactNodeState> points, 
       for (Point* vector : {&state.normal, &state.force_on_secondary, &state.slip}) *vector = image.rotation * *vector;
       take(state, image.part);
       own -= image.part;
-      points.push_back(std::move(state));
+      states.push_back(std::move(state));
     }
-    if (!nodes[i].images.empty()) take(points[i], own);
+    if (!nodes[i].images.empty()) take(states[i], own);
   }
-  return points;
+  return states;
 }
 
-std::vector<Resultant> resultants(std::span<const ContactNodeState> points, std::size_t contacts, const Communicator& comm)
+std::vector<Resultant> resultants(std::span<const ContactNodeState> states, std::size_t contacts, const Communicator& comm)
 {
   constexpr std::size_t width = 8;
   std::vector<double> sums(contacts * width, 0.0);
-  for (const auto& p : points) {
+  for (const auto& p : states) {
     double* s = &sums[static_cast<std::size_t>(p.contact) * width];
     for (int c = 0; c < 3; ++c) s[c] += p.force_on_secondary[c];
     if (p.status != Status::open) s[3] += p.area;
@@ -208,10 +208,10 @@ void limit_opposing_tractions(std::vector<NodeState>& own)
 
 }  // namespace
 
-std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> points, std::span<const Pair> pairs,
+std::vector<SurfaceState> surface_states(std::span<const ContactNodeState> states, std::span<const Pair> pairs,
                                          const Communicator& comm, std::span<const constraint::NodeWithoutRows> without_rows)
 {
-  auto own = meet(points, without_rows, comm);
+  auto own = meet(states, without_rows, comm);
   NarrowNodes narrow(own, pairs, comm);
   std::vector<double> own_area, area(pairs.size(), 0.0);
   for (const auto& node : own) own_area.push_back(node.area);

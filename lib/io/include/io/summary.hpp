@@ -65,7 +65,7 @@ struct StateSummary {
   struct Coupling {
     std::string name, boundary;
     std::array<double, 3> displacement, rotation, force, moment, reaction_force, reaction_moment;
-    bool held;  ///< by a support
+    bool prescribed;  ///< by a support
   };
   std::vector<Coupling> couplings;
   /// A spring between two points; `force` > 0 pulls them together.

@@ -10,7 +10,7 @@ namespace mortise::model {
 /// One thing that acts on one face, at one of its nodes.
 struct FaceAction {
   enum class Kind {
-    held,        ///< a support prescribes the displacement along `normal`, and leaves the face free to slide along itself
+    prescribed,  ///< a support prescribes the displacement along `normal`, and leaves the face free to slide along itself
     tangential,  ///< a support acts along `direction`, which is not normal to the face
     pushed,      ///< a load acts along `direction`, or a contact, tangential to its own surface
     coupled      ///< the node belongs to a coupling

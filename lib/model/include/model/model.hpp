@@ -74,7 +74,7 @@ class Model {
   /// The boundaries of those of supports() that hold along normals, this rank's faces; the others are empty.
   std::vector<mesh::Surface> support_surfaces() const;
   /// The boundaries of supports that act along their normals alone, this rank's faces: prescribed or on springs.
-  std::vector<mesh::Surface> surfaces_held_along_normals(const LoadState& state) const;
+  std::vector<mesh::Surface> surfaces_prescribed_along_normals(const LoadState& state) const;
   /// What supports, loads and couplings of a state do at the nodes of this rank's faces. In axisymmetry the axis is a face as
   /// well. Collective.
   std::vector<FaceAction> face_actions(const LoadState& state, const Communicator& comm) const;

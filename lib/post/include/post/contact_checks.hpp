@@ -19,17 +19,17 @@ struct ContactMoment {
   double sizes = 0;  ///< the sum of |force|
 };
 
-/// sum_n x_n x (B_c' lambda_c)_n of each contact c; 0 where one side is an obstacle or a sector's neighbour. `points`: as of
+/// sum_n x_n x (B_c' lambda_c)_n of each contact c; 0 where one side is an obstacle or a sector's neighbour. `states`: as of
 /// contact_results(). Collective.
 std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, const Vector& lambda,
                                            const partition::Decomposition& decomposition, fem::Kinematics kinematics,
                                            std::span<const contact::Pair> pairs,
-                                           std::span<const contact::ContactNodeState> points);
+                                           std::span<const contact::ContactNodeState> states);
 
 /// "loose_fit": a contact with friction and an `interference` presses with less than 1e-9 of `modulus` * interference / `size`,
 /// those of the softest material and of the largest body. Wedges that friction alone would keep together have come apart: both
 /// are equilibria. Collective.
-std::vector<Warning> loose_fits(std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
+std::vector<Warning> loose_fits(std::span<const contact::ContactNodeState> states, std::span<const contact::Pair> pairs,
                                 double modulus, double size, const Communicator& comm);
 
 /// "lost_moment": the moments that the two sides of a contact feel differ by more than 1 % of ContactMoment::scale. A row joins
@@ -39,13 +39,13 @@ std::vector<Warning> lost_moments(std::span<const ContactMoment> moments, std::s
 
 /// "friction_across_gap": open points of a contact with Tresca's law, whose bound is given whether the sides touch or not, bear
 /// more than a hundredth of its forces. `forces` as in lost_moments(). Collective.
-std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> points,
+std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> states,
                                            std::span<const contact::Pair> pairs, double forces, const Communicator& comm);
 
 /// A contact as it started, and what it presses with.
 struct StartedContacts {
   std::span<const constraint::ContactNode> nodes;     ///< of this rank
-  std::span<const contact::ContactNodeState> points;  ///< their states, in the same order
+  std::span<const contact::ContactNodeState> states;  ///< their states, in the same order
   std::span<const contact::InitialGap> gaps;          ///< of each contact
   std::span<const contact::Pair> pairs;               ///< of each contact
   std::span<const contact::SurfaceState> surfaces;    ///< of each contact

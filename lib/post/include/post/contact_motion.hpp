@@ -11,17 +11,17 @@ namespace mortise::post {
 
 /// "long_slide": a closed contact node slides by more than the longest distance of two corners of its face; by more than a tenth
 /// of that where no more nodes of the contact are closed than a facet has corners (two in planes, three in space). The jump of
-/// the displacements along the surface is taken from the normal rows, so that points without friction count as well; `points` are
+/// the displacements along the surface is taken from the normal rows, so that points without friction count as well; `states` are
 /// the states of contacts.nodes. Bonded and cyclic contacts do not slide. Collective.
 std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                 std::span<const contact::ContactNodeState> points, const partition::Decomposition& decomposition,
+                                 std::span<const contact::ContactNodeState> states, const partition::Decomposition& decomposition,
                                  const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
 
 /// "facet_turn": a body turns on a contact that presses on less than the width of a face, by more than half a percent of the
 /// angle between the faces there, and hardly deforms beside that. The round body of a coarse mesh turns, or rolls, until it
 /// stands on a facet, where the body that is meant stays as it is. Arguments as above. Collective.
 std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                 std::span<const contact::ContactNodeState> points, const partition::Decomposition& decomposition,
+                                 std::span<const contact::ContactNodeState> states, const partition::Decomposition& decomposition,
                                  fem::Kinematics kinematics, const std::vector<Eigen::VectorXd>& displacement,
                                  const Communicator& comm);
 

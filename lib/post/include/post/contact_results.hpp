@@ -9,7 +9,7 @@
 namespace mortise::post {
 
 struct ContactResults {
-  std::vector<contact::ContactNodeState> points;  ///< of this rank's contact nodes
+  std::vector<contact::ContactNodeState> states;  ///< of this rank's contact nodes
   std::vector<contact::ContactNodeState> shown;   ///< these with their images across bonds
   std::vector<contact::Resultant> resultants;     ///< of each contact
   std::vector<contact::SurfaceState> surfaces;    ///< of each contact, its secondary side on this rank

@@ -26,7 +26,7 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
 /// pressure that is not even loses more than a sixth in the mean over faces. Patches of faces that hang together are judged each
 /// for itself, where they matter beside the others of their contact. Collective.
 std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces,
-                                     std::span<const contact::ContactNodeState> points, std::span<const contact::Pair> pairs,
+                                     std::span<const contact::ContactNodeState> states, std::span<const contact::Pair> pairs,
                                      const Communicator& comm);
 
 /// "scattered_contact": a secondary side of smaller faces and more than four times the other side's Young's modulus presses on
@@ -36,7 +36,7 @@ std::vector<Warning> scattered_contacts(std::span<const contact::SurfaceState> s
                                         const std::vector<double>& softest, const Communicator& comm);
 
 /// The largest tension, force over area at one point, of each contact; 0 where none pulls. Collective.
-std::vector<double> largest_tensions(std::span<const contact::ContactNodeState> points, std::size_t contacts,
+std::vector<double> largest_tensions(std::span<const contact::ContactNodeState> states, std::size_t contacts,
                                      const Communicator& comm);
 
 /// What a support does, and what it lies on.
