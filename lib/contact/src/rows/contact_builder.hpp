@@ -11,6 +11,7 @@
 #include "gaps/one_surface.hpp"
 #include "gaps/starting_gaps.hpp"
 #include "integrals/cut_faces.hpp"
+#include "rows/bond_owners.hpp"
 #include "rows/contact_nodes.hpp"
 #include "rows/discretization.hpp"
 #include "rows/moments.hpp"
@@ -33,16 +34,11 @@ namespace mortise::contact {
 
 // Of a row: where supports leave no more, what they push into each other is not for the rest to make good.
 inline constexpr double hardly_moves = 0.05;
-// Of a face, or of a row's weight.
-inline constexpr double same_node = 1e-6;
 
-// A secondary node of a contact.
-struct NodeOfContact {
-  Global node;
-  bool bonded = false;
-  bool matches = false;  // all nodes of its faces lie opposite nodes
-  int contact = 0;
-  double cover = 0;  // see ContactNodes
+// Nodes of a bond's secondary side at which others have rows, ascending.
+struct OthersNodes {
+  std::vector<Global> of_contacts;  // that are not bonded
+  std::vector<Global> of_bonds;     // to which they belong
 };
 
 // The rows of one contact at the nodes that are this rank's.
@@ -51,8 +47,8 @@ class ContactBuilder {
   // `others`: nodes of share.secondary at which others have rows, ascending; may be filled until add_rows(). All arguments
   // outlive it. Collective.
   ContactBuilder(const Options& options, const Share& share, double reach, int index, const SupportDirectory& supports,
-                 const FacesAtBonds& at_bonds, const std::vector<NodeOfContact>& others, const CurvedFaces& curved,
-                 fem::Kinematics kinematics, const Communicator& comm)
+                 const FacesAtBonds& at_bonds, const OthersNodes& others, const CurvedFaces& curved, fem::Kinematics kinematics,
+                 const Communicator& comm)
       : options_(options),
         index_(index),
         reach_(reach),
@@ -113,21 +109,29 @@ class ContactBuilder {
     for (const std::size_t f : faces_.round()) discretization_->add_face(f, between.in_facets[f] != 0);
     between_.emplace(std::move(between.places), secondary_, share_.own, comm);
     faces_.number_corners();
-    if (bonded()) matches_ = on_matching_faces(comm);
+    if (bonded()) matches_ = on_matching_faces(secondary_, nodes_, faces_, rays_, share_.own, comm);
   }
 
   // Of a bond, after integrate(): this rank's secondary nodes that it covers.
-  std::vector<NodeOfContact> nodes_of_bond()
+  std::vector<CoveredNode> covered_nodes()
   {
-    std::vector<NodeOfContact> result;
+    std::vector<CoveredNode> result;
     const auto cover = cover_of_nodes(faces_, nodes_.all.size());
-    for (std::size_t p = 0; p < nodes_.all.size(); ++p)
-      if (own(p) && cover[p] > 0) result.push_back({node_of(p), true, matches_[p] != 0, index_, cover[p]});
+    for (std::size_t p = 0; p < nodes_.all.size(); ++p) {
+      if (!own(p) || !(cover[p] > 0)) continue;
+      CoveredNode node{node_of(p), index_, matches_[p] != 0, cover[p]};
+      if (const Opposite& opposite = rays_.meet(p); !options_.obstacle && std::isfinite(opposite.gap)) {
+        const auto corners = primary_.facets[opposite.facet];
+        for (std::size_t k = 0; k < corners.size(); ++k)
+          node.opposite[k] = primary_.node_id[static_cast<std::size_t>(corners[k])];
+      }
+      result.push_back(node);
+    }
     return result;
   }
 
   // The rest of its work, after integrate(): afterwards the others tell what it found.
-  void add_rows(constraint::Contacts& contacts, const SupportDirectory& supports, const Communicator& comm)
+  void add_rows(constraint::Contacts& contacts, const SupportDirectory& supports)
   {
     const auto one_node = nodes_of_both_sides();
     ends_meet_ = std::ranges::find(one_node, 1) != one_node.end();
@@ -178,40 +182,10 @@ class ContactBuilder {
     return known;
   }
 
-  // Where bonds meet, rows that tie pairs of nodes agree with each other; others would tie to each other what lies opposite, as
-  // stiffly as this body's nodes are close.
   bool belongs_to_others(std::size_t p, bool met) const
   {
-    const auto before = [](const NodeOfContact& other, Global n) { return other.node < n; };
-    for (auto other = std::lower_bound(others_.begin(), others_.end(), node_of(p), before);
-         other != others_.end() && other->node == node_of(p); ++other)
-      if (other->bonded ? !matches_[p] || !other->matches : met) return true;
-    return false;
-  }
-
-  // Collective.
-  std::vector<char> on_matching_faces(const Communicator& comm)
-  {
-    std::vector<char> apart(nodes_.all.size(), 0);
-    for (std::size_t f = 0; f < secondary_.faces.size(); ++f) {
-      const auto surface_nodes = faces_.surface_nodes_of(f);
-      if (std::ranges::all_of(surface_nodes, [&](Local p) { return opposite_a_node(static_cast<std::size_t>(p)); })) continue;
-      for (const Local p : surface_nodes) apart[static_cast<std::size_t>(p)] = 1;
-    }
-    std::vector<NodeOfContact> own_apart;  // their ranks know all of their faces
-    for (std::size_t p = 0; p < apart.size(); ++p)
-      if (apart[p] && own(p)) own_apart.push_back({node_of(p)});
-    const auto found = answer(by_node<NodeOfContact>(own_apart, comm), ask(secondary_.node_id, comm), comm);
-    std::vector<char> result(nodes_.all.size(), 0);
-    for (std::size_t p = 0; p < result.size(); ++p)
-      result[p] = !std::ranges::binary_search(found, node_of(p), {}, &NodeOfContact::node);
-    return result;
-  }
-
-  bool opposite_a_node(std::size_t p)
-  {
-    const Opposite& opposite = rays_.meet(p);
-    return std::isfinite(opposite.gap) && opposite.hit.shape.maxCoeff() > 1 - same_node;
+    const auto has = [&](const std::vector<Global>& nodes) { return std::ranges::binary_search(nodes, node_of(p)); };
+    return has(others_.of_bonds) || (met && has(others_.of_contacts));
   }
 
   // Of each surface node whether it is a node of the primary side as well, as at the tip of a slit; but none of a face that has
@@ -396,7 +370,7 @@ class ContactBuilder {
   bool axisymmetric_;
   const Share& share_;
   const Side &secondary_, &primary_;
-  const std::vector<NodeOfContact>& others_;
+  const OthersNodes& others_;
   SupportedNodes supports_, primary_supports_;
   std::vector<FacesAtBonds::AtBond> primary_at_bonds_;
   SurfaceNodes nodes_, primary_nodes_;

@@ -11,32 +11,14 @@ namespace mortise::contact {
 
 namespace {
 
-constexpr double as_much = 1e-3;  // of a cover
-
 // A contact at work.
 struct Work {
   Share share;
-  std::vector<NodeOfContact> others;
+  OthersNodes others;
   std::unique_ptr<ContactBuilder> builder;
 };
 
-// Of the nodes of several bonds, each with the bond that it belongs to: the one that covers most of what is round it, the first
-// of several. `nodes`: ascending.
-std::vector<NodeOfContact> owners(const std::vector<NodeOfContact>& nodes)
-{
-  std::vector<NodeOfContact> result;
-  for (std::size_t i = 0, end = 0; i < nodes.size(); i = end) {
-    while (end < nodes.size() && nodes[end].node == nodes[i].node) ++end;
-    std::size_t owner = i;
-    for (std::size_t j = i + 1; j < end; ++j) {
-      const double more = nodes[j].cover - nodes[owner].cover;
-      if (more > as_much || (more >= -as_much && nodes[j].contact < nodes[owner].contact)) owner = j;
-    }
-    if (end - i > 1) result.push_back(nodes[owner]);
-  }
-  return result;
-}
-
+// One contact after the other, and what all of them ask for.
 class OneByOne {
  public:
   // All arguments outlive it. Collective.
@@ -83,7 +65,7 @@ class OneByOne {
   void add(ContactBuilder& builder, std::size_t c)
   {
     builder.set_lengths(touching_gap(sizes_[c].extent, sizes_[c].secondary_face), sizes_[c].secondary_face);
-    builder.add_rows(contacts_, directory_, comm_);
+    builder.add_rows(contacts_, directory_);
     if (initial_gaps_) (*initial_gaps_)[c] = over_ranks(builder.initial_gap(), comm_);
     if (pairs_[c].options.cyclic) check_cuts(c, over_ranks(builder.fit(), comm_));
     builder.conflicts().refuse(pairs_[c].options, sizes_[c].reach, comm_);
@@ -93,24 +75,27 @@ class OneByOne {
   // by_node().
   void add_bonds(const std::vector<std::size_t>& bonds)
   {
-    std::vector<NodeOfContact> unbonded, bonded;
+    std::vector<NodeOfBond> unbonded, sides;
+    std::vector<CoveredNode> covered;
     for (const auto& node : contacts_.nodes) unbonded.push_back({node.node});
     std::vector<std::unique_ptr<Work>> works;
     for (const std::size_t c : bonds) {
       works.push_back(integrate(pairs_[c], c));
-      const auto nodes = works.back()->builder->nodes_of_bond();
-      bonded.insert(bonded.end(), nodes.begin(), nodes.end());
+      const auto& share = works.back()->share;
+      for (const auto* side : {&share.secondary, &share.primary})
+        for (const Global node : side->node_id) sides.push_back({node, static_cast<int>(c)});
+      const auto nodes = works.back()->builder->covered_nodes();
+      covered.insert(covered.end(), nodes.begin(), nodes.end());
     }
-    auto known = by_node<NodeOfContact>(unbonded, comm_);
-    const auto owned = owners(by_node<NodeOfContact>(bonded, comm_));
-    known.insert(known.end(), owned.begin(), owned.end());
-    std::ranges::stable_sort(known, {}, &NodeOfContact::node);
+    unbonded = by_node<NodeOfBond>(unbonded, comm_);
+    const auto others = nodes_of_others(by_node<CoveredNode>(covered, comm_), by_node<NodeOfBond>(sides, comm_), comm_);
     for (std::size_t b = 0; b < bonds.size(); ++b) {
-      const auto c = bonds[b];
-      auto& [share, others, builder] = *works[b];
-      others = answer(known, ask(share.secondary.node_id, comm_), comm_);
-      std::erase_if(others, [&](const NodeOfContact& node) { return node.bonded && node.contact == static_cast<int>(c); });
-      add(*builder, c);
+      auto& work = *works[b];
+      const auto asked = ask(work.share.secondary.node_id, comm_);
+      for (const auto& node : answer(unbonded, asked, comm_)) work.others.of_contacts.push_back(node.node);
+      for (const auto& node : answer(others, asked, comm_))
+        if (node.bond == static_cast<int>(bonds[b])) work.others.of_bonds.push_back(node.node);
+      add(*work.builder, bonds[b]);
       works[b].reset();
     }
   }
@@ -123,7 +108,7 @@ class OneByOne {
     const Pair other = turned_back(pairs_[c]);
     const auto work = integrate(other, c);
     constraint::Contacts tried;
-    work->builder->add_rows(tried, directory_, comm_);
+    work->builder->add_rows(tried, directory_);
     require_this_way(pairs_[c], sizes_[c], fit, over_ranks(work->builder->fit(), comm_));
   }
 
